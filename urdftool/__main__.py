@@ -1,0 +1,5 @@
+"""``python -m urdftool``."""
+
+from .cli import run
+
+run()

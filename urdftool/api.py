@@ -1,0 +1,36 @@
+"""``urdftool.expand``: xacro to URDF, as text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from .source.document import STDIN, read_file
+from .source.packages import Packages
+
+
+def expand(
+    path: str | Path,
+    *,
+    args: Mapping[str, str] | None = None,
+    packages: Mapping[str, str | Path] | None = None,
+    package_paths: Iterable[str | Path] = (),
+) -> str:
+    """Expand a xacro file to URDF, equal as XML to what ``xacro`` prints.
+
+    Args:
+        path: A xacro file, or ``-`` for standard input. A plain URDF comes out as it is.
+        args: Values for its xacro arguments.
+        packages: Folders of ROS packages by name; others are found as on the command line.
+        package_paths: Folders with ROS packages below.
+
+    Raises:
+        SourceError: It, or a file it includes, cannot be read or expanded.
+    """
+    from .source.expand import expand_xacro
+
+    file = read_file(path)
+    finder = Packages(
+        None if file.path == STDIN else file.path, named=packages, paths=package_paths
+    )
+    return expand_xacro(file, args or {}, finder).text

@@ -1,0 +1,103 @@
+"""The configuration of a file: ``[tool.urdftool]`` in the nearest file above it that has one.
+
+``pyproject.toml`` has it under ``[tool.urdftool]``; ``urdftool.toml`` and ``.urdftool.toml``, for ROS
+packages that have no ``pyproject.toml``, have it at the top.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from .errors import ConfigError
+
+NAMES = (".urdftool.toml", "urdftool.toml", "pyproject.toml")
+TABLES = ("packages", "lint")
+
+_read: dict[str, Configuration | None] = {}
+
+
+@dataclass
+class Configuration:
+    """What a configuration file says.
+
+    Attributes:
+        path: The file; None where there is none.
+        packages: Folders by package name, absolute.
+        lint: The ``lint`` table as it is written.
+    """
+
+    path: str | None = None
+    packages: dict[str, Path] = field(default_factory=dict)
+    lint: dict[str, Any] = field(default_factory=dict)
+
+
+def find_configuration(file: str | Path, given: str | None = None) -> Configuration:
+    """The configuration for a file.
+
+    Args:
+        file: The description, or ``-``.
+        given: A configuration file that the user named; it holds for every description.
+
+    Raises:
+        ConfigError: It is not valid TOML, or has a table or value it should not have.
+    """
+    if given is not None:
+        found = _load(Path(given), required=True)
+        return found or Configuration(given)
+    folder = Path.cwd() if str(file) == "-" else Path(os.path.abspath(file)).parent
+    for above in (folder, *folder.parents):
+        for name in NAMES:
+            found = _load(above / name)
+            if found is not None:
+                return found
+    return Configuration()
+
+
+def _load(path: Path, *, required: bool = False) -> Configuration | None:
+    key = str(path)
+    if key not in _read or required:
+        _read[key] = _parse(path, required=required)
+    return _read[key]
+
+
+def _parse(path: Path, *, required: bool) -> Configuration | None:
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        if required:
+            raise ConfigError(
+                f"cannot be read: {error.strerror}; name a TOML file with --config", path=path
+            ) from None
+        return None
+    in_pyproject = path.name == "pyproject.toml"
+    if in_pyproject and b"tool.urdftool" not in data:
+        return None
+    if sys.version_info >= (3, 11):
+        import tomllib
+    else:
+        import tomli as tomllib
+    try:
+        table: Any = tomllib.loads(data.decode("utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ConfigError(f"not valid TOML: {error}", path=path) from None
+    if in_pyproject or "tool" in table:
+        table = table.get("tool", {}).get("urdftool", {})
+    for name in table:
+        if name not in TABLES:
+            raise ConfigError(
+                f"unknown table '{name}'; the tables are {' and '.join(TABLES)}", path=path
+            )
+    packages = table.get("packages", {})
+    lint = table.get("lint", {})
+    if not isinstance(packages, dict) or not all(isinstance(v, str) for v in packages.values()):
+        raise ConfigError("[packages] wants lines like my_robot = \"../my_robot\"", path=path)
+    if not isinstance(lint, dict):
+        raise ConfigError("[lint] wants to be a table", path=path)
+    folder = Path(os.path.abspath(path)).parent
+    return Configuration(
+        str(path), {name: folder / value for name, value in packages.items()}, lint
+    )

@@ -1,0 +1,108 @@
+"""What stops the tool.
+
+What is wrong with a *robot* is a finding (``urdftool.finding``): data, and there may be many.
+What stops the *tool* is one of these, raised where it is met and turned into a message and an
+exit code in ``urdftool.cli`` alone::
+
+    UrdftoolError
+    ├── SourceError            the text cannot be read or used
+    │   ├── XmlError           it is not well-formed
+    │   ├── XacroError         its expansion failed
+    │   └── PackageNotFound    $(find …) or package:// names no package that could be found
+    ├── ModelError             well-formed, but not a robot that can be worked on
+    ├── MeshError              a mesh cannot be read, or has no volume where one is needed
+    ├── ConfigError            an unknown rule, option or value
+    ├── OutputError            the result cannot be written
+    └── MissingDependency      a library of an extra is not installed
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .source.location import Call, Place
+
+
+class UrdftoolError(Exception):
+    """A sentence that says what is wrong, with what would be right.
+
+    Attributes:
+        message: The sentence, without a place.
+        path: The file it is about, if there is one.
+        line: Line in that file, from 1, if it is known.
+        column: Column in characters, from 1, if it is known.
+        calls: The xacro calls and includes it came through, innermost first.
+        notes: Further lines for whoever wants to know more, such as the places searched.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        path: str | Path | None = None,
+        line: int | None = None,
+        column: int | None = None,
+        at: Place | None = None,
+        calls: Sequence[Call] = (),
+        notes: Sequence[str] = (),
+    ) -> None:
+        """Take the facts; the text is made by ``str()``."""
+        if at is not None:
+            path = at.file.path
+            line, column = at.line, at.column
+            calls = calls or at.calls
+        super().__init__(message)
+        self.message = message
+        self.path = None if path is None else str(path)
+        self.line = line
+        self.column = column
+        self.calls = tuple(calls)
+        self.notes = tuple(notes)
+
+    @property
+    def where(self) -> str:
+        """``FILE:LINE:COLUMN``, as far as it is known."""
+        return ":".join(str(part) for part in (self.path, self.line, self.column) if part)
+
+    def __str__(self) -> str:
+        """Place and sentence, in one line."""
+        return f"{self.where}: {self.message}" if self.path else self.message
+
+
+class SourceError(UrdftoolError):
+    """The text of a description cannot be read or used."""
+
+
+class XmlError(SourceError):
+    """The text is not well-formed XML, or is XML of a kind that is refused."""
+
+
+class XacroError(SourceError):
+    """The expansion of a xacro file failed."""
+
+
+class PackageNotFound(SourceError):  # noqa: N818 -- reads as what happened
+    """A package is not in any of the places that were searched."""
+
+
+class ModelError(UrdftoolError):
+    """The description is well-formed, but no robot that can be worked on."""
+
+
+class MeshError(UrdftoolError):
+    """A mesh cannot be read, or is not what is needed of it."""
+
+
+class ConfigError(UrdftoolError):
+    """A configuration, option or comment names something that does not exist."""
+
+
+class OutputError(UrdftoolError):
+    """A result cannot be written."""
+
+
+class MissingDependency(UrdftoolError):  # noqa: N818
+    """A library that this command needs is not installed."""

@@ -1,0 +1,55 @@
+"""A file to a robot, in one step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from ..errors import ModelError
+from ..source.description import Description, read_description
+from .elements import Robot
+from .read import read_robot
+
+
+def robot_of(description: Description) -> Robot:
+    """The robot of a description.
+
+    Raises:
+        ModelError: Its root element is not ``<robot>``.
+    """
+    root = description.document.root
+    if root.tag != "robot":
+        raise ModelError(
+            f"the root element is <{root.tag}>; a robot description starts with <robot>",
+            at=root.place,
+        )
+    robot = read_robot(root)
+    robot.resolve = description.resolve
+    return robot
+
+
+def load(
+    path: str | Path,
+    *,
+    args: Mapping[str, str] | None = None,
+    packages: Mapping[str, str | Path] | None = None,
+    package_paths: Iterable[str | Path] = (),
+) -> Robot:
+    """Read a robot from a URDF or xacro file.
+
+    The robot may be broken in any way that leaves its XML well-formed; :func:`urdftool.check` says
+    what is wrong with it.
+
+    Args:
+        path: A ``.urdf`` or ``.xacro`` file, or ``-`` for standard input.
+        args: Values for its xacro arguments.
+        packages: Folders of ROS packages by name; others are found as on the command line.
+        package_paths: Folders with ROS packages below.
+
+    Raises:
+        SourceError: The file cannot be read, parsed or expanded.
+        ModelError: It is not a robot description.
+    """
+    return robot_of(
+        read_description(path, args, packages=packages, package_paths=package_paths)
+    )

@@ -1,0 +1,331 @@
+"""A document to a robot. It never fails: what cannot be read is left out or has its default."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TypeVar
+
+from ..source.document import Element
+from .elements import (
+    Actuator,
+    Axis,
+    Box,
+    Calibration,
+    Capsule,
+    Collision,
+    ControlComponent,
+    Cylinder,
+    Dynamics,
+    GazeboExtension,
+    Geometry,
+    Inertia,
+    Inertial,
+    Interface,
+    Joint,
+    Limit,
+    Link,
+    Material,
+    Mesh,
+    Mimic,
+    Origin,
+    Plugin,
+    Robot,
+    Ros2Control,
+    SafetyController,
+    Sensor,
+    Sphere,
+    Transmission,
+    TransmissionJoint,
+    UnknownShape,
+    Vector,
+    Visual,
+)
+
+_T = TypeVar("_T")
+
+
+def number(text: str | None) -> float | None:
+    """A finite number as URDF writes it, or None."""
+    if text is None:
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) and "_" not in text else None
+
+
+def numbers(text: str | None, count: int) -> tuple[float, ...] | None:
+    """Just so many finite numbers with blanks between, or None."""
+    if text is None:
+        return None
+    words = text.split()
+    if len(words) != count:
+        return None
+    try:
+        values = tuple(map(float, words))
+    except ValueError:
+        return None
+    return values if all(map(math.isfinite, values)) and "_" not in text else None
+
+
+def _vector(text: str | None, default: Vector = (0.0, 0.0, 0.0)) -> Vector:
+    values = numbers(text, 3) if text is not None else None
+    return default if values is None else values  # type: ignore[return-value]
+
+
+def _number(element: Element, name: str, default: float = 0.0) -> float:
+    value = number(element.attributes.get(name))
+    return default if value is None else value
+
+
+def _maybe(element: Element | None, read: Callable[[Element], _T]) -> _T | None:
+    return None if element is None else read(element)
+
+
+def read_robot(root: Element) -> Robot:
+    """The robot of a ``<robot>`` element."""
+    robot = Robot(root, root.get("name") or "", root.get("version"))
+    readers: dict[str, Callable[[Element], None]] = {
+        "link": lambda e: robot.links.append(_link(e)),
+        "joint": lambda e: robot.joints.append(_joint(e)),
+        "material": lambda e: robot.materials.append(_material(e)),
+        "transmission": lambda e: robot.transmissions.append(_transmission(e)),
+        "gazebo": lambda e: robot.gazebo.append(_gazebo(e)),
+        "ros2_control": lambda e: robot.ros2_controls.append(_ros2_control(e)),
+    }
+    for child in root.children:
+        reader = readers.get(child.tag)
+        if reader is not None:
+            reader(child)
+    return robot
+
+
+def _link(element: Element) -> Link:
+    link = Link(element, element.attributes.get("name", ""))
+    for child in element.children:
+        tag = child.tag
+        if tag == "visual":
+            link.visuals.append(_visual(child))
+        elif tag == "collision":
+            link.collisions.append(_collision(child))
+        elif tag == "inertial" and link.inertial is None:
+            link.inertial = _inertial(child)
+    return link
+
+
+def _inertial(element: Element) -> Inertial:
+    inertial = Inertial(element)
+    for child in element.children:
+        tag = child.tag
+        if tag == "mass" and inertial.mass is None:
+            inertial.mass = number(child.attributes.get("value"))
+        elif tag == "inertia" and inertial.inertia is None:
+            inertial.inertia = Inertia(
+                child,
+                *(_number(child, n) for n in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")),
+            )
+        elif tag == "origin" and inertial.origin is None:
+            inertial.origin = _origin(child)
+    return inertial
+
+
+def _origin(element: Element) -> Origin:
+    attributes = element.attributes
+    origin = Origin(element, _vector(attributes.get("xyz")), _vector(attributes.get("rpy")))
+    if "quat_xyzw" in attributes:
+        origin.quaternion = numbers(attributes["quat_xyzw"], 4)  # type: ignore[assignment]
+    return origin
+
+
+def _visual(element: Element) -> Visual:
+    return Visual(
+        element,
+        element.attributes.get("name"),
+        _maybe(element.child("origin"), _origin),
+        _geometry(element.child("geometry")),
+        _maybe(element.child("material"), _material),
+    )
+
+
+def _collision(element: Element) -> Collision:
+    return Collision(
+        element,
+        element.attributes.get("name"),
+        _maybe(element.child("origin"), _origin),
+        _geometry(element.child("geometry")),
+    )
+
+
+_SHAPES: dict[str, Callable[[Element], Geometry]] = {
+    "box": lambda e: Box(e, _vector(e.get("size"))),
+    "cylinder": lambda e: Cylinder(e, _number(e, "radius"), _number(e, "length")),
+    "sphere": lambda e: Sphere(e, _number(e, "radius")),
+    "capsule": lambda e: Capsule(e, _number(e, "radius"), _number(e, "length")),
+    "mesh": lambda e: Mesh(e, e.get("filename") or "", _vector(e.get("scale"), (1.0, 1.0, 1.0))),
+}
+
+
+def _geometry(element: Element | None) -> Geometry | None:
+    """The first shape of a ``<geometry>``, which is the one that readers take."""
+    if element is None or not element.children:
+        return None
+    shape = element.children[0]
+    return _SHAPES.get(shape.tag, UnknownShape)(shape)
+
+
+def _material(element: Element) -> Material:
+    material = Material(element, element.attributes.get("name", ""))
+    color, texture = element.child("color"), element.child("texture")
+    if color is not None:
+        material.color = numbers(color.get("rgba"), 4)  # type: ignore[assignment]
+    if texture is not None:
+        material.texture = texture.get("filename")
+    return material
+
+
+def _joint(element: Element) -> Joint:
+    attributes = element.attributes
+    joint = Joint(element, attributes.get("name", ""), attributes.get("type", ""))
+    for child in element.children:
+        reader = _JOINT_READERS.get(child.tag)
+        if reader is not None:
+            reader(joint, child)
+    return joint
+
+
+def _parent(joint: Joint, element: Element) -> None:
+    if joint.parent_element is None:
+        joint.parent_element = element
+        joint.parent = element.get("link") or ""
+
+
+def _child(joint: Joint, element: Element) -> None:
+    if joint.child_element is None:
+        joint.child_element = element
+        joint.child = element.get("link") or ""
+
+
+def _limit(element: Element) -> Limit:
+    names = ("lower", "upper", "effort", "velocity")
+    return Limit(element, *(number(element.attributes.get(name)) for name in names))
+
+
+def _set_once(name: str, read: Callable[[Element], object]) -> Callable[[Joint, Element], None]:
+    def setter(joint: Joint, element: Element) -> None:
+        if getattr(joint, name) is None:
+            setattr(joint, name, read(element))
+
+    return setter
+
+
+_JOINT_READERS: dict[str, Callable[[Joint, Element], None]] = {
+    "parent": _parent,
+    "child": _child,
+    "origin": _set_once("origin", _origin),
+    "axis": _set_once("axis", lambda e: Axis(e, _vector(e.get("xyz"), (1.0, 0.0, 0.0)))),
+    "limit": _set_once("limit", _limit),
+    "dynamics": _set_once(
+        "dynamics", lambda e: Dynamics(e, number(e.get("damping")), number(e.get("friction")))
+    ),
+    "mimic": _set_once(
+        "mimic",
+        lambda e: Mimic(
+            e, e.get("joint") or "", _number(e, "multiplier", 1.0), _number(e, "offset")
+        ),
+    ),
+    "safety_controller": _set_once(
+        "safety_controller",
+        lambda e: SafetyController(
+            e,
+            _number(e, "soft_lower_limit"),
+            _number(e, "soft_upper_limit"),
+            _number(e, "k_position"),
+            number(e.get("k_velocity")),
+        ),
+    ),
+    "calibration": _set_once(
+        "calibration",
+        lambda e: Calibration(
+            e, *(number(e.get(name)) for name in ("rising", "falling", "reference_position"))
+        ),
+    ),
+}
+
+
+def _transmission(element: Element) -> Transmission:
+    kind = element.child("type")
+    return Transmission(
+        element,
+        element.get("name") or "",
+        (element.get("type") or (kind.text if kind is not None else "")).strip(),
+        [
+            TransmissionJoint(e, e.get("name") or "", _texts(e, "hardwareInterface"))
+            for e in element.all("joint")
+        ],
+        [
+            Actuator(
+                e,
+                e.get("name") or "",
+                number(next(iter(_texts(e, "mechanicalReduction")), None)),
+                _texts(e, "hardwareInterface"),
+            )
+            for e in element.all("actuator")
+        ],
+    )
+
+
+def _texts(element: Element, tag: str) -> list[str]:
+    return [child.text.strip() for child in element.all(tag)]
+
+
+def _gazebo(element: Element) -> GazeboExtension:
+    return GazeboExtension(
+        element,
+        element.get("reference"),
+        [
+            Sensor(e, e.get("name") or "", (e.get("type") or "").strip(), _plugins(e))
+            for e in element.all("sensor")
+        ],
+        _plugins(element),
+    )
+
+
+def _plugins(element: Element) -> list[Plugin]:
+    return [
+        Plugin(e, e.get("name") or "", (e.get("filename") or "").strip())
+        for e in element.all("plugin")
+    ]
+
+
+def _ros2_control(element: Element) -> Ros2Control:
+    hardware = element.child("hardware")
+    plugin = hardware.child("plugin") if hardware is not None else None
+    return Ros2Control(
+        element,
+        element.get("name") or "",
+        element.get("type") or "",
+        plugin.text.strip() if plugin is not None else None,
+        [
+            ControlComponent(
+                e,
+                e.tag,
+                e.get("name") or "",
+                e.get("mimic"),
+                _interfaces(e, "command_interface"),
+                _interfaces(e, "state_interface"),
+                _params(e),
+            )
+            for e in element.children
+            if e.tag in ("joint", "sensor", "gpio")
+        ],
+    )
+
+
+def _interfaces(element: Element, tag: str) -> list[Interface]:
+    return [Interface(e, e.get("name") or "", _params(e)) for e in element.all(tag)]
+
+
+def _params(element: Element) -> dict[str, str]:
+    return {e.get("name") or "": e.text.strip() for e in element.all("param")}

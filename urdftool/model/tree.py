@@ -1,0 +1,109 @@
+"""The kinematic tree, with its faults as facts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .elements import Joint, Link, Robot
+
+
+class KinematicTree:
+    """Which joint joins what, for any set of links and joints.
+
+    Nothing is raised: two roots, none, two parents or a loop are there to be read off.
+
+    Attributes:
+        joints_of_child: Joints by the name of their child link.
+        joints_of_parent: Joints by the name of their parent link, in the order of the file.
+        roots: Links that are no joint's child, in the order of the file.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        """Index the joints of a robot."""
+        self._robot = robot
+        self.joints_of_child: dict[str, list[Joint]] = {}
+        self.joints_of_parent: dict[str, list[Joint]] = {}
+        for joint in robot.joints:
+            self.joints_of_child.setdefault(joint.child, []).append(joint)
+            self.joints_of_parent.setdefault(joint.parent, []).append(joint)
+        self.roots: list[Link] = [
+            link for name, link in robot.link.items() if name not in self.joints_of_child
+        ]
+
+    @property
+    def root(self) -> Link | None:
+        """The root, where there is just one."""
+        return self.roots[0] if len(self.roots) == 1 else None
+
+    def parent_joint(self, link: str) -> Joint | None:
+        """The first joint that has a link as its child."""
+        joints = self.joints_of_child.get(link)
+        return joints[0] if joints else None
+
+    def child_joints(self, link: str) -> list[Joint]:
+        """The joints that have a link as their parent."""
+        return self.joints_of_parent.get(link, [])
+
+    @cached_property
+    def order(self) -> list[str]:
+        """Names of the links that hang on a root: parents before children, each once."""
+        seen: dict[str, None] = {}
+        todo = [link.name for link in reversed(self.roots)]
+        while todo:
+            name = todo.pop()
+            if name not in seen and name in self._robot.link:
+                seen[name] = None
+                todo.extend(joint.child for joint in reversed(self.child_joints(name)))
+        return list(seen)
+
+    @cached_property
+    def detached(self) -> list[Link]:
+        """Links that hang on no root, which a loop of joints causes."""
+        reached = set(self.order)
+        return [link for name, link in self._robot.link.items() if name not in reached]
+
+    def ancestors(self, link: str) -> Iterator[str]:
+        """Names of the links above a link, nearest first; a loop is gone through once."""
+        seen = {link}
+        joint = self.parent_joint(link)
+        while joint is not None and joint.parent not in seen:
+            seen.add(joint.parent)
+            yield joint.parent
+            joint = self.parent_joint(joint.parent)
+
+    def descendants(self, link: str) -> Iterator[str]:
+        """Names of the links below a link."""
+        seen = {link}
+        todo = [joint.child for joint in self.child_joints(link)]
+        while todo:
+            name = todo.pop()
+            if name not in seen:
+                seen.add(name)
+                yield name
+                todo.extend(joint.child for joint in self.child_joints(name))
+
+    @cached_property
+    def bodies(self) -> dict[str, str]:
+        """For each link the name of the link that its rigid body hangs on.
+
+        Links joined by fixed joints are one rigid body; it is named by its topmost link.
+        """
+        owner: dict[str, str] = {}
+        for name in self.order:
+            joint = self.parent_joint(name)
+            fixed = joint is not None and joint.is_fixed and joint.parent in owner
+            owner[name] = owner[joint.parent] if joint is not None and fixed else name
+        for link in self.detached:
+            owner.setdefault(link.name, link.name)
+        return owner
+
+    @cached_property
+    def body_links(self) -> dict[str, list[str]]:
+        """Names of the links of each rigid body, by the name of its topmost link."""
+        members: dict[str, list[str]] = {}
+        for name, owner in self.bodies.items():
+            members.setdefault(owner, []).append(name)
+        return members

@@ -1,0 +1,85 @@
+"""Results on disk and on standard output: whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+from .errors import OutputError
+
+
+def write_result(text: str, target: str | None, *, inputs: Iterable[str | Path] = ()) -> None:
+    """Write a result to standard output (``-`` or None) or to a file.
+
+    Args:
+        text: The result.
+        target: Where it goes.
+        inputs: Files that were read for it, which it must not overwrite.
+
+    Raises:
+        OutputError: It cannot be written, or would overwrite an input. The file is as it was.
+    """
+    if target is None or target == "-":
+        stream = getattr(sys.stdout, "buffer", None)
+        if stream is None:
+            sys.stdout.write(text)
+        else:
+            sys.stdout.flush()
+            stream.write(text.encode("utf-8"))
+        sys.stdout.flush()
+        return
+    for source in inputs:
+        if _same_file(source, target):
+            raise OutputError(
+                f"is read as an input ({source}); write the output to another file", path=target
+            )
+    write_file(target, text.encode("utf-8"))
+
+
+def _same_file(one: str | Path, other: str | Path) -> bool:
+    try:
+        return os.path.samefile(one, other)
+    except OSError:
+        return False
+
+
+def write_file(target: str | Path, data: bytes) -> None:
+    """Write a file whole: to a neighbour first, which then takes its place.
+
+    A link is followed, and the mode of a file that is there is kept.
+
+    Raises:
+        OutputError: It cannot be written; what was there is as it was.
+    """
+    path = Path(os.path.realpath(target))
+    if path.is_dir():
+        raise OutputError("is a folder; the name of a file is wanted", path=target)
+    if not path.parent.is_dir():
+        raise OutputError(f"the folder {path.parent} does not exist", path=target)
+    if path.exists() and not path.is_file():  # /dev/null, a named pipe: no neighbour to rename
+        try:
+            path.write_bytes(data)
+        except OSError as error:
+            raise OutputError(f"cannot be written: {error.strerror}", path=target) from None
+        return
+    neighbour = path.parent / f".{path.name}.{os.getpid()}.tmp"
+    try:
+        try:
+            mode = path.stat().st_mode & 0o777
+        except FileNotFoundError:
+            mode = None
+        if mode is not None and not os.access(path, os.W_OK):
+            raise OutputError("may not be written (it is read-only)", path=target)
+        with open(neighbour, "wb") as stream:
+            stream.write(data)
+            stream.flush()
+            os.fsync(stream.fileno())
+        if mode is not None:
+            os.chmod(neighbour, mode)
+        os.replace(neighbour, path)
+    except OSError as error:
+        raise OutputError(f"cannot be written: {error.strerror or error}", path=target) from None
+    finally:
+        neighbour.unlink(missing_ok=True)

@@ -1,0 +1,1 @@
+"""Text, and where each piece of it came from."""

@@ -1,0 +1,89 @@
+"""A description as it was read: plain URDF, or xacro with its expansion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .document import STDIN, Document, Element, parse, read_file
+from .location import SourceFile
+from .packages import Packages
+
+if TYPE_CHECKING:
+    from .expand import Expansion
+
+
+@dataclass
+class Description:
+    """A description and all that was read for it.
+
+    Attributes:
+        path: The path as the user gave it.
+        document: The tree; of a xacro file, the expanded one.
+        files: The XML files it was read from, the description itself first.
+        packages: Finds packages and files for it.
+        arguments: The xacro arguments it was expanded with.
+        expansion: What xacro did; None for plain URDF.
+    """
+
+    path: str
+    document: Document
+    files: list[SourceFile]
+    packages: Packages
+    arguments: dict[str, str] = field(default_factory=dict)
+    expansion: Expansion | None = None
+
+    def resolve(self, uri: str, element: Element) -> Path:
+        """The file that a URI written at an element means; as :meth:`Packages.resolve`.
+
+        A relative path is relative to the description, as its readers take it, whichever of its
+        xacro files it is written in.
+        """
+        return self.packages.resolve(uri)
+
+
+def is_xacro(file: SourceFile) -> bool:
+    """Whether a file is to be expanded: by its name, or by the xacro namespace in it."""
+    return file.path.endswith(".xacro") or b"xmlns:xacro" in file.data
+
+
+def read_description(
+    path: str | Path,
+    arguments: Mapping[str, str] | None = None,
+    *,
+    packages: Mapping[str, str | Path] | None = None,
+    package_paths: Iterable[str | Path] = (),
+    configured: Mapping[str, str | Path] | None = None,
+    file: SourceFile | None = None,
+) -> Description:
+    """Read a description, and expand it where it is xacro.
+
+    Args:
+        path: A ``.urdf`` or ``.xacro`` file, or ``-`` for standard input.
+        arguments: Values for its xacro arguments.
+        packages: Folders by package name.
+        package_paths: Folders with packages below.
+        configured: Folders by package name that the configuration knows.
+        file: The file, where it has been read already.
+
+    Raises:
+        SourceError: It, or a file it includes, cannot be read or expanded.
+    """
+    file = file or read_file(path)
+    finder = Packages(
+        None if file.path == STDIN else file.path,
+        named=packages,
+        paths=package_paths,
+        configured=configured,
+    )
+    arguments = dict(arguments or {})
+    if not is_xacro(file):
+        return Description(str(path), parse(file), [file], finder, arguments)
+    from .expand import expand_xacro
+
+    expansion = expand_xacro(file, arguments, finder)
+    return Description(
+        str(path), expansion.document(), list(expansion.files.values()), finder, arguments, expansion
+    )

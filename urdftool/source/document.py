@@ -1,0 +1,313 @@
+"""The parsed tree, with the place of every element and attribute.
+
+Expat reads the bytes and says at which byte each element starts; nothing else is asked of it, so
+that a file of a thousand elements is read in a few milliseconds. Names keep their prefix as it is
+written (``xacro:macro``).
+
+Refused in any description: entity declarations (which cover entity bombs and external entities),
+nesting deeper than ``MAX_DEPTH`` and files larger than ``MAX_BYTES``.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+from xml.parsers import expat
+
+from ..errors import SourceError, XmlError
+from .location import Call, Place, SourceFile
+
+MAX_BYTES = 32 * 1024 * 1024
+MAX_DEPTH = 200
+STDIN = "<stdin>"
+
+
+class Element:
+    """One XML element.
+
+    Attributes:
+        tag: Its name as written, with its prefix.
+        attributes: Attribute values by name.
+        children: Child elements, in order.
+        parent: The element around it; None for the root.
+        text: The text directly inside it, joined.
+        file: The file its start tag is written in.
+        start: Byte of its ``<`` in that file.
+        calls: The xacro calls it came through, innermost first.
+    """
+
+    __slots__ = ("_close", "attributes", "calls", "children", "file", "parent", "start", "tag", "text")
+
+    def __init__(
+        self,
+        tag: str,
+        attributes: dict[str, str],
+        parent: Element | None,
+        file: SourceFile,
+        start: int,
+        calls: tuple[Call, ...] = (),
+    ) -> None:
+        """Make an element without children."""
+        self.tag = tag
+        self.attributes = attributes
+        self.parent = parent
+        self.file = file
+        self.start = start
+        self.calls = calls
+        self.children: list[Element] = []
+        self.text = ""
+        self._close = -1
+
+    def __repr__(self) -> str:
+        """Tag and place, for debugging."""
+        return f"<{self.tag} at {self.place}>"
+
+    def get(self, name: str, default: str | None = None) -> str | None:
+        """The value of an attribute, or the default."""
+        return self.attributes.get(name, default)
+
+    def child(self, tag: str) -> Element | None:
+        """The first child of that name, which is the one that readers of URDF take."""
+        for child in self.children:
+            if child.tag == tag:
+                return child
+        return None
+
+    def all(self, tag: str) -> Iterator[Element]:
+        """The children of that name."""
+        return (child for child in self.children if child.tag == tag)
+
+    def walk(self) -> Iterator[Element]:
+        """This element and all below it, in document order."""
+        todo = [self]
+        while todo:
+            element = todo.pop()
+            yield element
+            todo.extend(reversed(element.children))
+
+    @property
+    def place(self) -> Place:
+        """The span of its start tag."""
+        return Place(self.file, self.start, self.file.tag_end(self.start), self.calls)
+
+    @property
+    def end(self) -> int:
+        """Byte after its end tag; of its start tag where the end is not known."""
+        data = self.file.data
+        start_tag_end = self.file.tag_end(self.start)
+        if self._close < 0 or data[start_tag_end - 2 : start_tag_end] == b"/>":
+            return start_tag_end
+        end = data.find(b">", self._close)
+        return len(data) if end < 0 else end + 1
+
+    def attribute_place(self, name: str) -> Place:
+        """The span of an attribute, name and value; of the start tag where it is not written there."""
+        span = self.file.attribute_spans(self.start).get(name)
+        return self.place if span is None else Place(self.file, *span, self.calls)
+
+
+class Comment(NamedTuple):
+    """An XML comment: its text, and the bytes from ``<!--`` to ``-->``."""
+
+    text: str
+    start: int
+    end: int
+
+
+class Document:
+    """A file, its root element and its comments."""
+
+    __slots__ = ("comments", "file", "root")
+
+    def __init__(self, file: SourceFile, root: Element, comments: list[Comment]) -> None:
+        """Keep the three."""
+        self.file = file
+        self.root = root
+        self.comments = comments
+
+
+def read_file(path: str | Path) -> SourceFile:
+    """The bytes of a file, or of standard input for ``-``.
+
+    Raises:
+        SourceError: It is missing, a folder, unreadable, empty or larger than ``MAX_BYTES``.
+    """
+    shown = str(path)
+    try:
+        if shown == "-":
+            shown = STDIN
+            data = sys.stdin.buffer.read(MAX_BYTES + 1)
+        else:
+            with open(shown, "rb") as stream:
+                data = stream.read(MAX_BYTES + 1)
+    except FileNotFoundError:
+        raise SourceError("no such file", path=shown) from None
+    except IsADirectoryError:
+        raise SourceError("is a folder; a .urdf or .xacro file is wanted", path=shown) from None
+    except PermissionError:
+        raise SourceError("may not be read (permission denied)", path=shown) from None
+    except (OSError, ValueError) as error:
+        raise SourceError(f"cannot be read: {_reason(error)}", path=shown) from None
+    if len(data) > MAX_BYTES:
+        limit = MAX_BYTES // (1024 * 1024)
+        raise SourceError(
+            f"is larger than {limit} MiB, which no robot description is; "
+            "meshes belong in files of their own",
+            path=shown,
+            line=1,
+        )
+    if not data.strip():
+        raise SourceError("is empty; a <robot> element is wanted", path=shown, line=1)
+    return SourceFile(shown, data)
+
+
+def _reason(error: Exception) -> str:
+    return getattr(error, "strerror", None) or str(error)
+
+
+def parse(file: SourceFile) -> Document:
+    """Parse a file.
+
+    Raises:
+        XmlError: It is not well-formed, declares entities, or is nested too deep.
+    """
+    parser = expat.ParserCreate()
+    parser.buffer_text = True
+    root: Element | None = None
+    stack: list[Element] = []
+    comments: list[Comment] = []
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        nonlocal root
+        if stack:
+            parent = stack[-1]
+            element = Element(tag, attributes, parent, file, parser.CurrentByteIndex)
+            parent.children.append(element)
+        else:
+            root = element = Element(tag, attributes, None, file, parser.CurrentByteIndex)
+        stack.append(element)
+        if len(stack) > MAX_DEPTH:
+            raise XmlError(
+                f"elements are nested more than {MAX_DEPTH} deep, which no robot description is",
+                at=element.place,
+            )
+
+    def end(_: str) -> None:
+        stack.pop()._close = parser.CurrentByteIndex
+
+    def characters(text: str) -> None:
+        if not text.isspace():
+            stack[-1].text += text
+
+    def comment(text: str) -> None:
+        begin = parser.CurrentByteIndex
+        close = file.data.find(b"-->", begin)
+        comments.append(Comment(text, begin, len(file.data) if close < 0 else close + 3))
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
+    parser.CharacterDataHandler = characters
+    parser.CommentHandler = comment
+    run_parser(parser, file)
+    assert root is not None  # expat rejects a document without one
+    return Document(file, root, comments)
+
+
+def run_parser(parser: Any, file: SourceFile) -> None:
+    """Feed a file to an expat parser, with the refusals that hold for every description.
+
+    Raises:
+        XmlError: As :func:`parse`.
+    """
+
+    def entity(name: str, *_: object) -> None:
+        line, column = file.position(parser.CurrentByteIndex)
+        raise XmlError(
+            f"declares the entity '{name}'; entities are refused in robot descriptions "
+            "(write the text itself, or use a xacro property)",
+            path=file.path,
+            line=line,
+            column=column,
+        )
+
+    def declaration(_: str, encoding: str | None, __: int) -> None:
+        if encoding and encoding.lower() not in ("utf-8", "utf8", "us-ascii", "ascii"):
+            file.encoding = _codec(encoding)
+
+    parser.EntityDeclHandler = entity
+    parser.XmlDeclHandler = declaration
+    try:
+        parser.Parse(_as_expat_reads(file), True)
+    except expat.ExpatError as error:
+        offset = min(parser.ErrorByteIndex, len(file.data))
+        line, column = file.position(max(offset, 0))
+        raise XmlError(
+            _explain(file, error, offset), path=file.path, line=line, column=column
+        ) from None
+    except (LookupError, UnicodeDecodeError, ValueError) as error:
+        raise XmlError(
+            f"its text cannot be decoded: {error}; save it as UTF-8", path=file.path, line=1
+        ) from None
+
+
+def _codec(encoding: str) -> str:
+    import codecs
+
+    try:
+        return codecs.lookup(encoding).name
+    except LookupError:
+        return "utf-8"
+
+
+def _as_expat_reads(file: SourceFile) -> bytes:
+    """The bytes; text in UTF-16 or UTF-32 is turned into UTF-8, so that offsets mean characters."""
+    for mark, encoding in (
+        (b"\xff\xfe\x00\x00", "utf-32"),
+        (b"\x00\x00\xfe\xff", "utf-32"),
+        (b"\xff\xfe", "utf-16"),
+        (b"\xfe\xff", "utf-16"),
+    ):
+        if file.data.startswith(mark):
+            import re
+
+            text = file.data.decode(encoding)
+            text = re.sub(r"^(<\?xml[^>]*?)\s+encoding\s*=\s*(\"[^\"]*\"|'[^']*')", r"\1", text)
+            file.data = text.encode("utf-8")
+            break
+    return file.data
+
+
+def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> str:
+    """Why expat refused the text, and what would be right, in a sentence."""
+    data = file.data
+    reason = expat.ErrorString(error.code) or str(error)
+    if error.code == 3 and not data[:offset].strip():
+        reason = "no element found"
+    if data.startswith(b"version https://git-lfs"):
+        return "is a git-lfs pointer, not the file itself; run 'git lfs pull'"
+    if b"<" not in data[:4096] and offset < 4096:
+        return "is not XML; a file that starts with <robot> is wanted"
+    if (at := data.find(b"<?xml")) > 0 and data[:at].strip(b"\xef\xbb\xbf") and offset <= at + 5:
+        return (
+            "text stands before the <?xml …?> declaration, which must be the very first; "
+            "move the declaration to the start of the file"
+        )
+    if data.startswith((b"<?xml", b"\xef\xbb\xbf<?xml")) and offset <= data.find(b"?>"):
+        return f'the XML declaration is wrong ({reason}); <?xml version="1.0"?> is right'
+    before = data.rfind(b"<!--", 0, offset + 4)
+    if before >= 0 and data.find(b"-->", before) >= offset - 3 and reason.startswith("not well"):
+        return "a comment holds '--', which XML does not allow; write '- -' or '-'"
+    if reason == "mismatched tag":
+        closing = data[offset : data.find(b">", offset)].decode(file.encoding, "replace")
+        return f"mismatched tag: </{closing.strip('</ ')}> closes an element that is not open here"
+    if reason == "no element found" and data[:offset].strip():
+        return "the file ends before its elements are closed; it looks truncated"
+    if reason == "unclosed token":
+        return "the file ends within a tag; it looks truncated"
+    if reason == "junk after document element":
+        return "text follows the closing tag of the root element; one root element is wanted"
+    if reason == "undefined entity":
+        return "an entity that XML does not define (only &lt; &gt; &amp; &quot; &apos; exist)"
+    return f"not well-formed XML: {reason}"

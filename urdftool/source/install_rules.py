@@ -1,0 +1,116 @@
+"""What a package's CMakeLists.txt says about where its files are installed.
+
+``$(find NAME)`` and ``package://NAME/`` mean the package as it is *installed*; a source tree is laid
+out differently when ``install(DIRECTORY description/urdf DESTINATION share/${PROJECT_NAME})`` moves
+things. Only what decides that is read: ``project``, ``set`` and ``install(DIRECTORY|FILES …)``.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+_COMMENT = re.compile(r"#\[\[.*?\]\]|#[^\n]*", re.DOTALL)
+_COMMAND = re.compile(r"\b(project|set|install)\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)", re.IGNORECASE)
+_WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
+_VARIABLE = re.compile(r"\$\{(\w+)\}")
+_KEYWORDS = frozenset(
+    "DIRECTORY FILES PROGRAMS TARGETS EXPORT DESTINATION PATTERN REGEX EXCLUDE PERMISSIONS "
+    "USE_SOURCE_PERMISSIONS FILES_MATCHING OPTIONAL COMPONENT CONFIGURATIONS RENAME TYPE "
+    "MESSAGE_NEVER EXCLUDE_FROM_ALL FILE_PERMISSIONS DIRECTORY_PERMISSIONS".split()
+)
+
+
+class InstallRule(NamedTuple):
+    """One path of the source tree and where it goes below the package's share folder.
+
+    Attributes:
+        source: A file or folder of the source tree.
+        target: Its path below ``share/NAME``; ``.`` is that folder itself.
+    """
+
+    source: Path
+    target: str
+
+
+def read_install_rules(package_dir: Path, name: str) -> list[InstallRule]:
+    """The install rules of a package that put files below its share folder.
+
+    Args:
+        package_dir: The folder with its CMakeLists.txt.
+        name: The package's name.
+
+    Returns:
+        Rules in the order of the file; none where there is no CMakeLists.txt.
+    """
+    try:
+        text = (package_dir / "CMakeLists.txt").read_text("utf-8", "replace")
+    except OSError:
+        return []
+    share = f"share/{name}"
+    variables = {
+        "PROJECT_NAME": name,
+        "CMAKE_PROJECT_NAME": name,
+        "PROJECT_SOURCE_DIR": str(package_dir),
+        "CMAKE_SOURCE_DIR": str(package_dir),
+        "CMAKE_CURRENT_SOURCE_DIR": str(package_dir),
+        "CMAKE_CURRENT_LIST_DIR": str(package_dir),
+        "CMAKE_INSTALL_PREFIX": "",
+        "CMAKE_INSTALL_DATAROOTDIR": "share",
+        "CMAKE_INSTALL_DATADIR": "share",
+        "CATKIN_PACKAGE_SHARE_DESTINATION": share,
+        "CATKIN_GLOBAL_SHARE_DESTINATION": "share",
+    }
+    rules: list[InstallRule] = []
+    for command in _COMMAND.finditer(_COMMENT.sub("", text)):
+        words = [
+            _VARIABLE.sub(lambda m: variables.get(m[1], m[0]), quoted or bare)
+            for quoted, bare in _WORD.findall(command[2])
+        ]
+        verb = command[1].lower()
+        if verb == "project" and words:
+            variables["PROJECT_NAME"] = variables["CMAKE_PROJECT_NAME"] = words[0]
+        elif verb == "set" and len(words) >= 2:
+            variables[words[0]] = " ".join(words[1:])
+        elif verb == "install" and words:
+            rules.extend(_install(package_dir, share, words))
+    return rules
+
+
+def _install(package_dir: Path, share: str, words: list[str]) -> list[InstallRule]:
+    if words[0].upper() not in ("DIRECTORY", "FILES", "PROGRAMS") or "DESTINATION" not in words:
+        return []
+    destination = words[words.index("DESTINATION") + 1 : words.index("DESTINATION") + 2]
+    target = destination[0].strip("/").removeprefix("./") if destination else ""
+    if target != share and not target.startswith(share + "/"):
+        return []
+    target = target[len(share) :].strip("/") or "."
+    rename = words[words.index("RENAME") + 1] if "RENAME" in words[:-1] else None
+    rules = []
+    for word in words[1:]:
+        if word in _KEYWORDS:
+            break
+        source = package_dir / word
+        if words[0].upper() == "DIRECTORY" and word.endswith("/"):
+            rules.append(InstallRule(source, target))
+        else:
+            rules.append(InstallRule(source, f"{target}/{rename or source.name}"))
+    return rules
+
+
+def installed_path(rules: list[InstallRule], relative: str) -> Path | None:
+    """The source file that is installed at a path below the share folder, if there is one.
+
+    Args:
+        rules: What :func:`read_install_rules` found.
+        relative: A path below ``share/NAME``, with forward slashes.
+    """
+    wanted = Path(relative).parts
+    for rule in rules:
+        target = Path(rule.target).parts
+        if wanted[: len(target)] == target:
+            candidate = rule.source.joinpath(*wanted[len(target) :])
+            if candidate.exists():
+                return candidate
+    return None

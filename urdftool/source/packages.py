@@ -1,0 +1,251 @@
+"""Where ROS packages are, without ROS.
+
+One resolver for ``$(find NAME)``, ``package://``, ``model://``, ``file://`` and relative paths, for
+every command. A package is looked for, in this order: what ``--package`` and ``--package-path`` say;
+the file's own package (the nearest ``package.xml`` above it, by its ``<name>``); packages beside and
+below that workspace's root; ``[tool.urdftool.packages]`` of the configuration;
+``ROS_PACKAGE_PATH``; ``AMENT_PREFIX_PATH``; last, a folder above the file that bears the package's
+name even without a ``package.xml``.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+from ..errors import PackageNotFound
+from .install_rules import InstallRule, installed_path, read_install_rules
+
+_NAME = re.compile(rb"<name\s*>\s*([^<\s]+)\s*</name\s*>")
+_XML_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+_IGNORE_FILES = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
+_SKIP_FOLDERS = frozenset(("node_modules", "build", "install", "devel", "log", "__pycache__"))
+_WORKSPACE_MARKS = (".git", ".hg", "src", ".catkin_workspace", ".catkin_tools", ".colcon")
+_MAX_DEPTH = 7
+_MAX_FOLDERS = 20_000
+_MAX_CLIMB = 6
+
+# What was found below a folder stays true for the run of one command.
+_below: dict[str, dict[str, Path]] = {}
+_names: dict[str, str | None] = {}
+
+
+def package_name(folder: Path) -> str | None:
+    """The name in a folder's ``package.xml``; None where there is none."""
+    key = str(folder)
+    if key not in _names:
+        try:
+            text = (folder / "package.xml").read_bytes()
+        except OSError:
+            _names[key] = None
+        else:
+            match = _NAME.search(_XML_COMMENT.sub(b"", text))
+            _names[key] = match[1].decode("utf-8", "replace") if match else folder.name
+    return _names[key]
+
+
+def own_package(path: Path) -> tuple[str, Path] | None:
+    """Name and folder of the package a file belongs to: the nearest ``package.xml`` above it."""
+    for folder in path.parents:
+        name = package_name(folder)
+        if name is not None:
+            return name, folder
+    return None
+
+
+def packages_below(folder: Path) -> dict[str, Path]:
+    """All packages in a folder and below it, by name; the one nearest to the top wins.
+
+    Hidden folders, build output and folders with an ``…_IGNORE`` file are passed over, and a
+    package is not searched for further packages.
+    """
+    key = str(folder)
+    if key in _below:
+        return _below[key]
+    found: dict[str, Path] = {}
+    level = [key]
+    seen = 0
+    for _ in range(_MAX_DEPTH):
+        following: list[str] = []
+        for place in level:
+            seen += 1
+            if seen > _MAX_FOLDERS:
+                break
+            try:
+                with os.scandir(place) as entries:
+                    listing = list(entries)
+            except OSError:
+                continue
+            names = {entry.name for entry in listing}
+            if names & _IGNORE_FILES:
+                continue
+            if "package.xml" in names:
+                name = package_name(Path(place))
+                if name:
+                    found.setdefault(name, Path(place))
+                continue
+            following.extend(
+                entry.path
+                for entry in listing
+                if not entry.name.startswith(".")
+                and entry.name not in _SKIP_FOLDERS
+                and _is_folder(entry)
+            )
+        level = sorted(following)
+    _below[key] = found
+    return found
+
+
+def _is_folder(entry: os.DirEntry[str]) -> bool:
+    try:
+        return entry.is_dir(follow_symlinks=True)
+    except OSError:
+        return False
+
+
+class Packages:
+    """Finds packages and files for one description.
+
+    Attributes:
+        file: The description; None for standard input, which stands in the current folder.
+        used: Packages found so far, by name.
+    """
+
+    def __init__(
+        self,
+        file: str | Path | None = None,
+        *,
+        named: Mapping[str, str | Path] | None = None,
+        paths: Iterable[str | Path] = (),
+        configured: Mapping[str, str | Path] | None = None,
+    ) -> None:
+        """Take what is known; nothing is searched before it is asked for.
+
+        Args:
+            file: The description the packages are for.
+            named: Folders by package name, from ``--package``.
+            paths: Folders with packages below, from ``--package-path``.
+            configured: Folders by package name, from the configuration.
+        """
+        self.file = Path.cwd() / "-" if file is None else Path(os.path.abspath(file))
+        self.named = {name: Path(os.path.abspath(folder)) for name, folder in (named or {}).items()}
+        self.paths = [Path(os.path.abspath(folder)) for folder in paths]
+        self.configured = dict(configured or {})
+        self.used: dict[str, Path] = {}
+        self._rules: dict[str, list[InstallRule]] = {}
+
+    def find(self, name: str) -> Path:
+        """The folder of a package.
+
+        Raises:
+            PackageNotFound: It is nowhere; the message says where it was looked for.
+        """
+        if name in self.used:
+            return self.used[name]
+        searched: list[str] = []
+        for said, folder in self._candidates(name):
+            if folder is not None and folder.is_dir():
+                self.used[name] = folder
+                return folder
+            searched.append(said)
+        raise PackageNotFound(
+            f"package '{name}' is not found; say where it is with --package {name}=DIR "
+            "or --package-path DIR",
+            notes=[f"searched {said}" for said in searched],
+        )
+
+    def _candidates(self, name: str) -> Iterator[tuple[str, Path | None]]:
+        """Each place in turn: what to say of it, and the folder if it has the package."""
+        if name in self.named:
+            yield f"--package {name}={self.named[name]} (no such folder)", self.named[name]
+        for path in self.paths:
+            yield f"--package-path {path}", packages_below(path).get(name) or _child(path, name)
+        own = own_package(self.file)
+        if own:
+            yield f"the file's own package '{own[0]}' in {own[1]}", own[1] if own[0] == name else None
+        else:
+            yield f"for a package.xml above {self.file}", None
+        for root in self._workspace_roots(own[1] if own else None):
+            yield f"packages below {root}", packages_below(root).get(name)
+        if name in self.configured:
+            folder = Path(self.configured[name])
+            yield f"the configuration: {name} = {folder} (no such folder)", folder
+        for variable in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"):
+            value = os.environ.get(variable, "")
+            if not value:
+                yield f"{variable} (not set)", None
+            for entry in filter(None, value.split(os.pathsep)):
+                if variable == "ROS_PACKAGE_PATH":
+                    folder_or_none = packages_below(Path(entry)).get(name)
+                else:
+                    share = Path(entry) / "share" / name
+                    folder_or_none = share if share.is_dir() else None
+                yield f"{variable}: {entry}", folder_or_none
+        for folder in self.file.parents:
+            if folder.name == name:
+                yield f"a folder above the file named {name}", folder
+        yield f"for a folder named '{name}' above the file", None
+
+    def _workspace_roots(self, package: Path | None) -> list[Path]:
+        """Folders to search for neighbours: from the package's parent up to the workspace's root."""
+        start = package.parent if package else self.file.parent
+        roots = []
+        for folder in (start, *start.parents)[:_MAX_CLIMB]:
+            if len(folder.parts) <= 2:
+                break  # never crawl /, /home or /tmp
+            roots.append(folder)
+            if any((folder / mark).exists() for mark in _WORKSPACE_MARKS):
+                return roots
+        return roots[:1]
+
+    def installed(self, path: str | Path) -> Path:
+        """A path inside a found package; where install rules put a file there, the file they take.
+
+        Args:
+            path: An absolute path, such as ``$(find NAME)/urdf/arm.xacro`` gives.
+
+        Returns:
+            The path itself where it exists or no rule speaks of it.
+        """
+        path = Path(path)
+        if os.path.lexists(path):
+            return path
+        normal = Path(os.path.normpath(path))
+        for name, folder in self.used.items():
+            try:
+                relative = normal.relative_to(folder)
+            except ValueError:
+                continue
+            if name not in self._rules:
+                self._rules[name] = read_install_rules(folder, name)
+            source = installed_path(self._rules[name], relative.as_posix())
+            if source is not None:
+                return source
+        return path
+
+    def resolve(self, uri: str, relative_to: str | Path | None = None) -> Path:
+        """The file that a URI or path means. It may not exist.
+
+        Args:
+            uri: ``package://NAME/…``, ``model://NAME/…``, ``file://…`` or a path.
+            relative_to: The file in which a relative path is written; the description if None.
+
+        Raises:
+            PackageNotFound: It names a package that is nowhere.
+        """
+        scheme, separator, rest = uri.partition("://")
+        if separator and scheme in ("package", "model"):
+            name, _, inner = rest.partition("/")
+            return self.installed(self.find(name) / inner.lstrip("/"))
+        if separator and scheme == "file":
+            return self.installed(rest)
+        base = self.file if relative_to is None else Path(os.path.abspath(relative_to))
+        return self.installed(base.parent / uri)
+
+
+def _child(path: Path, name: str) -> Path | None:
+    """A folder of that name directly in a search path, even without a ``package.xml``."""
+    folder = path / name
+    return folder if name and folder.is_dir() else None

@@ -1,0 +1,48 @@
+"""The bytes of one start tag: where each attribute is.
+
+Expat says at which byte a tag starts and nothing about its attributes. Tags reach this module only
+after expat has accepted them, so a short scanner is enough: names, ``=``, quoted values.
+"""
+
+from __future__ import annotations
+
+import re
+
+_ATTRIBUTE = re.compile(rb"""\s*([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
+_TAG_NAME = re.compile(rb"<[^\s<>/]+")
+
+
+def attribute_spans(data: bytes, start: int) -> dict[str, tuple[int, int]]:
+    """Byte spans ``(first byte of the name, byte after the closing quote)`` by attribute name.
+
+    Args:
+        data: The bytes of the file.
+        start: Byte of the ``<`` of the tag.
+    """
+    spans: dict[str, tuple[int, int]] = {}
+    name = _TAG_NAME.match(data, start)
+    if name is None:
+        return spans
+    position = name.end()
+    while match := _ATTRIBUTE.match(data, position):
+        spans[match[1].decode("utf-8", "replace")] = match.span(1)[0], match.end()
+        position = match.end()
+    return spans
+
+
+def value_span(data: bytes, span: tuple[int, int]) -> tuple[int, int]:
+    """The span of the value between its quotes, for a span from :func:`attribute_spans`."""
+    match = _ATTRIBUTE.match(data, span[0])
+    if match is None:
+        return span
+    return match.start(2) + 1, match.end(2) - 1
+
+
+def tag_end(data: bytes, start: int) -> int:
+    """Byte after the ``>`` that ends the tag starting at ``start``."""
+    name = _TAG_NAME.match(data, start)
+    position = name.end() if name else start
+    while match := _ATTRIBUTE.match(data, position):
+        position = match.end()
+    end = data.find(b">", position)
+    return len(data) if end < 0 else end + 1

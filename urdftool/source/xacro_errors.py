@@ -1,0 +1,147 @@
+"""What a failed expansion means, in a sentence with a place."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from ..errors import UrdftoolError, XacroError
+from .location import Place
+
+if TYPE_CHECKING:
+    from .expand import Expansion
+    from .xacro_tree import XacroElement
+
+_UNDEFINED = re.compile(r"name '([^']+)' is not defined")
+_UNKNOWN_MACRO = re.compile(r"unknown macro name: (?:xacro:)?(\S+)")
+_NO_ARGUMENT = re.compile(r"Undefined substitution argument '?([^\s']+)'?")
+_NO_PARAMETERS = re.compile(r"Undefined parameters \[(.*)\]")
+_ODD_PARAMETER = re.compile(r'Invalid parameter "([^"]*)"')
+_NO_ATTRIBUTE = re.compile(r"(\S+): missing attribute '([^']+)'")
+
+
+def explain(
+    error: Exception, node: XacroElement | None, failed_text: str | None, result: Expansion
+) -> UrdftoolError:
+    """An error of xacro as one of ours.
+
+    Args:
+        error: What was raised.
+        node: The element xacro was at.
+        failed_text: The text or expression that could not be evaluated, if it was that.
+        result: What was read so far.
+    """
+    for cause in _causes(error):
+        if isinstance(cause, UrdftoolError) and cause.line is None and node is not None:
+            at = _place(node, failed_text)
+            if cause.path is not None:  # a file that could not be read, named where it is wanted
+                return XacroError(f"{cause.path}: {cause.message}", at=at, notes=cause.notes)
+            return type(cause)(cause.message, at=at, notes=cause.notes)
+        if isinstance(cause, UrdftoolError):
+            return cause
+    at = None if node is None else _place(node, failed_text)
+    message = _sentence(error, node, failed_text, result)
+    if at is None:
+        return XacroError(message, path=result.file.path)
+    return XacroError(message, at=at)
+
+
+def _causes(error: BaseException) -> list[BaseException]:
+    """The error and what it was raised from, in any of the ways xacro wraps them."""
+    found: list[BaseException] = []
+    todo: list[BaseException | None] = [error]
+    while todo:
+        cause = todo.pop()
+        if cause is not None and cause not in found:
+            found.append(cause)
+            todo.extend((cause.__context__, cause.__cause__, getattr(cause, "exc", None)))
+            todo.append(getattr(cause, "error", None))
+    return found
+
+
+def _place(node: XacroElement, failed_text: str | None) -> Place:
+    """The attribute whose value holds the text that failed; the element otherwise."""
+    if failed_text:
+        for name, span in node.file.attribute_spans(node.start).items():
+            written = node.file.data[span[0] : span[1]].decode(node.file.encoding, "replace")
+            if failed_text in written[len(name) :]:
+                return Place(node.file, *span, node.calls)
+    return node.place
+
+
+def _sentence(
+    error: Exception, node: XacroElement | None, failed_text: str | None, result: Expansion
+) -> str:
+    text = " ".join(str(error).split()) or type(error).__name__
+    if isinstance(error, RecursionError):
+        return "the expansion does not end: a macro or property uses itself"
+    if match := _UNKNOWN_MACRO.search(text):
+        return f"unknown macro '{match[1]}'{_nearest(match[1], _macros(result))}"
+    if match := _UNDEFINED.search(text):
+        name = match[1]
+        return f"'{name}' is not defined{_in_expression(failed_text)}{_nearest(name, _known(result))}"
+    if match := _NO_ARGUMENT.search(text):
+        name = match[1]
+        known = ", ".join(result.arguments) or "none"
+        return (
+            f"the argument '{name}' has no value and no <xacro:arg> declares it; "
+            f"give {name}:=VALUE, or declare it with a default (declared: {known})"
+        )
+    if match := _NO_PARAMETERS.search(text):
+        macro = node.tagName[6:] if node is not None else "?"
+        missing = ", ".join(f"'{name}'" for name in match[1].split(","))
+        return f"macro '{macro}' is called without {missing}, which has no default"
+    if match := _ODD_PARAMETER.search(text):
+        macro = node.tagName[6:] if node is not None else "?"
+        return f"macro '{macro}' has no parameter '{match[1]}'"
+    if match := _NO_ATTRIBUTE.search(text):
+        return f"<{match[1]}> lacks the attribute '{match[2]}'"
+    for cause in _causes(error):
+        if isinstance(cause, OSError) and cause.filename:
+            return f"{cause.filename}: {(cause.strerror or 'cannot be read').lower()}"
+        if type(cause).__module__.startswith("yaml"):
+            mark = getattr(cause, "problem_mark", None)
+            problem = getattr(cause, "problem", None) or "not valid YAML"
+            where = f"{mark.name}:{mark.line + 1}:{mark.column + 1}: " if mark else ""
+            return f"{where}not valid YAML: {problem}"
+    text = re.sub(r"\s*when evaluating expression '(?:.*)'$", "", text)
+    text = re.sub(r"^<class '[\w.]+'>: ", "", text)
+    return f"{text}{_in_expression(failed_text)}"
+
+
+def _in_expression(failed_text: str | None) -> str:
+    if not failed_text:
+        return ""
+    return f", in ${{{failed_text}}}" if "$" not in failed_text else f", in {failed_text}"
+
+
+def _nearest(name: str, known: set[str]) -> str:
+    from difflib import get_close_matches
+
+    near = get_close_matches(name, known - {name}, 1, 0.7)
+    return f"; did you mean '{near[0]}'?" if near else ""
+
+
+_DEFINED = re.compile(
+    r"<xacro:(property|macro|arg)\b[^>]*?\bname\s*=\s*[\"']([^\"']+)[\"']"
+    r"(?:[^>]*?\bparams\s*=\s*[\"']([^\"']*)[\"'])?"
+)
+
+
+def _macros(result: Expansion) -> set[str]:
+    return {name for kind, name, _ in _definitions(result) if kind == "macro"}
+
+
+def _known(result: Expansion) -> set[str]:
+    names = {name for kind, name, _ in _definitions(result) if kind != "macro"}
+    for _, _, parameters in _definitions(result):
+        names.update(re.findall(r"(?<![\w$])[*]{0,2}(\w+)", parameters or ""))
+    return names
+
+
+def _definitions(result: Expansion) -> list[tuple[str, str, str]]:
+    return [
+        found
+        for file in result.files.values()
+        for found in _DEFINED.findall(file.data.decode(file.encoding, "replace"))
+    ]

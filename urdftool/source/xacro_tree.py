@@ -1,0 +1,371 @@
+"""The tree that xacro works on: the part of the DOM it uses, with the place of each element.
+
+xacro expands a DOM by moving and cloning nodes. These nodes do just that, carry where they were
+written (``file``, ``start``) and which calls they came through (``calls``), and are copied several
+times faster than those of ``xml.dom.minidom``. Names follow the DOM because xacro calls them.
+"""
+
+# ruff: noqa: N802, N803, N815 -- the DOM's names
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+from xml.dom import NotFoundErr
+from xml.parsers import expat
+
+from ..errors import XmlError
+from .document import MAX_DEPTH, run_parser
+from .location import Call, Place, SourceFile
+
+ELEMENT, TEXT, CDATA, INSTRUCTION, COMMENT, DOCUMENT = 1, 3, 4, 7, 8, 9
+
+
+class Node:
+    """Anything in the tree."""
+
+    __slots__ = ("nextSibling", "parentNode", "previousSibling")
+    nodeType = 0
+
+    def __init__(self) -> None:
+        """Make a node that is in no tree."""
+        self.parentNode: Parent | None = None
+        self.previousSibling: Node | None = None
+        self.nextSibling: Node | None = None
+
+    def copy(self, calls: tuple[Call, ...] | None) -> Node:
+        """A copy; with ``calls``, one that came through those calls."""
+        raise NotImplementedError
+
+
+class Characters(Node):
+    """Text, a CDATA section, a comment or a processing instruction."""
+
+    __slots__ = ("data", "nodeType")
+
+    def __init__(self, data: str, kind: int = TEXT) -> None:
+        """Make it of text and node type."""
+        self.parentNode = None
+        self.previousSibling = None
+        self.nextSibling = None
+        self.data = data
+        self.nodeType = kind
+
+    def copy(self, calls: tuple[Call, ...] | None) -> Characters:
+        """As :meth:`Node.copy`."""
+        return Characters(self.data, self.nodeType)
+
+
+class Parent(Node):
+    """A node with children, kept as a linked list: xacro inserts and removes all the time."""
+
+    __slots__ = ("firstChild", "lastChild")
+
+    def __init__(self) -> None:
+        """Make it without children."""
+        super().__init__()
+        self.firstChild: Node | None = None
+        self.lastChild: Node | None = None
+
+    @property
+    def childNodes(self) -> Iterator[Node]:
+        """The children, in order."""
+        child = self.firstChild
+        while child is not None:
+            yield child
+            child = child.nextSibling
+
+    def appendChild(self, node: Node) -> None:
+        """Add a node that is in no tree as the last child."""
+        node.parentNode = self
+        last = node.previousSibling = self.lastChild
+        if last is None:
+            self.firstChild = node
+        else:
+            last.nextSibling = node
+        self.lastChild = node
+
+    def insertBefore(self, node: Node, reference: Node | None) -> None:
+        """Move a node in front of a child, or to the end."""
+        if node.parentNode is not None:
+            node.parentNode.removeChild(node)
+        if reference is None:
+            self.appendChild(node)
+            return
+        node.parentNode = self
+        node.nextSibling = reference
+        before = node.previousSibling = reference.previousSibling
+        reference.previousSibling = node
+        if before is None:
+            self.firstChild = node
+        else:
+            before.nextSibling = node
+
+    def removeChild(self, node: Node) -> None:
+        """Take a child out of the tree."""
+        before, after = node.previousSibling, node.nextSibling
+        if before is None:
+            self.firstChild = after
+        else:
+            before.nextSibling = after
+        if after is None:
+            self.lastChild = before
+        else:
+            after.previousSibling = before
+        node.parentNode = node.previousSibling = node.nextSibling = None
+
+
+class _Value(NamedTuple):
+    value: str
+
+
+class _Attributes(dict[str, str]):
+    """Attributes by name; ``items`` is a list, since xacro changes them while it goes through."""
+
+    __slots__ = ()
+
+    def items(self) -> list[tuple[str, str]]:  # type: ignore[override]
+        return list(dict.items(self))
+
+
+class XacroElement(Parent):
+    """An element, with its place.
+
+    Attributes:
+        definition_of: The expansion whose calls a copy of this element takes; set on a macro's
+            definition, whose copies are the macro's instances.
+    """
+
+    __slots__ = ("attributes", "calls", "definition_of", "file", "nodeName", "start", "tagName")
+    nodeType = ELEMENT
+
+    def __init__(
+        self,
+        tag: str,
+        attributes: _Attributes,
+        file: SourceFile,
+        start: int,
+        calls: tuple[Call, ...],
+    ) -> None:
+        """Make it without children."""
+        self.parentNode = None
+        self.previousSibling = None
+        self.nextSibling = None
+        self.firstChild = None
+        self.lastChild = None
+        self.tagName = self.nodeName = tag
+        self.attributes = attributes
+        self.file = file
+        self.start = start
+        self.calls = calls
+        self.definition_of: Instances | None = None
+
+    @property
+    def place(self) -> Place:
+        """The span of its start tag."""
+        return Place(self.file, self.start, self.file.tag_end(self.start), self.calls)
+
+    def hasAttribute(self, name: str) -> bool:
+        """Whether there is an attribute of that name."""
+        return name in self.attributes
+
+    def getAttribute(self, name: str) -> str:
+        """The value of an attribute; empty where there is none."""
+        return self.attributes.get(name, "")
+
+    def getAttributeNode(self, name: str) -> _Value | None:
+        """The attribute as something with a ``value``; None where there is none."""
+        value = self.attributes.get(name)
+        return None if value is None else _Value(value)
+
+    def setAttribute(self, name: str, value: object) -> None:
+        """Set an attribute."""
+        self.attributes[name] = str(value)
+
+    def removeAttribute(self, name: str) -> None:
+        """Take an attribute away, or raise as the DOM does."""
+        if self.attributes.pop(name, None) is None:
+            raise NotFoundErr
+
+    def cloneNode(self, deep: bool = True) -> XacroElement:
+        """A copy of it and all below; of a macro's definition, an instance of the macro."""
+        instances = self.definition_of
+        return self.copy(None if instances is None else instances.calls)
+
+    def copy(self, calls: tuple[Call, ...] | None) -> XacroElement:
+        """As :meth:`Node.copy`."""
+        twin = XacroElement(
+            self.tagName,
+            _Attributes(self.attributes),
+            self.file,
+            self.start,
+            self.calls if calls is None else calls,
+        )
+        child = self.firstChild
+        while child is not None:
+            twin.appendChild(child.copy(calls))
+            child = child.nextSibling
+        return twin
+
+
+class Instances:
+    """What the copies of macro definitions are instances of: the calls under way."""
+
+    calls: tuple[Call, ...] = ()
+
+
+class XacroDocument(Parent):
+    """A file's tree."""
+
+    __slots__ = ("documentElement",)
+    nodeType = DOCUMENT
+
+    documentElement: XacroElement
+
+
+def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument:
+    """Parse a file into the tree that xacro works on.
+
+    Args:
+        file: The file.
+        calls: The includes it is read through.
+
+    Raises:
+        XmlError: It is not well-formed, uses a prefix it does not declare, declares entities, or
+            is nested too deep.
+    """
+    parser = expat.ParserCreate(namespace_separator=" ")
+    parser.namespace_prefixes = True
+    parser.buffer_text = True
+    document = XacroDocument()
+    stack: list[Parent] = [document]
+    declared: list[tuple[str, str]] = []
+    cdata = False
+
+    def namespace(prefix: str | None, uri: str | None) -> None:
+        declared.append((f"xmlns:{prefix}" if prefix else "xmlns", uri or ""))
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        values = _Attributes(declared)
+        declared.clear()
+        for name, value in attributes.items():
+            values[_qualified(name) if " " in name else name] = value
+        element = XacroElement(
+            _qualified(tag) if " " in tag else tag, values, file, parser.CurrentByteIndex, calls
+        )
+        if len(stack) == 1:
+            document.documentElement = element
+        elif len(stack) > MAX_DEPTH:
+            raise XmlError(
+                f"elements are nested more than {MAX_DEPTH} deep, which no robot description is",
+                at=element.place,
+            )
+        stack[-1].appendChild(element)
+        stack.append(element)
+
+    def end(_: str) -> None:
+        stack.pop()
+
+    def characters(text: str) -> None:
+        last = stack[-1].lastChild
+        kind = CDATA if cdata else TEXT
+        if isinstance(last, Characters) and last.nodeType == kind and not cdata:
+            last.data += text
+        else:
+            stack[-1].appendChild(Characters(text, kind))
+
+    def start_cdata() -> None:
+        nonlocal cdata
+        cdata = True
+
+    def end_cdata() -> None:
+        nonlocal cdata
+        cdata = False
+
+    def comment(text: str) -> None:
+        stack[-1].appendChild(Characters(text, COMMENT))
+
+    def instruction(target: str, text: str) -> None:
+        stack[-1].appendChild(Characters(f"{target} {text}", INSTRUCTION))
+
+    parser.StartNamespaceDeclHandler = namespace
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
+    parser.CharacterDataHandler = characters
+    parser.StartCdataSectionHandler = start_cdata
+    parser.EndCdataSectionHandler = end_cdata
+    parser.CommentHandler = comment
+    parser.ProcessingInstructionHandler = instruction
+    run_parser(parser, file)
+    return document
+
+
+def _qualified(name: str) -> str:
+    """``prefix:local`` of expat's ``uri local prefix``."""
+    parts = name.split(" ")
+    return f"{parts[2]}:{parts[1]}" if len(parts) == 3 else parts[1]
+
+
+def write_xml(document: XacroDocument, banner: list[str]) -> str:
+    """The text of an expanded tree, laid out as xacro lays it out.
+
+    Args:
+        document: The tree.
+        banner: Comments to put in front of it.
+    """
+    parts = ['<?xml version="1.0" ?>\n']
+    parts.extend(f"<!--{line}-->\n" for line in banner)
+    for node in document.childNodes:
+        _write(node, "", parts)
+    return "".join(parts)
+
+
+def _write(node: Node, indent: str, parts: list[str]) -> None:
+    if isinstance(node, Characters):
+        parts.append(_characters(node, indent) + "\n")
+        return
+    assert isinstance(node, XacroElement)
+    parts.append(f"{indent}<{node.tagName}")
+    parts.extend(
+        f' {name}="{_escape_attribute(value)}"' for name, value in sorted(node.attributes.items())
+    )
+    first = node.firstChild
+    if first is None:
+        parts.append("/>\n")
+        return
+    if first is node.lastChild and first.nodeType == TEXT:
+        assert isinstance(first, Characters)
+        parts.append(f">{_escape(first.data)}</{node.tagName}>\n")
+        return
+    parts.append(">\n")
+    for child in node.childNodes:
+        if child.nodeType == TEXT and isinstance(child, Characters):
+            if not child.data or child.data.isspace():
+                continue
+        _write(child, indent + "  ", parts)
+    parts.append(f"{indent}</{node.tagName}>\n")
+
+
+def _characters(node: Characters, indent: str) -> str:
+    if node.nodeType == COMMENT:
+        return f"{indent}<!--{node.data}-->"
+    if node.nodeType == CDATA:
+        return f"<![CDATA[{node.data}]]>"
+    if node.nodeType == INSTRUCTION:
+        return f"{indent}<?{node.data}?>"
+    return indent + _escape(node.data)
+
+
+def _escape(text: str) -> str:
+    if "&" in text or "<" in text or ">" in text:
+        text = text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    return text
+
+
+def _escape_attribute(text: str) -> str:
+    text = _escape(text)
+    if '"' in text:
+        text = text.replace('"', "&quot;")
+    if "\n" in text or "\t" in text or "\r" in text:
+        text = text.replace("\r", "&#13;").replace("\n", "&#10;").replace("\t", "&#9;")
+    return text
