@@ -25,7 +25,7 @@ import xacro.substitution_args as substitution
 from ..errors import SourceError, UrdftoolError, XacroError
 from .document import Document, Element, read_file
 from .location import Call, Place, SourceFile
-from .packages import Packages
+from .packages import Packages, shown_path
 from .xacro_tree import (
     ELEMENT,
     Characters,
@@ -68,13 +68,15 @@ class Expansion:
         file: The file that was expanded.
         files: Every XML file read, in order of first use.
         dependencies: Paths of the files read beside it: includes and YAML.
+        given: The arguments it was given.
         arguments: The arguments it declares.
         warnings: What xacro warns of.
     """
 
-    def __init__(self, file: SourceFile) -> None:
+    def __init__(self, file: SourceFile, given: Mapping[str, str]) -> None:
         """Start with nothing read but the file itself."""
         self.file = file
+        self.given = dict(given)
         self.tree = XacroDocument()
         self.files: dict[str, SourceFile] = {file.path: file}
         self.dependencies: list[str] = []
@@ -134,7 +136,7 @@ def expand_xacro(
         PackageNotFound: ``$(find NAME)`` names no package that could be found.
     """
     with _lock:
-        run = _Run(Expansion(file), packages)
+        run = _Run(Expansion(file, arguments), packages)
         with run.hooks():
             try:
                 xacro.init_stacks(file.path)
@@ -202,7 +204,7 @@ class _Run:
 
     def parse(self, _: object, filename: str) -> XacroDocument:
         """Read an included file; what cannot be opened is an IOError to xacro."""
-        path = str(self.packages.installed(filename))
+        path = shown_path(self.packages.installed(filename))
         if len(xacro.filestack) > MAX_INCLUDES:
             raise XacroError(
                 f"includes are nested more than {MAX_INCLUDES} deep; a file includes itself",
@@ -384,7 +386,9 @@ class _Run:
 
     def note_dependencies(self) -> None:
         """Take the files xacro read, each once."""
-        seen = dict.fromkeys(str(self.packages.installed(path)) for path in xacro.all_includes)
+        seen = dict.fromkeys(
+            shown_path(self.packages.installed(path)) for path in xacro.all_includes
+        )
         self.result.dependencies = list(seen)
 
     def explain(self, error: Exception) -> UrdftoolError:

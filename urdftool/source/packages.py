@@ -105,6 +105,13 @@ def _is_folder(entry: os.DirEntry[str]) -> bool:
         return False
 
 
+def shown_path(path: str | Path) -> str:
+    """A path as one would type it here: relative where it is below the current folder."""
+    text = os.path.normpath(path)
+    here = os.getcwd() + os.sep
+    return text[len(here) :] if text.startswith(here) else text
+
+
 class Packages:
     """Finds packages and files for one description.
 

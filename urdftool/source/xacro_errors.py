@@ -84,8 +84,9 @@ def _sentence(
         name = match[1]
         known = ", ".join(result.arguments) or "none"
         return (
-            f"the argument '{name}' has no value and no <xacro:arg> declares it; "
-            f"give {name}:=VALUE, or declare it with a default (declared: {known})"
+            f"the argument '{name}' has no value and no <xacro:arg> before it declares it; "
+            f"give {name}:=VALUE, or declare it with a default "
+            f"(declared: {known}){_nearest(name, set(result.given), 'was it meant by')}"
         )
     if match := _NO_PARAMETERS.search(text):
         macro = node.tagName[6:] if node is not None else "?"
@@ -96,6 +97,8 @@ def _sentence(
         return f"macro '{macro}' has no parameter '{match[1]}'"
     if match := _NO_ATTRIBUTE.search(text):
         return f"<{match[1]}> lacks the attribute '{match[2]}'"
+    if "no attribute '_setitem'" in text:
+        return "a property with scope 'parent' has no parent here; it stands at the global scope"
     for cause in _causes(error):
         if isinstance(cause, OSError) and cause.filename:
             return f"{cause.filename}: {(cause.strerror or 'cannot be read').lower()}"
@@ -115,11 +118,11 @@ def _in_expression(failed_text: str | None) -> str:
     return f", in ${{{failed_text}}}" if "$" not in failed_text else f", in {failed_text}"
 
 
-def _nearest(name: str, known: set[str]) -> str:
+def _nearest(name: str, known: set[str], asking: str = "did you mean") -> str:
     from difflib import get_close_matches
 
     near = get_close_matches(name, known - {name}, 1, 0.7)
-    return f"; did you mean '{near[0]}'?" if near else ""
+    return f"; {asking} '{near[0]}'?" if near else ""
 
 
 _DEFINED = re.compile(

@@ -1,0 +1,150 @@
+"""The hall: the names of the commands, and the one door through which failure leaves.
+
+Exit codes: 0 done and nothing wrong, 1 the robot has what was looked for, 2 it could not be done,
+3 a bug of ours, 130 Ctrl-C.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib import import_module
+from typing import Any
+
+import click
+
+from . import __version__
+from .console import Console
+from .errors import UrdftoolError
+
+COMMANDS = ("expand", "lint")
+
+REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"
+
+
+class Commands(click.Group):
+    """The commands, each imported when it is wanted."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Their names, in the order a robot goes through them."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """One of them; None for another name."""
+        if cmd_name not in COMMANDS:
+            return None
+        module = import_module(f".commands.{cmd_name}", __package__)
+        command: click.Command = module.command
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """As click does it, with the nearest name for a mistyped one."""
+        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
+            from difflib import get_close_matches
+
+            near = get_close_matches(args[0], COMMANDS, 1)
+            hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(COMMANDS)}"
+            ctx.fail(f"no command '{args[0]}'; {hint}")
+        return super().resolve_command(ctx, args)
+
+
+@click.command(
+    cls=Commands,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    epilog="'urdftool COMMAND --help' tells of each command.",
+)
+@click.version_option(__version__, message="urdftool %(version)s")
+@click.option(
+    "--color",
+    type=click.Choice(["auto", "always", "never"]),
+    default="auto",
+    help="Colours: at a terminal (the default), always or never. NO_COLOR and FORCE_COLOR count.",
+)
+@click.option("-q", "--quiet", is_flag=True, help="No progress, no summaries, no warnings.")
+@click.option("-v", "--verbose", count=True, help="Say more of what is done.")
+@click.option(
+    "--config",
+    metavar="FILE",
+    help="The configuration, instead of the nearest pyproject.toml or urdftool.toml.",
+)
+@click.option("--debug", is_flag=True, help="Show the traceback of an error.")
+@click.pass_context
+def main(
+    ctx: click.Context, color: str, quiet: bool, verbose: int, config: str | None, debug: bool
+) -> None:
+    """Work with robot descriptions: URDF and xacro, without ROS."""
+    ctx.obj = Console(color=color, verbosity=-1 if quiet else verbose, config=config, debug=debug)
+
+
+def run(arguments: list[str] | None = None) -> None:
+    """Run the command line and leave with its exit code."""
+    code = call(arguments)
+    try:
+        sys.stdout.flush()
+    except OSError:
+        code = _closed_pipe()
+    sys.exit(code)
+
+
+def call(arguments: list[str] | None = None) -> int:
+    """Run the command line; every failure becomes a message and an exit code here.
+
+    Args:
+        arguments: What follows the program's name; those of the process if None.
+    """
+    words = sys.argv[1:] if arguments is None else arguments
+    debug = "--debug" in words
+    if debug:  # wherever it stands on the line
+        words = ["--debug", *(word for word in words if word != "--debug")]
+    console = Console()
+    try:
+        result: Any = main.main(words, prog_name="urdftool", standalone_mode=False)
+        return result if isinstance(result, int) else 0
+    except UrdftoolError as error:
+        if debug:
+            raise
+        console.error(error)
+        return 2
+    except click.exceptions.Exit as exit_:
+        return exit_.exit_code
+    except click.ClickException as error:
+        _usage(error)
+        return 2
+    except (KeyboardInterrupt, click.Abort):
+        console.say("stopped")
+        return 130
+    except BrokenPipeError:
+        return _closed_pipe()
+    except OSError as error:
+        if debug:
+            raise
+        where = f"{error.filename}: " if error.filename else ""
+        console.say(f"{where}{error.strerror or error}")
+        return 2
+    except (Exception, RecursionError) as error:
+        if debug:
+            raise
+        console.say(
+            f"this is a bug in urdftool {__version__}, not in your robot: "
+            f"{type(error).__name__}: {error}\n"
+            f"  Please report it at {REPORT_BUGS} with the command, the file, and what\n"
+            f"  the command prints with --debug."
+        )
+        return 3
+
+
+def _usage(error: click.ClickException) -> None:
+    """A wrong call in two lines: what is wrong, and where to read on."""
+    context = getattr(error, "ctx", None)
+    command = context.command_path if context is not None else "urdftool"
+    message = error.format_message().rstrip(".")
+    click.echo(f"urdftool: {message}\nTry '{command} --help'.", err=True)
+
+
+def _closed_pipe() -> int:
+    """Whoever read the output went away. Say so, and keep Python from saying it again."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    click.echo("urdftool: standard output was closed before all was written", err=True)
+    return 2

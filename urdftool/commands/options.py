@@ -1,0 +1,90 @@
+"""Arguments that mean the same in every command."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+ASSIGN = ":="
+
+
+def split_arguments(words: tuple[str, ...]) -> tuple[list[str], dict[str, str]]:
+    """Paths, and xacro arguments written ``name:=value``."""
+    paths = [word for word in words if ASSIGN not in word]
+    pairs = (word.partition(ASSIGN) for word in words if ASSIGN in word)
+    arguments = {}
+    for name, _, value in pairs:
+        if not name.strip():
+            raise click.UsageError(f"'{name}{ASSIGN}{value}' has no name; write name:=value")
+        arguments[name.strip()] = value.strip()
+    return paths, arguments
+
+
+def robot_argument(function: F) -> F:
+    """``IN [name:=value …]``: the path and the xacro arguments, as a pair in ``robot``."""
+    return click.argument(
+        "robot",
+        nargs=-1,
+        type=str,
+        metavar="IN [name:=value ...]",
+        callback=_robot,
+    )(function)
+
+
+def _robot(
+    ctx: click.Context, parameter: click.Parameter, words: tuple[str, ...]
+) -> tuple[str, dict[str, str]]:
+    paths, arguments = split_arguments(words)
+    if not paths:
+        raise click.UsageError("a robot is wanted: a .urdf or .xacro file, or '-'", ctx)
+    if len(paths) > 1:
+        raise click.UsageError(
+            f"one robot is wanted, not {len(paths)} ({' '.join(paths)}); "
+            "xacro arguments are written name:=value",
+            ctx,
+        )
+    return paths[0], arguments
+
+
+def package_options(function: F) -> F:
+    """Where packages are: ``package`` as a dict by name, ``package_path`` as a list."""
+    function = click.option(
+        "--package-path",
+        "package_path",
+        multiple=True,
+        metavar="DIR",
+        help="A folder with ROS packages in it or below. Repeatable.",
+    )(function)
+    return click.option(
+        "-p",
+        "--package",
+        "package",
+        multiple=True,
+        metavar="NAME=DIR",
+        callback=_packages,
+        help="Where a ROS package is. Repeatable.",
+    )(function)
+
+
+def _packages(
+    ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
+) -> dict[str, Path]:
+    found = {}
+    for value in values:
+        name, equals, folder = value.partition("=")
+        if not (equals and name and folder):
+            raise click.BadParameter(f"'{value}' is not NAME=DIR", ctx, parameter)
+        if not Path(folder).is_dir():
+            raise click.BadParameter(f"'{folder}' is no folder", ctx, parameter)
+        found[name] = Path(folder)
+    return found
+
+
+def output_option(help_text: str) -> Callable[[F], F]:
+    """``-o FILE``; ``-`` is standard output."""
+    return click.option("-o", "--output", metavar="FILE", help=help_text)

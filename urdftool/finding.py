@@ -1,0 +1,62 @@
+"""What is wrong with a robot: a fact with a place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+from .source.location import Place
+
+
+class Severity(IntEnum):
+    """How much it matters.
+
+    An *error*: a reader of the description rejects it, crashes, or loses part of it. A *warning*: it
+    loads, and behaves differently from what the text says. *Info*: portability and convention.
+    """
+
+    INFO = 1
+    WARNING = 2
+    ERROR = 3
+
+    @property
+    def label(self) -> str:
+        """``error``, ``warning`` or ``info``."""
+        return self.name.lower()
+
+
+@dataclass(slots=True)
+class Finding:
+    """One thing that is wrong, at one place of the source.
+
+    Attributes:
+        rule: Name of the rule, such as ``zero-axis``.
+        severity: How much it matters for the targets.
+        message: One sentence: what is wrong, with what would be right.
+        place: Where it was written.
+        kind: What it is about: ``link``, ``joint``, ``robot``, ``file``, …
+        name: The name of that.
+        targets: The targets it matters for; empty means every reader.
+        effects: What a reader does with the defect, by target.
+        hint: What would mend it, in a sentence; empty where the message says it.
+        others: Names of further things with the same defect from the same place: the instances of
+            one macro are one finding.
+        expansions: How many instances there are.
+    """
+
+    rule: str
+    severity: Severity
+    message: str
+    place: Place
+    kind: str = ""
+    name: str = ""
+    targets: tuple[str, ...] = ()
+    effects: dict[str, str] = field(default_factory=dict)
+    hint: str = ""
+    others: list[str] = field(default_factory=list)
+    expansions: int = 1
+
+    def __str__(self) -> str:
+        """``FILE:LINE:COLUMN: severity: message [rule]``, with the number of instances."""
+        times = f" (in {self.expansions} expansions)" if self.expansions > 1 else ""
+        return f"{self.place}: {self.severity.label}: {self.message}{times} [{self.rule}]"

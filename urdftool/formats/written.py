@@ -1,0 +1,52 @@
+"""What an exporter gives back: files, and what could not be carried."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..finding import Finding, Severity
+from ..source.location import Place
+
+
+@dataclass
+class Written:
+    """A robot in another language, not yet on disk.
+
+    Attributes:
+        files: Content by path relative to the output: bytes, or a file to copy.
+        main: The path of the model in ``files``.
+        losses: What was lost or changed, each with its place in the source.
+        renamed: New names by ``kind`` and old name, such as ``("link", "wheel::left")``.
+    """
+
+    main: str
+    files: dict[str, bytes | Path] = field(default_factory=dict)
+    losses: list[Finding] = field(default_factory=list)
+    renamed: dict[tuple[str, str], str] = field(default_factory=dict)
+
+    def lose(
+        self,
+        what: str,
+        message: str,
+        place: Place,
+        *,
+        kind: str = "",
+        name: str = "",
+        severity: Severity = Severity.WARNING,
+        hint: str = "",
+    ) -> None:
+        """Say what could not be carried.
+
+        Args:
+            what: The name of the loss after ``lossy-``, such as ``mimic``.
+            message: A sentence: what is lost, and what stands in its place.
+            place: Where it is written in the source.
+            kind: ``link``, ``joint``, …
+            name: The name of that link or joint.
+            severity: ``INFO`` where the robot behaves the same in the target.
+            hint: What would carry it.
+        """
+        self.losses.append(
+            Finding(f"lossy-{what}", severity, message, place, kind, name, hint=hint)
+        )

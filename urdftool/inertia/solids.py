@@ -1,0 +1,232 @@
+"""Mass properties of simple solids in closed form, and of their hollow versions.
+
+Every function takes either ``mass`` [kg] or ``density`` [kg/m³] and returns ``MassProperties`` in
+the frame URDF and SDF give the shape: origin at the middle of the shape, axis of revolution along
+Z. Only a cone's centre of mass is not at that origin.
+
+The formulas are the textbook ones (Goldstein, "Classical Mechanics"; Meriam and Kraige, "Dynamics",
+table D/4). Differences of nearly equal powers, as thin walls make them, are factored first, so that
+results stay exact to rounding however thin the wall is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from .inertia_error import InertiaError
+from .tensor import MassProperties
+
+
+def box(
+    size: Sequence[float], *, mass: float | None = None, density: float | None = None
+) -> MassProperties:
+    """A solid cuboid of edges ``size`` [m] along X, Y, Z: ixx = m (y² + z²) / 12."""
+    x, y, z = _sizes("box", size=size)
+    m = _mass("box", x * y * z, mass, density)
+    return _diagonal(m, m * (y * y + z * z) / 12, m * (x * x + z * z) / 12, m * (x * x + y * y) / 12)
+
+
+def cylinder(
+    radius: float, length: float, *, mass: float | None = None, density: float | None = None
+) -> MassProperties:
+    """A solid cylinder of ``radius`` and ``length`` [m] along Z: izz = m r² / 2."""
+    r, h = _sizes("cylinder", radius=radius, length=length)
+    m = _mass("cylinder", math.pi * r * r * h, mass, density)
+    across = m * (3 * r * r + h * h) / 12
+    return _diagonal(m, across, across, m * r * r / 2)
+
+
+def sphere(
+    radius: float, *, mass: float | None = None, density: float | None = None
+) -> MassProperties:
+    """A solid sphere of ``radius`` [m]: i = 2 m r² / 5."""
+    (r,) = _sizes("sphere", radius=radius)
+    m = _mass("sphere", 4 / 3 * math.pi * r**3, mass, density)
+    moment = 2 * m * r * r / 5
+    return _diagonal(m, moment, moment, moment)
+
+
+def capsule(
+    radius: float, length: float, *, mass: float | None = None, density: float | None = None
+) -> MassProperties:
+    """A solid capsule along Z: a cylinder of ``length`` [m] between two half spheres of ``radius`` [m].
+
+    ``length`` is the cylinder's alone, as in URDF 1.1, SDF and MuJoCo; the whole is length + 2 r
+    long. About its own centre of mass, 3r/8 from the flat face, a half sphere has 83 m r² / 320
+    across; moved out to both ends this adds up to m (2r²/5 + h²/4 + 3hr/8) for the pair.
+    """
+    r, h = _sizes("capsule", radius=radius, length=length)
+    # per π r²: the cylinder and the two half spheres together
+    shares = (h, 4 * r / 3)
+    m = _mass("capsule", math.pi * r * r * sum(shares), mass, density)
+    m_cylinder, m_ends = (m * share / sum(shares) for share in shares)
+    across = m_cylinder * (3 * r * r + h * h) / 12
+    across += m_ends * (2 * r * r / 5 + h * h / 4 + 3 * h * r / 8)
+    return _diagonal(m, across, across, m_cylinder * r * r / 2 + m_ends * 2 * r * r / 5)
+
+
+def ellipsoid(
+    radii: Sequence[float], *, mass: float | None = None, density: float | None = None
+) -> MassProperties:
+    """A solid ellipsoid of half axes ``radii`` [m] along X, Y, Z: ixx = m (b² + c²) / 5."""
+    a, b, c = _sizes("ellipsoid", radii=radii)
+    m = _mass("ellipsoid", 4 / 3 * math.pi * a * b * c, mass, density)
+    return _diagonal(m, m * (b * b + c * c) / 5, m * (a * a + c * c) / 5, m * (a * a + b * b) / 5)
+
+
+def cone(
+    radius: float, length: float, *, mass: float | None = None, density: float | None = None
+) -> MassProperties:
+    """A solid cone along Z, its tip at +length/2 and its base of ``radius`` [m] at −length/2.
+
+    This is SDF's frame: the origin is half way up. The centre of mass is a quarter of the length
+    above the base, at z = −length/4; about it, ixx = 3 m (4 r² + h²) / 80 and izz = 3 m r² / 10.
+    """
+    r, h = _sizes("cone", radius=radius, length=length)
+    m = _mass("cone", math.pi * r * r * h / 3, mass, density)
+    across = 3 * m * (4 * r * r + h * h) / 80
+    return _diagonal(m, across, across, 3 * m * r * r / 10, com=(0.0, 0.0, -h / 4))
+
+
+def hollow_box(
+    size: Sequence[float],
+    thickness: float,
+    *,
+    mass: float | None = None,
+    density: float | None = None,
+) -> MassProperties:
+    """A closed cuboid of outer edges ``size`` [m] with walls of ``thickness`` [m] on all six sides.
+
+    The outer cuboid less the inner one: ∫x² dV = (a³bc − a'³b'c') / 12, with a' = a − 2t.
+    """
+    outer = _sizes("hollow box", size=size)
+    t = _wall("hollow box", thickness, min(outer) / 2, "half the shortest edge")
+    inner = tuple(edge - 2 * t for edge in outer)
+    volume = _product_difference(outer, inner, t)
+    # ∫x² dV etc., each with its own axis' edge cubed
+    squares = [
+        _cubed_difference((outer[i], *_others(outer, i)), (inner[i], *_others(inner, i)), t) / 12
+        for i in range(3)
+    ]
+    m = _mass("hollow box", volume, mass, density)
+    x, y, z = (m * square / volume for square in squares)
+    return _diagonal(m, y + z, x + z, x + y)
+
+
+def hollow_cylinder(
+    radius: float,
+    length: float,
+    thickness: float,
+    *,
+    closed: bool = False,
+    mass: float | None = None,
+    density: float | None = None,
+) -> MassProperties:
+    """A tube of outer ``radius``, ``length`` and wall ``thickness`` [m] along Z.
+
+    Open at both ends, or ``closed`` by end plates of the wall's thickness within the length:
+    izz = m (r² + s²) / 2 for the open one, with s = r − t.
+    """
+    r, h = _sizes("hollow cylinder", radius=radius, length=length)
+    limit = min(r, h / 2) if closed else r
+    t = _wall("hollow cylinder", thickness, limit, "the radius" if limit == r else "half the length")
+    s = r - t
+    tube = h - 2 * t if closed else h
+    plates = 2 * t if closed else 0.0
+    # volumes per π
+    v_tube, v_plates = t * (r + s) * tube, r * r * plates
+    m = _mass("hollow cylinder", math.pi * (v_tube + v_plates), mass, density)
+    m_tube, m_plates = (m * volume / (v_tube + v_plates) for volume in (v_tube, v_plates))
+    along = m_tube * (r * r + s * s) / 2 + m_plates * r * r / 2
+    across = m_tube * (3 * (r * r + s * s) + tube * tube) / 12
+    if closed:
+        across += m_plates * ((3 * r * r + t * t) / 12 + ((h - t) / 2) ** 2)
+    return _diagonal(m, across, across, along)
+
+
+def hollow_sphere(
+    radius: float,
+    thickness: float,
+    *,
+    mass: float | None = None,
+    density: float | None = None,
+) -> MassProperties:
+    """A sphere of outer ``radius`` [m] with a wall of ``thickness`` [m], empty inside.
+
+    i = 2/5 m (r⁵ − s⁵) / (r³ − s³) with s = r − t, divided through by r − s.
+    """
+    (r,) = _sizes("hollow sphere", radius=radius)
+    t = _wall("hollow sphere", thickness, r, "the radius")
+    s = r - t
+    cubes = r * r + r * s + s * s
+    m = _mass("hollow sphere", 4 / 3 * math.pi * t * cubes, mass, density)
+    moment = 2 / 5 * m * (r**4 + r**3 * s + r * r * s * s + r * s**3 + s**4) / cubes
+    return _diagonal(m, moment, moment, moment)
+
+
+def _others(edges: Sequence[float], axis: int) -> tuple[float, float]:
+    return edges[(axis + 1) % 3], edges[(axis + 2) % 3]
+
+
+def _product_difference(outer: Sequence[float], inner: Sequence[float], t: float) -> float:
+    """Abc − a'b'c' as a sum of positive terms, for edges that differ by 2t each."""
+    a, b, c = outer
+    ai, bi, _ = inner
+    return 2 * t * (b * c + ai * c + ai * bi)
+
+
+def _cubed_difference(outer: Sequence[float], inner: Sequence[float], t: float) -> float:
+    """A³bc − a'³b'c' as a sum of positive terms, for edges that differ by 2t each."""
+    a, b, c = outer
+    ai, bi, _ = inner
+    return 2 * t * ((a * a + a * ai + ai * ai) * b * c + ai**3 * (c + bi))
+
+
+def _diagonal(
+    mass: float, ixx: float, iyy: float, izz: float, com: tuple[float, float, float] = (0, 0, 0)
+) -> MassProperties:
+    return MassProperties(mass, np.array(com, dtype=np.float64), np.diag([ixx, iyy, izz]))
+
+
+def _sizes(shape: str, **named: float | Sequence[float]) -> tuple[float, ...]:
+    """The sizes as floats.
+
+    Raises:
+        InertiaError: One is not a finite number above zero, or three were wanted.
+    """
+    sizes: list[float] = []
+    for name, given in named.items():
+        values = [float(v) for v in given] if isinstance(given, (Sequence, np.ndarray)) else [given]
+        if name in ("size", "radii") and len(values) != 3:
+            raise InertiaError(
+                f"a {shape} has a {name} of 3 numbers [m], along X, Y and Z; got {len(values)}"
+            )
+        for value in values:
+            if not (math.isfinite(value) and value > 0):
+                raise InertiaError(
+                    f"the {name} of a {shape} is {value:g} m; a finite length above zero is needed"
+                )
+        sizes.extend(float(value) for value in values)
+    return tuple(sizes)
+
+
+def _wall(shape: str, thickness: float, limit: float, limit_name: str) -> float:
+    (t,) = _sizes(shape, thickness=thickness)
+    if t > limit:
+        raise InertiaError(
+            f"the wall of a {shape} is {t:g} m thick; at most {limit_name}, {limit:g} m, fits"
+        )
+    return t
+
+
+def _mass(shape: str, volume: float, mass: float | None, density: float | None) -> float:
+    if (mass is None) == (density is None):
+        raise InertiaError(f"a {shape} needs either a mass [kg] or a density [kg/m³], not both")
+    name, given = ("mass", mass) if mass is not None else ("density", density)
+    assert given is not None
+    if not (math.isfinite(given) and given > 0):
+        raise InertiaError(f"the {name} of a {shape} is {given:g}; a number above zero is needed")
+    return float(given) if mass is not None else float(given) * volume

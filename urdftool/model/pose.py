@@ -1,0 +1,151 @@
+"""Poses in plain Python: the light half of the tool has no numpy.
+
+A rotation is a 3 × 3 matrix as a tuple of rows; a pose is ``(rotation, translation)`` [m] and maps
+a point of the child frame to the parent frame, ``R p + t``. ``rpy`` [rad] is URDF's: about the fixed
+axes x, y, z in that order, so ``R = Rz(yaw) Ry(pitch) Rx(roll)``.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from .elements import Origin, Vector
+
+Rotation = tuple[Vector, Vector, Vector]
+Quaternion = tuple[float, float, float, float]
+
+UPRIGHT: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+class Pose(NamedTuple):
+    """A rotation and a translation [m]."""
+
+    rotation: Rotation = UPRIGHT
+    translation: Vector = (0.0, 0.0, 0.0)
+
+    def __matmul__(self, other: Pose) -> Pose:
+        """The pose that maps by ``other`` first and by this one then."""
+        return Pose(
+            matrix_product(self.rotation, other.rotation), self.transform(other.translation)
+        )
+
+    def transform(self, point: Vector) -> Vector:
+        """A point of the child frame in the parent frame."""
+        return add(rotate(self.rotation, point), self.translation)
+
+    def inverse(self) -> Pose:
+        """The pose of the parent in the child's frame."""
+        turned = transpose(self.rotation)
+        x, y, z = rotate(turned, self.translation)
+        return Pose(turned, (-x, -y, -z))
+
+
+IDENTITY = Pose()
+
+
+def pose_of(origin: Origin | None) -> Pose:
+    """The pose an ``<origin>`` describes; the identity where there is none."""
+    if origin is None:
+        return IDENTITY
+    if origin.quaternion is not None:
+        x, y, z, w = origin.quaternion
+        return Pose(rotation_of_quaternion((w, x, y, z)), origin.xyz)
+    return Pose(rotation_of_rpy(origin.rpy), origin.xyz)
+
+
+def rotation_of_rpy(rpy: Vector) -> Rotation:
+    """``Rz(yaw) Ry(pitch) Rx(roll)``; exactly upright for zeros."""
+    roll, pitch, yaw = rpy
+    if roll == pitch == yaw == 0.0:
+        return UPRIGHT
+    sr, cr = math.sin(roll), math.cos(roll)
+    sp, cp = math.sin(pitch), math.cos(pitch)
+    sy, cy = math.sin(yaw), math.cos(yaw)
+    return (
+        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
+        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
+        (-sp, cp * sr, cp * cr),
+    )
+
+
+def quaternion_of_rpy(rpy: Vector) -> Quaternion:
+    """The unit quaternion ``(w, x, y, z)`` of URDF's rpy, by half angles."""
+    sr, cr = math.sin(rpy[0] / 2), math.cos(rpy[0] / 2)
+    sp, cp = math.sin(rpy[1] / 2), math.cos(rpy[1] / 2)
+    sy, cy = math.sin(rpy[2] / 2), math.cos(rpy[2] / 2)
+    return (
+        cr * cp * cy + sr * sp * sy,
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+    )
+
+
+def rotation_of_quaternion(quaternion: Quaternion) -> Rotation:
+    """The rotation of a quaternion ``(w, x, y, z)`` of any length but zero."""
+    norm = math.hypot(*quaternion)
+    if norm == 0.0:
+        return UPRIGHT
+    w, x, y, z = (part / norm for part in quaternion)
+    return (
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    )
+
+
+def rpy_of_rotation(rotation: Rotation) -> Vector:
+    """URDF's rpy of a rotation; at a pitch of ±90° the yaw is put to zero."""
+    (r00, r01, r02), (r10, r11, _), (r20, r21, r22) = rotation
+    pitch = math.atan2(-r20, math.hypot(r00, r10))
+    if math.hypot(r00, r10) < 1e-12:
+        sign = 1.0 if r20 < 0 else -1.0
+        return math.atan2(sign * r01, r11 if abs(r11) > 1e-15 or r02 == 0 else sign * r02), pitch, 0.0
+    return math.atan2(r21, r22), pitch, math.atan2(r10, r00)
+
+
+def matrix_product(a: Rotation, b: Rotation) -> Rotation:
+    """``a b``."""
+    if a is UPRIGHT:
+        return b
+    if b is UPRIGHT:
+        return a
+    columns = transpose(b)
+    return tuple(tuple(dot(row, column) for column in columns) for row in a)  # type: ignore[return-value]
+
+
+def transpose(a: Rotation) -> Rotation:
+    """The transpose, which of a rotation is the inverse."""
+    return a if a is UPRIGHT else tuple(zip(*a, strict=True))  # type: ignore[return-value]
+
+
+def rotate(rotation: Rotation, vector: Vector) -> Vector:
+    """``R v``."""
+    if rotation is UPRIGHT:
+        return vector
+    return dot(rotation[0], vector), dot(rotation[1], vector), dot(rotation[2], vector)
+
+
+def add(a: Vector, b: Vector) -> Vector:
+    """``a + b``."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+def dot(a: Vector, b: Vector) -> float:
+    """``a · b``."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def norm(a: Vector) -> float:
+    """``|a|``."""
+    return math.hypot(*a)
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """``a × b``."""
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
