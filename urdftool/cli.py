@@ -17,7 +17,7 @@ from . import __version__
 from .console import Console
 from .errors import UrdftoolError
 
-COMMANDS = ("expand", "lint")
+COMMANDS = ("expand", "lint", "export")
 
 REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"
 
