@@ -36,6 +36,7 @@ class UrdftoolError(Exception):
         column: Column in characters, from 1, if it is known.
         calls: The xacro calls and includes it came through, innermost first.
         notes: Further lines for whoever wants to know more, such as the places searched.
+        rule: The lint rule that says the same of a file that is linted, if there is one.
     """
 
     def __init__(
@@ -48,6 +49,7 @@ class UrdftoolError(Exception):
         at: Place | None = None,
         calls: Sequence[Call] = (),
         notes: Sequence[str] = (),
+        rule: str = "",
     ) -> None:
         """Take the facts; the text is made by ``str()``."""
         if at is not None:
@@ -61,6 +63,8 @@ class UrdftoolError(Exception):
         self.column = column
         self.calls = tuple(calls)
         self.notes = tuple(notes)
+        self.at = at
+        self.rule = rule
 
     @property
     def where(self) -> str:

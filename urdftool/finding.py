@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import IntEnum
 
-from .source.location import Place
+from .source.location import Call, Place
 
 
 class Severity(IntEnum):
@@ -39,8 +39,8 @@ class Finding:
         targets: The targets it matters for; empty means every reader.
         effects: What a reader does with the defect, by target.
         hint: What would mend it, in a sentence; empty where the message says it.
-        others: Names of further things with the same defect from the same place: the instances of
-            one macro are one finding.
+        others: The instances of one macro are one finding; these are the names of the others and
+            the calls they came through.
         expansions: How many instances there are.
     """
 
@@ -53,7 +53,7 @@ class Finding:
     targets: tuple[str, ...] = ()
     effects: dict[str, str] = field(default_factory=dict)
     hint: str = ""
-    others: list[str] = field(default_factory=list)
+    others: list[tuple[str, tuple[Call, ...]]] = field(default_factory=list)
     expansions: int = 1
 
     def __str__(self) -> str:

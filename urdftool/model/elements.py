@@ -8,16 +8,16 @@ family say so). Nothing here is changed after reading.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Union
 
 from ..source.document import Element
 from ..source.location import Place
 
 if TYPE_CHECKING:
+    from ..source.description import Description
     from .tree import KinematicTree
 
 Vector = tuple[float, float, float]
@@ -382,7 +382,7 @@ class Robot(Part):
         joints: In the order of the file.
         materials: Those at the top level.
         gazebo: All ``<gazebo>`` blocks.
-        resolve: Finds the file of a URI of this robot (``package://…``, a relative path).
+        source: The description it was read from; None for a robot made of a bare element.
     """
 
     name: str = ""
@@ -393,7 +393,7 @@ class Robot(Part):
     transmissions: list[Transmission] = field(default_factory=list)
     gazebo: list[GazeboExtension] = field(default_factory=list)
     ros2_controls: list[Ros2Control] = field(default_factory=list)
-    resolve: Callable[[str, Element], Path] | None = field(default=None, repr=False)
+    source: Description | None = field(default=None, repr=False)
 
     @cached_property
     def link(self) -> dict[str, Link]:

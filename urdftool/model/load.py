@@ -24,7 +24,7 @@ def robot_of(description: Description) -> Robot:
             at=root.place,
         )
     robot = read_robot(root)
-    robot.resolve = description.resolve
+    robot.source = description
     return robot
 
 

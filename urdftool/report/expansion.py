@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches, unified_diff
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..source.document import Element, parse, read_file
-from ..source.expand import Expansion
 from ..source.location import Call
+
+if TYPE_CHECKING:
+    from ..source.expand import Expansion
 
 
 def files_read(expansion: Expansion) -> list[str]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .document import STDIN, Document, Element, parse, read_file
+from .document import STDIN, Document, parse, read_file
 from .location import SourceFile
 from .packages import Packages
 
@@ -35,8 +35,8 @@ class Description:
     arguments: dict[str, str] = field(default_factory=dict)
     expansion: Expansion | None = None
 
-    def resolve(self, uri: str, element: Element) -> Path:
-        """The file that a URI written at an element means; as :meth:`Packages.resolve`.
+    def resolve(self, uri: str) -> Path:
+        """The file that a URI or path in it means; as :meth:`Packages.resolve`.
 
         A relative path is relative to the description, as its readers take it, whichever of its
         xacro files it is written in.

@@ -242,9 +242,11 @@ def run_parser(parser: Any, file: SourceFile) -> None:
         parser.Parse(_as_expat_reads(file), True)
     except expat.ExpatError as error:
         offset = min(parser.ErrorByteIndex, len(file.data))
-        line, column = file.position(max(offset, 0))
+        message, rule = _explain(file, error, offset)
         raise XmlError(
-            _explain(file, error, offset), path=file.path, line=line, column=column
+            message,
+            at=Place(file, max(offset, 0), max(offset, 0)),
+            rule=rule,
         ) from None
     except (LookupError, UnicodeDecodeError, ValueError) as error:
         raise XmlError(
@@ -279,35 +281,66 @@ def _as_expat_reads(file: SourceFile) -> bytes:
     return file.data
 
 
-def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> str:
-    """Why expat refused the text, and what would be right, in a sentence."""
+def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[str, str]:
+    """Why expat refused the text and what would be right, in a sentence; and the rule for it."""
     data = file.data
     reason = expat.ErrorString(error.code) or str(error)
-    if error.code == 3 and not data[:offset].strip():
-        reason = "no element found"
+    closing = data[offset : data.find(b">", offset)].decode(file.encoding, "replace").strip("</ ")
     if data.startswith(b"version https://git-lfs"):
-        return "is a git-lfs pointer, not the file itself; run 'git lfs pull'"
+        return "is a git-lfs pointer, not the file itself; run 'git lfs pull'", "not-well-formed"
     if b"<" not in data[:4096] and offset < 4096:
-        return "is not XML; a file that starts with <robot> is wanted"
-    if (at := data.find(b"<?xml")) > 0 and data[:at].strip(b"\xef\xbb\xbf") and offset <= at + 5:
+        return "is not XML; a file that starts with <robot> is wanted", "not-well-formed"
+    if (at := data.find(b"<?xml")) > 0 and offset <= at + 5:
         return (
-            "text stands before the <?xml …?> declaration, which must be the very first; "
-            "move the declaration to the start of the file"
+            "something stands before the <?xml …?> declaration, which must be the very first; "
+            "move the declaration to the start of the file",
+            "content-before-declaration",
         )
     if data.startswith((b"<?xml", b"\xef\xbb\xbf<?xml")) and offset <= data.find(b"?>"):
-        return f'the XML declaration is wrong ({reason}); <?xml version="1.0"?> is right'
-    before = data.rfind(b"<!--", 0, offset + 4)
-    if before >= 0 and data.find(b"-->", before) >= offset - 3 and reason.startswith("not well"):
-        return "a comment holds '--', which XML does not allow; write '- -' or '-'"
-    if reason == "mismatched tag":
-        closing = data[offset : data.find(b">", offset)].decode(file.encoding, "replace")
-        return f"mismatched tag: </{closing.strip('</ ')}> closes an element that is not open here"
-    if reason == "no element found" and data[:offset].strip():
-        return "the file ends before its elements are closed; it looks truncated"
-    if reason == "unclosed token":
-        return "the file ends within a tag; it looks truncated"
-    if reason == "junk after document element":
-        return "text follows the closing tag of the root element; one root element is wanted"
-    if reason == "undefined entity":
-        return "an entity that XML does not define (only &lt; &gt; &amp; &quot; &apos; exist)"
-    return f"not well-formed XML: {reason}"
+        reason = f'the XML declaration is wrong ({reason}); <?xml version="1.0"?> is right'
+    elif _in_comment(data, offset):
+        reason = "a comment holds '--', which XML does not allow; write '- -' or '-'"
+    else:
+        reason = {
+            "mismatched tag": f"</{closing}> closes an element that is not the one open here",
+            "unbound prefix": "a prefix is used that is not declared; for xacro that is "
+            'xmlns:xacro="http://www.ros.org/wiki/xacro" on <robot>',
+            "no element found": "the file ends before its elements are closed; is it truncated?",
+            "unclosed token": "the file ends within a tag; is it truncated?",
+            "junk after document element": "something follows the end of the root element; "
+            "one root element is wanted",
+            "undefined entity": "there is no such entity; XML has &lt; &gt; &amp; &quot; &apos;",
+            "duplicate attribute": "an attribute stands twice in this tag",
+        }.get(reason, f"not well-formed XML ({reason})")
+    rule = "missing-xmlns" if error.code == _UNBOUND_PREFIX else "not-well-formed"
+    return reason, rule
+
+
+_UNBOUND_PREFIX = 27
+
+
+def _in_comment(data: bytes, offset: int) -> bool:
+    before = data.rfind(b"<!--", 0, offset + 1)
+    return before >= 0 and b"-->" not in data[before:offset] and b"--" in data[before + 4 :]
+
+
+def mend(file: SourceFile) -> SourceFile | None:
+    """A file that lax readers take, made readable without moving a byte; None if it cannot be.
+
+    What TinyXML passes over is blanked: a wrong or late ``<?xml …?>`` and ``--`` in comments. It is
+    for looking further at a file that has been found not well-formed.
+    """
+    data = bytearray(file.data)
+    at = data.find(b"<?xml")
+    end = data.find(b"?>", at)
+    if 0 <= at < end:
+        data[at : end + 2] = b" " * (end + 2 - at)
+    at = data.find(b"<!--")
+    while at >= 0:
+        end = data.find(b"-->", at + 4)
+        if end < 0:
+            return None
+        inner = bytes(data[at + 4 : end]).replace(b"--", b"  ")
+        data[at + 4 : end] = inner.removesuffix(b"-") + b" " if inner.endswith(b"-") else inner
+        at = data.find(b"<!--", end)
+    return None if data == file.data else SourceFile(file.path, bytes(data), file.encoding)

@@ -208,7 +208,8 @@ class _Run:
         if len(xacro.filestack) > MAX_INCLUDES:
             raise XacroError(
                 f"includes are nested more than {MAX_INCLUDES} deep; a file includes itself",
-                at=self.place,
+                at=self.place._replace(calls=self.place.calls[:3]) if self.place else None,
+                rule="endless-expansion",
             )
         file = self.result.files.get(path)
         if file is None:
@@ -260,6 +261,7 @@ class _Run:
                 raise XacroError(
                     f"expands to more than {MAX_ELEMENTS} elements; a macro multiplies itself",
                     at=node.place._replace(calls=node.calls[:3]),
+                    rule="endless-expansion",
                 )
             wrapped(node, macros, symbols)
 
@@ -313,6 +315,7 @@ class _Run:
                     f"macro '{tag[6:]}' calls itself without end "
                     f"(more than {MAX_CALLS} calls deep)",
                     at=node.place._replace(calls=node.calls[:3]),
+                    rule="endless-expansion",
                 )
             before, self.node = self.node, node
             calls = self.instances.calls

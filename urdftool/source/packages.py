@@ -161,6 +161,7 @@ class Packages:
             f"package '{name}' is not found; say where it is with --package {name}=DIR "
             "or --package-path DIR",
             notes=[f"searched {said}" for said in searched],
+            rule="package-not-found",
         )
 
     def _candidates(self, name: str) -> Iterator[tuple[str, Path | None]]:

@@ -35,15 +35,16 @@ def explain(
         if isinstance(cause, UrdftoolError) and cause.line is None and node is not None:
             at = _place(node, failed_text)
             if cause.path is not None:  # a file that could not be read, named where it is wanted
-                return XacroError(f"{cause.path}: {cause.message}", at=at, notes=cause.notes)
-            return type(cause)(cause.message, at=at, notes=cause.notes)
+                message = f"{cause.path}: {cause.message}"
+                return XacroError(message, at=at, notes=cause.notes, rule="include-not-found")
+            return type(cause)(cause.message, at=at, notes=cause.notes, rule=cause.rule)
         if isinstance(cause, UrdftoolError):
             return cause
     at = None if node is None else _place(node, failed_text)
-    message = _sentence(error, node, failed_text, result)
+    rule, message = _sentence(error, node, failed_text, result)
     if at is None:
-        return XacroError(message, path=result.file.path)
-    return XacroError(message, at=at)
+        return XacroError(message, path=result.file.path, rule=rule)
+    return XacroError(message, at=at, rule=rule)
 
 
 def _causes(error: BaseException) -> list[BaseException]:
@@ -71,45 +72,55 @@ def _place(node: XacroElement, failed_text: str | None) -> Place:
 
 def _sentence(
     error: Exception, node: XacroElement | None, failed_text: str | None, result: Expansion
-) -> str:
+) -> tuple[str, str]:
+    """The rule it is a case of, and the sentence."""
     text = " ".join(str(error).split()) or type(error).__name__
-    if isinstance(error, RecursionError):
-        return "the expansion does not end: a macro or property uses itself"
+    macro = node.tagName[6:] if node is not None else "?"
+    if isinstance(error, RecursionError) or isinstance(error.__cause__, RecursionError):
+        return "endless-expansion", "the expansion does not end: a macro or property uses itself"
     if match := _UNKNOWN_MACRO.search(text):
-        return f"unknown macro '{match[1]}'{_nearest(match[1], _macros(result))}"
+        hint = _nearest(match[1], _macros(result))
+        return "unknown-macro", f"unknown macro '{match[1]}'{hint}"
     if match := _UNDEFINED.search(text):
-        name = match[1]
-        return f"'{name}' is not defined{_in_expression(failed_text)}{_nearest(name, _known(result))}"
+        hint = _in_expression(failed_text) + _nearest(match[1], _known(result))
+        return "undefined-name", f"'{match[1]}' is not defined{hint}"
     if match := _NO_ARGUMENT.search(text):
         name = match[1]
         known = ", ".join(result.arguments) or "none"
-        return (
+        return "undeclared-arg", (
             f"the argument '{name}' has no value and no <xacro:arg> before it declares it; "
             f"give {name}:=VALUE, or declare it with a default "
             f"(declared: {known}){_nearest(name, set(result.given), 'was it meant by')}"
         )
     if match := _NO_PARAMETERS.search(text):
-        macro = node.tagName[6:] if node is not None else "?"
         missing = ", ".join(f"'{name}'" for name in match[1].split(","))
-        return f"macro '{macro}' is called without {missing}, which has no default"
+        return (
+            "macro-arguments-mismatch",
+            f"macro '{macro}' is called without {missing}, which has no default",
+        )
     if match := _ODD_PARAMETER.search(text):
-        macro = node.tagName[6:] if node is not None else "?"
-        return f"macro '{macro}' has no parameter '{match[1]}'"
+        return "macro-arguments-mismatch", f"macro '{macro}' has no parameter '{match[1]}'"
     if match := _NO_ATTRIBUTE.search(text):
-        return f"<{match[1]}> lacks the attribute '{match[2]}'"
+        return "expansion-failed", f"<{match[1]}> lacks the attribute '{match[2]}'"
+    if "circular variable definition" in text:
+        return "circular-property", text.split(" Consider ")[0]
     if "no attribute '_setitem'" in text:
-        return "a property with scope 'parent' has no parent here; it stands at the global scope"
+        return (
+            "expansion-failed",
+            "a property with scope 'parent' has no parent here; it stands at the global scope",
+        )
     for cause in _causes(error):
         if isinstance(cause, OSError) and cause.filename:
-            return f"{cause.filename}: {(cause.strerror or 'cannot be read').lower()}"
+            reason = (cause.strerror or "cannot be read").lower()
+            return "include-not-found", f"{cause.filename}: {reason}"
         if type(cause).__module__.startswith("yaml"):
             mark = getattr(cause, "problem_mark", None)
             problem = getattr(cause, "problem", None) or "not valid YAML"
             where = f"{mark.name}:{mark.line + 1}:{mark.column + 1}: " if mark else ""
-            return f"{where}not valid YAML: {problem}"
+            return "expansion-failed", f"{where}not valid YAML: {problem}"
     text = re.sub(r"\s*when evaluating expression '(?:.*)'$", "", text)
     text = re.sub(r"^<class '[\w.]+'>: ", "", text)
-    return f"{text}{_in_expression(failed_text)}"
+    return "expansion-failed", f"{text}{_in_expression(failed_text)}"
 
 
 def _in_expression(failed_text: str | None) -> str:

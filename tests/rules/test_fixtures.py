@@ -1,0 +1,90 @@
+"""Every rule against its fixtures, which are also the examples of its page.
+
+``fixtures/rules/RULE/bad*.urdf[.xacro]`` is a small whole robot with that fault. Each line where a
+finding is expected ends in a comment that names the rules found there: ``<!-- zero-axis -->``, or
+``<!-- zero-mass massless-moving-body -->``. Where a comment cannot stand (a file that is not
+well-formed, a line inside a tag), ``bad.expected`` beside it has lines such as ``3 not-well-formed``
+and the comments do not count. ``good*.urdf`` is the same robot without the fault, and silent.
+``urdftool.toml`` beside them sets targets where the rule needs one.
+"""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from urdftool.lint.run import Options, lint_file
+from urdftool.lint.settings import Settings
+from urdftool.rules import FAMILY_OF, RULES, get_rule
+from urdftool.rules.rule import Rule
+
+FIXTURES = Path(__file__).parents[2] / "fixtures" / "rules"
+
+BAD = sorted(FIXTURES.glob("*/bad*.urdf*"))
+GOOD = sorted(FIXTURES.glob("*/good*.urdf*"))
+
+
+def _name(path):
+    return f"{path.parent.name}/{path.name}"
+
+
+def _findings(path):
+    options = Options(Settings(extend_select=(path.parent.name,)))
+    report = lint_file(path, options)
+    assert report.error is None
+    assert not report.failed_rules
+    return report.findings
+
+
+def _expected(path):
+    beside = path.parent / (path.name.split(".")[0] + ".expected")
+    if beside.exists():
+        lines = (line.split() for line in beside.read_text().splitlines() if line.strip())
+        return sorted((path.name, int(line[0]), rule) for line in lines for rule in line[1:])
+    marks = []
+    for file in sorted(path.parent.glob("*")):
+        if file != path and (file.name.startswith(("bad", "good")) or file.suffix == ".toml"):
+            continue
+        if file.suffix not in (".urdf", ".xacro"):
+            continue
+        for number, line in enumerate(file.read_text("utf-8").splitlines(), 1):
+            for comment in re.findall(r"<!--\s([a-z0-9 -]+)\s-->", line):
+                words = comment.split()
+                if all(word in FAMILY_OF for word in words):
+                    marks += [(file.name, number, word) for word in words]
+    return sorted(marks)
+
+
+@pytest.mark.parametrize("path", BAD, ids=_name)
+def test_bad_is_found_on_its_lines_and_nothing_else(path):
+    found = sorted((Path(f.place.path).name, f.place.line, f.rule) for f in _findings(path))
+    assert found == _expected(path)
+    assert path.parent.name in {rule for _, _, rule in found}
+
+
+@pytest.mark.parametrize("path", GOOD, ids=_name)
+def test_good_is_silent(path):
+    assert [str(finding) for finding in _findings(path)] == []
+
+
+@pytest.mark.parametrize("name", FAMILY_OF)
+def test_rule_is_complete(name):
+    rule = get_rule(name)
+    assert isinstance(rule, Rule)
+    assert rule.name == name
+    assert rule.family == FAMILY_OF[name]
+    first, _, rest = (rule.check.__doc__ or "").partition("\n")
+    assert first.strip().endswith("."), "the first line is a fact, a sentence"
+    assert rest.strip(), "why it hurts"
+    folder = FIXTURES / name
+    assert list(folder.glob("bad*.urdf*")), f"{folder} has no bad fixture"
+    assert list(folder.glob("good*.urdf*")), f"{folder} has no good fixture"
+
+
+def test_no_fixture_without_a_rule():
+    assert {path.name for path in FIXTURES.iterdir()} == set(FAMILY_OF)
+
+
+def test_no_name_twice():
+    names = [n for files in RULES.values() for group in files.values() for n in group]
+    assert len(names) == len(set(names))

@@ -1,0 +1,169 @@
+"""``urdftool lint``: what is wrong with a robot, at the line that is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from ..console import Console
+from .options import package_options, split_arguments
+
+FORMATS = ("full", "concise", "json")
+LEVELS = ("error", "warning", "info")
+
+
+@click.command("lint")
+@click.argument("words", nargs=-1, metavar="PATH... [name:=value ...]")
+@click.option("--select", multiple=True, metavar="RULES", help="Only these rules.")
+@click.option("--extend-select", multiple=True, metavar="RULES", help="These rules as well.")
+@click.option("--ignore", multiple=True, metavar="RULES", help="Not these rules.")
+@click.option(
+    "--target",
+    multiple=True,
+    metavar="TARGET",
+    help="What the robot is for: ros1, ros2, gazebo-classic, gz, mujoco, pybullet, moveit. "
+    "Repeatable; without it, what the file shows.",
+)
+@click.option(
+    "--format", "style", type=click.Choice(FORMATS), default="full", help="How findings are shown."
+)
+@click.option("--output-file", metavar="FILE", help="Write the findings there, not to stdout.")
+@click.option("--statistics", is_flag=True, help="Count findings by rule instead of showing them.")
+@click.option("--exit-zero", is_flag=True, help="Exit 0 even if there are findings.")
+@click.option(
+    "--fail-on",
+    type=click.Choice(LEVELS),
+    default="warning",
+    show_default=True,
+    help="Exit 1 from this severity on.",
+)
+@click.option("-j", "--jobs", type=click.IntRange(1), metavar="N", help="Processes to use.")
+@click.option("--explain", metavar="RULE", help="Show a rule's page and stop.")
+@click.option("--list-rules", is_flag=True, help="List all rules and stop.")
+@package_options
+@click.pass_obj
+def command(
+    console: Console,
+    words: tuple[str, ...],
+    select: tuple[str, ...],
+    extend_select: tuple[str, ...],
+    ignore: tuple[str, ...],
+    target: tuple[str, ...],
+    style: str,
+    output_file: str | None,
+    statistics: bool,
+    exit_zero: bool,
+    fail_on: str,
+    jobs: int | None,
+    explain: str | None,
+    list_rules: bool,
+    package: dict[str, Path],
+    package_path: tuple[str, ...],
+) -> int:
+    """Find what is wrong with robots, and point at the line that is.
+
+    PATH is a .urdf or .xacro file, a folder to search for .urdf and .urdf.xacro files, or '-'.
+    RULES are rule names, prefixes such as 'mesh-*' and families such as 'inertia', separated by
+    commas. A comment <!-- urdftool-ignore[RULE] reason --> silences a rule for its own line or the
+    next element.
+
+    \b
+        urdftool lint arm.urdf.xacro prefix:=left_
+        urdftool lint src/ --target gz --format concise
+        urdftool lint --explain zero-axis
+
+    Exit 1 if there are findings of --fail-on or above, 2 if a file cannot be read.
+    """
+    from ..lint.discover import find_descriptions
+    from ..lint.parallel import lint_files
+    from ..lint.run import Options
+    from ..lint.settings import Settings, check_selectors, check_targets
+
+    if explain or list_rules:
+        return _show_rules(explain)
+    paths, arguments = split_arguments(words)
+    if not paths:
+        raise click.UsageError("a file or folder is wanted")
+    files = find_descriptions(paths)
+    if not files:
+        raise click.UsageError(f"no .urdf or .urdf.xacro below {', '.join(paths)}")
+    settings = Settings(
+        select=check_selectors(select) if select else None,
+        extend_select=check_selectors(extend_select),
+        ignore=check_selectors(ignore),
+        targets=check_targets(target),
+    )
+    options = Options(settings, arguments, package, package_path, console.config)
+    reports = list(lint_files(files, options, jobs))
+    return _report(console, reports, style, output_file, statistics, exit_zero, fail_on)
+
+
+def _report(
+    console: Console,
+    reports: list,  # type: ignore[type-arg]
+    style: str,
+    output_file: str | None,
+    statistics: bool,
+    exit_zero: bool,
+    fail_on: str,
+) -> int:
+    from ..finding import Severity
+    from ..lint.run import in_order, merge
+    from ..output import write_result
+    from ..report import findings as text
+
+    findings = in_order(merge(f for report in reports for f in report.findings))
+    to_file = output_file not in (None, "-")
+    colors = console.colors(to_file=to_file)
+    if statistics:
+        lines = text.statistics(findings)
+    elif style == "json":
+        from ..report.findings_json import to_json
+
+        lines = iter([to_json(reports, findings).rstrip("\n")])
+    else:
+        lines = (text.full if style == "full" else text.concise)(findings, colors=colors)
+    inputs = [report.path for report in reports if report.path != "-"] if to_file else []
+    write_result("".join(f"{line}\n" for line in lines), output_file, inputs=inputs)
+    broken = _say_the_rest(console, reports)
+    checked = [report for report in reports if not report.skipped and report.error is None]
+    targets = {name for report in checked for name in report.targets}
+    hidden = sum(report.suppressed for report in reports)
+    console.note(text.summary(findings, len(checked), targets, hidden))
+    if broken:
+        return broken
+    worst = max((f.severity for f in findings), default=None)
+    failed = worst is not None and worst >= Severity[fail_on.upper()]
+    return int(failed and not exit_zero)
+
+
+def _say_the_rest(console: Console, reports: list) -> int:  # type: ignore[type-arg]
+    """Skipped files, unreadable ones, and rules that broke; the exit code these ask for."""
+    from .. import __version__
+    from ..cli import REPORT_BUGS
+
+    code = 0
+    for report in reports:
+        if report.skipped:
+            console.note(f"{report.path}: skipped, {report.skipped}", level=1)
+        if report.error is not None:
+            console.error(report.error)
+            code = max(code, 2)
+        for rule, reason in report.failed_rules.items():
+            console.say(
+                f"{report.path}: the rule {rule} broke, which is a bug in urdftool {__version__} "
+                f"({reason}); the others have run. Please report it at {REPORT_BUGS}"
+            )
+            code = 3
+    return code
+
+
+def _show_rules(explain: str | None) -> int:
+    from ..report import rule_pages
+
+    if explain is None:
+        click.echo(rule_pages.rule_list(), nl=False)
+    else:
+        click.echo(rule_pages.page(explain), nl=False)
+    return 0

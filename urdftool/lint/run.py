@@ -1,0 +1,306 @@
+"""Check a description: findings in the order of the source."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from ..configuration import Configuration, find_configuration
+from ..errors import ConfigError, SourceError, UrdftoolError
+from ..finding import Finding, Severity
+from ..model.elements import Robot
+from ..model.read import read_robot
+from ..rules.rule import Problem, Rule
+from ..source.description import Description, is_xacro, read_description
+from ..source.document import Document, mend, parse, read_file
+from ..source.location import Place, SourceFile
+from .settings import Settings, check_selectors, check_targets, settings_for
+from .suppress import read_suppressions, suppress, unused
+from .targets import infer_targets
+
+
+@dataclass
+class Options:
+    """What the command line says for every file.
+
+    Attributes:
+        settings: Rules, targets, severities.
+        arguments: xacro arguments.
+        packages: Folders by package name.
+        package_paths: Folders with packages below.
+        config: A configuration file that was named.
+    """
+
+    settings: Settings = field(default_factory=Settings)
+    arguments: Mapping[str, str] = field(default_factory=dict)
+    packages: Mapping[str, str | Path] = field(default_factory=dict)
+    package_paths: Iterable[str | Path] = ()
+    config: str | None = None
+
+
+@dataclass
+class Report:
+    """What there is to say of one description.
+
+    Attributes:
+        path: The description.
+        findings: What is wrong with it.
+        targets: The targets it was checked for.
+        suppressed: How many findings comments cover.
+        skipped: Why it was not checked; empty if it was.
+        error: What kept it from being read.
+        failed_rules: Rules that broke, which is a bug of ours, with what they raised.
+    """
+
+    path: str
+    findings: list[Finding] = field(default_factory=list)
+    targets: frozenset[str] = frozenset()
+    suppressed: int = 0
+    skipped: str = ""
+    error: UrdftoolError | None = None
+    failed_rules: dict[str, str] = field(default_factory=dict)
+
+
+def check(
+    robot: Robot | str | Path,
+    *,
+    args: Mapping[str, str] | None = None,
+    packages: Mapping[str, str | Path] | None = None,
+    package_paths: Iterable[str | Path] = (),
+    select: Iterable[str] | None = None,
+    ignore: Iterable[str] = (),
+    targets: Iterable[str] = (),
+    config: str | None = None,
+) -> list[Finding]:
+    """What is wrong with a robot.
+
+    Args:
+        robot: A robot from :func:`urdftool.load`, or the path of a description. A path is more:
+            a file that is not well-formed or cannot be expanded is a finding too.
+        args: Values for xacro arguments, for a path.
+        packages: Folders of ROS packages by name, for a path.
+        package_paths: Folders with ROS packages below, for a path.
+        select: Rule names, prefixes with ``*`` and families; None is what is on by default.
+        ignore: The same, taken away.
+        targets: Simulators and middlewares; none means that they are inferred.
+        config: A configuration file, instead of the nearest above the description.
+
+    Raises:
+        SourceError: The file cannot be read.
+        ConfigError: A rule, target or option is not known.
+    """
+    line = Settings(
+        select=None if select is None else check_selectors(select),
+        ignore=check_selectors(ignore),
+        targets=check_targets(targets),
+    )
+    if isinstance(robot, Robot):
+        if robot.source is None:
+            raise ConfigError("the robot was not read from a description; use urdftool.load")
+        configuration = find_configuration(robot.source.path, config)
+        settings = settings_for(robot.source.path, configuration, line)
+        report = Report(robot.source.path)
+        _check_description(robot.source, robot, settings, report, [])
+    else:
+        options = Options(line, args or {}, packages or {}, tuple(package_paths), config)
+        report = lint_file(robot, options)
+        if report.error is not None:
+            raise report.error
+    return report.findings
+
+
+def lint_file(path: str | Path, options: Options) -> Report:
+    """Check one description; whatever is wrong with it is in the report.
+
+    Raises:
+        ConfigError: The configuration is wrong.
+    """
+    report = Report(str(path))
+    configuration = find_configuration(path, options.config)
+    settings = settings_for(path, configuration, options.settings)
+    try:
+        file = read_file(path)
+    except SourceError as error:
+        report.error = error
+        return report
+    failures: list[UrdftoolError] = []
+    try:
+        description: Description | None = _read(file, options, configuration)
+    except SourceError as error:
+        failures.append(error)
+        description = _read_mended(file, options, configuration)
+    robot = None
+    if description is not None:
+        root = description.document.root
+        if description.expansion is not None and not (root.child("link") or root.child("joint")):
+            report.skipped = "only macros: it has no link of its own"
+            return report
+        if root.tag == "robot":
+            robot = read_robot(root)
+            robot.source = description
+    _check_description(description or _unexpanded(file, failures), robot, settings, report, failures)
+    return report
+
+
+def _read(file: SourceFile, options: Options, configuration: Configuration) -> Description:
+    return read_description(
+        file.path if file.path != "<stdin>" else "-",
+        options.arguments,
+        packages=options.packages,
+        package_paths=options.package_paths,
+        configured=configuration.packages,
+        file=file,
+    )
+
+
+def _read_mended(
+    file: SourceFile, options: Options, configuration: Configuration
+) -> Description | None:
+    """What lax readers see of a file that is not well-formed, so that the rest of it is checked."""
+    mended = None if is_xacro(file) else mend(file)
+    if mended is None:
+        return None
+    try:
+        return _read(mended, options, configuration)
+    except SourceError:
+        return None
+
+
+def _unexpanded(file: SourceFile, failures: list[UrdftoolError]) -> Description:
+    """A description whose robot is not known: its source alone."""
+    from ..source.document import Element
+    from ..source.packages import Packages
+
+    files = [file]
+    for failure in failures:
+        if failure.at is not None:
+            files += [failure.at.file, *(call.file for call in failure.at.calls)]
+    unique = list({f.path: f for f in files}.values())
+    return Description(file.path, Document(file, Element("", {}, None, file, 0), []), unique, Packages())
+
+
+def _check_description(
+    description: Description,
+    robot: Robot | None,
+    settings: Settings,
+    report: Report,
+    failures: list[UrdftoolError],
+) -> None:
+    if settings.targets is not None:
+        targets = settings.targets
+    elif robot is not None:
+        targets = infer_targets(robot, description)
+    else:
+        targets = frozenset()
+    report.targets = targets
+    rules = settings.rules(targets)
+    documents = list(_documents(description))
+    findings = [_of_failure(failure, settings) for failure in failures]
+    subjects: dict[str, Any] = {
+        "robot": robot,
+        "description": description,
+        "targets": targets,
+    }
+    ran: set[str] = set()
+    for rule in rules:
+        if "robot" in rule.needs and robot is None:
+            continue
+        ran.add(rule.name)
+        for document in documents if "document" in rule.needs else [None]:
+            subjects["document"] = document
+            findings.extend(_run(rule, subjects, settings, targets, report))
+    comments = [document for document in documents if document.comments]
+    if comments:
+        suppressions, wrong = read_suppressions(comments)
+        findings, report.suppressed = suppress(findings, suppressions)
+        stale = unused(suppressions, ran) if robot is not None else ()
+        findings += [f for f in (*wrong, *stale) if f.rule in {r.name for r in rules}]
+    report.findings = in_order(merge(findings))
+
+
+def _documents(description: Description) -> Iterator[Document]:
+    """Each file of the source, unexpanded; those that are not well-formed are left out."""
+    if description.expansion is None and description.document.root.tag:
+        yield description.document
+        return
+    for file in description.files:
+        try:
+            yield parse(file)
+        except SourceError:
+            continue
+
+
+def _of_failure(failure: UrdftoolError, settings: Settings) -> Finding:
+    """What kept the description from being read, as a finding."""
+    place = failure.at or Place(SourceFile(failure.path or "", b""), 0, 0)
+    name = failure.rule or "not-well-formed"
+    severity = Severity.WARNING if name == "package-not-found" else Severity.ERROR
+    return Finding(
+        name,
+        settings.severity.get(name) or severity,
+        failure.message,
+        place,
+        "file",
+        hint="; ".join(failure.notes),
+    )
+
+
+def _run(
+    rule: Rule,
+    subjects: Mapping[str, Any],
+    settings: Settings,
+    targets: frozenset[str],
+    report: Report,
+) -> Iterator[Finding]:
+    arguments = [subjects[name] for name in rule.needs]
+    thresholds = settings.thresholds.get(rule.name, {})
+    try:
+        for problem in rule.check(*arguments, **thresholds):
+            yield _finding(rule, problem, settings, targets)
+    except Exception as error:
+        report.failed_rules[rule.name] = f"{type(error).__name__}: {error}"
+
+
+def _finding(
+    rule: Rule, problem: Problem, settings: Settings, targets: frozenset[str]
+) -> Finding:
+    severity = settings.severity.get(rule.name)
+    if severity is None:
+        severity = problem.severity or rule.severity_for(targets)
+    concerned = targets if rule.on is None else targets.intersection(rule.on)
+    return Finding(
+        rule.name,
+        severity,
+        problem.message,
+        problem.place,
+        problem.kind,
+        problem.name,
+        tuple(sorted(concerned)) if rule.on is not None else (),
+        dict(rule.effects),
+        problem.hint,
+    )
+
+
+def merge(findings: Iterable[Finding]) -> list[Finding]:
+    """Findings with the instances of one macro as one, in the order they came."""
+    merged: dict[tuple[Any, ...], Finding] = {}
+    for finding in findings:
+        place = finding.place
+        key: tuple[Any, ...] = (finding.rule, place.file.path, place.start, place.end)
+        if not place.calls:
+            key += (finding.message,)
+        first = merged.get(key)
+        if first is None:
+            merged[key] = replace(finding, others=list(finding.others))
+        elif place.calls and place.calls != first.place.calls:
+            first.expansions += finding.expansions
+            first.severity = max(first.severity, finding.severity)
+            first.others += [(finding.name, place.calls), *finding.others]
+    return list(merged.values())
+
+
+def in_order(findings: Iterable[Finding]) -> list[Finding]:
+    """Findings by file, place and rule."""
+    return sorted(findings, key=lambda f: (f.place.file.path, f.place.start, f.rule))

@@ -1,0 +1,209 @@
+"""What to look for in a file: the command line over the configuration over the defaults."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
+from fnmatch import fnmatch
+from pathlib import Path
+from typing import Any
+
+from ..configuration import Configuration
+from ..errors import ConfigError
+from ..finding import Severity
+from ..rules import FAMILIES, FAMILY_OF, get_rule
+from ..rules.rule import TARGETS, Rule
+
+_LISTS = ("select", "ignore", "extend-select", "targets")
+_KEYS = (*_LISTS, "severity", "per-file-ignores")
+_LEVELS = ("off", "info", "warning", "error")
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Choices for one file.
+
+    Attributes:
+        select: Rule names, prefixes with ``*`` and families; None is what is on by default.
+        extend_select: The same, on top.
+        ignore: The same, taken away.
+        targets: The active targets; None means that they are inferred from the file.
+        severity: Severity by rule name, instead of the rule's; None turns it off.
+        thresholds: Thresholds by rule name.
+    """
+
+    select: tuple[str, ...] | None = None
+    extend_select: tuple[str, ...] = ()
+    ignore: tuple[str, ...] = ()
+    targets: frozenset[str] | None = None
+    severity: Mapping[str, Severity | None] = field(default_factory=dict)
+    thresholds: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+    def rules(self, targets: frozenset[str]) -> list[Rule]:
+        """The rules that are to run for a set of targets."""
+        named = {s for s in (*(self.select or ()), *self.extend_select) if s in FAMILY_OF}
+        ignored = _expand(self.ignore)
+        chosen: list[Rule] = []
+        wanted = FAMILY_OF if self.select is None else _expand(self.select)
+        extended = _expand(self.extend_select)
+        for name in FAMILY_OF:
+            if name in ignored or not (name in wanted or name in extended):
+                continue
+            if self.severity.get(name, Severity.INFO) is None:
+                continue
+            rule = get_rule(name)
+            if name in named or (rule.default and rule.is_on_for(targets)):
+                chosen.append(rule)
+        return chosen
+
+
+def _expand(selectors: Iterable[str]) -> set[str]:
+    """The rule names that selectors mean."""
+    names: set[str] = set()
+    for selector in selectors:
+        if selector in ("all", "ALL", "*"):
+            names.update(FAMILY_OF)
+        elif selector in FAMILIES:
+            names.update(name for name, family in FAMILY_OF.items() if family == selector)
+        elif selector.endswith("*"):
+            names.update(name for name in FAMILY_OF if name.startswith(selector[:-1]))
+        else:
+            names.add(selector)
+    return names
+
+
+def check_selectors(selectors: Iterable[str], path: str | None = None) -> tuple[str, ...]:
+    """Selectors, split at commas.
+
+    Raises:
+        ConfigError: One means no rule; the message names the nearest that does.
+    """
+    words = [word.strip() for text in selectors for word in text.split(",") if word.strip()]
+    for word in words:
+        prefix = word[:-1] if word.endswith("*") else None
+        if word in FAMILY_OF or word in FAMILIES or word in ("all", "ALL", "*"):
+            continue
+        if prefix is not None and any(name.startswith(prefix) for name in FAMILY_OF):
+            continue
+        raise ConfigError(f"no rule is called '{word}'{nearest_rule(word)}", path=path)
+    return tuple(words)
+
+
+def nearest_rule(word: str) -> str:
+    """A hint at the rule or family that was perhaps meant."""
+    near = get_close_matches(word, (*FAMILY_OF, *FAMILIES), 1, 0.5)
+    return f"; did you mean '{near[0]}'?" if near else "; --list-rules shows them all"
+
+
+def check_targets(targets: Iterable[str], path: str | None = None) -> frozenset[str] | None:
+    """Targets, split at commas; None where none is named.
+
+    Raises:
+        ConfigError: One is not known.
+    """
+    words = [word.strip() for text in targets for word in text.split(",") if word.strip()]
+    for word in words:
+        if word not in TARGETS:
+            near = get_close_matches(word, TARGETS, 1, 0.4)
+            hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(TARGETS)}"
+            raise ConfigError(f"no target is called '{word}'; {hint}", path=path)
+    return frozenset(words) if words else None
+
+
+def settings_for(file: str | Path, configuration: Configuration, line: Settings) -> Settings:
+    """The settings for a file.
+
+    Args:
+        file: The description.
+        configuration: What the configuration says.
+        line: What the command line says, which counts more.
+
+    Raises:
+        ConfigError: The configuration has an unknown rule, option or value.
+    """
+    table = configuration.lint
+    if not table:
+        return line
+    path = configuration.path
+    said = _from_table(table, path)
+    ignores = _per_file_ignores(file, table.get("per-file-ignores", {}), path)
+    return replace(
+        said,
+        select=said.select if line.select is None else line.select,
+        extend_select=(*said.extend_select, *line.extend_select),
+        ignore=(*said.ignore, *ignores, *line.ignore),
+        targets=said.targets if line.targets is None else line.targets,
+    )
+
+
+def _from_table(table: Mapping[str, Any], path: str | None) -> Settings:
+    lists: dict[str, list[str]] = {}
+    thresholds: dict[str, Mapping[str, Any]] = {}
+    for key, value in table.items():
+        if key in _LISTS:
+            if not isinstance(value, list) or not all(isinstance(word, str) for word in value):
+                raise ConfigError(f"lint.{key} wants a list of names", path=path)
+            lists[key] = value
+        elif key in FAMILY_OF:
+            thresholds[key] = _thresholds(key, value, path)
+        elif key not in _KEYS:
+            near = get_close_matches(key, (*_KEYS, *FAMILY_OF), 1)
+            hint = f"; did you mean '{near[0]}'?" if near else f"; there are {', '.join(_KEYS)}"
+            raise ConfigError(f"no option is called lint.{key}{hint}", path=path)
+    return Settings(
+        select=check_selectors(lists["select"], path) if "select" in lists else None,
+        extend_select=check_selectors(lists.get("extend-select", ()), path),
+        ignore=check_selectors(lists.get("ignore", ()), path),
+        targets=check_targets(lists.get("targets", ()), path),
+        severity=_severities(table.get("severity", {}), path),
+        thresholds=thresholds,
+    )
+
+
+def _severities(table: object, path: str | None) -> dict[str, Severity | None]:
+    if not isinstance(table, dict):
+        raise ConfigError("lint.severity wants lines like zero-effort-limit = 'info'", path=path)
+    found: dict[str, Severity | None] = {}
+    for selector, level in table.items():
+        if level not in _LEVELS:
+            raise ConfigError(
+                f"lint.severity.{selector} is '{level}'; there are {', '.join(_LEVELS)}", path=path
+            )
+        for name in _expand(check_selectors([selector], path)):
+            found[name] = None if level == "off" else Severity[level.upper()]
+    return found
+
+
+def _thresholds(name: str, table: object, path: str | None) -> dict[str, Any]:
+    known = get_rule(name).thresholds
+    if not isinstance(table, dict):
+        raise ConfigError(f"lint.{name} wants to be a table of thresholds", path=path)
+    found = {}
+    for key, value in table.items():
+        parameter = key.replace("-", "_")
+        if parameter not in known:
+            names = ", ".join(k.replace("_", "-") for k in known) or "none"
+            raise ConfigError(f"{name} has no threshold '{key}'; it has {names}", path=path)
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise ConfigError(f"lint.{name}.{key} wants a number", path=path)
+        found[parameter] = value
+    return found
+
+
+def _per_file_ignores(
+    file: str | Path, table: object, path: str | None
+) -> tuple[str, ...]:
+    if not isinstance(table, dict):
+        raise ConfigError("lint.per-file-ignores wants lines like 'x/*' = ['mesh']", path=path)
+    folder = os.path.dirname(os.path.abspath(path)) if path else os.getcwd()
+    relative = os.path.relpath(os.path.abspath(file), folder).replace(os.sep, "/")
+    found: list[str] = []
+    for pattern, selectors in table.items():
+        if not isinstance(selectors, list):
+            raise ConfigError(f"lint.per-file-ignores.'{pattern}' wants a list", path=path)
+        names = check_selectors(selectors, path)
+        if fnmatch(relative, pattern) or fnmatch(os.path.basename(relative), pattern):
+            found.extend(names)
+    return tuple(found)

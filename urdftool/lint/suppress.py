@@ -1,0 +1,162 @@
+"""``<!-- urdftool-ignore[RULE, …] reason -->``: findings that are there on purpose.
+
+The comment is read from the source, where it covers its own line if something stands before it on
+that line, and the next element otherwise. A finding is covered if it stands in what is covered, or
+came through a call that does: so a comment before a macro call covers all that it expands to, and
+one inside the macro covers every expansion. ``urdftool-ignore-file[RULE]`` covers the file.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from ..errors import ConfigError
+from ..finding import Finding, Severity
+from ..rules import FAMILY_OF
+from ..source.document import Document
+from ..source.location import Place
+from .settings import check_selectors, nearest_rule
+
+_COMMENT = re.compile(r"\s*urdftool-ignore(-file)?\b\s*(?:\[([^\]]*)\])?")
+
+
+@dataclass
+class Suppression:
+    """One comment.
+
+    Attributes:
+        names: The rules, prefixes and families it names.
+        place: The comment.
+        start: First byte that it covers.
+        end: Byte after the last that it covers.
+        used: Whether it has covered a finding.
+    """
+
+    names: tuple[str, ...]
+    place: Place
+    start: int
+    end: int
+    used: bool = False
+
+    def covers(self, finding: Finding) -> bool:
+        """Whether a finding is in what it covers, by its rule and its place."""
+        if not self._names(finding.rule):
+            return False
+        places = [(finding.place.file, finding.place.start)]
+        places += [(call.file, call.start) for call in finding.place.calls]
+        return any(
+            file.path == self.place.file.path and self.start <= at < self.end
+            for file, at in places
+        )
+
+    def _names(self, rule: str) -> bool:
+        family = FAMILY_OF.get(rule)
+        return any(
+            name in (rule, family, "all", "*")
+            or (name.endswith("*") and rule.startswith(name[:-1]))
+            for name in self.names
+        )
+
+
+def read_suppressions(documents: Iterable[Document]) -> tuple[list[Suppression], list[Finding]]:
+    """The comments in the files of a description, and what is wrong with them."""
+    found: list[Suppression] = []
+    wrong: list[Finding] = []
+    for document in documents:
+        for comment in document.comments:
+            if "urdftool-ignore" not in comment.text:
+                continue
+            match = _COMMENT.match(comment.text)
+            if match is None:
+                continue
+            place = Place(document.file, comment.start, comment.end)
+            wrong.extend(_faults(match[2], place))
+            names = tuple(w.strip() for w in (match[2] or "").split(",") if w.strip())
+            whole = bool(match[1])
+            start, end = _covered(document, place) if not whole else (0, len(document.file.data))
+            found.append(Suppression(names, place, start, end))
+    return found, wrong
+
+
+def _faults(names: str | None, place: Place) -> Iterator[Finding]:
+    """Unknown rules, and a comment without any."""
+    if not (names or "").strip():
+        yield Finding(
+            "unknown-rule",
+            Severity.ERROR,
+            "names no rule; write urdftool-ignore[RULE]",
+            place,
+            "comment",
+        )
+    for word in (names or "").split(","):
+        try:
+            check_selectors([word])
+        except ConfigError:
+            yield Finding(
+                "unknown-rule",
+                Severity.ERROR,
+                f"no rule is called '{word.strip()}'{nearest_rule(word.strip())}",
+                place,
+                "comment",
+            )
+
+
+def _covered(document: Document, comment: Place) -> tuple[int, int]:
+    """The bytes a comment covers: its line, or the next element."""
+    data = document.file.data
+    line_start = data.rfind(b"\n", 0, comment.start) + 1
+    if data[line_start : comment.start].strip():
+        line_end = data.find(b"\n", comment.start)
+        return _with_element(document, line_start, len(data) if line_end < 0 else line_end)
+    elements = sorted(document.root.walk(), key=lambda element: element.start)
+    index = bisect_left([element.start for element in elements], comment.end)
+    if index == len(elements):
+        return comment.start, comment.end
+    following = elements[index]
+    return following.start, following.end
+
+
+def _with_element(document: Document, start: int, end: int) -> tuple[int, int]:
+    """A line; where a tag that starts above it ends on it, from that tag's start."""
+    inside = [
+        element.start
+        for element in document.root.walk()
+        if element.start < start < document.file.tag_end(element.start) <= end
+    ]
+    return min([start, *inside]), end
+
+
+def suppress(
+    findings: Iterable[Finding], suppressions: list[Suppression]
+) -> tuple[list[Finding], int]:
+    """The findings that no comment covers, and how many are covered."""
+    kept: list[Finding] = []
+    hidden = 0
+    for finding in findings:
+        covering = [s for s in suppressions if s.covers(finding)]
+        for suppression in covering:
+            suppression.used = True
+        if covering:
+            hidden += 1
+        else:
+            kept.append(finding)
+    return kept, hidden
+
+
+def unused(suppressions: Iterable[Suppression], ran: set[str]) -> Iterator[Finding]:
+    """A finding for each comment that covers nothing, though a rule it names has run."""
+    for suppression in suppressions:
+        if suppression.used or not any(suppression._names(rule) for rule in ran):
+            continue
+        yield Finding(
+            "unused-suppression",
+            Severity.WARNING,
+            f"urdftool-ignore[{', '.join(suppression.names)}] covers no finding; take it away",
+            suppression.place,
+            "comment",
+        )
+
+

@@ -1,0 +1,77 @@
+"""Which simulators and middlewares a description is meant for, read off from what it shows."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..model.elements import Robot
+from ..source.description import Description
+from ..source.packages import own_package
+
+_CLASSIC_PREFIXES = ("libgazebo_", "libhector_", "libroboticsgroup_")
+_GZ_PREFIXES = ("gz-sim", "libgz-sim", "ignition-gazebo", "libignition-gazebo", "gz_", "libgz_", "ign_")
+_CLASSIC_DEPENDENCIES = ("gazebo_ros", "gazebo_plugins", "gazebo_ros_pkgs", "gazebo_ros_control")
+_GZ_DEPENDENCIES = ("ros_gz", "ros_gz_sim", "gz_ros2_control", "ros_ign", "ros_ign_gazebo", "ros_gz_bridge")
+
+_manifests: dict[str, frozenset[str]] = {}
+
+
+def infer_targets(robot: Robot, description: Description) -> frozenset[str]:
+    """The targets a description shows signs of.
+
+    Plugins tell Gazebo Classic from gz; a ``<gazebo>`` tag that tells neither counts for the one
+    that the package's build type goes with. The package.xml tells ROS 1 from ROS 2.
+    """
+    targets = set(_of_package(description))
+    for plugin in robot.plugins:
+        name = plugin.filename.rpartition("/")[2]
+        if name.startswith(_GZ_PREFIXES) or plugin.name.startswith(("gz::sim", "ignition::gazebo")):
+            targets.add("gz")
+        elif name.startswith(_CLASSIC_PREFIXES):
+            targets.add("gazebo-classic")
+    if robot.ros2_controls:
+        targets.add("ros2")
+        for control in robot.ros2_controls:
+            if (control.plugin or "").startswith(("gz_ros2_control/", "ign_ros2_control/")):
+                targets.add("gz")
+            elif (control.plugin or "").startswith("gazebo_ros2_control/"):
+                targets.add("gazebo-classic")
+    if any(joint.hardware_interfaces for t in robot.transmissions for joint in t.joints):
+        targets.add("ros1")
+    if robot.gazebo and not targets & {"gz", "gazebo-classic"}:
+        targets.add("gz" if "ros2" in targets else "gazebo-classic")
+    if robot.element.child("mujoco") is not None:
+        targets.add("mujoco")
+    if description.path != "-" and next(Path(description.path).parent.glob("*.srdf"), None):
+        targets.add("moveit")
+    return frozenset(targets)
+
+
+def _of_package(description: Description) -> frozenset[str]:
+    own = own_package(description.packages.file)
+    if own is None:
+        return frozenset()
+    key = str(own[1])
+    if key not in _manifests:
+        _manifests[key] = _read_manifest(own[1] / "package.xml")
+    return _manifests[key]
+
+
+def _read_manifest(path: Path) -> frozenset[str]:
+    import re
+
+    try:
+        text = re.sub(r"<!--.*?-->", "", path.read_text("utf-8", "replace"), flags=re.DOTALL)
+    except OSError:
+        return frozenset()
+    targets = set()
+    words = set(re.findall(r">\s*([\w-]+)\s*</(?:\w*depend|build_type)\s*>", text))
+    if any(word.startswith("ament_") for word in words):
+        targets.add("ros2")
+    elif "catkin" in words:
+        targets.add("ros1")
+    if words.intersection(_GZ_DEPENDENCIES):
+        targets.add("gz")
+    if words.intersection(_CLASSIC_DEPENDENCIES):
+        targets.add("gazebo-classic")
+    return frozenset(targets)

@@ -1,0 +1,140 @@
+"""Findings as text for people: ``full`` with the source, ``concise`` in one line each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import click
+
+from ..finding import Finding, Severity
+from ..source.location import Call
+
+_COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "blue"}
+_MOST_LINES = 6
+_MOST_CALLS = 4
+
+
+class Painter:
+    """Styles text, or leaves it alone."""
+
+    def __init__(self, colors: bool) -> None:
+        """Choose."""
+        self.colors = colors
+
+    def __call__(self, text: str, color: str | None = None, *, bold: bool = False) -> str:
+        """The text in a colour."""
+        return click.style(text, fg=color, bold=bold) if self.colors else text
+
+
+def concise(findings: Iterable[Finding], *, colors: bool = False) -> Iterator[str]:
+    """``FILE:LINE:COLUMN: severity: message [rule]``, a line each."""
+    paint = Painter(colors)
+    for finding in findings:
+        yield _headline(finding, paint)
+
+
+def full(findings: Iterable[Finding], *, colors: bool = False) -> Iterator[str]:
+    """The headline, the source, what each reader does, the calls it came through, a hint."""
+    paint = Painter(colors)
+    for finding in findings:
+        yield _headline(finding, paint)
+        yield from _source(finding, paint)
+        yield from (f"   {paint('=', 'cyan')} {line}" for line in _remarks(finding, paint))
+        yield ""
+
+
+def _headline(finding: Finding, paint: Painter) -> str:
+    color = _COLORS[finding.severity]
+    times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
+    return (
+        f"{paint(str(finding.place), bold=True)}: "
+        f"{paint(finding.severity.label, color, bold=True)}: "
+        f"{clean(finding.message)}{times} {paint(f'[{finding.rule}]', color)}"
+    )
+
+
+def clean(text: str) -> str:
+    """Text from a file, fit for a terminal: control characters are written out."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def _source(finding: Finding, paint: Painter) -> Iterator[str]:
+    """The lines the finding is about, with the bytes underlined."""
+    place = finding.place
+    first, column = place.file.position(place.start)
+    last, end_column = place.end_position
+    if not place.file.data:
+        return
+    width = max(3, len(str(last)))
+    bar = paint("|", "cyan")
+    shown = range(first, min(last, first + _MOST_LINES - 1) + 1)
+    for number in shown:
+        text = place.file.line_text(number)
+        expanded = _expand_tabs(text)
+        yield f"{paint(f'{number:>{width}}', 'cyan')} {bar} {clean(expanded)}"
+        begin = column - 1 if number == first else len(text) - len(text.lstrip())
+        end = end_column - 1 if number == last else len(text.rstrip())
+        begin, end = len(_expand_tabs(text[:begin])), len(_expand_tabs(text[:end]))
+        marks = "^" * max(1, end - begin)
+        yield f"{'':>{width}} {bar} {'':>{begin}}{paint(marks, _COLORS[finding.severity])}"
+    if last > shown[-1]:
+        yield f"{'':>{width}} {bar} …"
+
+
+def _expand_tabs(text: str) -> str:
+    return text.expandtabs(4)
+
+
+def _remarks(finding: Finding, paint: Painter) -> Iterator[str]:
+    if finding.effects:
+        said = [
+            f"{paint(target, bold=True)}: {effect}" for target, effect in finding.effects.items()
+        ]
+        yield "   ".join(said)
+    if finding.hint:
+        yield f"{paint('hint', bold=True)}: {clean(finding.hint)}"
+    yield from (f"from {line}" for line in call_lines(finding.place.calls))
+    chains = [(name, calls) for name, calls in finding.others if calls]
+    for name, calls in chains[: _MOST_CALLS - 1]:
+        through = ", ".join(call_lines(calls[:1]))
+        yield f"also {clean(name)}: from {through}" if name else f"also from {through}"
+    if len(chains) > _MOST_CALLS - 1:
+        yield f"and {len(chains) - _MOST_CALLS + 1} more"
+
+
+def call_lines(calls: Iterable[Call]) -> Iterator[str]:
+    """``FILE:LINE:COLUMN: macro 'name' argument=value`` for each call, innermost first."""
+    for call in calls:
+        what = clean(call.what)
+        what = what if len(what) < 90 else what[:87] + "…"
+        yield f"{call.file.path}:{call.line}:{call.column}: {what}"
+
+
+def statistics(findings: Iterable[Finding]) -> Iterator[str]:
+    """How often each rule has fired, the most frequent first."""
+    counts: dict[tuple[str, Severity], int] = {}
+    for finding in findings:
+        key = (finding.rule, finding.severity)
+        counts[key] = counts.get(key, 0) + 1
+    for (rule, severity), count in sorted(counts.items(), key=lambda kv: (-kv[1], kv[0][0])):
+        yield f"{count:>6}  {severity.label:<8} {rule}"
+
+
+def summary(
+    findings: Iterable[Finding], files: int, targets: Iterable[str], suppressed: int = 0
+) -> str:
+    """One line: how many of each severity, in how many files, for which targets."""
+    counts = {severity: 0 for severity in reversed(Severity)}
+    for finding in findings:
+        counts[finding.severity] += 1
+    said = [
+        f"{count} {severity.label}{'s' if count != 1 and severity is not Severity.INFO else ''}"
+        for severity, count in counts.items()
+        if count
+    ]
+    what = ", ".join(said) or "no findings"
+    hidden = f", {suppressed} ignored by comments" if suppressed else ""
+    names = ", ".join(sorted(targets)) or "any reader of URDF"
+    return f"{what}{hidden} in {files} file{'s' * (files != 1)} (targets: {names})"

@@ -1,0 +1,65 @@
+"""Findings as JSON; the schema is ``docs/schemas/lint.json``."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from typing import Any
+
+from ..finding import Finding, Severity
+from ..lint.run import Report
+
+
+def to_json(reports: Iterable[Report], findings: list[Finding]) -> str:
+    """All reports as one object, with their findings merged."""
+    reports = list(reports)
+    counts = {severity: sum(f.severity is severity for f in findings) for severity in Severity}
+    table = {
+        "version": 1,
+        "findings": [finding_record(finding) for finding in findings],
+        "summary": {
+            "files": sum(not report.skipped and report.error is None for report in reports),
+            "errors": counts[Severity.ERROR],
+            "warnings": counts[Severity.WARNING],
+            "infos": counts[Severity.INFO],
+            "suppressed": sum(report.suppressed for report in reports),
+            "targets": sorted(set().union(*(report.targets for report in reports))),
+            "skipped": [{"path": r.path, "reason": r.skipped} for r in reports if r.skipped],
+            "unreadable": [
+                {"path": r.path, "reason": r.error.message} for r in reports if r.error is not None
+            ],
+        },
+    }
+    return json.dumps(table, indent=1, ensure_ascii=False) + "\n"
+
+
+def finding_record(finding: Finding) -> dict[str, Any]:
+    """One finding."""
+    line, column = finding.place.file.position(finding.place.start)
+    end_line, end_column = finding.place.end_position
+    record: dict[str, Any] = {
+        "rule": finding.rule,
+        "severity": finding.severity.label,
+        "message": finding.message,
+        "path": finding.place.path,
+        "line": line,
+        "column": column,
+        "end_line": end_line,
+        "end_column": end_column,
+        "element": {"kind": finding.kind, "name": finding.name},
+        "targets": list(finding.targets),
+        "effects": finding.effects,
+        "expansion": _calls(finding.place.calls),
+        "instances": [
+            {"name": name, "expansion": _calls(calls)} for name, calls in finding.others
+        ],
+        "hint": finding.hint or None,
+        "fix": None,
+    }
+    return record
+
+
+def _calls(calls: Iterable[Any]) -> list[dict[str, Any]]:
+    from .expansion import call_record
+
+    return [call_record(call) for call in calls]

@@ -1,0 +1,56 @@
+"""A rule's page, from its docstring and what its decorator says."""
+
+from __future__ import annotations
+
+import inspect
+
+from ..errors import ConfigError
+from ..lint.settings import nearest_rule
+from ..rules import FAMILY_OF, all_rules, get_rule
+from ..rules.rule import Rule
+
+
+def rule_list() -> str:
+    """A line a rule: family, name, severity, what it says."""
+    width = max(map(len, FAMILY_OF))
+    lines = []
+    family = ""
+    for rule in all_rules():
+        if rule.family != family:
+            family = rule.family
+            lines.append(f"{family}:")
+        off = "" if rule.default else " (off)"
+        lines.append(f"  {rule.name:<{width}}  {rule.severity.label:<7}  {rule.fact}{off}")
+    return "\n".join(lines) + "\n"
+
+
+def page(name: str) -> str:
+    """A rule's page as plain text.
+
+    Raises:
+        ConfigError: There is no such rule.
+    """
+    if name not in FAMILY_OF:
+        raise ConfigError(f"no rule is called '{name}'{nearest_rule(name)}")
+    rule = get_rule(name)
+    lines = [f"{rule.name} ({rule.family})", "", inspect.cleandoc(rule.check.__doc__ or ""), ""]
+    lines.extend(f"{label}: {value}" for label, value in facts(rule))
+    if rule.effects:
+        lines.append("What readers do:")
+        width = max(map(len, rule.effects))
+        lines.extend(f"  {target:<{width}}  {effect}" for target, effect in rule.effects.items())
+    return "\n".join(lines) + "\n"
+
+
+def facts(rule: Rule) -> list[tuple[str, str]]:
+    """Severity, targets and thresholds, in words."""
+    severity = rule.severity.label
+    for target, raised in rule.raised.items():
+        severity += f"; {raised.label} for {target}"
+    on = "always" if rule.on is None else "for " + ", ".join(rule.on)
+    if not rule.default:
+        on = f"when selected (--extend-select {rule.name})"
+    found = [("Severity", severity), ("On", on)]
+    for threshold, default in rule.thresholds.items():
+        found.append(("Threshold", f"{threshold.replace('_', '-')} = {default:g}"))
+    return found

@@ -1,0 +1,61 @@
+"""The opinions: every rule by family and file, in reading order, and nothing else.
+
+A family follows from the stage at which its rules can look: the bytes (xml), the xacro source
+(xacro), the expanded robot (tree to name), its files (mesh, package), what a simulator would do
+with it (gazebo, control), and the linter itself (lint). Rules are imported when they are wanted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib import import_module
+
+from .rule import Rule
+
+RULES: dict[str, dict[str, tuple[str, ...]]] = {
+    "xml": {
+        "document": (
+            "not-well-formed",
+            "content-before-declaration",
+            "wrong-root",
+            "missing-name",
+        ),
+    },
+    "xacro": {},
+    "tree": {},
+    "joint": {"axis": ("zero-axis", "axis-not-unit", "axis-omitted")},
+    "inertia": {},
+    "collision": {},
+    "visual": {},
+    "mesh": {},
+    "gazebo": {},
+    "control": {},
+    "name": {},
+    "lint": {},
+}
+
+FAMILIES = tuple(RULES)
+
+FAMILY_OF = {
+    name: family for family, files in RULES.items() for names in files.values() for name in names
+}
+
+
+def get_rule(name: str) -> Rule:
+    """A rule by its name, imported if need be.
+
+    Raises:
+        KeyError: There is no rule of that name.
+    """
+    family = FAMILY_OF[name]
+    for file, names in RULES[family].items():
+        if name in names:
+            module = import_module(f".{family}.{file}", __name__)
+            found: Rule = getattr(module, name.replace("-", "_"))
+            return found
+    raise KeyError(name)
+
+
+def all_rules() -> Iterator[Rule]:
+    """Every rule, in reading order."""
+    return map(get_rule, FAMILY_OF)

@@ -1,0 +1,72 @@
+"""The axis of a joint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ...model.pose import norm
+from ..rule import ERROR, INFO, WARNING, Problem, rule
+
+
+@rule(
+    ERROR,
+    effects={
+        "gz, gazebo-classic": "the model is not loaded (Error 9)",
+        "mujoco": "rejects the file: axis too small",
+        "pybullet": "loads it; the joint does nothing",
+        "urdfdom": "accepts it silently",
+    },
+)
+def zero_axis(robot: Robot, *, shortest: float = 1e-6) -> Iterator[Problem]:
+    """A moving joint's axis is the zero vector.
+
+    An axis is a direction, and readers divide by its length. MuJoCo, sdformat and Drake refuse the
+    robot; others load it, and the joint neither turns nor slides. On a fixed joint it does no harm.
+    """
+    for joint in robot.joints:
+        if joint.has_axis and joint.axis is not None and norm(joint.axis.xyz) < shortest:
+            yield Problem(
+                joint,
+                f"axis of joint '{joint.name}' is zero; write a direction such as 0 0 1",
+                at=joint.axis.element.attribute_place("xyz"),
+            )
+
+
+@rule(
+    WARNING,
+    effects={
+        "mujoco, pybullet": "normalise it",
+        "urdfdom": "passes it on as it is",
+    },
+)
+def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]:
+    """A moving joint's axis is not of unit length.
+
+    The specification asks for a unit vector and urdfdom passes on what is written. Most engines
+    normalise it; code that multiplies the joint's position with the axis turns by a wrong angle.
+    """
+    for joint in robot.joints:
+        if not joint.has_axis or joint.axis is None:
+            continue
+        length = norm(joint.axis.xyz)
+        if length >= 1e-6 and abs(length - 1.0) > tolerance:
+            yield Problem(
+                joint,
+                f"axis of joint '{joint.name}' has length {length:.6g}; write a unit vector",
+                at=joint.axis.element.attribute_place("xyz"),
+            )
+
+
+@rule(INFO, effects={"every reader": "takes 1 0 0"})
+def axis_omitted(robot: Robot) -> Iterator[Problem]:
+    """A moving joint has no ``<axis>``.
+
+    The default is x (1 0 0). Many expect z; whoever means x helps the next reader by writing it.
+    """
+    for joint in robot.joints:
+        if joint.has_axis and joint.axis is None:
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' has no <axis>, so it is 1 0 0; write it down",
+            )

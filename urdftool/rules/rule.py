@@ -1,0 +1,159 @@
+"""What a rule is: a function that looks at a robot and yields what is wrong with it.
+
+The function's name is the rule's, with hyphens. Its docstring is the rule's page: the first line a
+fact, then why it hurts. What it wants to see it names as parameters:
+
+``robot``
+    The robot as read (``urdftool.model.elements.Robot``).
+``document``
+    Each file of the source, unexpanded (``urdftool.source.document.Document``).
+``description``
+    The description with its files and packages (``urdftool.source.description.Description``).
+``targets``
+    The active targets, a frozenset of names.
+
+Keyword-only parameters are thresholds; the configuration sets them by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..finding import Severity
+from ..model.elements import Part
+from ..source.document import Element
+from ..source.location import Place
+
+ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
+
+TARGETS = ("ros1", "ros2", "gazebo-classic", "gz", "mujoco", "pybullet", "moveit")
+
+GAZEBO = ("gazebo-classic", "gz")
+ROS = ("ros1", "ros2")
+
+Check = Callable[..., Iterable["Problem"]]
+
+
+class Problem:
+    """One thing a rule has found.
+
+    Attributes:
+        subject: What it is about: a link, a joint, the robot, or an element.
+        message: One sentence: what is wrong, with what would be right.
+        at: Where; the subject's start tag if None.
+        hint: What would mend it, where the message does not say it.
+        severity: Instead of the rule's, where it depends on the case.
+    """
+
+    __slots__ = ("at", "hint", "message", "severity", "subject")
+
+    def __init__(
+        self,
+        subject: Part | Element,
+        message: str,
+        *,
+        at: Part | Element | Place | None = None,
+        hint: str = "",
+        severity: Severity | None = None,
+    ) -> None:
+        """Keep what was found; the place is worked out when it is reported."""
+        self.subject = subject
+        self.message = message
+        self.at = at
+        self.hint = hint
+        self.severity = severity
+
+    @property
+    def place(self) -> Place:
+        """The bytes it is about."""
+        at = self.subject if self.at is None else self.at
+        return at if isinstance(at, Place) else at.place
+
+    @property
+    def kind(self) -> str:
+        """``link``, ``joint``, … : the tag of the subject."""
+        return self.element.tag
+
+    @property
+    def name(self) -> str:
+        """The subject's name; empty where it has none."""
+        return self.element.attributes.get("name", "")
+
+    @property
+    def element(self) -> Element:
+        """The element of the subject."""
+        return self.subject if isinstance(self.subject, Element) else self.subject.element
+
+
+@dataclass
+class Rule:
+    """A rule, as the engine sees it.
+
+    Attributes:
+        name: Such as ``zero-axis``.
+        family: Such as ``joint``.
+        check: The function.
+        severity: How much it matters where no target says otherwise.
+        on: Targets it is on for; None means always.
+        raised: Severity by target, where it matters more there.
+        effects: What a reader does with the defect, by target or reader.
+        default: Whether it is on without being selected.
+        needs: The names of the parameters it wants.
+        thresholds: Its thresholds with their defaults.
+    """
+
+    name: str
+    family: str
+    check: Check
+    severity: Severity
+    on: tuple[str, ...] | None = None
+    raised: Mapping[str, Severity] = field(default_factory=dict)
+    effects: Mapping[str, str] = field(default_factory=dict)
+    default: bool = True
+    needs: tuple[str, ...] = ()
+    thresholds: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def fact(self) -> str:
+        """The first line of its page."""
+        return (self.check.__doc__ or "").partition("\n")[0].strip()
+
+    def severity_for(self, targets: frozenset[str]) -> Severity:
+        """How much it matters for a set of targets."""
+        raised = [severity for target, severity in self.raised.items() if target in targets]
+        return max([self.severity, *raised])
+
+    def is_on_for(self, targets: frozenset[str]) -> bool:
+        """Whether it speaks of any of the targets."""
+        return self.on is None or not targets.isdisjoint(self.on)
+
+
+def rule(
+    severity: Severity,
+    *,
+    on: tuple[str, ...] | None = None,
+    raised: Mapping[str, Severity] | None = None,
+    effects: Mapping[str, str] | None = None,
+    default: bool = True,
+) -> Callable[[Check], Rule]:
+    """Make a rule of a function; the arguments are those of :class:`Rule`."""
+
+    def make(check: Check) -> Rule:
+        code = check.__code__  # type: ignore[attr-defined]
+        family = check.__module__.split(".")[-2]
+        return Rule(
+            name=check.__name__.replace("_", "-"),  # type: ignore[attr-defined]
+            family=family,
+            check=check,
+            severity=severity,
+            on=on,
+            raised=raised or {},
+            effects=effects or {},
+            default=default,
+            needs=code.co_varnames[: code.co_argcount],
+            thresholds=check.__kwdefaults__ or {},  # type: ignore[attr-defined]
+        )
+
+    return make

@@ -1,0 +1,83 @@
+"""The document as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...source.description import Description
+from ..rule import ERROR, WARNING, Problem, rule
+
+
+@rule(ERROR, effects={"xacro and every Python tool": "refuse it", "urdfdom, MuJoCo": "may take it"})
+def not_well_formed() -> tuple[Problem, ...]:
+    """The file is not well-formed XML.
+
+    A tag that is not closed, ``--`` in a comment, an unknown entity. The C++ readers use lax parsers
+    and take some of these, so that it "works in RViz", and fails in xacro and every Python tool.
+    """
+    return ()
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom 3 (ROS 1)": "takes it",
+        "urdfdom 4 and later, MuJoCo": "refuse it",
+        "xacro": "refuses it",
+    },
+)
+def content_before_declaration() -> tuple[Problem, ...]:
+    """Something stands before the ``<?xml …?>`` declaration.
+
+    Usually a licence comment. The declaration must be the very first bytes of the file; a robot that
+    loaded with ROS 1 stops loading with ROS 2.
+    """
+    return ()
+
+
+_BELONGS = {
+    "sdf": "it is SDF; 'gz sdf --check' is the tool for it",
+    "mujoco": "it is MJCF; MuJoCo's own compiler checks it",
+    "launch": "it is a launch file",
+    "package": "it is a package.xml",
+    "gazebo": "put it inside a <robot>",
+}
+
+
+@rule(ERROR, effects={"urdfdom": "finds no robot in it"})
+def wrong_root(description: Description) -> Iterator[Problem]:
+    """The root element is not ``<robot>``.
+
+    Readers look for ``<robot>`` and find nothing. SDF, MJCF and launch files often end up with the
+    wrong ending.
+    """
+    root = description.document.root
+    if root.tag and root.tag != "robot":
+        belongs = _BELONGS.get(root.tag, "a robot description starts with <robot name=\"…\">")
+        yield Problem(root, f"the root element is <{root.tag}>; {belongs}")
+
+
+@rule(
+    WARNING,
+    effects={
+        "urdfdom": "refuses a robot, link or joint without a name",
+        "mujoco": "takes an empty name",
+    },
+)
+def missing_name(description: Description) -> Iterator[Problem]:
+    """A robot, link, joint or transmission has no name.
+
+    Everything refers to links and joints by name. urdfdom refuses the robot; others take the empty
+    name, and two such links are then one.
+    """
+    root = description.document.root
+    named = ("link", "joint", "transmission")
+    elements = [root, *(child for child in root.children if child.tag in named)]
+    for element in elements:
+        if element.tag in ("robot", *named) and not (element.get("name") or "").strip():
+            at = element.attribute_place("name") if "name" in element.attributes else None
+            how = "an empty name" if at else "no name"
+            severity = WARNING if element.tag == "transmission" else ERROR
+            yield Problem(
+                element, f'<{element.tag}> has {how}; write name="…"', at=at, severity=severity
+            )
