@@ -24,7 +24,16 @@ _HOMES = {
     "load": "model.load",
 }
 
-__all__ = [*sorted(_HOMES), "__version__"]  # noqa: PLE0604, RUF100
+__all__ = [
+    "Finding",
+    "Robot",
+    "Severity",
+    "UrdftoolError",
+    "__version__",
+    "check",
+    "expand",
+    "load",
+]
 
 if TYPE_CHECKING:
     from .api import expand

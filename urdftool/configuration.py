@@ -1,7 +1,7 @@
 """The configuration of a file: ``[tool.urdftool]`` in the nearest file above it that has one.
 
-``pyproject.toml`` has it under ``[tool.urdftool]``; ``urdftool.toml`` and ``.urdftool.toml``, for ROS
-packages that have no ``pyproject.toml``, have it at the top.
+``pyproject.toml`` has it under ``[tool.urdftool]``; ``urdftool.toml`` and ``.urdftool.toml``, for
+ROS packages that have no ``pyproject.toml``, have it at the top.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ def _parse(path: Path, *, required: bool) -> Configuration | None:
     if sys.version_info >= (3, 11):
         import tomllib
     else:
-        import tomli as tomllib
+        import tomli as tomllib  # type: ignore[import-not-found, unused-ignore]
     try:
         table: Any = tomllib.loads(data.decode("utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
@@ -94,7 +94,7 @@ def _parse(path: Path, *, required: bool) -> Configuration | None:
     packages = table.get("packages", {})
     lint = table.get("lint", {})
     if not isinstance(packages, dict) or not all(isinstance(v, str) for v in packages.values()):
-        raise ConfigError("[packages] wants lines like my_robot = \"../my_robot\"", path=path)
+        raise ConfigError('[packages] wants lines like my_robot = "../my_robot"', path=path)
     if not isinstance(lint, dict):
         raise ConfigError("[lint] wants to be a table", path=path)
     folder = Path(os.path.abspath(path)).parent

@@ -11,8 +11,8 @@ from .source.location import Call, Place
 class Severity(IntEnum):
     """How much it matters.
 
-    An *error*: a reader of the description rejects it, crashes, or loses part of it. A *warning*: it
-    loads, and behaves differently from what the text says. *Info*: portability and convention.
+    An *error*: a reader of the description rejects it, crashes, or loses part of it. A *warning*:
+    it loads, and behaves differently from what the text says. *Info*: portability, convention.
     """
 
     INFO = 1

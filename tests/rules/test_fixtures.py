@@ -1,11 +1,11 @@
 """Every rule against its fixtures, which are also the examples of its page.
 
-``fixtures/rules/RULE/bad*.urdf[.xacro]`` is a small whole robot with that fault. Each line where a
-finding is expected ends in a comment that names the rules found there: ``<!-- zero-axis -->``, or
-``<!-- zero-mass massless-moving-body -->``. Where a comment cannot stand (a file that is not
-well-formed, a line inside a tag), ``bad.expected`` beside it has lines such as ``3 not-well-formed``
-and the comments do not count. ``good*.urdf`` is the same robot without the fault, and silent.
-``urdftool.toml`` beside them sets targets where the rule needs one.
+``fixtures/rules/RULE/bad*.urdf[.xacro]`` is a small whole robot with that fault. Each line where
+a finding is expected ends in a comment that names the rules found there: ``<!-- zero-axis -->``,
+or ``<!-- zero-mass massless-moving-body -->``. Where a comment cannot stand (a file that is not
+well-formed, a line inside a tag), ``bad.expected`` beside it has lines such as
+``3 not-well-formed`` and the comments do not count. ``good*.urdf`` is the same robot without the
+fault, and silent. ``urdftool.toml`` beside them sets targets where the rule needs one.
 """
 
 import re

@@ -16,9 +16,13 @@ from .options import output_option, package_options, robot_argument
 @click.option("--deps", is_flag=True, help="List the files that are read, and expand nothing.")
 @click.option("--depfile", metavar="OUT.d", help="Write a make rule for OUT with those files.")
 @click.option("--list-args", is_flag=True, help="List the xacro arguments with their defaults.")
-@click.option("--check", metavar="OUT", help="Compare with a committed URDF; exit 1 if it is stale.")
 @click.option(
-    "--source-map", metavar="FILE", help="Write where each element came from, as JSON ('-': stdout)."
+    "--check", metavar="OUT", help="Compare with a committed URDF; exit 1 if it is stale."
+)
+@click.option(
+    "--source-map",
+    metavar="FILE",
+    help="Write where each element came from, as JSON ('-': stdout).",
 )
 @package_options
 @click.pass_obj
@@ -34,7 +38,7 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    """Expand the xacro file IN to URDF, equal as XML to what xacro prints.
+    r"""Expand the xacro file IN to URDF, equal as XML to what xacro prints.
 
     IN is a .xacro or .urdf.xacro file, or '-'. Arguments follow it as name:=value. ROS is not
     needed: $(find NAME) looks in the file's workspace, the configuration, ROS_PACKAGE_PATH and

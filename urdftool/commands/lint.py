@@ -61,7 +61,7 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    """Find what is wrong with robots, and point at the line that is.
+    r"""Find what is wrong with robots, and point at the line that is.
 
     PATH is a .urdf or .xacro file, a folder to search for .urdf and .urdf.xacro files, or '-'.
     RULES are rule names, prefixes such as 'mesh-*' and families such as 'inertia', separated by

@@ -140,7 +140,9 @@ def lint_file(path: str | Path, options: Options) -> Report:
         if root.tag == "robot":
             robot = read_robot(root)
             robot.source = description
-    _check_description(description or _unexpanded(file, failures), robot, settings, report, failures)
+    _check_description(
+        description or _unexpanded(file, failures), robot, settings, report, failures
+    )
     return report
 
 
@@ -178,7 +180,9 @@ def _unexpanded(file: SourceFile, failures: list[UrdftoolError]) -> Description:
         if failure.at is not None:
             files += [failure.at.file, *(call.file for call in failure.at.calls)]
     unique = list({f.path: f for f in files}.values())
-    return Description(file.path, Document(file, Element("", {}, None, file, 0), []), unique, Packages())
+    return Description(
+        file.path, Document(file, Element("", {}, None, file, 0), []), unique, Packages()
+    )
 
 
 def _check_description(
@@ -263,9 +267,7 @@ def _run(
         report.failed_rules[rule.name] = f"{type(error).__name__}: {error}"
 
 
-def _finding(
-    rule: Rule, problem: Problem, settings: Settings, targets: frozenset[str]
-) -> Finding:
+def _finding(rule: Rule, problem: Problem, settings: Settings, targets: frozenset[str]) -> Finding:
     severity = settings.severity.get(rule.name)
     if severity is None:
         severity = problem.severity or rule.severity_for(targets)

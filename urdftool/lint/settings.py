@@ -192,9 +192,7 @@ def _thresholds(name: str, table: object, path: str | None) -> dict[str, Any]:
     return found
 
 
-def _per_file_ignores(
-    file: str | Path, table: object, path: str | None
-) -> tuple[str, ...]:
+def _per_file_ignores(file: str | Path, table: object, path: str | None) -> tuple[str, ...]:
     if not isinstance(table, dict):
         raise ConfigError("lint.per-file-ignores wants lines like 'x/*' = ['mesh']", path=path)
     folder = os.path.dirname(os.path.abspath(path)) if path else os.getcwd()

@@ -48,8 +48,7 @@ class Suppression:
         places = [(finding.place.file, finding.place.start)]
         places += [(call.file, call.start) for call in finding.place.calls]
         return any(
-            file.path == self.place.file.path and self.start <= at < self.end
-            for file, at in places
+            file.path == self.place.file.path and self.start <= at < self.end for file, at in places
         )
 
     def _names(self, rule: str) -> bool:
@@ -158,5 +157,3 @@ def unused(suppressions: Iterable[Suppression], ran: set[str]) -> Iterator[Findi
             suppression.place,
             "comment",
         )
-
-

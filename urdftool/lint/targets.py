@@ -9,9 +9,24 @@ from ..source.description import Description
 from ..source.packages import own_package
 
 _CLASSIC_PREFIXES = ("libgazebo_", "libhector_", "libroboticsgroup_")
-_GZ_PREFIXES = ("gz-sim", "libgz-sim", "ignition-gazebo", "libignition-gazebo", "gz_", "libgz_", "ign_")
+_GZ_PREFIXES = (
+    "gz-sim",
+    "libgz-sim",
+    "ignition-gazebo",
+    "libignition-gazebo",
+    "gz_",
+    "libgz_",
+    "ign_",
+)
 _CLASSIC_DEPENDENCIES = ("gazebo_ros", "gazebo_plugins", "gazebo_ros_pkgs", "gazebo_ros_control")
-_GZ_DEPENDENCIES = ("ros_gz", "ros_gz_sim", "gz_ros2_control", "ros_ign", "ros_ign_gazebo", "ros_gz_bridge")
+_GZ_DEPENDENCIES = (
+    "ros_gz",
+    "ros_gz_sim",
+    "gz_ros2_control",
+    "ros_ign",
+    "ros_ign_gazebo",
+    "ros_gz_bridge",
+)
 
 _manifests: dict[str, frozenset[str]] = {}
 

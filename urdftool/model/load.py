@@ -50,6 +50,4 @@ def load(
         SourceError: The file cannot be read, parsed or expanded.
         ModelError: It is not a robot description.
     """
-    return robot_of(
-        read_description(path, args, packages=packages, package_paths=package_paths)
-    )
+    return robot_of(read_description(path, args, packages=packages, package_paths=package_paths))

@@ -1,8 +1,8 @@
 """Poses in plain Python: the light half of the tool has no numpy.
 
 A rotation is a 3 × 3 matrix as a tuple of rows; a pose is ``(rotation, translation)`` [m] and maps
-a point of the child frame to the parent frame, ``R p + t``. ``rpy`` [rad] is URDF's: about the fixed
-axes x, y, z in that order, so ``R = Rz(yaw) Ry(pitch) Rx(roll)``.
+a point of the child frame to the parent frame, ``R p + t``. ``rpy`` [rad] is URDF's: about the
+fixed axes x, y, z in that order, so ``R = Rz(yaw) Ry(pitch) Rx(roll)``.
 """
 
 from __future__ import annotations
@@ -101,7 +101,11 @@ def rpy_of_rotation(rotation: Rotation) -> Vector:
     pitch = math.atan2(-r20, math.hypot(r00, r10))
     if math.hypot(r00, r10) < 1e-12:
         sign = 1.0 if r20 < 0 else -1.0
-        return math.atan2(sign * r01, r11 if abs(r11) > 1e-15 or r02 == 0 else sign * r02), pitch, 0.0
+        return (
+            math.atan2(sign * r01, r11 if abs(r11) > 1e-15 or r02 == 0 else sign * r02),
+            pitch,
+            0.0,
+        )
     return math.atan2(r21, r22), pitch, math.atan2(r10, r00)
 
 

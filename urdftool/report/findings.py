@@ -126,7 +126,7 @@ def summary(
     findings: Iterable[Finding], files: int, targets: Iterable[str], suppressed: int = 0
 ) -> str:
     """One line: how many of each severity, in how many files, for which targets."""
-    counts = {severity: 0 for severity in reversed(Severity)}
+    counts = dict.fromkeys(reversed(Severity), 0)
     for finding in findings:
         counts[finding.severity] += 1
     said = [

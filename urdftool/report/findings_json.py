@@ -50,9 +50,7 @@ def finding_record(finding: Finding) -> dict[str, Any]:
         "targets": list(finding.targets),
         "effects": finding.effects,
         "expansion": _calls(finding.place.calls),
-        "instances": [
-            {"name": name, "expansion": _calls(calls)} for name, calls in finding.others
-        ],
+        "instances": [{"name": name, "expansion": _calls(calls)} for name, calls in finding.others],
         "hint": finding.hint or None,
         "fix": None,
     }

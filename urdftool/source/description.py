@@ -85,5 +85,10 @@ def read_description(
 
     expansion = expand_xacro(file, arguments, finder)
     return Description(
-        str(path), expansion.document(), list(expansion.files.values()), finder, arguments, expansion
+        str(path),
+        expansion.document(),
+        list(expansion.files.values()),
+        finder,
+        arguments,
+        expansion,
     )

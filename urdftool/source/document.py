@@ -11,9 +11,9 @@ nesting deeper than ``MAX_DEPTH`` and files larger than ``MAX_BYTES``.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 from xml.parsers import expat
 
 from ..errors import SourceError, XmlError
@@ -38,7 +38,17 @@ class Element:
         calls: The xacro calls it came through, innermost first.
     """
 
-    __slots__ = ("_close", "attributes", "calls", "children", "file", "parent", "start", "tag", "text")
+    __slots__ = (
+        "_close",
+        "attributes",
+        "calls",
+        "children",
+        "file",
+        "parent",
+        "start",
+        "tag",
+        "text",
+    )
 
     def __init__(
         self,
@@ -103,7 +113,7 @@ class Element:
         return len(data) if end < 0 else end + 1
 
     def attribute_place(self, name: str) -> Place:
-        """The span of an attribute, name and value; of the start tag where it is not written there."""
+        """The span of an attribute, name and value; of the start tag if it is not written there."""
         span = self.file.attribute_spans(self.start).get(name)
         return self.place if span is None else Place(self.file, *span, self.calls)
 
@@ -210,13 +220,27 @@ def parse(file: SourceFile) -> Document:
     parser.EndElementHandler = end
     parser.CharacterDataHandler = characters
     parser.CommentHandler = comment
-    run_parser(parser, file)
+    run_parser(parser, file, stack)
     assert root is not None  # expat rejects a document without one
     return Document(file, root, comments)
 
 
-def run_parser(parser: Any, file: SourceFile) -> None:
+class _Open(Protocol):
+    """An element whose end has not been seen: what an error says of it."""
+
+    start: int
+
+    @property
+    def tag(self) -> str: ...
+
+
+def run_parser(parser: Any, file: SourceFile, stack: Sequence[_Open]) -> None:
     """Feed a file to an expat parser, with the refusals that hold for every description.
+
+    Args:
+        parser: The parser, its handlers set.
+        file: The file.
+        stack: The elements that are open, as the handlers keep it.
 
     Raises:
         XmlError: As :func:`parse`.
@@ -243,6 +267,9 @@ def run_parser(parser: Any, file: SourceFile) -> None:
     except expat.ExpatError as error:
         offset = min(parser.ErrorByteIndex, len(file.data))
         message, rule = _explain(file, error, offset)
+        if stack and "open" in message:
+            line = file.position(stack[-1].start)[0]
+            message += f" (<{stack[-1].tag}> of line {line} is)"
         raise XmlError(
             message,
             at=Place(file, max(offset, 0), max(offset, 0)),
@@ -302,10 +329,10 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
         reason = "a comment holds '--', which XML does not allow; write '- -' or '-'"
     else:
         reason = {
-            "mismatched tag": f"</{closing}> closes an element that is not the one open here",
+            "mismatched tag": f"</{closing}> closes an element that is not open here",
             "unbound prefix": "a prefix is used that is not declared; for xacro that is "
             'xmlns:xacro="http://www.ros.org/wiki/xacro" on <robot>',
-            "no element found": "the file ends before its elements are closed; is it truncated?",
+            "no element found": "the file ends while elements are open; is it truncated?",
             "unclosed token": "the file ends within a tag; is it truncated?",
             "junk after document element": "something follows the end of the root element; "
             "one root element is wanted",

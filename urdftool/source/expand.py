@@ -15,7 +15,6 @@ import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from pathlib import Path
 from types import CodeType
 from typing import Any, NamedTuple
 
@@ -218,7 +217,7 @@ class _Run:
             except SourceError as error:
                 xacro.filestack.pop()
                 raise xacro.XacroException(
-                    error.message, exc=_MissingFile(path, error)
+                    error.message, exc=_MissingFileError(path, error)
                 ) from error
             self.result.files[path] = file
         return parse_xacro(file, self.include_calls)
@@ -274,7 +273,8 @@ class _Run:
             self.node = tag
             values = original(tag, required, optional)
             if tag.tagName == "xacro:arg":
-                self.result.arguments.setdefault(values[0], Argument(*values, tag.place))
+                name, default = values
+                self.result.arguments.setdefault(name, Argument(name, default, tag.place))
             return values
 
         return wrapped
@@ -401,7 +401,7 @@ class _Run:
         return explain(error, self.node, self.failed_text, self.result)
 
 
-class _MissingFile(OSError):
+class _MissingFileError(OSError):
     """What xacro needs to see to let an optional include pass."""
 
     def __init__(self, path: str, error: SourceError) -> None:

@@ -1,8 +1,8 @@
 """What a package's CMakeLists.txt says about where its files are installed.
 
-``$(find NAME)`` and ``package://NAME/`` mean the package as it is *installed*; a source tree is laid
-out differently when ``install(DIRECTORY description/urdf DESTINATION share/${PROJECT_NAME})`` moves
-things. Only what decides that is read: ``project``, ``set`` and ``install(DIRECTORY|FILES …)``.
+``$(find NAME)`` and ``package://NAME/`` mean the package as it is *installed*; a source tree is
+laid out differently when ``install(DIRECTORY description/urdf DESTINATION share/${PROJECT_NAME})``
+moves things. Only what decides that is read: ``project``, ``set``, ``install(DIRECTORY|FILES …)``.
 """
 
 from __future__ import annotations
@@ -16,9 +16,12 @@ _COMMAND = re.compile(r"\b(project|set|install)\s*\(([^()]*(?:\([^()]*\)[^()]*)*
 _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
 _VARIABLE = re.compile(r"\$\{(\w+)\}")
 _KEYWORDS = frozenset(
-    "DIRECTORY FILES PROGRAMS TARGETS EXPORT DESTINATION PATTERN REGEX EXCLUDE PERMISSIONS "
-    "USE_SOURCE_PERMISSIONS FILES_MATCHING OPTIONAL COMPONENT CONFIGURATIONS RENAME TYPE "
-    "MESSAGE_NEVER EXCLUDE_FROM_ALL FILE_PERMISSIONS DIRECTORY_PERMISSIONS".split()
+    (
+        *("DIRECTORY", "FILES", "PROGRAMS", "TARGETS", "EXPORT", "DESTINATION", "PATTERN", "REGEX"),
+        *("EXCLUDE", "PERMISSIONS", "USE_SOURCE_PERMISSIONS", "FILES_MATCHING", "OPTIONAL"),
+        *("COMPONENT", "CONFIGURATIONS", "RENAME", "TYPE", "MESSAGE_NEVER", "EXCLUDE_FROM_ALL"),
+        *("FILE_PERMISSIONS", "DIRECTORY_PERMISSIONS"),
+    )
 )
 
 

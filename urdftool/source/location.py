@@ -15,7 +15,7 @@ class SourceFile:
         encoding: The encoding the bytes are in, for counting columns.
     """
 
-    __slots__ = ("_tags", "_starts", "data", "encoding", "path")
+    __slots__ = ("_starts", "_tags", "data", "encoding", "path")
 
     def __init__(self, path: str, data: bytes, encoding: str = "utf-8") -> None:
         """Keep the bytes; nothing is computed before it is asked for."""

@@ -1,11 +1,11 @@
 """Where ROS packages are, without ROS.
 
-One resolver for ``$(find NAME)``, ``package://``, ``model://``, ``file://`` and relative paths, for
-every command. A package is looked for, in this order: what ``--package`` and ``--package-path`` say;
-the file's own package (the nearest ``package.xml`` above it, by its ``<name>``); packages beside and
-below that workspace's root; ``[tool.urdftool.packages]`` of the configuration;
-``ROS_PACKAGE_PATH``; ``AMENT_PREFIX_PATH``; last, a folder above the file that bears the package's
-name even without a ``package.xml``.
+One resolver for ``$(find NAME)``, ``package://``, ``model://``, ``file://`` and relative paths,
+for every command. A package is looked for, in this order: what ``--package`` and
+``--package-path`` say; the file's own package (the nearest ``package.xml`` above it, by its
+``<name>``); packages beside and below that workspace's root; ``[tool.urdftool.packages]`` of the
+configuration; ``ROS_PACKAGE_PATH``; ``AMENT_PREFIX_PATH``; last, a folder above the file that bears
+the package's name even without a ``package.xml``.
 """
 
 from __future__ import annotations
@@ -172,7 +172,10 @@ class Packages:
             yield f"--package-path {path}", packages_below(path).get(name) or _child(path, name)
         own = own_package(self.file)
         if own:
-            yield f"the file's own package '{own[0]}' in {own[1]}", own[1] if own[0] == name else None
+            yield (
+                f"the file's own package '{own[0]}' in {own[1]}",
+                own[1] if own[0] == name else None,
+            )
         else:
             yield f"for a package.xml above {self.file}", None
         for root in self._workspace_roots(own[1] if own else None):
@@ -197,7 +200,7 @@ class Packages:
         yield f"for a folder named '{name}' above the file", None
 
     def _workspace_roots(self, package: Path | None) -> list[Path]:
-        """Folders to search for neighbours: from the package's parent up to the workspace's root."""
+        """Folders to search for neighbours, from the package's parent to the workspace's root."""
         start = package.parent if package else self.file.parent
         roots = []
         for folder in (start, *start.parents)[:_MAX_CLIMB]:

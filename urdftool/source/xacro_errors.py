@@ -31,16 +31,15 @@ def explain(
         failed_text: The text or expression that could not be evaluated, if it was that.
         result: What was read so far.
     """
+    at = None if node is None else _place(node, failed_text)
     for cause in _causes(error):
-        if isinstance(cause, UrdftoolError) and cause.line is None and node is not None:
-            at = _place(node, failed_text)
+        if isinstance(cause, UrdftoolError) and cause.line is None and at is not None:
             if cause.path is not None:  # a file that could not be read, named where it is wanted
                 message = f"{cause.path}: {cause.message}"
                 return XacroError(message, at=at, notes=cause.notes, rule="include-not-found")
             return type(cause)(cause.message, at=at, notes=cause.notes, rule=cause.rule)
         if isinstance(cause, UrdftoolError):
             return cause
-    at = None if node is None else _place(node, failed_text)
     rule, message = _sentence(error, node, failed_text, result)
     if at is None:
         return XacroError(message, path=result.file.path, rule=rule)

@@ -5,7 +5,7 @@ written (``file``, ``start``) and which calls they came through (``calls``), and
 times faster than those of ``xml.dom.minidom``. Names follow the DOM because xacro calls them.
 """
 
-# ruff: noqa: N802, N803, N815 -- the DOM's names
+# ruff: noqa: N802, N815 -- the DOM's names
 
 from __future__ import annotations
 
@@ -161,6 +161,11 @@ class XacroElement(Parent):
         self.definition_of: Instances | None = None
 
     @property
+    def tag(self) -> str:
+        """Its name, as elements of a document call it."""
+        return self.tagName
+
+    @property
     def place(self) -> Place:
         """The span of its start tag."""
         return Place(self.file, self.start, self.file.tag_end(self.start), self.calls)
@@ -238,7 +243,11 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
     parser.namespace_prefixes = True
     parser.buffer_text = True
     document = XacroDocument()
-    stack: list[Parent] = [document]
+    stack: list[XacroElement] = []
+
+    def inside() -> Parent:
+        return stack[-1] if stack else document
+
     declared: list[tuple[str, str]] = []
     cdata = False
 
@@ -253,26 +262,26 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
         element = XacroElement(
             _qualified(tag) if " " in tag else tag, values, file, parser.CurrentByteIndex, calls
         )
-        if len(stack) == 1:
+        if not stack:
             document.documentElement = element
         elif len(stack) > MAX_DEPTH:
             raise XmlError(
                 f"elements are nested more than {MAX_DEPTH} deep, which no robot description is",
                 at=element.place,
             )
-        stack[-1].appendChild(element)
+        inside().appendChild(element)
         stack.append(element)
 
     def end(_: str) -> None:
         stack.pop()
 
     def characters(text: str) -> None:
-        last = stack[-1].lastChild
+        last = inside().lastChild
         kind = CDATA if cdata else TEXT
         if isinstance(last, Characters) and last.nodeType == kind and not cdata:
             last.data += text
         else:
-            stack[-1].appendChild(Characters(text, kind))
+            inside().appendChild(Characters(text, kind))
 
     def start_cdata() -> None:
         nonlocal cdata
@@ -283,10 +292,10 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
         cdata = False
 
     def comment(text: str) -> None:
-        stack[-1].appendChild(Characters(text, COMMENT))
+        inside().appendChild(Characters(text, COMMENT))
 
     def instruction(target: str, text: str) -> None:
-        stack[-1].appendChild(Characters(f"{target} {text}", INSTRUCTION))
+        inside().appendChild(Characters(f"{target} {text}", INSTRUCTION))
 
     parser.StartNamespaceDeclHandler = namespace
     parser.StartElementHandler = start
@@ -296,7 +305,7 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
     parser.EndCdataSectionHandler = end_cdata
     parser.CommentHandler = comment
     parser.ProcessingInstructionHandler = instruction
-    run_parser(parser, file)
+    run_parser(parser, file, stack)
     return document
 
 

@@ -1,0 +1,47 @@
+# Two commands do all the set-up: `make demo` shows what urdftool does, `make test` runs its tests.
+
+PYTHON ?= python3
+VENV   ?= .venv
+BIN    := $(VENV)/bin
+DEMO   := fixtures/robots/demo_arm/urdf/arm.urdf.xacro
+
+.PHONY: demo test test-all check format docs bench clean
+
+$(BIN)/urdftool: pyproject.toml
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	@touch $@
+
+$(VENV)/.dev: pyproject.toml $(BIN)/urdftool
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@touch $@
+
+# lint exits 1 because the demo robot has mistakes; anything else is a failure.
+demo: $(BIN)/urdftool
+	$(BIN)/urdftool expand $(DEMO) prefix:=left_ -o $(VENV)/left_arm.urdf
+	@echo "wrote $(VENV)/left_arm.urdf"
+	$(BIN)/urdftool lint $(DEMO) prefix:=left_; test $$? -eq 1
+
+test: $(VENV)/.dev
+	$(BIN)/python -m pytest -m "not slow"
+
+test-all: $(VENV)/.dev
+	$(BIN)/python -m pytest
+
+check: $(VENV)/.dev
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+
+format: $(VENV)/.dev
+	$(BIN)/ruff format
+	$(BIN)/ruff check --fix
+
+docs: $(VENV)/.dev
+	$(BIN)/python docs/generate.py
+
+bench: $(VENV)/.dev
+	$(BIN)/python -m tests.benchmarks
+
+clean:
+	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
