@@ -130,7 +130,8 @@ def _report(
     checked = [report for report in reports if not report.skipped and report.error is None]
     targets = {name for report in checked for name in report.targets}
     hidden = sum(report.suppressed for report in reports)
-    console.note(text.summary(findings, len(checked), targets, hidden))
+    if checked:
+        console.note(text.summary(findings, len(checked), targets, hidden))
     if broken:
         return broken
     worst = max((f.severity for f in findings), default=None)

@@ -12,6 +12,7 @@ from ..source.location import Call
 _COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "blue"}
 _MOST_LINES = 6
 _MOST_CALLS = 4
+_LONGEST_LINE = 160
 
 
 class Painter:
@@ -72,15 +73,26 @@ def _source(finding: Finding, paint: Painter) -> Iterator[str]:
     shown = range(first, min(last, first + _MOST_LINES - 1) + 1)
     for number in shown:
         text = place.file.line_text(number)
-        expanded = _expand_tabs(text)
-        yield f"{paint(f'{number:>{width}}', 'cyan')} {bar} {clean(expanded)}"
         begin = column - 1 if number == first else len(text) - len(text.lstrip())
         end = end_column - 1 if number == last else len(text.rstrip())
+        text, begin, end = _excerpt(text, begin, end)
+        yield f"{paint(f'{number:>{width}}', 'cyan')} {bar} {clean(_expand_tabs(text))}"
         begin, end = len(_expand_tabs(text[:begin])), len(_expand_tabs(text[:end]))
         marks = "^" * max(1, end - begin)
         yield f"{'':>{width}} {bar} {'':>{begin}}{paint(marks, _COLORS[finding.severity])}"
     if last > shown[-1]:
         yield f"{'':>{width}} {bar} …"
+
+
+def _excerpt(text: str, begin: int, end: int) -> tuple[str, int, int]:
+    """As much of a very long line as is wanted to see what is marked in it."""
+    if len(text) <= _LONGEST_LINE:
+        return text, begin, end
+    start = max(0, min(begin - 20, len(text) - _LONGEST_LINE))
+    piece = ("…" if start else "") + text[start : start + _LONGEST_LINE]
+    shift = start - (1 if start else 0)
+    tail = "…" if start + _LONGEST_LINE < len(text) else ""
+    return piece + tail, begin - shift, min(end - shift, len(piece))
 
 
 def _expand_tabs(text: str) -> str:

@@ -247,13 +247,11 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[_Open]) -> None:
     """
 
     def entity(name: str, *_: object) -> None:
-        line, column = file.position(parser.CurrentByteIndex)
+        at = parser.CurrentByteIndex
         raise XmlError(
             f"declares the entity '{name}'; entities are refused in robot descriptions "
             "(write the text itself, or use a xacro property)",
-            path=file.path,
-            line=line,
-            column=column,
+            at=Place(file, at, at),
         )
 
     def declaration(_: str, encoding: str | None, __: int) -> None:
@@ -277,7 +275,7 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[_Open]) -> None:
         ) from None
     except (LookupError, UnicodeDecodeError, ValueError) as error:
         raise XmlError(
-            f"its text cannot be decoded: {error}; save it as UTF-8", path=file.path, line=1
+            f"its text cannot be decoded: {error}; save it as UTF-8", at=Place(file, 0, 0)
         ) from None
 
 

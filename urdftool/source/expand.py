@@ -11,11 +11,11 @@ from __future__ import annotations
 
 import os
 import re
+import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from types import CodeType
 from typing import Any, NamedTuple
 
 import xacro
@@ -23,6 +23,7 @@ import xacro.substitution_args as substitution
 
 from ..errors import SourceError, UrdftoolError, XacroError
 from .document import Document, Element, read_file
+from .expressions import BUILTINS, compile_expression
 from .location import Call, Place, SourceFile
 from .packages import Packages, shown_path
 from .xacro_tree import (
@@ -36,12 +37,12 @@ from .xacro_tree import (
 )
 
 MAX_CALLS = 400
-MAX_ELEMENTS = 500_000
+MAX_ELEMENTS = 200_000
 MAX_INCLUDES = 100
+MAX_SECONDS = 8.0
 _RECURSION_LIMIT = 6000
 
 _lock = threading.RLock()
-_codes: dict[str, CodeType] = {}
 
 
 class Argument(NamedTuple):
@@ -136,7 +137,7 @@ def expand_xacro(
     """
     with _lock:
         run = _Run(Expansion(file, arguments), packages)
-        with run.hooks():
+        with run.hooks(), _time_limit(run):
             try:
                 xacro.init_stacks(file.path)
                 run.result.tree = parse_xacro(file)
@@ -146,6 +147,34 @@ def expand_xacro(
             except Exception as error:
                 raise run.explain(error) from error
         return run.result
+
+
+@contextmanager
+def _time_limit(run: _Run) -> Iterator[None]:
+    """Stop an expansion that takes too long; only where signals can be had.
+
+    A timer that somebody else has set is left alone.
+    """
+    usable = hasattr(signal, "setitimer") and threading.current_thread() is threading.main_thread()
+    if not usable or signal.getitimer(signal.ITIMER_REAL)[0]:
+        yield
+        return
+
+    def stop(*_: object) -> None:
+        raise XacroError(
+            f"the expansion takes longer than {MAX_SECONDS:g} s, and was stopped",
+            at=run.place,
+            path=run.result.file.path,
+            rule="endless-expansion",
+        )
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, MAX_SECONDS)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
 
 
 class _Run:
@@ -364,15 +393,9 @@ class _Run:
         """The value of what stands between ``${`` and ``}``."""
         try:
             source = str(self.eval_text(expression, symbols))
-            code = _codes.get(source)
-            if code is None:
-                code = compile(source.strip(), "<expression>", "eval")
-                hidden = [name for name in _names(code) if name.startswith("__")]
-                if hidden:
-                    raise xacro.XacroException(f"Use of invalid name(s): {', '.join(hidden)}")
-                _codes[source] = code
+            code = compile_expression(source)
             if not dict.__contains__(symbols, "__builtins__"):
-                symbols.update(__builtins__={})
+                symbols.update(__builtins__=BUILTINS)
             return eval(code, symbols)
         except Exception as error:
             self.failed_text = self.failed_text or expression
@@ -433,8 +456,3 @@ def _split(text: str) -> list[tuple[int, str]]:
         else:
             pieces.append((_TEXT, value))
     return pieces
-
-
-def _names(code: CodeType) -> Iterator[str]:
-    """All names that a compiled expression uses."""
-    return iter(code.co_names)

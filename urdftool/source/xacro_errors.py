@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import re
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import UrdftoolError, XacroError
 from .location import Place
+from .packages import shown_path
 
 if TYPE_CHECKING:
     from .expand import Expansion
@@ -17,6 +20,7 @@ _UNKNOWN_MACRO = re.compile(r"unknown macro name: (?:xacro:)?(\S+)")
 _NO_ARGUMENT = re.compile(r"Undefined substitution argument '?([^\s']+)'?")
 _NO_PARAMETERS = re.compile(r"Undefined parameters \[(.*)\]")
 _ODD_PARAMETER = re.compile(r'Invalid parameter "([^"]*)"')
+_NOT_BOOLEAN = re.compile(r'Xacro conditional "(.*)" evaluated to "(.*)", which is not')
 _NO_ATTRIBUTE = re.compile(r"(\S+): missing attribute '([^']+)'")
 
 
@@ -35,8 +39,7 @@ def explain(
     for cause in _causes(error):
         if isinstance(cause, UrdftoolError) and cause.line is None and at is not None:
             if cause.path is not None:  # a file that could not be read, named where it is wanted
-                message = f"{cause.path}: {cause.message}"
-                return XacroError(message, at=at, notes=cause.notes, rule="include-not-found")
+                return _missing(cause.path, cause.message, at)
             return type(cause)(cause.message, at=at, notes=cause.notes, rule=cause.rule)
         if isinstance(cause, UrdftoolError):
             return cause
@@ -44,6 +47,22 @@ def explain(
     if at is None:
         return XacroError(message, path=result.file.path, rule=rule)
     return XacroError(message, at=at, rule=rule)
+
+
+def _missing(path: str, reason: str, at: Place) -> XacroError:
+    """A file that is wanted and cannot be read, with the nearest name that can."""
+    from difflib import get_close_matches
+
+    folder, name = os.path.split(path)
+    try:
+        there = os.listdir(folder or ".")
+    except OSError:
+        there = []
+        missing = next((p for p in reversed(Path(path).parents) if not p.exists()), None)
+        reason = f"there is no folder {missing}" if missing else reason
+    near = get_close_matches(name, there, 1, 0.6)
+    hint = f"; did you mean '{near[0]}'?" if near and near[0] != name else ""
+    return XacroError(f"{path}: {reason}{hint}", at=at, rule="include-not-found")
 
 
 def _causes(error: BaseException) -> list[BaseException]:
@@ -101,6 +120,14 @@ def _sentence(
         return "macro-arguments-mismatch", f"macro '{macro}' has no parameter '{match[1]}'"
     if match := _NO_ATTRIBUTE.search(text):
         return "expansion-failed", f"<{match[1]}> lacks the attribute '{match[2]}'"
+    if match := _NOT_BOOLEAN.search(text):
+        value = match[2] if match[1] == match[2] else f"{match[1]}, which is {match[2]!r},"
+        return (
+            "non-boolean-conditional",
+            f"the condition {value} is neither true nor false; write true, false, 1, 0 or ${{…}}",
+        )
+    if isinstance(getattr(error, "exc", None), MemoryError):
+        return "endless-expansion", f"needs more memory than there is{_in_expression(failed_text)}"
     if "circular variable definition" in text:
         return "circular-property", text.split(" Consider ")[0]
     if "no attribute '_setitem'" in text:
@@ -111,14 +138,14 @@ def _sentence(
     for cause in _causes(error):
         if isinstance(cause, OSError) and cause.filename:
             reason = (cause.strerror or "cannot be read").lower()
-            return "include-not-found", f"{cause.filename}: {reason}"
+            return "include-not-found", f"{shown_path(cause.filename)}: {reason}"
         if type(cause).__module__.startswith("yaml"):
             mark = getattr(cause, "problem_mark", None)
             problem = getattr(cause, "problem", None) or "not valid YAML"
             where = f"{mark.name}:{mark.line + 1}:{mark.column + 1}: " if mark else ""
             return "expansion-failed", f"{where}not valid YAML: {problem}"
     text = re.sub(r"\s*when evaluating expression '(?:.*)'$", "", text)
-    text = re.sub(r"^<class '[\w.]+'>: ", "", text)
+    text = re.sub(r"^<class '[\w.]+'>: | \(<expression>, line 1\)", "", text)
     return "expansion-failed", f"{text}{_in_expression(failed_text)}"
 
 
