@@ -1,0 +1,205 @@
+"""Exports on disk: a folder or a file with its companions, whole or not at all.
+
+Every text file carries a mark in its first comment: who wrote it, and a digest of what follows. So
+a later export knows its own files, also those that someone has edited since, and leaves what is not
+its own alone.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from collections.abc import Iterable, Mapping
+from hashlib import sha256
+from pathlib import Path
+
+from .. import __version__
+from ..errors import OutputError
+
+_MARK = re.compile(rb"<!-- Exported by urdftool [^;]*; ([0-9a-f]{12}) -->\n?")
+_HEAD = 4096
+
+
+def mark(xml: bytes, source: str) -> bytes:
+    """An XML file with the mark before its root element.
+
+    Args:
+        xml: The file; a declaration stays first.
+        source: The name of the description it was made from.
+    """
+    start = xml.find(b"?>") + 2 if xml.startswith(b"<?xml") else 0
+    head, rest = xml[:start], xml[start:].lstrip(b"\n")
+    name = re.sub(r"-{2,}|[;<>]", "-", source)
+    comment = f"<!-- Exported by urdftool {__version__} from {name}; {_digest(rest)} -->\n"
+    return (head + b"\n" if head else b"") + comment.encode() + rest
+
+
+def is_ours(data: bytes) -> bool:
+    """Whether an export wrote these bytes and nobody changed them since."""
+    found = _MARK.search(data, 0, _HEAD)
+    return found is not None and found[1].decode() == _digest(data[found.end() :])
+
+
+def write_directory(
+    target: str | Path,
+    files: Mapping[str, bytes | Path],
+    *,
+    main: str,
+    overwrite: bool = False,
+    inputs: Iterable[str | Path] = (),
+) -> None:
+    """Write an export as a folder: beside its place first, then moved there.
+
+    A folder of an earlier export is replaced; what else lies in it stays.
+
+    Args:
+        target: The folder.
+        files: Content by relative path: bytes, or a file to copy.
+        main: The file by which a folder is known as ours.
+        overwrite: Replace also what is not ours, or was edited.
+        inputs: Files that were read, which must not be replaced.
+
+    Raises:
+        OutputError: It is not ours, or cannot be written. What was there is as it was.
+    """
+    folder = Path(os.path.realpath(target))
+    _check_place(folder, target)
+    there = folder.is_dir() and any(folder.iterdir())
+    if there and not overwrite and not (folder / main).is_file():
+        raise OutputError(
+            "is a folder that no export wrote; choose another, or overwrite it with --overwrite",
+            path=target,
+        )
+    _check_files(folder, files, overwrite, inputs)
+    staged = folder.parent / f".{folder.name}.{os.getpid()}.tmp"
+    try:
+        _stage(staged, files)
+        if folder.is_dir():
+            _keep_others(folder, staged)
+        _take_place(staged, folder)
+    except (OSError, shutil.Error) as error:
+        raise OutputError(f"cannot be written: {_reason(error)}", path=target) from None
+    finally:
+        shutil.rmtree(staged, ignore_errors=True)
+
+
+def write_beside(
+    target: str | Path,
+    files: Mapping[str, bytes | Path],
+    *,
+    main: str,
+    overwrite: bool = False,
+    inputs: Iterable[str | Path] = (),
+) -> None:
+    """Write an export as one file with its companions in the same folder; the file comes last.
+
+    Args:
+        target: The file, in place of ``main``.
+        files: Content by path relative to the folder: bytes, or a file to copy.
+        main: Which of ``files`` becomes the target.
+        overwrite: Replace also what is not ours, or was edited.
+        inputs: Files that were read, which must not be replaced.
+
+    Raises:
+        OutputError: Something there is not ours, or cannot be written.
+    """
+    path = Path(os.path.realpath(target))
+    if path.is_dir():
+        raise OutputError("is a folder; the name of a file is wanted", path=target)
+    _check_place(path, target)
+    named = {path.name if name == main else name: content for name, content in files.items()}
+    _check_files(path.parent, named, overwrite, inputs)
+    staged = path.parent / f".{path.name}.{os.getpid()}.tmp"
+    try:
+        _stage(staged, named)
+        for name in sorted(named, key=lambda name: (name == path.name, name)):
+            place = path.parent / name
+            place.parent.mkdir(parents=True, exist_ok=True)
+            os.replace(staged / name, place)
+    except (OSError, shutil.Error) as error:
+        raise OutputError(f"cannot be written: {_reason(error)}", path=target) from None
+    finally:
+        shutil.rmtree(staged, ignore_errors=True)
+
+
+def _check_place(path: Path, shown: str | Path) -> None:
+    if not path.parent.is_dir():
+        raise OutputError(f"the folder {path.parent} does not exist", path=shown)
+    if path.exists() and not (path.is_dir() or path.is_file()):
+        raise OutputError("is neither a file nor a folder", path=shown)
+    if path.is_file() and not path.suffix:
+        raise OutputError("is a file; the name of a folder is wanted", path=shown)
+
+
+def _check_files(
+    folder: Path,
+    files: Mapping[str, bytes | Path],
+    overwrite: bool,
+    inputs: Iterable[str | Path],
+) -> None:
+    """Refuse what would replace an input, or a text file that is not ours as we wrote it."""
+    read = {os.path.realpath(name) for name in inputs}
+    read |= {os.path.realpath(content) for content in files.values() if isinstance(content, Path)}
+    for name, content in files.items():
+        place = folder / name
+        if os.path.realpath(place) in read:
+            raise OutputError("is read as an input; write the export elsewhere", path=place)
+        if place.is_dir():
+            raise OutputError("is a folder, and a file of the export has its name", path=place)
+        if overwrite or not place.is_file() or not isinstance(content, bytes):
+            continue
+        if not _MARK.search(content, 0, _HEAD):
+            continue  # a converted mesh beside a model of ours
+        data = place.read_bytes()
+        if is_ours(data) or data == content:
+            continue
+        edited = _MARK.search(data, 0, _HEAD)
+        why = "was edited since it was exported" if edited else "was not written by urdftool"
+        raise OutputError(f"{why}; keep it, or overwrite it with --overwrite", path=place)
+
+
+def _stage(staged: Path, files: Mapping[str, bytes | Path]) -> None:
+    shutil.rmtree(staged, ignore_errors=True)
+    staged.mkdir()
+    for name, content in files.items():
+        place = staged / name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        if isinstance(content, Path):
+            shutil.copyfile(content, place)
+        else:
+            place.write_bytes(content)
+
+
+def _keep_others(folder: Path, staged: Path) -> None:
+    """Carry over what the export does not write itself."""
+    for place in sorted(folder.rglob("*")):
+        copy = staged / place.relative_to(folder)
+        if place.is_symlink() or not place.is_dir():
+            if not os.path.lexists(copy):
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(place, copy, follow_symlinks=False)
+        else:
+            copy.mkdir(parents=True, exist_ok=True)
+
+
+def _take_place(staged: Path, folder: Path) -> None:
+    if not folder.exists():
+        os.rename(staged, folder)
+        return
+    old = folder.parent / f".{folder.name}.{os.getpid()}.old"
+    os.rename(folder, old)
+    try:
+        os.rename(staged, folder)
+    except OSError:
+        os.rename(old, folder)
+        raise
+    shutil.rmtree(old, ignore_errors=True)
+
+
+def _reason(error: OSError | shutil.Error) -> str:
+    return getattr(error, "strerror", None) or str(error)
+
+
+def _digest(data: bytes) -> str:
+    return sha256(data).hexdigest()[:12]
