@@ -6,6 +6,7 @@ Exit codes: 0 done and nothing wrong, 1 the robot has what was looked for, 2 it 
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from importlib import import_module
@@ -80,6 +81,7 @@ def main(
 
 def run(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit code."""
+    gc.set_threshold(100_000, 50, 50)  # trees of many small objects, and then the process ends
     code = call(arguments)
     try:
         sys.stdout.flush()

@@ -8,7 +8,7 @@ from functools import partial
 
 from .run import Options, Report, lint_file
 
-WORTH_IT = 24  # below so many files, starting workers takes longer than they save
+WORTH_IT = 200  # below so many files, starting workers takes longer than they save
 
 
 def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) -> Iterator[Report]:

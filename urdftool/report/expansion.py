@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
-from difflib import get_close_matches, unified_diff
 from typing import TYPE_CHECKING, Any
 
 from ..source.document import Element, parse, read_file
@@ -27,6 +25,8 @@ def warnings(expansion: Expansion, given: Mapping[str, str]) -> list[str]:
         lines.append(f"{where}: warning: {' '.join(warned.message.split())}")
     for name in given:
         if name not in expansion.arguments and f"$(arg {name})" not in _sources(expansion):
+            from difflib import get_close_matches
+
             near = get_close_matches(name, expansion.arguments, 1)
             declared = ", ".join(expansion.arguments) or "none"
             hint = f"did you mean '{near[0]}'?" if near else f"declared: {declared}"
@@ -67,6 +67,8 @@ def stale(expansion: Expansion, committed: str) -> str:
 
     Comments and layout do not count.
     """
+    from difflib import unified_diff
+
     written = _lines(parse(read_file(committed)).root)
     wanted = _lines(expansion.document().root)
     return "".join(
@@ -95,6 +97,8 @@ def _lines(element: Element, indent: str = "") -> list[str]:
 
 def source_map(expansion: Expansion) -> str:
     """Where each element came from, as JSON: its XPath, file, line, column and calls."""
+    import json
+
     elements: list[dict[str, Any]] = []
     _map(expansion.document().root, "", {}, elements)
     table = {"version": 1, "source": expansion.file.path, "elements": elements}

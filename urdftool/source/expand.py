@@ -19,11 +19,11 @@ from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import xacro
-import xacro.substitution_args as substitution
 
 from ..errors import SourceError, UrdftoolError, XacroError
 from .document import Document, Element, read_file
 from .expressions import BUILTINS, compile_expression
+from .lazy import import_lazily, is_loaded
 from .location import Call, Place, SourceFile
 from .packages import Packages, shown_path
 from .xacro_tree import (
@@ -188,6 +188,7 @@ class _Run:
         self.failed_text: str | None = None
         self.include_calls: tuple[Call, ...] = ()
         self.elements = 0
+        self.yaml_safe_load: Callable[..., Any] | None = None
 
     @contextmanager
     def hooks(self) -> Iterator[None]:
@@ -210,6 +211,9 @@ class _Run:
             "root_dir": os.curdir,
         }
         saved = {name: getattr(xacro, name) for name in (*here, "filestack", "macrostack")}
+        import_lazily("yaml")  # which the next line imports, and few descriptions need
+        import xacro.substitution_args as substitution
+
         find, eval_find = substitution._eval_find, substitution._eval_dict["find"]
         limit = sys.getrecursionlimit()
         try:
@@ -222,6 +226,8 @@ class _Run:
             self.note_dependencies()
         finally:
             sys.setrecursionlimit(limit)
+            if self.yaml_safe_load is not None:
+                sys.modules["yaml"].safe_load = self.yaml_safe_load  # type: ignore[attr-defined]
             for name, value in saved.items():
                 setattr(xacro, name, value)
             substitution._eval_find = find
@@ -260,9 +266,22 @@ class _Run:
 
         def absolute(spec: str) -> str:
             path = original(spec)
+            self.use_fast_yaml()
             return path if os.path.exists(path) else str(self.packages.installed(path))
 
         return absolute
+
+    def use_fast_yaml(self) -> None:
+        """Let ``load_yaml``, once it has imported yaml, read with libyaml: some ten times faster."""
+        yaml: Any = sys.modules["yaml"]
+        if not is_loaded(yaml):
+            return
+        fast = getattr(yaml, "CSafeLoader", None)
+        if fast is None or self.yaml_safe_load is not None:
+            return
+        loader = type("Loader", (fast,), {"yaml_constructors": yaml.SafeLoader.yaml_constructors})
+        self.yaml_safe_load = yaml.safe_load
+        yaml.safe_load = lambda stream: yaml.load(stream, Loader=loader)
 
     def warning(self, *words: object, **_: object) -> None:
         """Keep a warning with the place it was met."""

@@ -47,7 +47,7 @@ class _Bounded(ast.NodeTransformer):
 
     _FUNCTIONS = {ast.Pow: "__power__", ast.LShift: "__shift__"}  # noqa: RUF012
 
-    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:  # noqa: N802 -- ast's name
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
         """Replace one of the two."""
         self.generic_visit(node)
         function = self._FUNCTIONS.get(type(node.op))

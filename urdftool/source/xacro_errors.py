@@ -80,6 +80,9 @@ def _causes(error: BaseException) -> list[BaseException]:
 
 def _place(node: XacroElement, failed_text: str | None) -> Place:
     """The attribute whose value holds the text that failed; the element otherwise."""
+    if node.tagName == "xacro:include" and not failed_text:
+        span = node.file.attribute_spans(node.start).get("filename")
+        return node.place if span is None else Place(node.file, *span, node.calls)
     if failed_text:
         for name, span in node.file.attribute_spans(node.start).items():
             written = node.file.data[span[0] : span[1]].decode(node.file.encoding, "replace")

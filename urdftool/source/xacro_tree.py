@@ -331,7 +331,8 @@ def write_xml(document: XacroDocument, banner: list[str]) -> str:
 
 def _write(node: Node, indent: str, parts: list[str]) -> None:
     if isinstance(node, Characters):
-        parts.append(_characters(node, indent) + "\n")
+        end = "" if node.nodeType == CDATA else "\n"
+        parts.append(_characters(node, indent) + end)
         return
     assert isinstance(node, XacroElement)
     parts.append(f"{indent}<{node.tagName}")

@@ -1,0 +1,301 @@
+import csv
+import io
+from contextlib import redirect_stderr
+from pathlib import Path
+
+import pytest
+import xacro
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from lxml import etree
+
+from tests.conftest import CORPUS, XACRO
+from urdftool.errors import PackageNotFound, XacroError, XmlError
+from urdftool.source.document import read_file
+from urdftool.source.expand import expand_xacro
+from urdftool.source.location import SourceFile
+from urdftool.source.packages import Packages
+
+
+def expand(path, **arguments):
+    return expand_xacro(read_file(path), arguments, Packages(path))
+
+
+def expand_text(inside, **arguments):
+    file = SourceFile("r.xacro", XACRO.format(inside).encode())
+    return expand_xacro(file, arguments, Packages())
+
+
+def canonical(text):
+    parser = etree.XMLParser(remove_comments=True, remove_blank_text=True)
+    return etree.tostring(etree.fromstring(text.encode(), parser), method="c14n")
+
+
+def find(description, tag, name=None):
+    for element in description.document().root.walk():
+        if element.tag == tag and name in (None, element.get("name")):
+            return element
+    raise AssertionError(f"no <{tag}>")
+
+
+# Equal to xacro ------------------------------------------------------------------------------
+
+
+def _rows():
+    if not CORPUS.exists():
+        return []
+    with open(CORPUS / "MANIFEST.tsv") as table:
+        rows = [row for row in csv.DictReader(table, delimiter="\t") if row["kind"] == "xacro"]
+    return rows
+
+
+def _plain_xacro(path, arguments, monkeypatch):
+    """What xacro itself makes of a file when it is told where packages are; None if it fails."""
+    import xacro.substitution_args as substitution
+
+    def eval_find(name):
+        return str(Packages(path, paths=[CORPUS]).find(name))
+
+    monkeypatch.setattr(substitution, "_eval_find", eval_find)
+    monkeypatch.setitem(substitution._eval_dict, "find", eval_find)
+    try:
+        with redirect_stderr(io.StringIO()):
+            return xacro.process_file(path, mappings=dict(arguments)).toprettyxml(indent="  ")
+    except Exception:
+        return None
+
+
+@pytest.mark.corpus
+@pytest.mark.parametrize("row", _rows(), ids=lambda row: f"{row['path']} {row['xacro_args']}")
+def test_the_corpus_expands_as_xacro_expands_it(row, monkeypatch):
+    monkeypatch.chdir(CORPUS)
+    path = row["path"]
+    arguments = dict(word.split(":=") for word in row["xacro_args"].split())
+    try:
+        ours = expand_xacro(read_file(path), arguments, Packages(path, paths=[CORPUS])).text
+    except (XacroError, XmlError, PackageNotFound) as error:
+        assert row["error"], f"the manifest says that it expands: {error}"
+        assert error.line is not None
+        ours = None
+    theirs = _plain_xacro(path, arguments, monkeypatch)
+    if theirs is not None:
+        assert ours is not None
+        assert canonical(ours) == canonical(theirs)
+    if row["xacro_with_install_rules"] == "ok":
+        assert ours is not None
+
+
+CASES = [
+    '<link name="a${1+2}" size="${2*0.5} $(arg x)"/>',
+    "<link name='$${literal} $$(x) $ alone'/>",
+    '<xacro:property name="p" value="3"/><xacro:property name="q" value="${p*2}"/><a b="${q}"/>',
+    '<xacro:property name="p" value="3"/><xacro:property name="p" value="4"/><a b="${p}"/>',
+    '<xacro:macro name="m" params="a b:=2 *block"><l n="${a}-${b}"/><xacro:insert_block name="block"/>'
+    '</xacro:macro><xacro:m a="1"><o x="${1/2}"/></xacro:m><xacro:m a="x" b="y"><o/></xacro:m>',
+    '<xacro:macro name="m" params="**many"><w><xacro:insert_block name="many"/></w></xacro:macro>'
+    "<xacro:m><many><i/><j/></many></xacro:m>",
+    '<xacro:macro name="m" params="n"><xacro:if value="${n > 0}"><l n="${n}"/><xacro:m n="${n-1}"/>'
+    '</xacro:if></xacro:macro><xacro:m n="5"/>',
+    '<xacro:unless value="0"><a/></xacro:unless><xacro:if value="false"><b/></xacro:if>',
+    '<xacro:element xacro:name="link" name="x"/><a><xacro:attribute name="b" value="c"/></a>',
+    "<!-- kept --><a/><!-- lost --><xacro:arg name='y' default='1'/><b c='$(arg y)'/>",
+    "<a>text ${1+1} &amp; &lt;</a><![CDATA[ <raw> ]]>",
+    '<xacro:property name="o"><origin xyz="0 0 1"/></xacro:property><xacro:insert_block name="o"/>',
+    '<a list="${[i*i for i in range(4)]}" d="${dict(a=1)[\'a\']}" pow="${2**3} ${1 &lt;&lt; 4}"/>',
+    '<xacro:macro name="m" params="x:=^|7"><a v="${x}"/></xacro:macro><xacro:m/>',
+    '<xacro:call macro="m"/>',
+]
+
+
+@pytest.mark.parametrize("inside", CASES)
+def test_constructs_expand_as_xacro_expands_them(inside, tmp_path):
+    path = tmp_path / "r.xacro"
+    inside = '<xacro:macro name="m"><called/></xacro:macro>' + inside
+    path.write_text(XACRO.format(inside))
+    ours = expand(path, x="given")
+    theirs = xacro.process_file(str(path), mappings={"x": "given"})
+    assert canonical(ours.text) == canonical(theirs.toprettyxml(indent="  "))
+
+
+pieces = st.sampled_from(["${", "}", "$", "$$", "$(", ")", "a", "1+1", " ", "{", "(", "'", "arg x"])
+
+
+@settings(max_examples=300)
+@given(st.lists(pieces, max_size=7).map("".join))
+def test_any_text_is_evaluated_as_xacro_evaluates_it(text):
+    file = SourceFile("r.xacro", b'<r xmlns:xacro="http://www.ros.org/wiki/xacro"/>')
+    written = text.replace("&", "&amp;").replace('"', "&quot;")
+    file.data = file.data.replace(b"<r ", f'<r t="{written}" '.encode())
+    try:
+        xacro.init_stacks(None)
+        document = xacro.parse(file.data.decode())
+        xacro.process_doc(document, mappings={"x": "given"})
+        theirs = document.documentElement.getAttribute("t")
+    except Exception:
+        with pytest.raises(XacroError):
+            expand_xacro(file, {"x": "given"}, Packages())
+    else:
+        ours = expand_xacro(file, {"x": "given"}, Packages())
+        assert ours.tree.documentElement.getAttribute("t") == theirs
+
+
+def test_xacro_is_as_it_was_afterwards():
+    before = {name: getattr(xacro, name) for name in ("parse", "eval_text", "warning", "eval_all")}
+    for inside in ("<a/>", '<a b="${nope}"/>'):
+        try:
+            expand_text(inside)
+        except XacroError:
+            pass
+        assert {name: getattr(xacro, name) for name in before} == before
+
+
+def test_arguments_do_not_leak_from_one_file_to_the_next():
+    expand_text('<xacro:arg name="p" default="1"/><a b="$(arg p)"/>')
+    with pytest.raises(XacroError, match="'p' has no value"):
+        expand_text('<a b="$(arg p)"/>')
+
+
+# Where it came from --------------------------------------------------------------------------
+
+
+def test_an_element_of_a_macro_names_its_line_and_the_call(xacro_file):
+    path = xacro_file(
+        "r.xacro",
+        '<xacro:macro name="wheel" params="prefix">\n  <link name="${prefix}wheel"/>\n'
+        '</xacro:macro>\n<xacro:wheel prefix="left_"/>\n<xacro:wheel prefix="${\'right\'}_"/>',
+    )
+    expansion = expand(path)
+    for name, line, argument in (("left_wheel", 5, "left_"), ("right_wheel", 6, "right_")):
+        link = find(expansion, "link", name)
+        assert (link.place.line, link.place.column) == (3, 3)
+        (call,) = link.calls
+        assert (call.macro, call.line, dict(call.arguments)) == ("wheel", line, {"prefix": argument})
+
+
+def test_a_macro_in_a_macro_names_both_calls(xacro_file):
+    path = xacro_file(
+        "r.xacro",
+        '<xacro:macro name="a" params="n"><link name="${n}"/></xacro:macro>\n'
+        '<xacro:macro name="b" params="n">\n<xacro:a n="${n}_x"/>\n</xacro:macro>\n'
+        '<xacro:b n="one"/>',
+    )
+    link = find(expand(path), "link", "one_x")
+    assert [(call.macro, call.line) for call in link.calls] == [("a", 4), ("b", 6)]
+
+
+def test_a_file_included_twice_names_both_includes(xacro_file, write):
+    write("part.xacro", XACRO.format('<link name="l"/>'))
+    path = xacro_file(
+        "r.xacro",
+        '<xacro:include filename="part.xacro"/>\n<xacro:include filename="part.xacro"/>',
+    )
+    links = [e for e in expand(path).document().root.walk() if e.tag == "link"]
+    assert [str(link.place) for link in links] == ["part.xacro:2:1"] * 2
+    assert [[c.line for c in link.calls] for link in links] == [[2], [3]]
+    assert all(call.what == "include" for link in links for call in link.calls)
+
+
+def test_a_block_keeps_the_line_of_the_caller(xacro_file):
+    path = xacro_file(
+        "r.xacro",
+        '<xacro:macro name="m" params="*origin"><j><xacro:insert_block name="origin"/></j>'
+        '</xacro:macro>\n<xacro:m>\n<origin xyz="1 2 3"/>\n</xacro:m>',
+    )
+    assert find(expand(path), "origin").place.line == 4
+
+
+def test_an_attribute_of_an_expanded_element_is_found_in_the_source(xacro_file):
+    path = xacro_file("r.xacro", '<link name="${1}"\n   mass="2"/>')
+    place = find(expand(path), "link").attribute_place("mass")
+    assert (place.line, place.column) == (3, 4)
+
+
+# What goes wrong -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("inside", "line", "column", "message"),
+    [
+        ('\n<a b="${widht}"/><xacro:property name="width" value="1"/>', 3, 4, "mean 'width'"),
+        ('<xacro:macro name="wheel"/>\n<xacro:wheeel/>', 3, 1, "mean 'wheel'"),
+        ('<a b="$(arg prefix)"/>', 2, 4, "prefix:=VALUE"),
+        ('<xacro:include filename="absent.xacro"/>', 2, 16, "absent.xacro: no such file"),
+        ('<xacro:macro name="m" params="a"/>\n<xacro:m/>', 3, 1, "without 'a'"),
+        ('<xacro:macro name="m"/>\n<xacro:m a="1"/>', 3, 1, "no parameter 'a'"),
+        ('<xacro:if value="maybe"/>', 2, 1, "neither true nor false"),
+        ('<xacro:property name="a" value="${a}"/><b c="${a}"/>', 2, 43, "circular"),
+        ('<a b="${1 +}"/>', 2, 4, "invalid syntax"),
+        ('<a b="${10**10**9}"/>', 2, 4, "larger than any robot"),
+        ('<a b="${__import__}"/>', 2, 4, "invalid name"),
+        ('<a b="${unclosed"/>', 2, 1, "invalid expression"),
+        ('<xacro:property value="1"/>', 2, 1, "lacks the attribute 'name'"),
+        ('<xacro:macro name="m"><xacro:m/></xacro:macro>\n<xacro:m/>', 2, 23, "without end"),
+    ],
+)
+def test_what_fails_names_its_line_and_says_what_would_be_right(
+    xacro_file, inside, line, column, message
+):
+    with pytest.raises(XacroError, match=message) as caught:
+        expand(xacro_file("r.xacro", inside))
+    assert (caught.value.line, caught.value.column) == (line, column)
+
+
+def test_a_failure_in_a_macro_names_the_calls(xacro_file):
+    path = xacro_file(
+        "r.xacro",
+        '<xacro:macro name="m" params="a"><l n="${b}"/></xacro:macro>\n<xacro:m a="1"/>',
+    )
+    with pytest.raises(XacroError, match="'b' is not defined") as caught:
+        expand(path)
+    assert [call.what for call in caught.value.calls] == ["macro 'm' a=1"]
+
+
+def test_a_missing_package_is_named_with_the_places_searched(xacro_file):
+    with pytest.raises(PackageNotFound, match="'nowhere'") as caught:
+        expand(xacro_file("r.xacro", '<xacro:include filename="$(find nowhere)/a.xacro"/>'))
+    assert caught.value.line == 2
+    assert caught.value.notes
+
+
+def test_an_included_file_that_is_not_well_formed_is_named(xacro_file, write):
+    write("bad.xacro", "<robot>\n<link>\n</robot>")
+    with pytest.raises(XmlError) as caught:
+        expand(xacro_file("r.xacro", '<xacro:include filename="bad.xacro"/>'))
+    assert caught.value.path == "bad.xacro"
+    assert caught.value.line == 3
+
+
+def test_an_include_of_itself_ends():
+    with pytest.raises(XacroError, match="nested more than"):
+        path = Path("self.xacro")
+        path.write_text(XACRO.format('<xacro:include filename="self.xacro"/>'))
+        expand(path)
+
+
+@pytest.fixture(autouse=True)
+def _elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def test_an_optional_include_may_be_missing():
+    assert expand_text('<xacro:include filename="absent.xacro" optional="true"/><a/>').text
+
+
+def test_yaml_is_read_and_its_faults_are_placed(xacro_file, write):
+    write("c.yaml", "a: {b: !degrees 180}\n")
+    inside = "<xacro:property name=\"c\" value=\"${xacro.load_yaml('%s')}\"/><l n=\"${c.a.b}\"/>"
+    expansion = expand(xacro_file("r.xacro", inside % "c.yaml"))
+    assert find(expansion, "l").get("n").startswith("3.14159")
+    assert expansion.dependencies == ["c.yaml"]
+    write("bad.yaml", "a: [1\nb: }")
+    with pytest.raises(XacroError, match=r"bad\.yaml:2"):
+        expand(xacro_file("s.xacro", inside % "bad.yaml"))
+
+
+def test_too_many_elements_end():
+    macros = "".join(
+        f'<xacro:macro name="m{i}"><xacro:m{i - 1}/><xacro:m{i - 1}/></xacro:macro>'
+        for i in range(1, 30)
+    )
+    with pytest.raises(XacroError, match="more than"):
+        expand_text(f'<xacro:macro name="m0"><a/></xacro:macro>{macros}<xacro:m29/>')
