@@ -1,0 +1,34 @@
+"""What an export says of its losses: lines for people, records for programs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from ..finding import Finding, Severity
+
+
+def merged(findings: Iterable[Finding]) -> list[Finding]:
+    """Findings of one place and one kind as one: the instances of a macro say the same."""
+    found: dict[tuple[str, str, int], Finding] = {}
+    for finding in findings:
+        key = finding.rule, finding.place.path, finding.place.start
+        if key in found:
+            found[key].expansions += 1
+        else:
+            found[key] = replace(finding)
+    return list(found.values())
+
+
+def lines(findings: Iterable[Finding]) -> Iterator[str]:
+    """One line for each finding, with what would help."""
+    for finding in merged(findings):
+        hint = f" ({finding.hint})" if finding.hint else ""
+        times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
+        label = "note" if finding.severity is Severity.INFO else finding.severity.label
+        yield f"{finding.place}: {label}: {finding.message}{hint}{times} [{finding.rule}]"
+
+
+def strict(findings: Iterable[Finding]) -> list[Finding]:
+    """Losses as errors; notes, where the robot behaves the same, are none."""
+    return [replace(f, severity=Severity.ERROR) for f in findings if f.severity > Severity.INFO]

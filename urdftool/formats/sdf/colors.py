@@ -1,0 +1,108 @@
+"""The named materials of Gazebo Classic as colours: gz has no scripts to look them up in."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+Rgb = tuple[float, float, float]
+
+
+class Color(NamedTuple):
+    """A material: red, green and blue of each kind of light, and how opaque it is."""
+
+    ambient: Rgb
+    diffuse: Rgb
+    specular: Rgb = (0.1, 0.1, 0.1)
+    emissive: Rgb = (0.0, 0.0, 0.0)
+    alpha: float = 1.0
+
+
+def _plain(rgb: Rgb, specular: Rgb = (0.1, 0.1, 0.1)) -> Color:
+    return Color(rgb, rgb, specular)
+
+
+def _glow(rgb: Rgb) -> Color:
+    return Color(rgb, rgb, (0.1, 0.1, 0.1), rgb)
+
+
+def _sheer(rgb: Rgb, alpha: float = 0.5) -> Color:
+    return Color(rgb, rgb, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), alpha)
+
+
+_BLACK, _WHITE, _HALF = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.5, 0.5, 0.5)
+_RED, _GREEN, _BLUE = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+_YELLOW, _PURPLE, _TURQUOISE = (1.0, 1.0, 0.0), (1.0, 0.0, 1.0), (0.0, 1.0, 1.0)
+_WOODEN = Color(_WHITE, _WHITE, (0.2, 0.2, 0.2))
+_PAVED = Color((0.1, 0.1, 0.1), (0.8, 0.8, 0.8), (0.01, 0.01, 0.01))
+
+COLORS: dict[str, Color] = {
+    "Gazebo/Grey": Color((0.3, 0.3, 0.3), (0.7, 0.7, 0.7), (0.01, 0.01, 0.01)),
+    "Gazebo/Gray": Color((0.3, 0.3, 0.3), (0.7, 0.7, 0.7), (0.01, 0.01, 0.01)),
+    "Gazebo/DarkGrey": _plain((0.175, 0.175, 0.175), (0.175, 0.175, 0.175)),
+    "Gazebo/DarkGray": _plain((0.175, 0.175, 0.175), (0.175, 0.175, 0.175)),
+    "Gazebo/White": _plain(_WHITE),
+    "Gazebo/FlatBlack": _plain((0.1, 0.1, 0.1), (0.01, 0.01, 0.01)),
+    "Gazebo/Black": _plain(_BLACK),
+    "Gazebo/Red": _plain(_RED),
+    "Gazebo/RedBright": _plain((0.87, 0.26, 0.07), (0.87, 0.26, 0.07)),
+    "Gazebo/Green": _plain(_GREEN),
+    "Gazebo/Blue": _plain(_BLUE),
+    "Gazebo/SkyBlue": Color((0.13, 0.44, 0.7), _BLUE),
+    "Gazebo/Yellow": _plain(_YELLOW, _BLACK),
+    "Gazebo/ZincYellow": _plain((0.9725, 0.9529, 0.2078), (0.9725, 0.9529, 0.2078)),
+    "Gazebo/Purple": _plain(_PURPLE),
+    "Gazebo/Turquoise": _plain(_TURQUOISE),
+    "Gazebo/Orange": _plain((1.0, 0.5088, 0.0468), _HALF),
+    "Gazebo/Indigo": _plain((0.33, 0.0, 0.5)),
+    "Gazebo/Gold": Color((0.4, 0.24869, 0.020759), (0.8, 0.64869, 0.120759), (0.4, 0.4, 0.4)),
+    "Gazebo/Pioneer2Body": Color(
+        (0.481193, 0.000123, 0.000123), (0.681193, 0.000923, 0.000923), _HALF
+    ),
+    "Gazebo/WhiteGlow": _glow(_WHITE),
+    "Gazebo/RedGlow": _glow(_RED),
+    "Gazebo/GreenGlow": _glow(_GREEN),
+    "Gazebo/BlueGlow": _glow(_BLUE),
+    "Gazebo/YellowGlow": _glow(_YELLOW),
+    "Gazebo/PurpleGlow": _glow(_PURPLE),
+    "Gazebo/TurquoiseGlow": _glow(_TURQUOISE),
+    "Gazebo/TurquoiseGlowOutline": _glow(_TURQUOISE),
+    "Gazebo/LightOn": _glow(_GREEN),
+    "Gazebo/LightOff": _glow(_RED),
+    "Gazebo/JointAnchor": _glow(_WHITE),
+    "Gazebo/RedTransparent": _sheer(_RED),
+    "Gazebo/GreenTransparent": _sheer(_GREEN),
+    "Gazebo/BlueTransparent": _sheer(_BLUE),
+    "Gazebo/GreyTransparent": _sheer(_HALF),
+    "Gazebo/YellowTransparent": _sheer(_YELLOW),
+    "Gazebo/RedTransparentOverlay": _sheer(_RED),
+    "Gazebo/GreenTransparentOverlay": _sheer(_GREEN),
+    "Gazebo/BlueTransparentOverlay": _sheer(_BLUE),
+    "Gazebo/BlueLaser": _sheer(_BLUE, 0.4),
+    "Gazebo/OrangeTransparent": _sheer((1.0, 0.44, 0.0), 0.4),
+    "Gazebo/PioneerBody": Color((0.5, 0.0, 0.0), _RED, (0.5, 0.0, 0.0)),
+    "Gazebo/WoodFloor": Color(_HALF, _WHITE, _BLACK),
+    "Gazebo/CeilingTiled": Color(_HALF, _WHITE, _BLACK),
+    "Gazebo/PaintedWall": Color(_WHITE, _WHITE, _BLACK),
+    "Gazebo/WoodPallet": Color(_HALF, _WHITE, _BLACK),
+    "Gazebo/Wood": _WOODEN,
+    "Gazebo/Bricks": _WOODEN,
+    "Gazebo/WindowFrame": _WOODEN,
+    "Gazebo/Road": _PAVED,
+    "Gazebo/Residential": _PAVED,
+    "Gazebo/Tertiary": _PAVED,
+    "Gazebo/Secondary": _PAVED,
+    "Gazebo/Primary": _PAVED,
+    "Gazebo/Trunk": _PAVED,
+    "Gazebo/Motorway": _PAVED,
+    "Gazebo/Pedestrian": _PAVED,
+    "Gazebo/Footway": _PAVED,
+    "Gazebo/Steps": _PAVED,
+    "Gazebo/Lane_1": _PAVED,
+    "Gazebo/Lanes_2": _PAVED,
+    "Gazebo/Lanes_4": _PAVED,
+    "Gazebo/Lanes_6": _PAVED,
+}
+"""By name; those from ``PioneerBody`` on have a picture too, which is lost."""
+
+PICTURED = frozenset(list(COLORS)[list(COLORS).index("Gazebo/PioneerBody") :])
+"""Materials with a picture."""

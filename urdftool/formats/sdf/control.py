@@ -1,0 +1,73 @@
+"""What drives the robot: transmissions and ros2_control, of which SDF knows nothing."""
+
+from __future__ import annotations
+
+from ...model.elements import Ros2Control, Transmission
+from .translation import Translation
+from .xml import Node, comment
+
+HARDWARE = {
+    "gz": ("gz_ros2_control/GazeboSimSystem", "ign_ros2_control/IgnitionSystem"),
+    "gazebo-classic": ("gazebo_ros2_control/GazeboSystem",),
+}
+"""The hardware plugins that work in each target."""
+
+
+def control(model: Node, t: Translation) -> None:
+    """Keep transmissions as comments, and say what becomes of each."""
+    for transmission in t.robot.transmissions:
+        comment(model, _spoken(transmission))
+        joints = ", ".join(f"'{joint.name}'" for joint in transmission.joints) or "no joint"
+        t.note(
+            "transmission",
+            f"transmission '{transmission.name}' of {joints} has no counterpart; it stays as a comment, "
+            + (
+                "and ros_control reads it from robot_description"
+                if t.options.classic
+                else "and a <ros2_control> block in robot_description says the same for gz"
+            ),
+            transmission,
+        )
+    for system in t.robot.ros2_controls:
+        _ros2_control(model, t, system)
+
+
+def _spoken(transmission: Transmission) -> str:
+    parts = [f"transmission {transmission.name}: {transmission.type}"]
+    parts += [
+        f"joint {joint.name} {' '.join(joint.hardware_interfaces)}".rstrip()
+        for joint in transmission.joints
+    ]
+    for actuator in transmission.actuators:
+        reduction = actuator.mechanical_reduction
+        text = "" if reduction is None else f" mechanicalReduction {reduction:g}"
+        parts.append(f"actuator {actuator.name}{text}")
+    return "; ".join(parts)
+
+
+def _ros2_control(model: Node, t: Translation, system: Ros2Control) -> None:
+    joints = ", ".join(joint.name for joint in system.joints)
+    comment(model, f"ros2_control {system.name}: {system.plugin or 'no plugin'}; joints {joints}")
+    right = HARDWARE[t.options.target]
+    at = system.element.child("hardware") or system.element
+    if system.plugin and system.plugin not in right and "azebo" in system.plugin:
+        t.lose(
+            "ros2-control",
+            f"hardware '{system.plugin}' of <ros2_control> '{system.name}' is for another Gazebo",
+            at,
+            hint=f"for {t.options.target} it is {right[0]}",
+        )
+    plugins = {plugin.filename for plugin in t.robot.plugins}
+    if not any("ros2_control" in name or "ros_control" in name for name in plugins):
+        t.lose(
+            "ros2-control",
+            f"<ros2_control> '{system.name}' is read from robot_description by a plugin of Gazebo, "
+            "and the robot has none",
+            system,
+            hint="add the plugin gz_ros2_control-system in a <gazebo> block",
+        )
+    else:
+        text = (
+            f"<ros2_control> '{system.name}' stays in robot_description, where its plugin reads it"
+        )
+        t.note("ros2-control", text, system)

@@ -1,0 +1,153 @@
+"""What keeps a robot from leaving as SDF, beside what keeps it from leaving at all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...finding import Finding
+from ...model.elements import Joint, Link, Mesh, Robot, UnknownShape
+from ...source.document import Element
+from ..defects import defect
+from .extensions import read_value, said_of, value_of
+from .keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS, LINK_KEYWORDS
+from .mass import ROUNDING, shortfall, tensor_of
+from .mesh_files import MeshFiles
+from .plan import Plan
+from .sensor_types import NUMBERS
+from .shapes import has_extent
+
+_WANTED = {
+    "number": "a finite number",
+    "count": "a whole number",
+    "vector": "three finite numbers",
+    "flag": "true or false",
+}
+
+
+def written_defects(robot: Robot) -> Iterator[Finding]:
+    """Defects that can be seen without the files that the robot names."""
+    for link in robot.links:
+        yield from _inertial(link)
+        yield from _shapes(link)
+        yield from _extension(robot, link)
+    for joint in robot.joints:
+        yield from _joint(robot, joint)
+        yield from _extension(robot, joint)
+    for block in robot.gazebo:
+        yield from _sensors(block.element, block.reference or "")
+
+
+def mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
+    """Meshes that are not there, each once."""
+    seen = set()
+    for link, shape in robot.shapes:
+        mesh = shape.geometry
+        if isinstance(mesh, Mesh) and not meshes.known(mesh) and mesh.filename not in seen:
+            seen.add(mesh.filename)
+            yield defect(
+                "mesh-not-found",
+                f"mesh '{mesh.filename}' of link '{link.name}' is not found; give its package with "
+                "--package NAME=DIR, or mend its name",
+                mesh.element.attribute_place("filename"),
+                "link",
+                link.name,
+            )
+
+
+def inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
+    """Bodies whose inertia no rigid body has, also with what fixed joints add to them."""
+    for owner, mass in plan.mass.items():
+        short = shortfall(mass.tensor)
+        if mass.mass <= 0 or short <= ROUNDING:
+            continue
+        members = [robot.link[name] for name in plan.members[owner]]
+        worst = max(members, key=lambda link: _own_shortfall(link))
+        inertia = worst.inertial and (worst.inertial.inertia or worst.inertial)
+        yield defect(
+            "triangle-inequality",
+            f"no rigid body has the inertia of link '{worst.name}': its largest principal moment "
+            f"exceeds the sum of the others by {short:.0%} of itself",
+            (inertia or worst).place,
+            "link",
+            worst.name,
+        )
+
+
+def _own_shortfall(link: Link) -> float:
+    return shortfall(tensor_of(link.inertial.inertia if link.inertial else None))
+
+
+def _inertial(link: Link) -> Iterator[Finding]:
+    inertial = link.inertial
+    if inertial is None:
+        return
+    mass = inertial.element.child("mass")
+    if mass is None or inertial.element.child("inertia") is None:
+        what = "<mass>" if mass is None else "<inertia>"
+        text = f"<inertial> of link '{link.name}' has no {what}"
+        yield defect("incomplete-inertial", text, inertial.place, "link", link.name)
+    if (inertial.mass or 0.0) < 0 and mass is not None:
+        text = f"mass {inertial.mass:g} of link '{link.name}' is negative"
+        yield defect("negative-mass", text, mass.attribute_place("value"), "link", link.name)
+
+
+def _shapes(link: Link) -> Iterator[Finding]:
+    for shape in (*link.visuals, *link.collisions):
+        kind, geometry = shape.element.tag, shape.geometry
+        if geometry is None:
+            text = f"a {kind} of link '{link.name}' has no geometry"
+            yield defect("missing-geometry", text, shape.place, "link", link.name)
+        elif isinstance(geometry, UnknownShape):
+            text = f"a {kind} of link '{link.name}' is a <{geometry.element.tag}>"
+            text += ", which is no shape of URDF; there are box, cylinder, sphere, capsule and mesh"
+            yield defect("unsupported-shape", text, geometry.place, "link", link.name)
+        elif not has_extent(geometry):
+            text = f"a dimension of a {kind} of link '{link.name}' is not above zero"
+            yield defect("non-positive-dimension", text, geometry.place, "link", link.name)
+
+
+def _joint(robot: Robot, joint: Joint) -> Iterator[Finding]:
+    if joint.is_limited and joint.limit is None:
+        text = f"{joint.type} joint '{joint.name}' has no <limit>; write one, or make it continuous"
+        yield defect("missing-limit", text, joint.place, "joint", joint.name)
+    leader = robot.joint.get(joint.mimic.joint) if joint.mimic else None
+    if joint.mimic and leader is not None and leader.is_fixed:
+        yield defect(
+            "mimic-dof-mismatch",
+            f"joint '{joint.name}' mimics '{leader.name}', which is fixed",
+            joint.mimic.element.attribute_place("joint"),
+            "joint",
+            joint.name,
+        )
+
+
+def _extension(robot: Robot, part: Link | Joint) -> Iterator[Finding]:
+    tables = {**COLLISION_KEYWORDS, **LINK_KEYWORDS} if isinstance(part, Link) else JOINT_KEYWORDS
+    for element in said_of(robot, part):
+        keyword = tables.get(element.tag)
+        text = value_of(element)
+        if keyword is not None and read_value(keyword.holds, text) is None:
+            yield defect(
+                "bad-extension-number",
+                f"<{element.tag}> of '{part.name}' is '{text}', not {_WANTED[keyword.holds]}",
+                element.place,
+                part.element.tag,
+                part.name,
+            )
+
+
+def _sensors(block: Element, reference: str) -> Iterator[Finding]:
+    for sensor in block.all("sensor"):
+        inside = {id(e) for plugin in sensor.all("plugin") for e in plugin.walk()}
+        for element in sensor.walk():
+            if id(element) in inside or element.children:
+                continue
+            if element.tag in NUMBERS and read_value("number", element.text) is None:
+                yield defect(
+                    "bad-extension-number",
+                    f"<{element.tag}> of sensor '{sensor.get('name')}' is '{element.text.strip()}', "
+                    "not a finite number",
+                    element.place,
+                    "sensor",
+                    reference,
+                )

@@ -1,0 +1,211 @@
+"""What ``<gazebo reference="…">`` says of a link or a joint, found by what it refers to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Joint, Link, Robot
+from ...model.read import number, numbers
+from ...source.document import Element
+from ..numbers import number_text, numbers_text
+from .blobs import blob
+from .keywords import (
+    COLLISION_KEYWORDS,
+    IGNORED,
+    JOINT_KEYWORDS,
+    LINK_ELEMENTS,
+    LINK_KEYWORDS,
+    LUMPING_KEYWORDS,
+    Keyword,
+    is_flag,
+    is_true,
+)
+from .plugins import plugin
+from .translation import Translation
+from .xml import Node, add, at, copied, merge
+
+ELSEWHERE = frozenset(("sensor", "visual", "collision", "material"))
+"""Elements of a link's block that are not copied into the link as they are."""
+
+
+def said_of(robot: Robot, part: Link | Joint) -> Iterator[Element]:
+    """The elements in the blocks of a link or joint, in the order of the file.
+
+    Where a link and a joint have one name, each gets what is of its kind, the link what is of both.
+    """
+    shared = part.name in robot.link and part.name in robot.joint
+    for block in robot.extensions.get(part.name, []):
+        for element in block.element.children:
+            if not shared or _is_of_joint(element) == isinstance(part, Joint):
+                yield element
+
+
+def _is_of_joint(element: Element) -> bool:
+    if element.tag == "sensor":
+        return (element.get("type") or "").strip() == "force_torque"
+    return element.tag in JOINT_KEYWORDS or element.tag in LUMPING_KEYWORDS
+
+
+def value_of(element: Element) -> str:
+    """What a tag is set to: its ``value`` or its text."""
+    return (element.get("value") or element.text).strip()
+
+
+def read_value(holds: str, text: str) -> str | None:
+    """The text of a value as it is written, or None where it is not what the tag holds."""
+    if holds == "flag":
+        return ("true" if is_true(text) else "false") if is_flag(text) else None
+    if holds == "vector":
+        three = numbers(text, 3)
+        return None if three is None else numbers_text(three)
+    one = number(text)
+    if one is None or (holds == "count" and (one < 0 or not one.is_integer())):
+        return None
+    return number_text(one)
+
+
+def values(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> dict[str, str]:
+    """The tags of a table that are set for a link or joint; the last of one name holds."""
+    found: dict[str, str] = {}
+    for element in said_of(t.robot, part):
+        if element.tag in table:
+            text = read_value(table[element.tag].holds, value_of(element))
+            if text is not None:
+                found[element.tag] = text
+    return found
+
+
+def merged(node: Node, t: Translation, link: Link, tag: str) -> None:
+    """Put the ``<visual>`` or ``<collision>`` of a link's blocks into one of its own."""
+    for element in said_of(t.robot, link):
+        if element.tag == tag:
+            holder = add(node, tag)
+            for child in element.children:
+                copied(holder, child)
+            node.remove(holder)
+            merge(node, holder)
+
+
+def link_extensions(node: Node, t: Translation, link: Link) -> None:
+    """All that is said of a link but its shapes, materials and sensors."""
+    _note_repeated(t, link, {**COLLISION_KEYWORDS, **LINK_KEYWORDS})
+    _note_untouchable(t, link)
+    own = t.plan.stays(link.name)
+    flags = values(t, link, LINK_KEYWORDS)
+    if own:
+        for tag, text in flags.items():
+            _set_flag(node, tag, text)
+    for element in said_of(t.robot, link):
+        tag = element.tag
+        if tag in LINK_ELEMENTS and own:
+            existing = node.find(tag)
+            if existing is not None:
+                node.remove(existing)
+            copied(node, element)
+        elif tag in LINK_ELEMENTS or tag in LINK_KEYWORDS:
+            if not own:
+                t.lose(
+                    "link-flag",
+                    f"<{tag}> is said of link '{link.name}', which became a part of "
+                    f"'{t.plan.owner[link.name]}'; it would hold for all of that, so it is left out",
+                    element,
+                    link,
+                    hint="keep the fixed joint with <preserveFixedJoint>true</preserveFixedJoint>",
+                )
+        elif tag == "plugin":
+            plugin(node, t, element)
+        elif tag in JOINT_KEYWORDS or tag in LUMPING_KEYWORDS:
+            if link.name not in t.robot.joint:
+                text = f"<{tag}> is said of link '{link.name}', and is of joints"
+                t.lose("extension", f"{text}; it is left out", element, link)
+        elif tag not in ELSEWHERE and tag not in COLLISION_KEYWORDS and tag not in IGNORED:
+            blob(node, t, link, element)
+
+
+def _set_flag(node: Node, tag: str, text: str) -> None:
+    if tag == "turnGravityOff":
+        text = "false" if text == "true" else "true"
+    if tag == "dampingFactor":
+        decay = add(node, "velocity_decay")
+        add(decay, "linear", text)
+        add(decay, "angular", text)
+    else:
+        add(node, LINK_KEYWORDS[tag].path, text)
+
+
+def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
+    """All that is said of a joint but its sensors."""
+    _note_repeated(t, joint, JOINT_KEYWORDS)
+    for tag, text in values(t, joint, JOINT_KEYWORDS).items():
+        path = JOINT_KEYWORDS[tag].path
+        if path.startswith("axis/") and node.find("axis") is None:
+            text = f"<{tag}> is said of joint '{joint.name}', which has no axis; it is left out"
+            t.lose("extension", text, t.robot.extensions[joint.name][0], joint)
+            continue
+        at(node, path).text = text
+    for element in said_of(t.robot, joint):
+        tag = element.tag
+        if tag == "plugin":
+            plugin(node, t, element)
+        elif tag not in JOINT_KEYWORDS and tag not in (*LUMPING_KEYWORDS, *IGNORED, "sensor"):
+            if joint.name in t.robot.link:
+                continue  # of the link of that name
+            if tag in COLLISION_KEYWORDS or tag in LINK_KEYWORDS or tag in ELSEWHERE:
+                text = f"<{tag}> is said of joint '{joint.name}', and is of links; it is left out"
+                t.lose("extension", text, element, joint)
+            else:
+                copied(node, element)
+
+
+def note_dissolved_joint(t: Translation, joint: Joint) -> None:
+    """Say what of a joint's block is lost with the joint."""
+    lost = [e for e in said_of(t.robot, joint) if e.tag not in (*LUMPING_KEYWORDS, *IGNORED)]
+    if lost and joint.name not in t.robot.link:
+        tags = ", ".join(dict.fromkeys(f"<{e.tag}>" for e in lost))
+        t.lose(
+            "joint-extension",
+            f"fixed joint '{joint.name}' became a frame, so {tags} said of it is left out",
+            lost[0],
+            joint,
+            hint="keep the joint with <preserveFixedJoint>true</preserveFixedJoint>",
+        )
+
+
+def _note_repeated(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> None:
+    seen: dict[str, str] = {}
+    for element in said_of(t.robot, part):
+        if element.tag not in table:
+            continue
+        text = read_value(table[element.tag].holds, value_of(element))
+        if text is None:
+            wanted = {
+                "number": "a finite number",
+                "count": "a whole number",
+                "flag": "true or false",
+            }
+            t.lose(
+                "extension",
+                f"<{element.tag}> of '{part.name}' is '{value_of(element)}', not "
+                f"{wanted.get(table[element.tag].holds, 'three numbers')}; it is left out",
+                element,
+                part,
+            )
+            continue
+        if seen.get(element.tag, text) != text:
+            t.lose(
+                "repeated",
+                f"<{element.tag}> of '{part.name}' is set twice; the last, {text}, holds",
+                element,
+                part,
+            )
+        seen[element.tag] = text
+
+
+def _note_untouchable(t: Translation, link: Link) -> None:
+    """Say that contact values of a link without collisions do nothing."""
+    given = values(t, link, COLLISION_KEYWORDS)
+    given.pop("laserRetro", None)
+    if given and not link.collisions:
+        first = next(e for e in said_of(t.robot, link) if e.tag in given)
+        text = f"link '{link.name}' has no collision, so its {', '.join(given)} mean nothing"
+        t.note("contact", text, first, link)

@@ -1,0 +1,71 @@
+"""``<frame>``: the names of dissolved links and joints, where they were.
+
+A frame comes after what it is attached to: readers exist that place it wrongly otherwise.
+"""
+
+from __future__ import annotations
+
+from ...model.elements import Joint, Link
+from .pose import set_origin, set_pose
+from .translation import Translation
+from .xml import Node, add
+
+MODEL_FRAME = "__model__"
+
+
+def frames(model: Node, t: Translation) -> None:
+    """The frames of a model, parents first."""
+    for name in t.plan.in_model:
+        joint = t.robot.tree.parent_joint(name)
+        link = t.robot.link[name]
+        if joint is not None and joint.name in t.plan.dissolved:
+            _joint_frame(model, t, joint)
+        if not t.plan.stays(name):
+            _link_frame(model, t, link, joint)
+
+
+def _joint_frame(model: Node, t: Translation, joint: Joint) -> None:
+    owner, parent = t.plan.owner[joint.parent], t.names.link(joint.parent)
+    below = owner == joint.child or owner in t.robot.tree.descendants(joint.child)
+    held = t.names.link(owner) if below else parent
+    frame = add(model, "frame", name=t.names.joint(joint.name), attached_to=held)
+    set_origin(frame, joint.origin, parent if below else "", t.options.since("1.9"))
+
+
+def _link_frame(model: Node, t: Translation, link: Link, joint: Joint | None) -> None:
+    plan, names = t.plan, t.names
+    frame = add(model, "frame", name=names.link(link.name))
+    if joint is not None and joint.name in plan.dissolved:
+        if plan.owner[link.name] in t.robot.tree.descendants(link.name):
+            frame.set("attached_to", names.link(plan.owner[link.name]))
+            add(frame, "pose", "0 0 0 0 0 0", relative_to=names.joint(joint.name))
+        else:
+            frame.set("attached_to", names.joint(joint.name))
+        return
+    # The top of a body that another of its links carries: the model's own root, or below a joint.
+    frame.set("attached_to", names.link(plan.owner[link.name]))
+    place(frame, t, joint)
+
+
+def place(node: Node, t: Translation, joint: Joint | None) -> None:
+    """The pose of a link, or of the frame it became, that hangs on a joint or is the root."""
+    is_frame = node.tag == "frame"
+    if joint is None:
+        if is_frame:
+            add(node, "pose", "0 0 0 0 0 0", relative_to=MODEL_FRAME)
+        return
+    if not t.options.since("1.7"):
+        set_pose(node, t.plan.in_model[joint.child])
+        return
+    if joint.type == "floating":  # no joint says it: the link itself is where the joint would be
+        parent = above(t, joint)
+        set_origin(node, joint.origin, parent, t.options.since("1.9"))
+        return
+    add(node, "pose", "0 0 0 0 0 0", relative_to=t.names.joint(joint.name))
+
+
+def above(t: Translation, joint: Joint) -> str:
+    """The frame that a joint's origin is in."""
+    if t.plan.anchored and joint.parent == "world":
+        return MODEL_FRAME
+    return t.names.link(joint.parent)

@@ -1,0 +1,94 @@
+"""``<inertial>``: always written, for a link without one weighs a kilogram in SDF."""
+
+from __future__ import annotations
+
+from ...finding import Severity
+from ...model.elements import Link
+from ...model.pose import Pose, Rotation
+from ..numbers import number_text
+from .mass import ROUNDING, lifted, shortfall, tensor_of
+from .plan import EXACT
+from .pose import set_origin, set_pose
+from .translation import Translation
+from .xml import Node, add
+
+WEIGHTLESS = 1e-12
+"""The mass [kg] of a moving link that has none; its radius of gyration is a millimetre."""
+
+
+def inertial(node: Node, t: Translation, link: Link) -> None:
+    """The inertial of a link and of those it owns."""
+    mass = t.plan.mass[link.name]
+    _note_dissolved(t, link)
+    if mass.mass <= 0:
+        _weightless(node, t, link, mass.tensor)
+        return
+    alone = link.name in t.plan.alone
+    own = link.inertial
+    node = add(node, "inertial")
+    if alone and own is not None:
+        set_origin(node, own.origin, exact=t.options.since("1.9"))
+        tensor, about = tensor_of(own.inertia), own
+    else:
+        set_pose(node, Pose(translation=mass.center))
+        tensor, about = mass.tensor, own or link
+    add(node, "mass", number_text(mass.mass))
+    short = shortfall(tensor)
+    if short > EXACT:
+        what = "is off by rounding" if short <= ROUNDING else "no rigid body has"
+        t.lose(
+            "inertia",
+            f"inertia of link '{link.name}' {what}: the largest moment exceeds the sum of the others "
+            f"by {short:.2g} of itself; the nearest possible one is written",
+            about,
+            link,
+            severity=Severity.WARNING,
+        )
+        tensor = lifted(tensor)
+    _tensor(node, tensor)
+
+
+def _tensor(node: Node, tensor: Rotation) -> None:
+    inertia = add(node, "inertia")
+    for row, first in enumerate("xyz"):
+        for column in range(row, 3):
+            add(inertia, f"i{first}{'xyz'[column]}", number_text(tensor[row][column]))
+
+
+def _weightless(node: Node, t: Translation, link: Link, tensor: Rotation) -> None:
+    """A body without mass that must be a link, since it moves or the model has no other."""
+    node = add(node, "inertial")
+    add(node, "mass", number_text(WEIGHTLESS))
+    tiny = WEIGHTLESS * 1e-6
+    if not any(map(any, tensor)) or shortfall(tensor) > EXACT:
+        tensor = (tiny, 0.0, 0.0), (0.0, tiny, 0.0), (0.0, 0.0, tiny)
+    _tensor(node, tensor)
+    below = any(t.robot.link[name].mass > 0 for name in t.robot.tree.descendants(link.name))
+    t.lose(
+        "mass",
+        f"link '{link.name}' has no mass{'' if below else ', nor has what hangs on it'}; a link of "
+        f"SDF needs one, and gets {WEIGHTLESS:g} kg",
+        link.inertial or link,
+        link,
+        severity=Severity.INFO if below else Severity.WARNING,
+        hint="" if below else "give it a mass, or make the joint above it fixed",
+    )
+
+
+def _note_dissolved(t: Translation, link: Link) -> None:
+    """Say of each member that keeps only its frame why it does, unless all are lumped."""
+    if t.options.lump:
+        return
+    for name in t.plan.members[link.name]:
+        member = t.robot.link[name]
+        if name == link.name:
+            continue
+        bad = member.mass > 0 and member.inertial is not None
+        why = "has an inertia that no body has" if bad else "has no mass"
+        t.note(
+            "link",
+            f"link '{name}' {why} and is joined to '{link.name}' by a fixed joint; it is a frame of "
+            "that link, with its shapes and sensors",
+            member,
+            member,
+        )

@@ -1,0 +1,157 @@
+"""``<joint>``: its pose in the parent is URDF's origin, its axis is in its own frame."""
+
+from __future__ import annotations
+
+from ...finding import Severity
+from ...model.elements import Joint
+from ...model.pose import norm
+from ..defects import BALL_TYPES
+from ..numbers import number_text, numbers_text
+from .extensions import joint_extensions, note_dissolved_joint
+from .joint_base import axis_of, start
+from .planar import planar
+from .sensors import joint_sensors
+from .translation import Translation
+from .xml import Node, add, comment
+
+SDF_TYPES = {
+    "revolute": "revolute",
+    "continuous": "revolute",
+    "prismatic": "prismatic",
+    "fixed": "fixed",
+    **dict.fromkeys(BALL_TYPES, "ball"),
+}
+"""URDF's types of joints and SDF's; ``floating`` is no joint there, ``planar`` is three."""
+
+
+def joint(model: Node, t: Translation, part: Joint) -> None:
+    """A joint, unless it became a frame or is none in SDF."""
+    if part.name in t.plan.dissolved:
+        note_dissolved_joint(t, part)
+        return
+    if part.type == "floating":
+        text = (
+            f"joint '{part.name}' is floating; in SDF '{part.child}' is a free link without a joint"
+        )
+        t.note("floating", text, part, part)
+        return
+    if part.type == "planar":
+        planar(model, t, part)
+        return
+    kind = _type(t, part)
+    node = start(model, t, part, t.names.joint(part.name), kind)
+    if kind in ("revolute", "prismatic"):
+        _axis(node, t, part)
+    _note_unspoken(node, t, part)
+    joint_sensors(node, t, part)
+    joint_extensions(node, t, part)
+
+
+def _type(t: Translation, part: Joint) -> str:
+    if part.has_axis and part.axis is not None and norm(part.axis.xyz) < 1e-6:
+        text = f"axis of joint '{part.name}' is zero, so nothing says how it moves; it is fixed"
+        t.lose("axis", text, part.axis, part)
+        return "fixed"
+    if part.type not in SDF_TYPES:
+        text = f"joint '{part.name}' has the unknown type '{part.type}'; it is fixed"
+        t.lose("joint-type", text, part, part)
+    return SDF_TYPES.get(part.type, "fixed")
+
+
+def _axis(node: Node, t: Translation, part: Joint) -> None:
+    axis = add(node, "axis")
+    add(axis, "xyz", numbers_text(axis_of(part)))
+    limit = add(axis, "limit")
+    _bounds(limit, t, part)
+    _most(limit, t, part)
+    dynamics = part.dynamics
+    if dynamics is not None and (dynamics.damping is not None or dynamics.friction is not None):
+        made = add(axis, "dynamics")
+        if dynamics.damping is not None:
+            add(made, "damping", number_text(dynamics.damping))
+        if dynamics.friction is not None:
+            add(made, "friction", number_text(dynamics.friction))
+    _mimic(axis, t, part)
+
+
+def _bounds(node: Node, t: Translation, part: Joint) -> None:
+    limit = part.limit
+    if part.type == "continuous":
+        if limit is not None and (limit.lower is not None or limit.upper is not None):
+            text = f"joint '{part.name}' is continuous; its lower and upper mean nothing"
+            t.note("limit", text, limit, part)
+        return
+    if limit is None:
+        text = f"joint '{part.name}' has no limits; it moves without bounds"
+        t.lose("limit", text, part, part)
+        return
+    if limit.lower is None and limit.upper is None:
+        text = f"limit of joint '{part.name}' has no bounds, which are 0 then; it cannot move"
+        t.note("limit", text, limit, part)
+    lower, upper = limit.lower or 0.0, limit.upper or 0.0
+    if lower > upper:
+        text = f"lower limit of joint '{part.name}' is above its upper limit; they are exchanged"
+        t.lose("limit", text, limit, part)
+        lower, upper = upper, lower
+    add(node, "lower", number_text(lower))
+    add(node, "upper", number_text(upper))
+
+
+def _most(node: Node, t: Translation, part: Joint) -> None:
+    """Effort and velocity: a negative number is no bound in SDF, and a bound by its size in URDF."""
+    limit = part.limit
+    if limit is None:
+        return
+    for name, value in (("effort", limit.effort), ("velocity", limit.velocity)):
+        if value is None:
+            continue
+        if value < 0:
+            text = f"{name} limit of joint '{part.name}' is negative; its size is written"
+            t.lose("limit", text, limit, part)
+        elif value == 0 and part.mimic is None:
+            text = f"{name} limit of joint '{part.name}' is 0, so Gazebo will not move it"
+            t.note("limit", text, limit, part)
+        add(node, name, number_text(abs(value)))
+
+
+def _mimic(axis: Node, t: Translation, part: Joint) -> None:
+    mimic = part.mimic
+    if mimic is None:
+        return
+    leader = t.robot.joint.get(mimic.joint)
+    can_lead = leader is not None and leader.type in ("revolute", "continuous", "prismatic")
+    if not can_lead or leader is part:
+        text = f"joint '{part.name}' mimics '{mimic.joint}', which does not move; it is free"
+        t.lose("mimic", text, mimic, part)
+        return
+    if not t.options.since("1.11"):
+        t.lose(
+            "mimic",
+            f"joint '{part.name}' mimics '{mimic.joint}', which SDF {t.options.sdf_version} cannot "
+            "say; it is free",
+            mimic,
+            part,
+            hint="" if t.options.classic else "--sdf-version 1.11 can",
+        )
+        return
+    made = add(axis, "mimic", joint=t.names.joint(mimic.joint))
+    add(made, "multiplier", number_text(mimic.multiplier))
+    add(made, "offset", number_text(mimic.offset))
+    add(made, "reference", "0")
+
+
+def _note_unspoken(node: Node, t: Translation, part: Joint) -> None:
+    """What SDF has no place for stays as a comment."""
+    for what, said in (("safety", part.safety_controller), ("calibration", part.calibration)):
+        if said is None:
+            continue
+        element = said.element
+        text = " ".join(f'{k}="{v}"' for k, v in element.attributes.items())
+        comment(node, f"{element.tag} {text}")
+        t.lose(
+            what,
+            f"<{element.tag}> of joint '{part.name}' has no counterpart; it stays as a comment",
+            said,
+            part,
+            severity=Severity.INFO,
+        )

@@ -1,0 +1,105 @@
+"""``<material>``: what Gazebo is told to show, else the colour or texture of URDF as it is."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+
+from ...model.elements import Link, Material, Robot, Visual
+from ...source.document import Element
+from ..numbers import number_text, numbers_text
+from .colors import COLORS, PICTURED, Color
+from .extensions import said_of, value_of
+from .translation import Translation
+from .xml import Node, add, copied
+
+SCRIPTS = "file://media/materials/scripts/gazebo.material"
+
+
+def material(node: Node, t: Translation, link: Link, part: Visual) -> None:
+    """The material of a visual."""
+    said = [e for e in said_of(t.robot, link) if e.tag == "material"]
+    if said and _from_gazebo(node, t, link, part, said[-1]):
+        return
+    own = resolved(t.robot, part.material)
+    if own is None:
+        return
+    color = own.color
+    path = t.meshes.texture(own.texture) if own.texture else None
+    if own.texture and path is None:
+        text = f"texture '{own.texture}' of material '{own.name}' is missing; it is left out"
+        t.lose("texture", text, own, link)
+    if color is None and path is None:
+        return
+    made = add(node, "material")
+    if color is not None or path is not None:
+        rgba = color or (1.0, 1.0, 1.0, 1.0)
+        add(made, "ambient", numbers_text(rgba))
+        add(made, "diffuse", numbers_text(rgba))
+        if rgba[3] < 1.0:
+            _transparency(node, rgba[3])
+    if path is not None:
+        _texture(made, t, link, own, path)
+
+
+def resolved(robot: Robot, own: Material | None) -> Material | None:
+    """The material that a visual's names: its own where it says a colour, else the first so named."""
+    if own is None or own.color is not None or own.texture is not None:
+        return own
+    for other in (*robot.materials, *(v.material for link in robot.links for v in link.visuals)):
+        if other is not None and other.name == own.name and (other.color or other.texture):
+            return other
+    return None
+
+
+def _texture(made: Node, t: Translation, link: Link, own: Material, path: str) -> None:
+    if t.options.classic:
+        text = f"texture '{own.texture}' needs a script of Ogre in Gazebo Classic; it is left out"
+        t.lose("texture", text, own, link)
+        return
+    metal = add(add(made, "pbr"), "metal")
+    add(metal, "albedo_map", path)
+    add(metal, "metalness", "0")
+
+
+def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Element) -> bool:
+    """The material of a ``<gazebo>`` block; False where it says none that the target knows."""
+    if said.children:
+        made = add(node, "material")
+        for child in said.children:
+            copied(made, child)
+        return True
+    name = value_of(said)
+    if not name:
+        return False
+    if t.options.classic:
+        script = add(add(node, "material"), "script")
+        add(script, "uri", SCRIPTS)
+        add(script, "name", name)
+        return True
+    color = COLORS.get(name)
+    first = link.visuals[0] is part  # one word for a link, not one for each visual
+    if color is None:
+        if first:
+            text = f"material '{name}' of link '{link.name}' is a script, which gz cannot run"
+            t.lose("material", f"{text}; URDF's own colour stays", said, link)
+        return False
+    if first and name in PICTURED:
+        text = f"material '{name}' of link '{link.name}' has a picture; only its colour is written"
+        t.lose("material", text, said, link)
+    _colored(node, color)
+    return True
+
+
+def _colored(node: Node, color: Color) -> None:
+    made = add(node, "material")
+    for tag in ("ambient", "diffuse", "specular"):
+        add(made, tag, numbers_text((*getattr(color, tag), color.alpha)))
+    if any(color.emissive):
+        add(made, "emissive", numbers_text((*color.emissive, 1.0)))
+    if color.alpha < 1.0:
+        _transparency(node, color.alpha)
+
+
+def _transparency(node: Node, alpha: float) -> None:
+    """What is missing to opaque, without the digits that a subtraction in binary leaves behind."""
+    add(node, "transparency", number_text(float(Decimal(1) - Decimal(repr(alpha)))))

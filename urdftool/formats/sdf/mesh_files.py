@@ -1,0 +1,147 @@
+"""Meshes and textures: found, named in the model, and copied with the files that they name."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+
+from ...errors import UrdftoolError
+from ...model.elements import Mesh, Robot
+from ...source.packages import own_package
+from .options import Options
+
+_NAMED = {
+    ".dae": re.compile(rb"<init_from>\s*(?:<ref>)?([^<]+)<"),
+    ".obj": re.compile(rb"(?m)^\s*mtllib\s+(.+?)\s*$"),
+    ".mtl": re.compile(rb"(?m)^\s*(?:map_\w+|bump|disp|refl|norm)\s+(?:-\S+\s+\S+\s+)*(\S+)\s*$"),
+    ".gltf": re.compile(rb'"uri"\s*:\s*"([^"]+)"'),
+}
+"""How each format names other files."""
+
+
+@dataclass
+class MeshFiles:
+    """The files of a robot.
+
+    Attributes:
+        options: The choices of the export.
+        found: The file of each URI; None for one that is missing.
+        places: Where each file goes, relative to the model.
+    """
+
+    options: Options
+    found: dict[str, Path | None] = field(default_factory=dict)
+    places: dict[Path, str] = field(default_factory=dict)
+
+    def known(self, mesh: Mesh) -> bool:
+        """Whether the file of a mesh is there."""
+        return self.found.get(mesh.filename) is not None
+
+    def uri(self, mesh: Mesh) -> str:
+        """How the model names a mesh."""
+        return self._named(mesh.filename) or mesh.filename
+
+    def texture(self, filename: str) -> str | None:
+        """How the model names a texture; None where it is missing."""
+        return self._named(filename)
+
+    def _named(self, filename: str) -> str | None:
+        path = self.found.get(filename)
+        if path is None:
+            return None
+        style = self.options.uri_style
+        if style == "package":
+            return filename
+        if style == "file":
+            return path.resolve().as_uri()
+        place = self.places[path]
+        return f"model://{self.options.folder}/{place}" if style == "model" else place
+
+    @property
+    def files(self) -> dict[str, bytes | Path]:
+        """What is copied, by its place."""
+        if self.options.uri_style in ("package", "file"):
+            return {}
+        return {place: path for path, place in self.places.items()}
+
+
+def find_meshes(robot: Robot, options: Options) -> MeshFiles:
+    """Look for every mesh and texture, and give each a place of its own."""
+    names = [s.geometry.filename for _, s in robot.shapes if isinstance(s.geometry, Mesh)]
+    names += [m.texture for m in robot.materials if m.texture]
+    for link in robot.links:
+        names += [v.material.texture for v in link.visuals if v.material and v.material.texture]
+    meshes = MeshFiles(options)
+    for name in dict.fromkeys(names):
+        meshes.found[name] = _find(robot, name)
+    wanted = list(dict.fromkeys(path for path in meshes.found.values() if path is not None))
+    _give_places(meshes, wanted)
+    return meshes
+
+
+def _find(robot: Robot, name: str) -> Path | None:
+    if not name or robot.source is None:
+        return None
+    try:
+        path = robot.source.resolve(name)
+        return path if path.is_file() else None
+    except (UrdftoolError, OSError, ValueError):
+        return None
+
+
+def _give_places(meshes: MeshFiles, wanted: list[Path]) -> None:
+    """Keep the folders of a package below ``meshes/``, so that files still find each other."""
+    homes = {path: _home(path) for path in wanted}
+    several = len({package for package, _ in homes.values()}) > 1
+    taken: set[str] = set()
+    for path in wanted:
+        package, inner = homes[path]
+        parts = [part for part in PurePosixPath(inner).parts if part not in ("", "..", "/")]
+        if len(parts) > 1 and parts[0] == "meshes":
+            parts = parts[1:]
+        place = "/".join([meshes.options.mesh_dir, *([package] if several else []), *parts])
+        place = _free(place, taken)
+        meshes.places[path] = place
+        taken.add(place)
+    for path in wanted:
+        _add_companions(meshes, path, meshes.places[path])
+
+
+def _home(path: Path) -> tuple[str, str]:
+    """The package of a file and its path there; the name of its folder where it is in none."""
+    full = Path(os.path.abspath(path))
+    own = own_package(full)
+    if own is None:
+        return full.parent.name, full.name
+    return own[0], full.relative_to(own[1]).as_posix()
+
+
+def _free(place: str, taken: set[str]) -> str:
+    stem, dot, suffix = place.rpartition(".")
+    candidate, number = place, 2
+    while candidate in taken:
+        candidate, number = f"{stem}_{number}{dot}{suffix}", number + 1
+    return candidate
+
+
+def _add_companions(meshes: MeshFiles, path: Path, place: str) -> None:
+    """Add the textures and material files that a mesh names, where they lie to it as before."""
+    pattern = _NAMED.get(path.suffix.lower())
+    if pattern is None or meshes.options.uri_style in ("package", "file"):
+        return
+    try:
+        data = path.read_bytes()
+    except OSError:
+        return
+    for raw in dict.fromkeys(pattern.findall(data)):
+        name = raw.decode("utf-8", "replace").strip().removeprefix("file://").replace("\\", "/")
+        if not name or name.startswith(("/", "data:")) or "://" in name:
+            continue
+        other = path.parent / name
+        target = os.path.normpath(os.path.join(os.path.dirname(place), name))
+        if other in meshes.places or target.startswith("..") or not other.is_file():
+            continue
+        meshes.places[other] = Path(target).as_posix()
+        _add_companions(meshes, other, meshes.places[other])

@@ -1,0 +1,137 @@
+"""``<model>``: links, joints, frames, and what is said of the robot as a whole."""
+
+from __future__ import annotations
+
+from ...model.elements import ZERO, GazeboExtension, Origin
+from ...model.read import numbers
+from ...source.document import Element
+from .control import control
+from .frames import frames
+from .joints import joint
+from .keywords import is_flag, is_true
+from .links import link
+from .names import model_name
+from .plan import WORLD, links_of
+from .plugins import plugin
+from .pose import set_origin
+from .translation import Translation
+from .xml import Node, add, copied
+
+
+def model(parent: Node, t: Translation) -> Node:
+    """The robot."""
+    node = add(parent, "model", name=model_name(t.robot))
+    _whole(node, t)
+    _note_world(t)
+    for part in links_of(t.plan, t.robot):
+        link(node, t, part)
+    _name_canonical(node, t)
+    for each in t.robot.joints:
+        if each.child in t.plan.owner:
+            joint(node, t, each)
+    if t.options.since("1.7"):
+        frames(node, t)
+    else:
+        _note_frames(t)
+    _parts(node, t)
+    control(node, t)
+    return node
+
+
+def _name_canonical(node: Node, t: Translation) -> None:
+    """The link that the model's frame is fixed to is the first, unless another is named."""
+    if t.plan.anchored or not t.options.since("1.7"):
+        return
+    root = next(iter(t.plan.in_model), None)
+    first = node.find("link")
+    if root is not None and first is not None:
+        name = t.names.link(t.plan.owner[root])
+        if first.get("name") != name:
+            node.set("canonical_link", name)
+
+
+def _blocks(t: Translation) -> list[GazeboExtension]:
+    return [block for block in t.robot.gazebo if not block.reference]
+
+
+def _whole(node: Node, t: Translation) -> None:
+    """What holds for the model: whether it is static, and where it is."""
+    for block in _blocks(t):
+        for element in block.element.all("static"):
+            text = (element.get("value") or element.text).strip()
+            if is_flag(text):
+                for old in node.findall("static"):
+                    node.remove(old)
+                add(node, "static", "true" if is_true(text) else "false")
+    element = t.robot.element.child("origin")
+    if element is not None:
+        xyz, rpy = (numbers(element.get(name), 3) or ZERO for name in ("xyz", "rpy"))
+        set_origin(node, Origin(element, xyz, rpy))  # type: ignore[arg-type]
+
+
+def _parts(node: Node, t: Translation) -> None:
+    """Plugins, and elements of SDF that are there as they are."""
+    for block in _blocks(t):
+        for element in block.element.children:
+            if element.tag == "plugin":
+                plugin(node, t, element)
+            elif element.tag == "joint":
+                _closing_joint(node, t, element)
+            elif element.tag == "pose":
+                for old in node.findall("pose"):
+                    node.remove(old)
+                node.insert(0, copied(node, element))
+            elif element.tag not in ("static", "canonicalBody"):
+                copied(node, element)
+    _note_dangling(t)
+
+
+def _closing_joint(node: Node, t: Translation, element: Element) -> None:
+    """A joint of SDF in a block, which closes a loop: its links by the names they have now."""
+    made = copied(node, element)
+    for end in ("parent", "child"):
+        for tag in made.findall(end):
+            name = (tag.text or "").strip()
+            if name in t.plan.owner:
+                tag.text = t.names.link(t.plan.owner[name])
+
+
+def _note_dangling(t: Translation) -> None:
+    for block in t.robot.gazebo:
+        name = block.reference
+        if name and name not in t.robot.link and name not in t.robot.joint:
+            shapes = {s.name: link for link, s in t.robot.shapes if s.name}
+            of = f"; it is a shape of link '{shapes[name].name}'" if name in shapes else ""
+            t.lose(
+                "reference",
+                f"<gazebo> refers to '{name}', which is no link and no joint{of}; it is left out",
+                block,
+            )
+
+
+def _note_world(t: Translation) -> None:
+    if not t.plan.anchored:
+        return
+    world = t.robot.link[WORLD]
+    has = [
+        what
+        for what, there in (
+            ("mass", world.inertial),
+            ("visuals", world.visuals),
+            ("collisions", world.collisions),
+        )
+        if there
+    ]
+    if has:
+        text = f"the root link is the world itself, so its {' and '.join(has)} are left out"
+        t.lose("world", text, world, world)
+
+
+def _note_frames(t: Translation) -> None:
+    for name in t.plan.in_model:
+        if not t.plan.stays(name):
+            link_ = t.robot.link[name]
+            text = (
+                f"link '{name}' is a part of '{t.plan.owner[name]}' now, and SDF 1.6 has no frames"
+            )
+            t.note("frame", f"{text}; its name is gone", link_, link_)

@@ -1,0 +1,77 @@
+"""Names as SDF allows them: links, joints and frames of a model share one room.
+
+A joint keeps its name where a link has the same; the link becomes ``NAME_link``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from ...model.elements import Robot
+
+
+@dataclass
+class Names:
+    """New names by kind and old name; a name that is not in it is as it was."""
+
+    renamed: dict[tuple[str, str], str] = field(default_factory=dict)
+
+    def link(self, name: str) -> str:
+        """The name of a link, or of the frame it became."""
+        return self.renamed.get(("link", name), name)
+
+    def joint(self, name: str) -> str:
+        """The name of a joint, or of the frame it became."""
+        return self.renamed.get(("joint", name), name)
+
+
+def make_names(robot: Robot, *, anchored: bool) -> Names:
+    """Rename what SDF forbids and what would clash.
+
+    Args:
+        robot: The robot.
+        anchored: Whether its root link is the world, whose name stays.
+    """
+    names = Names()
+    links = [link.name for link in robot.links]
+    joints = [joint.name for joint in robot.joints]
+    if anchored:
+        links.remove("world")
+    taken = {allowed(name) for name in joints} | set(links) | {"world"}
+    used: set[str] = set()
+    for kind, olds in (("joint", joints), ("link", links)):
+        for old in olds:
+            new = allowed(old)
+            if kind == "link" and new == "world":
+                new = "world_link"
+            if new in used:
+                new = next(free for free in _variants(new, kind) if free not in used | taken)
+            used.add(new)
+            if new != old:
+                names.renamed[kind, old] = new
+    return names
+
+
+def allowed(name: str) -> str:
+    """A name without what SDF reserves: ``::`` parts scopes, ``__x__`` and ``world`` are its own."""
+    name = name.replace("::", "_")
+    if name.startswith("__") and name.endswith("__"):
+        name = name.strip("_") or "unnamed"
+    return name
+
+
+def _variants(name: str, kind: str) -> Iterator[str]:
+    base = name if name.endswith(f"_{kind}") else f"{name}_{kind}"
+    if base != name:
+        yield base
+    number = 2
+    while True:
+        yield f"{base}_{number}"
+        number += 1
+
+
+def model_name(robot: Robot) -> str:
+    """The name of the model."""
+    name = allowed(robot.name.strip()) or "robot"
+    return "world_model" if name == "world" else name

@@ -1,0 +1,196 @@
+"""Which links stay links, and which become frames of another.
+
+Links that fixed joints join are one rigid body. A fixed joint is *dissolved* where its two links
+become one SDF link: all of them when lumping, else only where a link cannot stand alone, because it
+has no mass or an inertia that no body has. The one that stays is the *owner* of the others; what is
+seen, touched and sensed of them moves to it, and their names stay as frames.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from ...model.elements import Joint, Link, Robot
+from ...model.pose import IDENTITY, Pose, pose_of
+from .keywords import is_true
+from .mass import Mass, mass_of, shortfall, united
+
+EXACT = 1e-9
+"""How far moments may miss the triangle inequality, relative to the largest, and still be written."""
+
+WORLD = "world"
+
+
+@dataclass
+class Plan:
+    """The bodies of a robot with one root.
+
+    Attributes:
+        owner: For each link the link that it becomes a part of; itself, if it stays.
+        members: The links of each owner, in the order of the tree.
+        dissolved: Names of fixed joints that become frames.
+        kept: Names of fixed joints that stay because something is said of them.
+        in_owner: The pose of each link in its owner's frame.
+        in_model: The pose of each link in the model's frame, all joints at zero.
+        mass: The mass of each owner and its members, in its frame.
+        alone: Owners whose mass is just their own.
+        anchored: Whether the root is ``world`` itself, so that it is no link.
+    """
+
+    owner: dict[str, str] = field(default_factory=dict)
+    members: dict[str, list[str]] = field(default_factory=dict)
+    dissolved: set[str] = field(default_factory=set)
+    kept: set[str] = field(default_factory=set)
+    in_owner: dict[str, Pose] = field(default_factory=dict)
+    in_model: dict[str, Pose] = field(default_factory=dict)
+    mass: dict[str, Mass] = field(default_factory=dict)
+    alone: set[str] = field(default_factory=set)
+    anchored: bool = False
+
+    def stays(self, link: str) -> bool:
+        """Whether a link is a link of the model."""
+        return self.owner.get(link) == link
+
+
+def make_plan(robot: Robot, *, lump: bool) -> Plan:
+    """Decide for each link and fixed joint.
+
+    Args:
+        robot: A robot that is a tree.
+        lump: Dissolve every fixed joint that nothing is said of.
+    """
+    root = robot.tree.root
+    plan = Plan(anchored=root is not None and root.name == WORLD)
+    links = [name for name in robot.tree.order if not (plan.anchored and name == WORLD)]
+    loose = _loose_joints(robot, plan)
+    group = {name: name for name in links}
+    masses = {name: mass_of(robot.link[name]) for name in links}
+
+    def absorb(joint: Joint) -> None:
+        plan.dissolved.add(joint.name)
+        top, other = group[joint.parent], group[joint.child]
+        for name in links:
+            if group[name] == other:
+                group[name] = top
+
+    for name in links:
+        joint = loose.get(name)
+        if joint is not None and (lump or not _stands(masses[name])):
+            absorb(joint)
+    if not lump:
+        _mend_groups(robot, links, group, loose, masses, absorb)
+    _place(robot, plan, links, group, lump)
+    _weigh(plan, masses)
+    return plan
+
+
+def _loose_joints(robot: Robot, plan: Plan) -> dict[str, Joint]:
+    """The fixed joints that may be dissolved, by their child."""
+    loose = {}
+    for joint in robot.joints:
+        if not joint.is_fixed or (plan.anchored and joint.parent == WORLD):
+            continue
+        if _senses_force(robot, joint) or _said_to_stay(robot, joint):
+            plan.kept.add(joint.name)
+        else:
+            loose[joint.child] = joint
+    return loose
+
+
+def _senses_force(robot: Robot, joint: Joint) -> bool:
+    return any(
+        sensor.type == "force_torque"
+        for block in robot.extensions.get(joint.name, [])
+        for sensor in block.sensors
+    )
+
+
+def _said_to_stay(robot: Robot, joint: Joint) -> bool:
+    return any(
+        is_true(block.value(tag))
+        for block in robot.extensions.get(joint.name, [])
+        for tag in ("preserveFixedJoint", "disableFixedJointLumping")
+    )
+
+
+def _stands(mass: Mass) -> bool:
+    """Whether a link of this mass can be a link of its own."""
+    return mass.mass > 0 and shortfall(mass.tensor) <= EXACT
+
+
+def _mend_groups(
+    robot: Robot,
+    links: list[str],
+    group: dict[str, str],
+    loose: dict[str, Joint],
+    masses: dict[str, Mass],
+    absorb: Callable[[Joint], None],
+) -> None:
+    """Let a group that cannot stand absorb neighbours over fixed joints until it can."""
+    poses = _poses(robot, links)
+
+    def total(tops: set[str]) -> Mass:
+        return united(masses[n].moved(poses[n]) for n in links if group[n] in tops)
+
+    for top in links:
+        if group[top] != top or _stands(total({top})):
+            continue
+        tops, chosen = {top}, []
+        while not _stands(total(tops)):
+            joint = next(
+                (j for c, j in loose.items() if (group[c] in tops) != (group[j.parent] in tops)),
+                None,
+            )
+            if joint is None:
+                break
+            chosen.append(joint)
+            tops |= {group[joint.child], group[joint.parent]}
+        if _stands(total(tops)):
+            for joint in chosen:
+                absorb(joint)
+
+
+def _poses(robot: Robot, links: list[str]) -> dict[str, Pose]:
+    """The pose of each link in the root's frame, all joints at zero."""
+    poses: dict[str, Pose] = {}
+    for name in links:
+        joint = robot.tree.parent_joint(name)
+        above = IDENTITY if joint is None else poses.get(joint.parent, IDENTITY)
+        poses[name] = IDENTITY if joint is None else above @ pose_of(joint.origin)
+    return poses
+
+
+def _place(robot: Robot, plan: Plan, links: list[str], group: dict[str, str], lump: bool) -> None:
+    """Name the owners, and say where each link is in its owner."""
+    plan.in_model = _poses(robot, links)
+    together: dict[str, list[str]] = {}
+    for name in links:
+        together.setdefault(group[name], []).append(name)
+    for top, members in together.items():
+        owner = next((n for n in members if robot.link[n].mass > 0), top) if not lump else top
+        in_top: dict[str, Pose] = {top: IDENTITY}
+        for name in members:
+            joint = robot.tree.parent_joint(name)
+            if name != top and joint is not None:
+                in_top[name] = in_top[joint.parent] @ pose_of(joint.origin)
+        back = IDENTITY if owner == top else in_top[owner].inverse()
+        for name in members:
+            plan.owner[name] = owner
+            plan.in_owner[name] = IDENTITY if name == owner else back @ in_top[name]
+        plan.members[owner] = members
+
+
+def _weigh(plan: Plan, masses: dict[str, Mass]) -> None:
+    for owner, members in plan.members.items():
+        heavy = [n for n in members if masses[n].mass or any(map(any, masses[n].tensor))]
+        if heavy in ([owner], []):
+            plan.alone.add(owner)
+            plan.mass[owner] = masses[owner]
+        else:
+            plan.mass[owner] = united(masses[n].moved(plan.in_owner[n]) for n in heavy)
+
+
+def links_of(plan: Plan, robot: Robot) -> list[Link]:
+    """The links that stay, parents first."""
+    return [robot.link[name] for name in plan.in_model if plan.stays(name)]

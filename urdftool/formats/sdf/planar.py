@@ -1,0 +1,78 @@
+"""A planar joint, of which SDF has none: two prismatic joints and a revolute one."""
+
+from __future__ import annotations
+
+from ...model.elements import Joint, Vector
+from ...model.pose import cross, norm
+from ..numbers import number_text, numbers_text
+from .inertials import WEIGHTLESS
+from .joint_base import axis_of, start
+from .pose import set_pose
+from .translation import Translation
+from .xml import Node, add
+
+
+def planar(model: Node, t: Translation, part: Joint) -> None:
+    """Three joints in a row, with two links of next to no mass between them.
+
+    ``NAME_x`` and ``NAME_y`` slide along the plane, ``NAME`` turns about its normal, which is the axis.
+    """
+    name = t.names.joint(part.name)
+    t.lose(
+        "planar",
+        f"joint '{part.name}' is planar; '{name}_x' and '{name}_y' slide, and '{name}' turns",
+        part,
+        part,
+    )
+    normal = axis_of(part)
+    first, second = in_plane(normal)
+    before = None
+    for suffix, direction in (("_x", first), ("_y", second)):
+        node = start(model, t, part, name + suffix, "prismatic")
+        if not t.options.since("1.7"):
+            for pose in node.findall("pose"):  # it is that of the last link in its owner
+                node.remove(pose)
+        link = f"{name}{suffix}_link"
+        _between(model, t, part, link, name + suffix)
+        _connect(node, before, link)
+        _slide(node, direction)
+        before = link
+    node = start(model, t, part, name, "revolute")
+    _connect(node, before, "")
+    _slide(node, normal)
+
+
+def in_plane(normal: Vector) -> tuple[Vector, Vector]:
+    """Two directions of a plane, so that they and its normal are right-handed: x and y for z."""
+    helper = (1.0, 0.0, 0.0) if abs(normal[0]) < 0.9 * norm(normal) else (0.0, 1.0, 0.0)
+    second = cross(normal, helper)
+    length = norm(second)
+    second = (second[0] / length, second[1] / length, second[2] / length)
+    return cross(second, normal), second
+
+
+def _connect(node: Node, parent: str | None, child: str) -> None:
+    """Put a link between: as the parent, as the child, or both."""
+    for tag, name in (("parent", parent), ("child", child)):
+        found = node.find(tag)
+        if name and found is not None:
+            found.text = name
+
+
+def _slide(node: Node, direction: Vector) -> None:
+    axis = add(node, "axis")
+    add(axis, "xyz", numbers_text(direction))
+    add(axis, "limit")
+
+
+def _between(model: Node, t: Translation, part: Joint, name: str, joint: str) -> None:
+    link = add(model, "link", name=name)
+    if t.options.since("1.7"):
+        add(link, "pose", "0 0 0 0 0 0", relative_to=joint)
+    else:
+        set_pose(link, t.plan.in_model[part.child])
+    inertial = add(link, "inertial")
+    add(inertial, "mass", number_text(WEIGHTLESS))
+    inertia = add(inertial, "inertia")
+    for term in ("ixx", "iyy", "izz"):
+        add(inertia, term, number_text(WEIGHTLESS * 1e-6))

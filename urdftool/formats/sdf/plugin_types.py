@@ -1,0 +1,266 @@
+"""Plugins of Gazebo Classic and what takes the place of each in gz, with its parameters."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ...source.document import Element
+
+
+class System(NamedTuple):
+    """A system of gz that does what a plugin did.
+
+    Attributes:
+        word: The word in the library's name; ``gz-sim-WORD-system``.
+        name: Its class in ``gz::sim::systems``.
+        parameters: New names of parameters; several old ones may have one new one.
+        defaults: What the plugin does where a parameter is not set and gz would do otherwise.
+        halved: Parameters that are diameters there and radii here.
+        remapped: Parameters that a remapping of a ROS 2 name sets.
+        missing: Parameters of gz that the plugin does not say, and that must be filled in.
+    """
+
+    word: str
+    name: str
+    parameters: dict[str, str]
+    defaults: dict[str, str] = {}
+    halved: tuple[str, ...] = ()
+    remapped: dict[str, str] = {}
+    missing: tuple[str, ...] = ()
+
+
+class SensorPlugin(NamedTuple):
+    """A plugin whose work the sensor itself does in gz.
+
+    Attributes:
+        system: The word of the system that the world needs.
+        type: The type that the sensor must have then; empty for the one it has.
+        frame: Parameters that name the frame of its messages, the first that is set holds.
+    """
+
+    system: str
+    type: str = ""
+    frame: tuple[str, ...] = ("frameName", "frame_name", "frameId", "frame_id", "bodyName")
+
+
+_WHEELS = {
+    "leftJoint": "left_joint",
+    "rightJoint": "right_joint",
+    "left_joint": "left_joint",
+    "right_joint": "right_joint",
+    "leftFrontJoint": "left_joint",
+    "leftRearJoint": "left_joint",
+    "rightFrontJoint": "right_joint",
+    "rightRearJoint": "right_joint",
+    "wheelSeparation": "wheel_separation",
+    "wheel_separation": "wheel_separation",
+    "wheelDiameter": "wheel_radius",
+    "wheel_diameter": "wheel_radius",
+}
+_ODOMETRY = {
+    "commandTopic": "topic",
+    "command_topic": "topic",
+    "topicName": "topic",
+    "odometryTopic": "odom_topic",
+    "odometry_topic": "odom_topic",
+    "odometryFrame": "frame_id",
+    "odometry_frame": "frame_id",
+    "robotBaseFrame": "child_frame_id",
+    "robot_base_frame": "child_frame_id",
+    "updateRate": "odom_publish_frequency",
+    "update_rate": "odom_publish_frequency",
+    "odometryRate": "odom_publish_frequency",
+    "publish_rate": "odom_publish_frequency",
+}
+_TOPICS = {"topic": "cmd_vel", "odom_topic": "odom"}
+_REMAPPED = {"cmd_vel": "topic", "odom": "odom_topic"}
+
+DIFF_DRIVE = System(
+    "diff-drive",
+    "DiffDrive",
+    {**_WHEELS, **_ODOMETRY},
+    _TOPICS,
+    ("wheelDiameter", "wheel_diameter"),
+    _REMAPPED,
+)
+
+SYSTEM_PLUGINS: dict[str, tuple[System, ...]] = {
+    "gazebo_ros_diff_drive": (DIFF_DRIVE,),
+    "gazebo_ros_skid_steer_drive": (DIFF_DRIVE,),
+    "DiffDrivePlugin": (DIFF_DRIVE,),
+    "SkidSteerDrivePlugin": (
+        System(
+            "diff-drive",
+            "DiffDrive",
+            {
+                "left_front": "left_joint",
+                "left_rear": "left_joint",
+                "right_front": "right_joint",
+                "right_rear": "right_joint",
+            },
+            missing=("wheel_separation", "wheel_radius"),
+        ),
+    ),
+    "gazebo_ros_ackermann_drive": (
+        System(
+            "ackermann-steering",
+            "AckermannSteering",
+            {
+                "front_left_joint": "left_joint",
+                "rear_left_joint": "left_joint",
+                "front_right_joint": "right_joint",
+                "rear_right_joint": "right_joint",
+                "left_steering_joint": "left_steering_joint",
+                "right_steering_joint": "right_steering_joint",
+                "max_steer": "steering_limit",
+                "max_speed": "max_velocity",
+                **_ODOMETRY,
+            },
+            _TOPICS,
+            (),
+            _REMAPPED,
+            ("wheel_base", "kingpin_width", "wheel_separation", "wheel_radius"),
+        ),
+    ),
+    "gazebo_ros_planar_move": (
+        System(
+            "velocity-control",
+            "VelocityControl",
+            {"commandTopic": "topic", "command_topic": "topic"},
+            {"topic": "cmd_vel"},
+            (),
+            {"cmd_vel": "topic"},
+        ),
+        System(
+            "odometry-publisher",
+            "OdometryPublisher",
+            {
+                "odometryTopic": "odom_topic",
+                "odometryFrame": "odom_frame",
+                "odometry_frame": "odom_frame",
+                "robotBaseFrame": "robot_base_frame",
+                "robot_base_frame": "robot_base_frame",
+                "odometryRate": "odom_publish_frequency",
+                "publish_rate": "odom_publish_frequency",
+            },
+            {"odom_topic": "odom"},
+            (),
+            {"odom": "odom_topic"},
+        ),
+    ),
+    "gazebo_ros_joint_state_publisher": (
+        System(
+            "joint-state-publisher",
+            "JointStatePublisher",
+            {
+                "jointName": "joint_name",
+                "joint_name": "joint_name",
+                "updateRate": "update_rate",
+                "update_rate": "update_rate",
+            },
+            {"topic": "joint_states"},
+            (),
+            {"joint_states": "topic"},
+        ),
+    ),
+    "gazebo_ros_joint_pose_trajectory": (
+        System(
+            "joint-trajectory-controller",
+            "JointTrajectoryController",
+            {"topicName": "topic"},
+            {},
+            (),
+            {"set_joint_trajectory": "topic"},
+        ),
+    ),
+    "gazebo_ros_p3d": (
+        System(
+            "odometry-publisher",
+            "OdometryPublisher",
+            {
+                "topicName": "odom_topic",
+                "topic_name": "odom_topic",
+                "bodyName": "robot_base_frame",
+                "body_name": "robot_base_frame",
+                "frameName": "odom_frame",
+                "frame_name": "odom_frame",
+                "updateRate": "odom_publish_frequency",
+                "update_rate": "odom_publish_frequency",
+                "gaussianNoise": "gaussian_noise",
+                "gaussian_noise": "gaussian_noise",
+                "xyzOffset": "xyz_offset",
+                "xyz_offset": "xyz_offset",
+                "rpyOffset": "rpy_offset",
+                "rpy_offset": "rpy_offset",
+            },
+            {"dimensions": "3"},
+            (),
+            {"odom": "odom_topic"},
+        ),
+    ),
+    "gazebo_ros_wheel_slip": (System("wheel-slip", "WheelSlip", {"wheel": "wheel"}),),
+    "gazebo_ros_elevator": (
+        System(
+            "elevator",
+            "Elevator",
+            {"lift_joint": "floor_joint_prefix", "door_joint": "door_joint_prefix"},
+            missing=("cabin_joint",),
+        ),
+    ),
+}
+"""By the name of the library, without ``lib`` and ``.so``."""
+
+CONTROL_PLUGINS = frozenset(("gazebo_ros_control", "gazebo_ros2_control"))
+"""What ``gz_ros2_control`` takes the place of."""
+
+MIMIC_PLUGINS = frozenset(
+    ("roboticsgroup_gazebo_mimic_joint_plugin", "roboticsgroup_upatras_gazebo_mimic_joint_plugin",
+     "gazebo_mimic_joint_plugin")
+)  # fmt: skip
+"""What ``<mimic>`` of an axis takes the place of."""
+
+_BODY_FIRST = ("frameName", "frame_name", "frameId", "bodyName", "body_name")
+
+SENSOR_PLUGINS: dict[str, SensorPlugin] = {
+    "gazebo_ros_camera": SensorPlugin("sensors"),
+    "gazebo_ros_multicamera": SensorPlugin("sensors"),
+    "gazebo_ros_triggered_camera": SensorPlugin("sensors"),
+    "gazebo_ros_depth_camera": SensorPlugin("sensors", "rgbd_camera"),
+    "gazebo_ros_openni_kinect": SensorPlugin("sensors", "rgbd_camera"),
+    "gazebo_ros_laser": SensorPlugin("sensors"),
+    "gazebo_ros_gpu_laser": SensorPlugin("sensors"),
+    "gazebo_ros_block_laser": SensorPlugin("sensors"),
+    "gazebo_ros_ray_sensor": SensorPlugin("sensors"),
+    "gazebo_ros_range": SensorPlugin("sensors"),
+    "gazebo_ros_velodyne_laser": SensorPlugin("sensors"),
+    "gazebo_ros_velodyne_gpu_laser": SensorPlugin("sensors"),
+    "gazebo_ros_imu_sensor": SensorPlugin("imu", "", _BODY_FIRST),
+    "gazebo_ros_imu": SensorPlugin("imu", "", _BODY_FIRST),
+    "gazebo_ros_gps_sensor": SensorPlugin("navsat"),
+    "hector_gazebo_ros_gps": SensorPlugin("navsat"),
+    "gazebo_ros_ft_sensor": SensorPlugin("forcetorque"),
+    "gazebo_ros_bumper": SensorPlugin("contact"),
+}
+"""By the name of the library, without ``lib`` and ``.so``."""
+
+
+def library(element: Element) -> str:
+    """The name of a plugin's library, without folder, ``lib`` and ``.so``."""
+    name = (element.get("filename") or "").strip().rpartition("/")[2]
+    return name.removeprefix("lib").removesuffix(".so")
+
+
+def is_for_gz(element: Element) -> bool:
+    """Whether a plugin is one of gz, by its library or its class."""
+    name, words = (element.get("name") or ""), library(element)
+    return words.startswith(("gz-", "gz_", "ignition-", "ign_")) or name.startswith(
+        ("gz::", "ignition::", "gz_ros2_control::", "ign_ros2_control::")
+    )
+
+
+def is_for_classic(element: Element) -> bool:
+    """Whether a plugin is known to be one of Gazebo Classic."""
+    words = library(element)
+    return words.startswith("gazebo_") or any(
+        words in table for table in (SYSTEM_PLUGINS, SENSOR_PLUGINS, MIMIC_PLUGINS)
+    )

@@ -1,0 +1,166 @@
+"""``<plugin>``: those of Gazebo Classic become systems of gz where there is one."""
+
+from __future__ import annotations
+
+from ...model.read import number
+from ...source.document import Element
+from ..numbers import number_text
+from .plugin_types import (
+    CONTROL_PLUGINS,
+    MIMIC_PLUGINS,
+    SYSTEM_PLUGINS,
+    System,
+    is_for_classic,
+    is_for_gz,
+    library,
+)
+from .translation import Translation
+from .xml import Node, add, copied
+
+_NAMES_LINK = frozenset(
+    ("bodyName", "body_name", "linkName", "link_name", "gripper_link", "palm_link", "parent_link",
+     "child_link", "link")
+)  # fmt: skip
+_SETUP = frozenset(("ros", "alwaysOn", "always_on", "robotNamespace", "rosDebugLevel"))
+"""Parameters of every plugin for ROS, which mean nothing in gz."""
+
+
+def plugin(node: Node, t: Translation, element: Element) -> None:
+    """A plugin of a model, link, joint or sensor."""
+    name = library(element)
+    if t.options.classic:
+        _kept(node, t, element)
+        if is_for_gz(element):
+            _lose(t, element, "is one of gz, which Gazebo Classic cannot load; it stays as it is")
+    elif name in CONTROL_PLUGINS:
+        _control(node, t, element)
+    elif name in MIMIC_PLUGINS:
+        _mimic(node, t, element)
+    elif name in SYSTEM_PLUGINS:
+        for system in SYSTEM_PLUGINS[name]:
+            _system(node, t, element, system)
+    else:
+        _kept(node, t, element)
+        if is_for_classic(element):
+            _lose(
+                t, element, "is one of Gazebo Classic without a successor in gz; it stays as it is"
+            )
+
+
+def system_name(t: Translation, word: str, name: str) -> dict[str, str]:
+    """File and class of a system, by the names of the release that reads the version written."""
+    if t.options.since("1.10"):
+        return {"filename": f"gz-sim-{word}-system", "name": f"gz::sim::systems::{name}"}
+    return {
+        "filename": f"ignition-gazebo-{word}-system",
+        "name": f"ignition::gazebo::systems::{name}",
+    }
+
+
+def _kept(node: Node, t: Translation, element: Element) -> None:
+    """Copy a plugin; what it calls by name is called so still."""
+    made = copied(node, element)
+    for tag in made.iter():
+        if not isinstance(tag.tag, str) or not tag.text:
+            continue
+        text = tag.text.strip()
+        if tag.tag in _NAMES_LINK and text in t.plan.owner:
+            dissolved = t.options.classic and not t.plan.stays(text)
+            tag.text = t.names.link(t.plan.owner[text] if dissolved else text)
+        elif "oint" in tag.tag and ("joint", text) in t.names.renamed:
+            tag.text = t.names.joint(text)
+
+
+def _system(node: Node, t: Translation, element: Element, system: System) -> None:
+    made = add(node, "plugin", **system_name(t, system.word, system.name))
+    left = []
+    for child in element.children:
+        new = system.parameters.get(child.tag)
+        if new is None:
+            left.append(child.tag)
+        elif child.children:
+            copied(made, child, new)
+        else:
+            for text in _texts(t, system, child):
+                add(made, new, text)
+    for old, new in _remappings(element).items():
+        if old in system.remapped and made.find(system.remapped[old]) is None:
+            add(made, system.remapped[old], new)
+    for tag, text in system.defaults.items():
+        if made.find(tag) is None:
+            add(made, tag, text)
+    others = {tag for one in SYSTEM_PLUGINS[library(element)] for tag in one.parameters}
+    left = [tag for tag in dict.fromkeys(left) if tag not in others and tag not in _SETUP]
+    text = f"plugin '{library(element)}' is '{made.get('filename')}' in gz"
+    if left:
+        text += f"; it has no {', '.join(left)}"
+    if system.missing:
+        text += f"; fill in {', '.join(system.missing)}"
+        t.lose("plugin", text, element)
+    else:
+        t.note("plugin", text, element)
+
+
+def _texts(t: Translation, system: System, child: Element) -> list[str]:
+    text = child.text.strip()
+    if child.tag in system.halved:
+        value = number(text)
+        return [text if value is None else number_text(value / 2)]
+    if system.parameters[child.tag] == "joint_name":
+        return [t.names.joint(name.strip()) for name in text.split(",") if name.strip()]
+    if "joint" in system.parameters[child.tag]:
+        return [t.names.joint(text)]
+    return [text] if text else []
+
+
+def _remappings(element: Element) -> dict[str, str]:
+    ros = element.child("ros")
+    if ros is None:
+        return {}
+    pairs = (e.text.strip().partition(":=") for e in (*ros.all("remapping"), *ros.all("argument")))
+    return {old.strip(): new.strip() for old, arrow, new in pairs if arrow}
+
+
+def _control(node: Node, t: Translation, element: Element) -> None:
+    """The plugin of ros_control and gazebo_ros2_control."""
+    names = {
+        "filename": "gz_ros2_control-system",
+        "name": "gz_ros2_control::GazeboSimROS2ControlPlugin",
+    }
+    if not t.options.since("1.10"):
+        names = {
+            "filename": "ign_ros2_control-system",
+            "name": "ign_ros2_control::IgnitionROS2ControlPlugin",
+        }
+    made = add(node, "plugin", **names)
+    for child in element.children:
+        if child.tag == "robotNamespace":
+            if child.text.strip():
+                add(add(made, "ros"), "namespace", child.text.strip())
+        elif child.tag in ("parameters", "ros", "controller_manager_name", "robot_param",
+                           "robot_param_node", "hold_joints"):  # fmt: skip
+            copied(made, child)
+    said = bool(t.robot.ros2_controls)
+    needs = "" if said else "; it needs a <ros2_control> in robot_description, which there is not"
+    text = f"plugin '{library(element)}' is '{names['filename']}' in gz{needs}"
+    (t.note if said else t.lose)("plugin", text, element)
+
+
+def _mimic(node: Node, t: Translation, element: Element) -> None:
+    """A plugin that made a joint follow another; SDF can say that itself."""
+    follower = element.child("mimicJoint")
+    name = follower.text.strip() if follower is not None else ""
+    joint = t.robot.joint.get(name)
+    if joint is not None and joint.mimic is not None and t.options.since("1.11"):
+        t.note(
+            "plugin", f"plugin '{library(element)}' is <mimic> of joint '{name}' in SDF", element
+        )
+        return
+    _kept(node, t, element)
+    _lose(
+        t, element, f"has no successor in gz, and joint '{name}' has no <mimic>; it stays as it is"
+    )
+
+
+def _lose(t: Translation, element: Element, what: str) -> None:
+    t.lose("plugin", f"plugin '{library(element) or element.get('name')}' {what}", element)

@@ -1,0 +1,78 @@
+"""Plugins of Gazebo Classic that publish what a sensor sees: in gz the sensor does so itself."""
+
+from __future__ import annotations
+
+from ...model.elements import Joint, Link
+from ...source.document import Element
+from .plugin_types import SENSOR_PLUGINS, library
+from .translation import Translation
+from .xml import Node, add
+
+
+def sensor_plugin(made: Node, t: Translation, part: Link | Joint, element: Element) -> bool:
+    """Turn a sensor's plugin into settings of the sensor.
+
+    Returns:
+        Whether it is such a plugin.
+    """
+    name = library(element)
+    known = SENSOR_PLUGINS.get(name)
+    if known is None:
+        return False
+    if known.type and made.get("type") != known.type:
+        made.set("type", known.type)
+    settings = {child.tag: child.text.strip() for child in element.children if child.text.strip()}
+    topic = _topic(element, settings)
+    _once(made, "topic", topic)
+    rate = settings.get("updateRate") or settings.get("update_rate") or ""
+    if rate not in ("", "0", "0.0"):
+        _once(made, "update_rate", rate)
+    frame = next((settings[tag] for tag in known.frame if tag in settings), "")
+    _once(made, _frame_tag(t), frame)
+    on = f" on topic '{topic}'" if topic else ""
+    t.note(
+        "plugin",
+        f"plugin '{name}' is not needed in gz: sensor '{made.get('name')}' publishes{on} itself, where "
+        f"the world has gz-sim-{known.system}-system; ros_gz_bridge brings it to ROS",
+        element,
+        part,
+    )
+    return True
+
+
+def _once(made: Node, tag: str, text: str) -> None:
+    if text and made.find(tag) is None:
+        node = add(made, tag, text)
+        made.remove(node)
+        pose = made.find("pose")
+        made.insert(0 if pose is None else list(made).index(pose) + 1, node)
+
+
+def _frame_tag(t: Translation) -> str:
+    """The element that names the frame of a sensor's messages."""
+    if t.options.since("1.12"):
+        return "frame_id"
+    return "gz_frame_id" if t.options.since("1.10") else "ignition_frame_id"
+
+
+def _topic(element: Element, settings: dict[str, str]) -> str:
+    """The topic a plugin publishes on, by its name or by a remapping."""
+    ros = element.child("ros")
+    namespace = settings.get("robotNamespace", "")
+    topic = ""
+    if ros is not None:
+        inner = ros.child("namespace")
+        namespace = inner.text.strip() if inner is not None else namespace
+        for remapping in ros.all("remapping"):
+            _, arrow, new = remapping.text.strip().partition(":=")
+            if arrow and not topic:
+                topic = new
+    if not topic:
+        topic = settings.get("topicName") or settings.get("imageTopicName") or ""
+        camera = settings.get("cameraName") or settings.get("camera_name") or ""
+        if camera and not topic.startswith("/"):
+            topic = f"{camera}/{topic or 'image_raw'}"
+        topic = topic or settings.get("bumperTopicName") or settings.get("topic_name") or ""
+    if topic and namespace.strip("/") and not topic.startswith("/"):
+        topic = f"{namespace.rstrip('/')}/{topic}"
+    return topic

@@ -1,0 +1,81 @@
+"""Types of sensors, in Gazebo Classic and in gz, and the system a world needs for each."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class SensorType(NamedTuple):
+    """What a type becomes.
+
+    Attributes:
+        type: The type there; empty where there is none.
+        renamed: New tags of the element that holds its settings.
+        note: What else changes.
+    """
+
+    type: str
+    renamed: tuple[tuple[str, str], ...] = ()
+    note: str = ""
+
+
+TO_GZ = {
+    "ray": SensorType("gpu_lidar", (("ray", "lidar"),), "rays are cast on the GPU"),
+    "gpu_ray": SensorType("gpu_lidar", (("ray", "lidar"),)),
+    "lidar": SensorType("gpu_lidar", (("ray", "lidar"),), "rays are cast on the GPU"),
+    "gps": SensorType("navsat", (("gps", "navsat"),)),
+    "depth": SensorType("depth_camera"),
+    "multicamera": SensorType("camera", (), "one sensor for each of its cameras"),
+    "wideanglecamera": SensorType("wide_angle_camera"),
+    "sonar": SensorType(""),
+    "rfid": SensorType(""),
+    "rfidtag": SensorType(""),
+    "wireless_receiver": SensorType(""),
+    "wireless_transmitter": SensorType(""),
+}
+"""Types that gz has under another name, or not at all."""
+
+TO_CLASSIC = {
+    "gpu_lidar": SensorType("gpu_ray", (("lidar", "ray"),)),
+    "lidar": SensorType("ray", (("lidar", "ray"),)),
+    "navsat": SensorType("gps", (("navsat", "gps"),)),
+    "depth_camera": SensorType("depth"),
+    "rgbd_camera": SensorType("depth", (), "its colours need a plugin"),
+    "wide_angle_camera": SensorType("wideanglecamera"),
+    "air_pressure": SensorType(""),
+    "air_speed": SensorType(""),
+    "boundingbox_camera": SensorType(""),
+    "custom": SensorType(""),
+    "dvl": SensorType(""),
+    "segmentation_camera": SensorType(""),
+    "thermal_camera": SensorType(""),
+}
+"""Types that Gazebo Classic has under another name, or not at all."""
+
+RENDERED = ("sensors", "Sensors")
+
+SYSTEMS = {
+    **dict.fromkeys(
+        ("camera", "depth_camera", "rgbd_camera", "gpu_lidar", "thermal_camera",
+         "segmentation_camera", "boundingbox_camera", "wide_angle_camera"),
+        RENDERED,
+    ),
+    "air_pressure": ("air-pressure", "AirPressure"),
+    "air_speed": ("air-speed", "AirSpeed"),
+    "altimeter": ("altimeter", "Altimeter"),
+    "contact": ("contact", "Contact"),
+    "dvl": ("dvl", "DopplerVelocityLogSystem"),
+    "force_torque": ("forcetorque", "ForceTorque"),
+    "imu": ("imu", "Imu"),
+    "logical_camera": ("logical-camera", "LogicalCamera"),
+    "magnetometer": ("magnetometer", "Magnetometer"),
+    "navsat": ("navsat", "NavSat"),
+}  # fmt: skip
+"""The system of gz that runs each type of sensor: the word in its library's name, and its class."""
+
+NUMBERS = frozenset(
+    ("update_rate", "horizontal_fov", "near", "far", "width", "height", "samples", "resolution",
+     "min_angle", "max_angle", "min", "max", "mean", "stddev", "bias_mean", "bias_stddev",
+     "precision", "dynamic_bias_stddev", "dynamic_bias_correlation_time")
+)  # fmt: skip
+"""Elements in a sensor that hold one number."""

@@ -1,0 +1,123 @@
+"""``<sensor>``: types by the names of the target, poses that stay true, plugins translated."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+
+from ...finding import Severity
+from ...model.elements import Joint, Link
+from ...source.document import Element
+from .blobs import move, rename_frames
+from .extensions import said_of
+from .plugins import plugin
+from .sensor_plugins import sensor_plugin
+from .sensor_types import TO_CLASSIC, TO_GZ
+from .shape_names import shape_names
+from .translation import Translation
+from .xml import Node, copied
+
+_LUMP = "_fixed_joint_lump__"
+
+
+def sensors(node: Node, t: Translation, link: Link) -> None:
+    """The sensors of a link, in the link that it is in now."""
+    for element in said_of(t.robot, link):
+        if element.tag == "sensor":
+            if (element.get("type") or "").strip() == "force_torque":
+                text = (
+                    f"force_torque sensor '{element.get('name')}' is said of link '{link.name}'; "
+                )
+                t.lose("sensor", text + "it senses joints, and is left out", element, link)
+                continue
+            for made in _made(node, t, link, element):
+                move(made, t, link)
+
+
+def joint_sensors(node: Node, t: Translation, joint: Joint) -> None:
+    """The sensors of a joint."""
+    for element in said_of(t.robot, joint):
+        if element.tag == "sensor":
+            for made in _made(node, t, joint, element):
+                rename_frames(made, t)
+
+
+def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> list[Node]:
+    """A sensor of the source in the words of the target; several of a multicamera."""
+    kind = (element.get("type") or "").strip()
+    types = TO_CLASSIC if t.options.classic else TO_GZ
+    made = copied(node, element)
+    other = types.get(kind)
+    if other is not None and not other.type:
+        t.lose(
+            "sensor",
+            f"sensor '{element.get('name')}' is of type '{kind}', which {t.options.target} does not "
+            "have; it stays as it is",
+            element,
+            part,
+        )
+    elif other is not None:
+        made.set("type", other.type)
+        for old, new in other.renamed:
+            for holder in made.findall(old):
+                holder.tag = new
+        note = f" ({other.note})" if other.note else ""
+        text = f"sensor '{element.get('name')}' of type '{kind}' is of type '{other.type}'{note}"
+        t.note("sensor", text, element, part)
+    _plugins(made, t, part, element)
+    _contacts(made, t, part, element)
+    if kind == "multicamera" and not t.options.classic:
+        return _split(node, made)
+    return [made]
+
+
+def _plugins(made: Node, t: Translation, part: Link | Joint, element: Element) -> None:
+    for written, source in zip(made.findall("plugin"), list(element.all("plugin")), strict=True):
+        made.remove(written)
+        if t.options.classic or not sensor_plugin(made, t, part, source):
+            plugin(made, t, source)
+
+
+def _split(node: Node, made: Node) -> list[Node]:
+    """One sensor for each camera of a multicamera."""
+    cameras = made.findall("camera")
+    node.remove(made)
+    result = []
+    for index, camera in enumerate(cameras):
+        one = deepcopy(made)
+        one.set("name", f"{made.get('name')}_{camera.get('name') or index}")
+        for place, other in enumerate(one.findall("camera")):
+            if place != index:
+                one.remove(other)
+        node.append(one)
+        result.append(one)
+    return result
+
+
+def _contacts(made: Node, t: Translation, part: Link | Joint, element: Element) -> None:
+    """Let a contact sensor name collisions as they are called here."""
+    if not isinstance(part, Link):
+        return
+    members = [t.robot.link[name] for name in t.plan.members[t.plan.owner[part.name]]]
+    names = shape_names(members)
+    here = {names[id(c)] for link in members for c in link.collisions}
+    by_link = {f"{m.name}_collision": names[id(m.collisions[0])] for m in members if m.collisions}
+    for tag in made.iterfind("contact/collision"):
+        name = (tag.text or "").strip()
+        short = name.rpartition(_LUMP)[2].rpartition("::")[2]
+        for candidate in (name, short, short.removesuffix("_collision")):
+            if candidate in here:
+                tag.text = candidate
+                break
+        else:
+            if short in by_link:
+                tag.text = by_link[short]
+                continue
+            t.lose(
+                "contact-sensor",
+                f"contact sensor '{element.get('name')}' watches collision '{name}', which link "
+                f"'{part.name}' does not have",
+                element,
+                part,
+                severity=Severity.WARNING,
+                hint=f"its collisions are {', '.join(sorted(here)) or 'none'}",
+            )

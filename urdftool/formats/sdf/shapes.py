@@ -1,0 +1,109 @@
+"""``<geometry>``, and where a shape is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ...model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Geometry,
+    Link,
+    Mesh,
+    Origin,
+    Sphere,
+    UnknownShape,
+    Visual,
+)
+from ...model.pose import IDENTITY, pose_of
+from ..numbers import number_text, numbers_text
+from .pose import set_origin, set_pose
+from .translation import Translation
+from .xml import Node, add
+
+
+def set_place(node: Node, t: Translation, link: Link, origin: Origin | None) -> None:
+    """The pose of something in a link, which may have become a frame of its owner.
+
+    With frames the numbers of the source stay as they are. Gazebo Classic does not look at frames
+    here, so they are composed for it.
+    """
+    if t.plan.stays(link.name):
+        set_origin(node, origin, exact=t.options.since("1.9"))
+    elif t.options.classic:
+        set_pose(node, t.plan.in_owner[link.name] @ (pose_of(origin) if origin else IDENTITY))
+    else:
+        set_origin(node, origin, t.names.link(link.name), t.options.since("1.9"))
+
+
+def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
+    """Whether a shape can be written; what cannot is said."""
+    geometry = shape.geometry
+    if geometry is None or isinstance(geometry, UnknownShape) or not has_extent(geometry):
+        what = "no geometry" if geometry is None else f"<{geometry.element.tag}>"
+        t.lose(
+            "shape",
+            f"a {shape.element.tag} of link '{link.name}' has {what}"
+            f"{'' if geometry is None else ', which cannot be written'}; it is left out",
+            geometry or shape,
+            link,
+        )
+        return False
+    if isinstance(geometry, Mesh) and not t.meshes.known(geometry):
+        t.lose(
+            "mesh",
+            f"mesh '{geometry.filename}' of link '{link.name}' is missing; the "
+            f"{shape.element.tag} is left out",
+            geometry,
+            link,
+        )
+        return False
+    return True
+
+
+def has_extent(geometry: Geometry) -> bool:
+    """Whether no dimension of a shape is zero or less, and no factor of a mesh is zero."""
+    if isinstance(geometry, Box):
+        return all(size > 0 for size in geometry.size)
+    if isinstance(geometry, Cylinder | Capsule):
+        return geometry.radius > 0 and geometry.length > 0
+    if isinstance(geometry, Sphere):
+        return geometry.radius > 0
+    if isinstance(geometry, Mesh):
+        return all(geometry.scale)
+    return False
+
+
+def geometry(node: Node, t: Translation, shape: Geometry) -> None:
+    """The geometry of a visual or collision."""
+    holder = add(node, "geometry")
+    if isinstance(shape, Mesh):
+        mesh = add(holder, "mesh")
+        add(mesh, "uri", t.meshes.uri(shape))
+        if shape.scale != (1.0, 1.0, 1.0):
+            add(mesh, "scale", numbers_text(shape.scale))
+        return
+    _PRIMITIVES[type(shape)](add(holder, shape.element.tag), shape)
+
+
+def _box(node: Node, box: Box) -> None:
+    add(node, "size", numbers_text(box.size))
+
+
+def _round(node: Node, shape: Cylinder | Capsule) -> None:
+    add(node, "radius", number_text(shape.radius))
+    add(node, "length", number_text(shape.length))
+
+
+def _sphere(node: Node, sphere: Sphere) -> None:
+    add(node, "radius", number_text(sphere.radius))
+
+
+_PRIMITIVES: dict[type, Callable[..., None]] = {
+    Box: _box,
+    Cylinder: _round,
+    Capsule: _round,
+    Sphere: _sphere,
+}

@@ -1,0 +1,110 @@
+"""A robot as SDF: the files, and what of it could not be carried."""
+
+from __future__ import annotations
+
+import json
+from pathlib import PurePath
+
+from lxml import etree
+
+from ...finding import Finding
+from ...model.elements import Robot
+from ..defects import FATAL, defects, refuse
+from ..directory import mark
+from ..written import Written
+from .config import config
+from .defects import inertia_defects, mesh_defects, written_defects
+from .mesh_files import find_meshes
+from .model import model
+from .names import make_names, model_name
+from .options import MODEL, Options
+from .plan import make_plan
+from .translation import Translation
+from .world import world
+from .xml import Node, document
+
+WORLD_FILE = "world.sdf"
+NAMES_FILE = "names.json"
+
+
+def write(robot: Robot, options: Options | None = None) -> Written:
+    """Turn a robot into SDF.
+
+    Args:
+        robot: The robot.
+        options: The choices; those of gz if None.
+
+    Raises:
+        Refused: Its defects forbid it; the message has a place, and the findings are with it.
+    """
+    options = options or Options()
+    found = [*defects(robot), *written_defects(robot)]
+    meshes = find_meshes(robot, options)
+    found += mesh_defects(robot, meshes)
+    if any(finding.rule in FATAL for finding in found):
+        refuse(found, force=options.force)
+    plan = make_plan(robot, lump=options.lump)
+    found += inertia_defects(robot, plan)
+    refuse(found, force=options.force)
+    names = make_names(robot, anchored=plan.anchored)
+    written = Written(options.file or MODEL, renamed=names.renamed)
+    t = Translation(robot, options, plan, names, meshes, written)
+    root = _root(options)
+    node = model(root, t)
+    _note_names(t)
+    _note_forced(t, found)
+    _files(t, root, node)
+    return written
+
+
+def _root(options: Options) -> Node:
+    return etree.Element("sdf", version=options.sdf_version)
+
+
+def _files(t: Translation, root: Node, node: Node) -> None:
+    options, files = t.options, t.written.files
+    source = PurePath(t.robot.source.path).name if t.robot.source is not None else "a robot"
+    if options.file and options.world:
+        world(root, t, node)
+    files[t.written.main] = mark(document(root), source)
+    if not options.file:
+        files["model.config"] = mark(config(model_name(t.robot), options), source)
+        if options.world:
+            around = _root(options)
+            world(around, t, node)
+            files[WORLD_FILE] = mark(document(around), source)
+    if t.written.renamed:
+        name = NAMES_FILE if not options.file else f"{options.file.rpartition('.')[0]}.{NAMES_FILE}"
+        files[name] = _sidecar(t)
+    files.update(t.meshes.files)
+
+
+def _sidecar(t: Translation) -> bytes:
+    """What is called otherwise, for those who look for a link or joint by its name."""
+    kinds: dict[str, dict[str, str]] = {"link": {}, "joint": {}}
+    for (kind, old), new in t.written.renamed.items():
+        kinds[kind][old] = new
+    text = json.dumps({"version": 1, "links": kinds["link"], "joints": kinds["joint"]}, indent=2)
+    return f"{text}\n".encode()
+
+
+def _note_names(t: Translation) -> None:
+    for (kind, old), new in t.written.renamed.items():
+        part = t.robot.link[old] if kind == "link" else t.robot.joint[old]
+        both = old in t.robot.link and old in t.robot.joint
+        why = "a joint has that name too" if both else "SDF does not allow the name"
+        text = f"{kind} '{old}' is '{new}' in SDF, since {why}"
+        t.lose("name", text, part, part)
+
+
+def _note_forced(t: Translation, found: list[Finding]) -> None:
+    """Say which defects were passed; what stands in their place is said where it was written."""
+    for finding in found:
+        t.written.lose(
+            finding.rule,
+            finding.message,
+            finding.place,
+            kind=finding.kind,
+            name=finding.name,
+            hint="passed by --force",
+        )
