@@ -21,17 +21,48 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "missing-name",
         ),
     },
-    "xacro": {},
+    "xacro": {
+        "expansion": (
+            "missing-xmlns",
+            "unknown-macro",
+            "undefined-name",
+            "undeclared-arg",
+            "include-not-found",
+            "macro-arguments-mismatch",
+            "circular-property",
+            "endless-expansion",
+            "expansion-failed",
+        ),
+        "tags": ("unprefixed-xacro-tag", "nonstandard-xmlns"),
+        "leftovers": ("unexpanded-expression",),
+    },
     "tree": {},
     "joint": {"axis": ("zero-axis", "axis-not-unit", "axis-omitted")},
     "inertia": {},
-    "collision": {},
-    "visual": {},
-    "mesh": {},
-    "gazebo": {},
-    "control": {},
+    "collision": {
+        "presence": ("missing-collision", "massive-link-without-collision"),
+        "shapes": ("non-positive-dimension", "unsupported-shape"),
+    },
+    "visual": {
+        "materials": ("undefined-material", "conflicting-material", "invalid-color"),
+    },
+    "mesh": {
+        "files": ("mesh-not-found", "mesh-case-mismatch", "corrupt-mesh"),
+        "uris": ("absolute-path", "malformed-uri"),
+    },
+    "package": {"resolution": ("package-not-found",)},
+    "gazebo": {
+        "tags": ("missing-gazebo-tags", "missing-gazebo-material", "missing-friction"),
+        "references": ("dangling-reference", "misplaced-extension"),
+        "vocabulary": ("unknown-extension",),
+        "values": ("bad-extension-number",),
+    },
+    "control": {
+        "transmissions": ("transmission-unknown-joint", "unprefixed-hardware-interface"),
+        "ros2_control": ("ros2-control-unknown-joint",),
+    },
     "name": {},
-    "lint": {},
+    "lint": {"suppressions": ("unused-suppression", "unknown-rule")},
 }
 
 FAMILIES = tuple(RULES)

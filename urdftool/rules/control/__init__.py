@@ -1,1 +1,1 @@
-
+"""Transmissions and ros2_control."""

@@ -1,1 +1,1 @@
-
+"""What Gazebo does with a robot's `<gazebo>` blocks."""

@@ -1,1 +1,1 @@
-
+"""The linter itself."""

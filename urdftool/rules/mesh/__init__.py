@@ -1,1 +1,1 @@
-
+"""Mesh files and how they are named."""

@@ -1,1 +1,1 @@
-
+"""The source of xacro files, and their expansion."""

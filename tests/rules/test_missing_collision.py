@@ -1,0 +1,74 @@
+"""Links that are without collision on purpose, and robots that have none at all."""
+
+from urdftool.lint.run import check
+
+HEAD = """<?xml version="1.0"?>
+<robot name="head">
+  <link name="base">
+    <visual><geometry><sphere radius="0.1"/></geometry></visual>
+    <collision><geometry><sphere radius="0.1"/></geometry></collision>
+  </link>
+  <link name="motor">{comment}
+    <visual><geometry><cylinder radius="0.02" length="0.04"/></geometry></visual>
+  </link>
+  <joint name="mount" type="fixed">
+    <parent link="base"/>
+    <child link="motor"/>
+  </joint>
+</robot>
+"""
+
+
+def _lines(tmp_path, text, **options):
+    file = tmp_path / "head.urdf"
+    file.write_text(text)
+    found = check(file, select=["missing-collision", "lint"], **options)
+    return [(finding.rule, finding.place.line) for finding in found]
+
+
+def test_link_without_collision_is_found_at_its_line(tmp_path):
+    assert _lines(tmp_path, HEAD.format(comment="")) == [("missing-collision", 7)]
+
+
+def test_comment_in_its_line_excuses_a_link(tmp_path):
+    comment = " <!-- urdftool-ignore[missing-collision] inside the housing -->"
+    assert _lines(tmp_path, HEAD.format(comment=comment)) == []
+
+
+def test_severity_depends_on_the_target(tmp_path):
+    file = tmp_path / "head.urdf"
+    file.write_text(HEAD.format(comment=""))
+    severities = {
+        target: check(file, select=["missing-collision"], targets=[target])[0].severity.label
+        for target in ("ros2", "gz", "gazebo-classic", "mujoco", "pybullet", "moveit")
+    }
+    assert severities.pop("ros2") == "info"
+    assert set(severities.values()) == {"warning"}
+
+
+def test_small_links_are_no_more_than_info(tmp_path):
+    file = tmp_path / "head.urdf"
+    file.write_text(
+        HEAD.format(comment="").replace(
+            'radius="0.02" length="0.04"', 'radius="0.01" length="0.005"'
+        )
+    )
+    found = check(file, select=["missing-collision"], targets=["gz"])
+    assert [finding.severity.label for finding in found] == ["info"]
+
+
+def test_what_is_tiny_or_marks_a_frame_needs_none(tmp_path):
+    tiny = HEAD.format(comment="").replace(
+        'radius="0.02" length="0.04"', 'radius="0.004" length="0.002"'
+    )
+    assert _lines(tmp_path, tiny) == []
+    marker = HEAD.format(comment="").replace("motor", "camera_optical_frame")
+    assert _lines(tmp_path, marker) == []
+
+
+def test_robot_without_any_collision_is_one_finding(tmp_path):
+    link = '<link name="l{}"><visual><geometry><sphere radius="1"/></geometry></visual></link>'
+    links = "\n".join(link.format(number) for number in range(5))
+    assert _lines(tmp_path, f'<robot name="ghost">\n{links}\n</robot>') == [
+        ("missing-collision", 1)
+    ]

@@ -1,0 +1,85 @@
+"""How large primitive shapes are, and the boxes around them."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from .elements import Box, Capsule, Collision, Cylinder, Geometry, Sphere, Vector, Visual
+from .pose import pose_of
+
+
+class Bounds(NamedTuple):
+    """A box along the axes of the link frame [m], by two of its corners."""
+
+    low: Vector
+    high: Vector
+
+    @property
+    def size(self) -> Vector:
+        """Its lengths along x, y and z [m]."""
+        (a, b, c), (d, e, f) = self
+        return d - a, e - b, f - c
+
+    @property
+    def centre(self) -> Vector:
+        """Its middle [m]."""
+        (a, b, c), (d, e, f) = self
+        return (a + d) / 2, (b + e) / 2, (c + f) / 2
+
+    def joined(self, other: Bounds) -> Bounds:
+        """The box around both."""
+        low = tuple(map(min, self.low, other.low))
+        high = tuple(map(max, self.high, other.high))
+        return Bounds(low, high)  # type: ignore[arg-type]
+
+    def meets(self, other: Bounds) -> bool:
+        """Whether the two have a point in common."""
+        return all(
+            a <= d and b >= c
+            for a, b, c, d in zip(self.low, self.high, other.low, other.high, strict=True)
+        )
+
+
+def size_of(geometry: Geometry | None) -> Vector | None:
+    """Lengths of a primitive along its own axes [m]; None for a mesh or an unknown shape."""
+    if isinstance(geometry, Box):
+        x, y, z = geometry.size
+        return abs(x), abs(y), abs(z)
+    if isinstance(geometry, Sphere):
+        across = 2 * abs(geometry.radius)
+        return across, across, across
+    if isinstance(geometry, Cylinder):
+        across = 2 * abs(geometry.radius)
+        return across, across, abs(geometry.length)
+    if isinstance(geometry, Capsule):
+        across = 2 * abs(geometry.radius)
+        return across, across, abs(geometry.length) + across
+    return None
+
+
+def bounds_of(shape: Visual | Collision) -> Bounds | None:
+    """The box around a primitive in its link's frame; None for a mesh or an unknown shape."""
+    geometry = shape.geometry
+    size = size_of(geometry)
+    if size is None:
+        return None
+    pose = pose_of(shape.origin)
+    if isinstance(geometry, Box):
+        half: list[float] = [
+            sum(abs(part) * length for part, length in zip(row, size, strict=True)) / 2
+            for row in pose.rotation
+        ]
+    elif isinstance(geometry, Sphere):
+        half = [size[0] / 2] * 3
+    else:  # a disc of radius r seen along an axis at an angle to its own is r·sin of that angle
+        rounded = isinstance(geometry, Capsule)
+        radius, along = size[0] / 2, (size[2] - size[0] * rounded) / 2
+        half = [
+            abs(row[2]) * along
+            + radius * (1.0 if rounded else math.sqrt(max(0.0, 1.0 - row[2] * row[2])))
+            for row in pose.rotation
+        ]
+    x, y, z = pose.translation
+    a, b, c = half
+    return Bounds((x - a, y - b, z - c), (x + a, y + b, z + c))

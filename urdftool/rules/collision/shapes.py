@@ -1,0 +1,88 @@
+"""The shapes themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Collision, Robot, UnknownShape
+from ...model.read import number, numbers
+from ..rule import ERROR, WARNING, Problem, rule
+from ..words import did_you_mean
+
+_SIZES = {
+    "box": ("size",),
+    "cylinder": ("radius", "length"),
+    "sphere": ("radius",),
+    "capsule": ("radius", "length"),
+}
+
+
+@rule(
+    ERROR,
+    effects={
+        "mujoco": "rejects the file: size must be positive",
+        "urdfdom, sdformat, pybullet": "accept it silently",
+    },
+)
+def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
+    """A shape has a length of zero or less.
+
+    Often the 0 0 0 of a placeholder, or a subtraction in a macro that went below zero. Nothing of
+    it touches or is seen where it is accepted, and MuJoCo refuses the file. A visual of size zero,
+    which MuJoCo does not read, is only a warning.
+    """
+    for link, shape in robot.shapes:
+        if shape.geometry is None:
+            continue
+        element = shape.geometry.element
+        for name in _SIZES.get(element.tag, ()):
+            text = element.get(name)
+            one = number(text)
+            values = numbers(text, 3) if name == "size" else None if one is None else (one,)
+            if values is None or min(values) > 0:
+                continue
+            collides = isinstance(shape, Collision)
+            yield Problem(
+                link,
+                f"{name} of a <{element.tag}> of link '{link.name}' is {text}; "
+                "every length must be above 0",
+                at=element.attribute_place(name),
+                severity=ERROR if collides or min(values) < 0 else WARNING,
+            )
+
+
+_KNOWN = ("box", "cylinder", "sphere", "mesh")
+_INSTEAD = {
+    "plane": "a flat <box>",
+    "ellipsoid": "a <sphere> or a <mesh>",
+    "cone": "a <mesh>",
+    "cdf": "a <mesh>",
+}
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom": "the link loses all its geometry, also what is right",
+        "pybullet": "rejects the file",
+        "mujoco": "does not look at it in a visual",
+    },
+)
+def unsupported_shape(robot: Robot) -> Iterator[Problem]:
+    """A geometry is of a shape that URDF does not have.
+
+    URDF has box, cylinder, sphere and mesh (and capsule from version 1.1). urdfdom says one line,
+    goes on, and leaves out every visual and collision of that link.
+    """
+    for link, shape in robot.shapes:
+        geometry = shape.geometry
+        if isinstance(geometry, UnknownShape) and ":" not in geometry.element.tag:
+            tag = geometry.element.tag
+            near = did_you_mean(tag, _KNOWN)
+            right = _INSTEAD.get(tag, "<box>, <cylinder>, <sphere> or <mesh>")
+            yield Problem(
+                link,
+                f"link '{link.name}' has a <{tag}>, which URDF does not know"
+                + (near or f"; write {right}"),
+                at=geometry,
+            )

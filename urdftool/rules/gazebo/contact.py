@@ -1,0 +1,91 @@
+"""Which links a robot stands on and grips with."""
+
+from __future__ import annotations
+
+import re
+
+from ...model.elements import Collision, Cylinder, GazeboExtension, Joint, Link, Robot, Sphere
+from ...model.pose import IDENTITY, cross, dot, norm, pose_of, rotate
+
+_WHEEL = re.compile(r"wheel|(^|_)tire(_|\d|$)", re.IGNORECASE)
+_CASTER = re.compile(r"caster|castor", re.IGNORECASE)
+_FOOT = re.compile(r"(^|[_\d])(foot|feet|toe)([_\d]|$)", re.IGNORECASE)
+_FINGER = re.compile(r"finger|(^|_)(gripper_)?pad(_|\d|$)|(^|_)jaw(_|\d|$)", re.IGNORECASE)
+_NOT_WHEEL = re.compile(
+    r"lidar|laser|scan|radar|rotor|prop|fan|camera|head|yaw|steer", re.IGNORECASE
+)
+
+
+def contact_role(robot: Robot, link: Link) -> str:
+    """What a link touches the world as: ``wheel``, ``caster``, ``foot``, ``finger`` or nothing."""
+    if not link.collisions:
+        return ""
+    joint = robot.tree.parent_joint(link.name)
+    if joint is None:
+        return ""
+    if _CASTER.search(link.name):
+        turned = any(below.type == "continuous" for below in robot.tree.child_joints(link.name))
+        return "" if turned else "caster"
+    if _rolls(robot, link, joint):
+        return "wheel"
+    leaf = not any(not below.is_fixed for below in robot.tree.child_joints(link.name))
+    if leaf and _FOOT.search(link.name) and _moves(robot, link):
+        return "foot"
+    if leaf and _FINGER.search(link.name) and _moves(robot, link):
+        return "finger"
+    return ""
+
+
+def _rolls(robot: Robot, link: Link, joint: Joint) -> bool:
+    """Whether a link turns without end about an axis that lies level, and is round."""
+    if joint.type != "continuous" or _NOT_WHEEL.search(link.name):
+        return False
+    if any(not below.is_fixed for below in robot.tree.child_joints(link.name)):
+        return False
+    if _WHEEL.search(link.name):
+        return True
+    if not any(_is_round_about(collision, joint) for collision in link.collisions):
+        return False
+    return abs(_axis_up(robot, link, joint)) < 0.5
+
+
+def _is_round_about(collision: Collision, joint: Joint) -> bool:
+    """Whether a shape is a cylinder or sphere that turns about its own middle."""
+    shape, pose = collision.geometry, pose_of(collision.origin)
+    axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+    length = norm(axis)
+    if not isinstance(shape, Cylinder | Sphere) or not length:
+        return False
+    if isinstance(shape, Cylinder):
+        along = rotate(pose.rotation, (0.0, 0.0, 1.0))
+        if abs(dot(along, axis)) < 0.9 * length:
+            return False
+    return norm(cross(pose.translation, axis)) / length < 0.3 * shape.radius
+
+
+def _axis_up(robot: Robot, link: Link, joint: Joint) -> float:
+    """How far a joint's axis points up in the root's frame, where all joints are at zero."""
+    pose = pose_of(joint.origin)
+    for name in robot.tree.ancestors(link.name):
+        above = robot.tree.parent_joint(name)
+        pose = (pose_of(above.origin) if above is not None else IDENTITY) @ pose
+    axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+    return rotate(pose.rotation, axis)[2] / (norm(axis) or 1.0)
+
+
+def _moves(robot: Robot, link: Link) -> bool:
+    """Whether a joint that moves lies between a link and the root."""
+    names = [link.name, *robot.tree.ancestors(link.name)]
+    joints = [robot.tree.parent_joint(name) for name in names]
+    return any(joint is not None and not joint.is_fixed for joint in joints)
+
+
+def has_friction(blocks: list[GazeboExtension]) -> bool:
+    """Whether the blocks of a link say how it grips."""
+    for block in blocks:
+        if block.value("mu1") is not None or block.value("mu2") is not None:
+            return True
+        for collision in block.element.all("collision"):
+            if any(element.tag in ("friction", "mu", "slip1") for element in collision.walk()):
+                return True
+    return False

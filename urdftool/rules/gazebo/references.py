@@ -1,0 +1,78 @@
+"""What a ``<gazebo>`` block refers to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import GazeboExtension, Robot
+from ...source.document import Element
+from ..rule import ERROR, Problem, rule
+from ..unexpanded import is_unexpanded
+from ..words import did_you_mean, quoted
+from .keywords import JOINT_KEYWORDS, LINK_KEYWORDS
+
+
+@rule(ERROR, effects={"gazebo": "passes over the whole block silently"})
+def dangling_reference(robot: Robot) -> Iterator[Problem]:
+    """A ``<gazebo reference>`` names neither a link nor a joint.
+
+    The block is thrown away without a word: the wheel has no grip, the camera does not exist, the
+    joint is lumped. A misspelt name, a prefix that was forgotten, or a link that is no longer
+    there.
+    """
+    names = {*robot.link, *robot.joint}
+    stripped = {name.strip() for name in names}
+    for block in robot.gazebo:
+        name = block.reference
+        if not name or name.strip() in stripped or is_unexpanded(name):
+            continue
+        yield Problem(
+            block.element,
+            f"'{name}' is neither a link nor a joint, so the block does nothing"
+            + did_you_mean(name, names),
+            at=block.element.attribute_place("reference"),
+        )
+
+
+@rule(ERROR, effects={"gazebo": "drops it silently"})
+def misplaced_extension(robot: Robot) -> Iterator[Problem]:
+    """A word of Gazebo's stands at a link and belongs to a joint, or the other way round.
+
+    Friction, contact, colour and gravity belong to links; springs, stops, feedback and
+    ``preserveFixedJoint`` to joints. At the other kind, or in a block without a reference, they
+    are dropped: a fixed joint preserved at its link is lumped all the same.
+    """
+    for block in robot.gazebo:
+        name = block.reference or ""
+        if name in robot.link and name in robot.joint:
+            continue
+        if not name:
+            wrong, belongs = LINK_KEYWORDS | JOINT_KEYWORDS, "in a block without a reference"
+        elif name in robot.link:
+            wrong, belongs = JOINT_KEYWORDS, f"at link '{name}'"
+        elif name in robot.joint:
+            wrong, belongs = LINK_KEYWORDS, f"at joint '{name}'"
+        else:
+            continue
+        children = [child for child in block.element.children if child.tag in wrong]
+        if children:
+            yield _misplaced(robot, block, children, belongs)
+
+
+def _misplaced(
+    robot: Robot, block: GazeboExtension, children: list[Element], belongs: str
+) -> Problem:
+    tags = quoted(dict.fromkeys(child.tag for child in children)).replace("'", "")
+    name = block.reference or ""
+    right = "a link" if children[0].tag in LINK_KEYWORDS else "a joint"
+    if name in robot.joint and robot.joint[name].child:
+        right = f"link '{robot.joint[name].child}'"
+    elif name in robot.link:
+        joint = robot.tree.parent_joint(name)
+        right = f"joint '{joint.name}'" if joint is not None else right
+    verb = "does" if len(children) == 1 else "do"
+    return Problem(
+        block.element,
+        f"{tags} {verb} nothing {belongs}; write it at {right}",
+        at=children[0],
+    )

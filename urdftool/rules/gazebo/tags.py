@@ -1,0 +1,175 @@
+"""What Gazebo needs to be told of a link, and is not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import GazeboExtension, Link, Material, Mesh, Robot
+from ..rule import INFO, WARNING, Problem, rule
+from ..unexpanded import is_unexpanded
+from ..words import nearest
+from .contact import contact_role, has_friction
+
+_FRICTION = {
+    "wheel": "<mu1> and <mu2> for its grip",
+    "caster": "<mu1> and <mu2> near 0, or it brakes",
+    "foot": "<mu1> and <mu2> for its grip",
+    "finger": "<mu1> and <mu2> for its grip",
+}
+_GREY = 0.06  # colours whose parts differ less than this look like Gazebo Classic's own
+
+
+@rule(
+    WARNING,
+    effects={
+        "gazebo-classic": "shows all in grey, with a friction of 1",
+        "gz": "shows URDF's colours, with a friction of 1",
+    },
+)
+def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+    """A link has no ``<gazebo>`` block though it needs one.
+
+    URDF says nothing of friction, and Gazebo Classic does not take its colours: both are said in
+    ``<gazebo reference="the link">``. A link needs the block if it rolls, stands or grips (a
+    wheel, a caster, a foot, a finger), for its friction; and in Gazebo Classic if a visual has a
+    colour. Other links need none and are not named; a block that lacks something is a case of
+    ``missing-friction`` or ``missing-gazebo-material``.
+
+    A robot without any ``<gazebo>``, that shows no sign of a simulator either, gets one remark.
+    """
+    if not targets.intersection(("gazebo-classic", "gz")):
+        if not robot.gazebo and robot.links and not targets.intersection(("mujoco", "pybullet")):
+            yield Problem(robot, _without_any(robot), severity=INFO)
+        return
+    if _is_unclear(robot):
+        return
+    colours = _colours(robot)
+    names = {*robot.link, *robot.joint}
+    meant = {nearest(name, names) for name in robot.extensions if name and name not in names}
+    for link in robot.links:
+        if robot.extensions.get(link.name) or link.name in meant:
+            continue
+        role = contact_role(robot, link)
+        needs = [_FRICTION[role]] if role else []
+        if "gazebo-classic" in targets and _shows_colour(link, colours):
+            needs.append("<material>, for Gazebo Classic does not show the colours of a URDF")
+        if needs:
+            kind = f"{role} '{link.name}'" if role else f"link '{link.name}'"
+            yield Problem(
+                link,
+                f'{kind} has no <gazebo reference="{link.name}">; it needs {" and ".join(needs)}',
+            )
+
+
+def _is_unclear(robot: Robot) -> bool:
+    """Whether a block is there of which it is not known what it refers to."""
+    return any(is_unexpanded(block.reference or "") for block in robot.gazebo)
+
+
+def _without_any(robot: Robot) -> str:
+    """What Gazebo does with a robot that has nothing for it."""
+    would = ["every surface has a friction of 1"]
+    if _colours_of(robot):
+        would.append("Gazebo Classic shows no colours")
+    if robot.moving_joints:
+        would.append("the joints hang limp, for nothing drives them")
+    would.append("nothing is sensed")
+    last = would.pop()
+    return (
+        f"robot '{robot.name}' has no <gazebo> tag; in Gazebo {', '.join(would)} and {last} "
+        "(--target gz or gazebo-classic tells which links need one)"
+    )
+
+
+@rule(
+    WARNING,
+    on=("gazebo-classic",),
+    effects={"gazebo-classic": "shows it in grey", "gz": "takes URDF's colour"},
+)
+def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
+    """A link with a colour has a ``<gazebo>`` block without a material.
+
+    Gazebo Classic does not convert the colours of a URDF: the link is grey whatever it is in RViz.
+    It wants ``<material>Gazebo/Red</material>``, or the colour itself in ``<visual><material>``.
+    New Gazebo takes URDF's colours. A link that has no block at all is a case of
+    ``missing-gazebo-tags``; greys are let pass.
+    """
+    if _is_unclear(robot):
+        return
+    colours = _colours(robot)
+    for link in robot.links:
+        blocks = robot.extensions.get(link.name, [])
+        if blocks and not _has_material(blocks) and _shows_colour(link, colours):
+            yield Problem(
+                link,
+                f"link '{link.name}' has a colour that Gazebo Classic does not show; write "
+                f'<material> into its <gazebo reference="{link.name}">',
+                at=blocks[0],
+            )
+
+
+@rule(
+    INFO,
+    on=("gazebo-classic", "gz"),
+    effects={"gazebo": "takes a friction of 1, in both directions"},
+)
+def missing_friction(robot: Robot) -> Iterator[Problem]:
+    """A wheel, caster, foot or finger has a ``<gazebo>`` block without friction.
+
+    Without ``mu1`` and ``mu2`` the coefficients are 1: enough for a rubber wheel, too much for a
+    caster that should slide, too little for a finger that should hold. A link that has no block at
+    all is a case of ``missing-gazebo-tags``.
+    """
+    if _is_unclear(robot):
+        return
+    for link in robot.links:
+        blocks = robot.extensions.get(link.name, [])
+        if blocks and not has_friction(blocks):
+            role = contact_role(robot, link)
+            if role:
+                yield Problem(
+                    link,
+                    f"{role} '{link.name}' has no friction of its own; write {_FRICTION[role]}",
+                    at=blocks[0],
+                )
+
+
+def _colours(robot: Robot) -> dict[str, Material]:
+    """Materials by name, wherever they are defined."""
+    found = {m.name: m for m in robot.materials if m.name}
+    for link in robot.links:
+        for visual in link.visuals:
+            material = visual.material
+            if material is not None and material.name and material.color is not None:
+                found.setdefault(material.name, material)
+    return found
+
+
+def _colours_of(robot: Robot) -> bool:
+    colours = _colours(robot)
+    return any(_shows_colour(link, colours) for link in robot.links)
+
+
+def _shows_colour(link: Link, colours: dict[str, Material]) -> bool:
+    """Whether a visual is given a colour in the URDF that is not simply a grey."""
+    for visual in link.visuals:
+        material, shape = visual.material, visual.geometry
+        if material is None or shape is None:
+            continue
+        if isinstance(shape, Mesh) and not shape.filename.lower().endswith(".stl"):
+            continue  # such meshes bring their own
+        if material.color is None and material.texture is None:
+            material = colours.get(material.name, material)
+        if material.color is not None and max(material.color[:3]) - min(material.color[:3]) > _GREY:
+            return True
+    return False
+
+
+def _has_material(blocks: list[GazeboExtension]) -> bool:
+    for block in blocks:
+        for child in block.element.children:
+            if child.tag == "material" or (
+                child.tag == "visual" and child.child("material") is not None
+            ):
+                return True
+    return False

@@ -1,0 +1,133 @@
+"""Words that Gazebo does not know."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import GazeboExtension, Robot
+from ...source.document import Element
+from ..rule import ERROR, WARNING, Problem, rule
+from ..words import fold, nearest
+from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS, ROBOT_KEYWORDS
+from .plugin_parameters import LIBRARIES, PARAMETERS
+from .sdf_names import SDF_CHILDREN
+
+_INSTEAD = {
+    "mu": "write <mu1> and <mu2>",
+    "friction": "write <mu1> and <mu2>, or <collision><surface><friction>…",
+    "friction1": "write <mu1>",
+    "friction2": "write <mu2>",
+    "surface": "write it inside <collision>",
+    "ode": "write it inside <collision><surface>",
+    "color": "write <material>, or <visual><material><diffuse>",
+    "restitution": "write <collision><surface><bounce><restitution_coefficient>",
+    "turnOffGravity": "write <turnGravityOff>",
+}
+
+
+@rule(
+    WARNING,
+    effects={
+        "gazebo": "copies it as it is and reads nothing of it; the default holds",
+    },
+)
+def unknown_extension(robot: Robot) -> Iterator[Problem]:
+    """Gazebo has no such word there.
+
+    What a ``<gazebo>`` block holds is either one of some thirty words, or SDF. All else is copied
+    into the simulated model and passed over: ``<mu>`` or ``<Mu1>`` leaves the friction at 1, an
+    ``<updateRate>`` in a sensor leaves its rate as it is. It is an error where the word meant is
+    plain.
+
+    In sensors, and in plugins whose parameters are known, only words that are nearly right are
+    told of: plugins read what they like.
+    """
+    for block in robot.gazebo:
+        known, parent = _known(robot, block)
+        for child in block.element.children:
+            tag = child.tag
+            if tag == "sensor":
+                yield from _in_sdf(child)
+            elif tag == "plugin":
+                yield from _in_plugin(child)
+            elif parent and tag not in known and tag not in KEYWORDS and ":" not in tag:
+                yield _unknown(block, child, known, parent)
+
+
+def _known(robot: Robot, block: GazeboExtension) -> tuple[frozenset[str], str]:
+    """What may stand in a block, and which element of SDF it is copied to."""
+    name = block.reference
+    if not name:
+        return ROBOT_KEYWORDS | SDF_CHILDREN["model"], "model"
+    if name in robot.link:
+        known = LINK_KEYWORDS | SDF_CHILDREN["link"]
+        both = JOINT_KEYWORDS | SDF_CHILDREN["joint"] if name in robot.joint else frozenset()
+        return known | both, "link"
+    if name in robot.joint:
+        return JOINT_KEYWORDS | SDF_CHILDREN["joint"], "joint"
+    return frozenset(), ""
+
+
+def _unknown(block: GazeboExtension, child: Element, known: frozenset[str], parent: str) -> Problem:
+    tag = child.tag
+    what = f"<{tag}> means nothing to Gazebo at a {parent}"
+    instead = _INSTEAD.get(tag)
+    if instead is None:
+        near = _near(tag, known | KEYWORDS)
+        instead = f"write <{near}>" if near else ""
+    if instead:
+        return Problem(block.element, f"{what}; {instead}", at=child, severity=ERROR)
+    return Problem(block.element, f"{what}, and nothing of it is read; take it away", at=child)
+
+
+def _in_sdf(element: Element) -> Iterator[Problem]:
+    """What is nearly right in a sensor and all below it."""
+    known = SDF_CHILDREN.get(element.tag)
+    for child in element.children:
+        if child.tag == "plugin":
+            yield from _in_plugin(child)
+            continue
+        if known is not None and child.tag not in known and ":" not in child.tag:
+            near = _near(child.tag, known)
+            if near:
+                yield Problem(
+                    element,
+                    f"<{element.tag}> has no <{child.tag}>; write <{near}>",
+                    at=child,
+                    severity=ERROR,
+                )
+                continue
+        yield from _in_sdf(child)
+
+
+def _in_plugin(plugin: Element) -> Iterator[Problem]:
+    library = (plugin.get("filename") or "").rpartition("/")[2]
+    if not library.startswith(LIBRARIES):
+        return
+    for child in plugin.children:
+        tag = child.tag
+        if tag in PARAMETERS or ":" in tag or len(tag) < 5:
+            continue
+        near = nearest(tag, PARAMETERS, 0.86)
+        if near and fold(near) != fold(tag) and not _variant(tag, near):
+            yield Problem(
+                plugin,
+                f"plugin '{plugin.get('name') or library}' has no <{tag}>; write <{near}>",
+                at=child,
+            )
+
+
+def _variant(tag: str, near: str) -> bool:
+    """Whether two words differ in a number, a plural, or by a word more, as kin do."""
+    a, b = fold(tag), fold(near)
+    letters = "".join(c for c in a if not c.isdigit()), "".join(c for c in b if not c.isdigit())
+    if letters[0] == letters[1] or a.startswith(b) or b.startswith(a):
+        return True
+    return a.endswith(b) or b.endswith(a) or abs(len(a) - len(b)) > 1
+
+
+def _near(tag: str, known: frozenset[str]) -> str:
+    near = nearest(tag, known, 0.8)
+    if near and fold(near) != fold(tag) and (len(tag) < 4 or abs(len(tag) - len(near)) > 2):
+        return ""
+    return near

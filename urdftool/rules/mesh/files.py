@@ -1,0 +1,194 @@
+"""Whether the files are there."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from itertools import takewhile
+from pathlib import Path
+
+from ...meshes.facts import LFS_MARK, stl_facts
+from ...model.elements import Robot
+from ...source.description import Description
+from ...source.packages import own_package, shown_path
+from ..rule import ERROR, Problem, rule
+from ..words import nearest
+from .uris import malformation
+from .uses import MeshUse, actual_case, mesh_uses
+
+_MAX_FILES = 5000
+_files_below: dict[str, dict[str, str]] = {}
+
+
+@rule(
+    ERROR,
+    effects={
+        "rviz, gazebo": "show nothing there",
+        "mujoco, pybullet": "refuse the robot",
+        "sdformat, urdfdom": "do not look",
+    },
+)
+def mesh_not_found(
+    robot: Robot, description: Description, *, together: float = 3
+) -> Iterator[Problem]:
+    """A mesh file is not there.
+
+    The path leads to no file, and the link is not seen or does not collide. Whoever looks at the
+    model with the meshes cached or in another checkout does not notice. A file that is wanted in
+    several places is one finding, and so are more than ``together`` files of one folder that is
+    not there.
+    """
+    wanted: dict[Path, list[MeshUse]] = {}
+    for use in mesh_uses(robot, description):
+        if use.path is None or use.exists or use.is_absolute:
+            continue
+        if malformation(use) or actual_case(use.path):
+            continue
+        wanted.setdefault(Path(os.path.normpath(use.path)), []).append(use)
+    folders: dict[Path, list[Path]] = {}
+    for path in wanted:
+        folders.setdefault(_missing_folder(path), []).append(path)
+    for folder, paths in folders.items():
+        if len(paths) > together and not folder.exists():
+            first = wanted[paths[0]][0]
+            yield Problem(
+                first.link,
+                f"the folder '{shown_path(folder)}' is not there, and {len(paths)} meshes are "
+                f"wanted from it, first '{first.uri}'",
+                at=first.mesh.element.attribute_place("filename"),
+            )
+            continue
+        for path in paths:
+            first = wanted[path][0]
+            yield Problem(
+                first.link,
+                f"mesh '{first.uri}' of link '{first.link.name}' is not there: "
+                f"no file '{shown_path(path)}'{_elsewhere(path)}",
+                at=first.mesh.element.attribute_place("filename"),
+            )
+
+
+def _missing_folder(path: Path) -> Path:
+    """The uppermost folder above a file that is not there; its own folder where that is there."""
+    folder = path.parent
+    while folder != folder.parent and not folder.exists() and not folder.parent.exists():
+        folder = folder.parent
+    return folder
+
+
+def _elsewhere(path: Path) -> str:
+    """A hint at a file of nearly that name there, or of that name elsewhere in the package."""
+    try:
+        near = nearest(path.name, os.listdir(path.parent), 0.8)
+    except OSError:
+        near = ""
+    if near:
+        return f"; did you mean '{near}'?"
+    own = own_package(path)
+    if own is None:
+        return ""
+    key = str(own[1])
+    if key not in _files_below:
+        _files_below[key] = dict(_files(key))
+    other = _files_below[key].get(path.name)
+    return f"; there is '{os.path.relpath(other, key)}' in its package" if other else ""
+
+
+def _files(folder: str) -> Iterator[tuple[str, str]]:
+    count = 0
+    for where, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        for name in names:
+            yield name, os.path.join(where, name)
+        count += len(names)
+        if count > _MAX_FILES:
+            return
+
+
+@rule(
+    ERROR,
+    effects={
+        "Linux": "does not find the file",
+        "macOS, Windows": "find it",
+    },
+)
+def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A mesh file is there under a name with other capitals.
+
+    ``Base.STL`` and ``base.stl`` are one file on macOS and Windows and two on Linux, where robots
+    and build servers are.
+    """
+    told: set[str] = set()
+    for use in mesh_uses(robot, description):
+        if use.path is None or use.exists or use.uri in told:
+            continue
+        actual = actual_case(use.path)
+        if actual is not None:
+            told.add(use.uri)
+            pairs = zip(actual.parts, use.path.parts, strict=True)
+            same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
+            shown = "/".join(actual.parts[same:])
+            yield Problem(
+                use.link,
+                f"mesh '{use.uri}' is called '{shown}' on disk; capitals must agree",
+                at=use.mesh.element.attribute_place("filename"),
+            )
+
+
+@rule(
+    ERROR,
+    effects={
+        "rviz, gazebo": "show nothing there",
+        "mujoco": "refuses the robot, with a message that points elsewhere",
+    },
+)
+def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A mesh file is there and holds no mesh.
+
+    A pointer that git-lfs left in place of the file, an empty file, an STL file that ends before
+    its last triangle, or one without triangles. Readers say something about numbers or the format,
+    or nothing.
+    """
+    told: set[Path] = set()
+    for use in mesh_uses(robot, description):
+        if use.path is None or not use.exists or use.path in told:
+            continue
+        told.add(use.path)
+        wrong = _what_is_wrong(use.path)
+        if wrong:
+            yield Problem(
+                use.link,
+                f"mesh '{use.uri}' {wrong}",
+                at=use.mesh.element.attribute_place("filename"),
+            )
+
+
+def _what_is_wrong(path: Path) -> str:
+    try:
+        if path.suffix.lower() != ".stl":
+            with open(path, "rb") as file:
+                head = file.read(len(LFS_MARK))
+            if not head:
+                return "is an empty file"
+            return _LFS if head == LFS_MARK else ""
+        facts = stl_facts(path)
+    except OSError as error:
+        return f"cannot be read: {(error.strerror or 'unknown').lower()}"
+    if facts.kind == "lfs-pointer":
+        return _LFS
+    if facts.kind == "empty":
+        return "is an empty file"
+    if facts.kind == "unknown":
+        return "is no STL file"
+    if facts.kind == "binary" and facts.triangles == 0:
+        return "has no triangles"
+    expected = facts.expected_bytes
+    if expected is not None and facts.bytes < expected:
+        return (
+            f"ends too early: {facts.triangles} triangles want {expected} bytes, "
+            f"and it has {facts.bytes}"
+        )
+    return ""
+
+
+_LFS = "is a pointer of git-lfs, not the file itself; run 'git lfs pull'"

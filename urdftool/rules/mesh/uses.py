@@ -1,0 +1,129 @@
+"""Which mesh files a robot uses, and where they are."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ...errors import PackageNotFound
+from ...model.elements import Collision, Link, Mesh, Robot, Visual
+from ...source.description import Description
+
+_ABSOLUTE = re.compile(r"(file://)?(/|[A-Za-z]:[\\/]|~)")
+
+
+@dataclass(slots=True)
+class MeshUse:
+    """A mesh in a shape of a link.
+
+    Attributes:
+        path: The file it means; None where that cannot be known.
+        exists: Whether the file is there.
+        missing_package: The package that could not be found, if it was that.
+        searched: Where that package was looked for.
+    """
+
+    link: Link
+    shape: Visual | Collision
+    mesh: Mesh
+    path: Path | None = None
+    exists: bool = False
+    missing_package: str = ""
+    searched: list[str] = field(default_factory=list)
+
+    @property
+    def uri(self) -> str:
+        """The ``filename`` as expanded."""
+        return self.mesh.filename
+
+    @property
+    def collides(self) -> bool:
+        """Whether it is a collision."""
+        return isinstance(self.shape, Collision)
+
+    @property
+    def is_absolute(self) -> bool:
+        """Whether it is a path from the root of one machine."""
+        return _ABSOLUTE.match(self.uri) is not None
+
+    @property
+    def written(self) -> str:
+        """The ``filename`` as it stands in the source, with its xacro expressions."""
+        place = self.mesh.element.attribute_place("filename")
+        data = place.file.data[place.start : place.end]
+        return data.decode(place.file.encoding, "replace").partition("=")[2].strip(" \t\r\n\"'")
+
+
+_last: tuple[Robot, list[MeshUse]] | None = None
+
+
+def mesh_uses(robot: Robot, description: Description) -> list[MeshUse]:
+    """Every mesh of a robot, in the order of the file; looked for once, however many rules ask."""
+    global _last
+    if _last is None or _last[0] is not robot:
+        _last = robot, list(_uses(robot, description))
+    return _last[1]
+
+
+def _uses(robot: Robot, description: Description) -> Iterator[MeshUse]:
+    found: dict[str, MeshUse] = {}
+    lost: dict[str, list[str]] = {}
+    for link, shape in robot.shapes:
+        mesh = shape.geometry
+        if not isinstance(mesh, Mesh):
+            continue
+        use = MeshUse(link, shape, mesh)
+        known = found.setdefault(use.uri, use)
+        if known is use:
+            _locate(use, description, lost)
+        else:
+            use.path, use.exists = known.path, known.exists
+            use.missing_package, use.searched = known.missing_package, known.searched
+        yield use
+
+
+def _locate(use: MeshUse, description: Description, lost: dict[str, list[str]]) -> None:
+    uri = use.uri
+    scheme, separator, rest = uri.partition("://")
+    if not uri.strip() or "${" in uri or "$(" in uri or re.match(r"[A-Za-z]:[\\/]|~", uri):
+        return
+    if separator and scheme not in ("package", "model", "file"):
+        return
+    package = rest.partition("/")[0] if scheme in ("package", "model") else ""
+    if separator and scheme != "file" and not package:
+        return
+    if package in lost:
+        use.missing_package, use.searched = package, lost[package]
+        return
+    try:
+        use.path = description.resolve(uri.replace("\\", "/"))
+    except PackageNotFound as error:
+        if scheme == "package":
+            use.missing_package, use.searched = package, list(error.notes)
+            lost[package] = use.searched
+        return
+    use.exists = os.path.isfile(use.path)
+
+
+def actual_case(path: Path) -> Path | None:
+    """The file that differs from a path only in the case of its letters; None if there is none."""
+    known = path
+    rest: list[str] = []
+    while not known.exists():
+        if known.parent == known:
+            return None
+        rest.append(known.name)
+        known = known.parent
+    for name in reversed(rest):
+        try:
+            names = os.listdir(known)
+        except OSError:
+            return None
+        same = next((n for n in sorted(names) if n.casefold() == name.casefold()), None)
+        if same is None:
+            return None
+        known = known / same
+    return known if known.is_file() else None

@@ -1,0 +1,45 @@
+"""Packages that are named."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ...source.description import Description
+from ..mesh.uses import MeshUse, mesh_uses
+from ..rule import WARNING, Problem, rule
+
+
+@rule(
+    WARNING,
+    effects={
+        "xacro": "stops at $(find …)",
+        "rviz, gazebo": "show nothing of its meshes",
+    },
+)
+def package_not_found(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A package that is named cannot be found.
+
+    ``$(find NAME)`` and ``package://NAME/`` mean a ROS package, and none of that name is near the
+    file, in the workspace around it, in the configuration, or in ``ROS_PACKAGE_PATH`` and
+    ``AMENT_PREFIX_PATH``. The robot may be right and the package only not here; what is in it was
+    not checked. ``--package NAME=DIR`` or ``--package-path DIR`` says where it is.
+    """
+    lost: dict[str, list[MeshUse]] = {}
+    for use in mesh_uses(robot, description):
+        if use.missing_package:
+            lost.setdefault(use.missing_package, []).append(use)
+    for name, uses in lost.items():
+        count = len({use.uri for use in uses})
+        meshes = f"{count} meshes in it were" if count > 1 else "a mesh in it was"
+        yield Problem(
+            uses[0].link,
+            f"package '{name}' is not found, so {meshes} not checked; say where it is "
+            f"with --package {name}=DIR or --package-path DIR",
+            at=uses[0].mesh.element.attribute_place("filename"),
+            hint="; ".join(f"searched {place}" for place in _brief(uses[0].searched)),
+        )
+
+
+def _brief(searched: list[str]) -> list[str]:
+    return [place.removeprefix("searched ") for place in searched]

@@ -1,0 +1,1 @@
+"""What simulators make of a robot."""

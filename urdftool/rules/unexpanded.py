@@ -1,0 +1,14 @@
+"""Text that xacro should have replaced: what stands in its place is not known."""
+
+from __future__ import annotations
+
+import re
+
+_BRACED = re.compile(r"\{\w+\}")
+
+
+def is_unexpanded(text: str) -> bool:
+    """Whether a value still holds ``${…}``, ``$(…)`` or a ``{name}`` that lost its ``$``."""
+    if "{" not in text and "$" not in text:
+        return False
+    return "${" in text or "$(" in text or _BRACED.search(text) is not None

@@ -1,0 +1,150 @@
+"""Materials and who means them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Material, Robot
+from ...model.read import numbers
+from ..rule import ERROR, WARNING, Problem, rule
+from ..words import did_you_mean
+
+_Look = tuple[tuple[float, ...] | None, str | None]
+
+
+@rule(
+    WARNING,
+    effects={"urdfdom": "warns; the visual has no colour", "mujoco, pybullet": "take a default"},
+)
+def undefined_material(robot: Robot) -> Iterator[Problem]:
+    """A material is named and defined nowhere.
+
+    A ``<material>`` with a name alone means one that is defined elsewhere, with a colour or
+    texture: at the top level or in another visual. Where there is none the visual is shown in a
+    default colour. Usually the file with the colours is not included.
+    """
+    uses: dict[str, list[Material]] = {}
+    defined = {material.name for material in robot.materials if _defines(material)}
+    for link in robot.links:
+        for visual in link.visuals:
+            material = visual.material
+            if material is None or not material.name:
+                continue
+            if _defines(material):
+                defined.add(material.name)
+            else:
+                uses.setdefault(material.name, []).append(material)
+    for name, materials in uses.items():
+        if name not in defined:
+            times = f" ({len(materials)} visuals name it)" if len(materials) > 1 else ""
+            first = materials[0]
+            yield Problem(
+                first.element,
+                f"material '{name}' is defined nowhere{times}; give it a <color>"
+                + did_you_mean(name, defined),
+                at=first.element.attribute_place("name"),
+            )
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom": "rejects the robot if both are at the top level; the first wins otherwise",
+    },
+)
+def conflicting_material(robot: Robot) -> Iterator[Problem]:
+    """Two materials have one name.
+
+    At the top level urdfdom takes a second material of a name, even an equal one, for an error and
+    rejects the robot; it happens when a file with colours is included twice. In visuals, a name
+    that is given a second colour is shown in the first by some readers and in the second by
+    others; that is a warning.
+    """
+    first: dict[str, Material] = {}
+    for material in robot.materials:
+        other = first.setdefault(material.name, material)
+        if other is not material and material.name:
+            yield Problem(
+                material.element,
+                f"material '{material.name}' is defined at the top level for a second time "
+                f"(first in line {other.place.line}{_file_of(other, material)}); keep one",
+                at=material.element.attribute_place("name"),
+            )
+    told: set[tuple[str, _Look]] = set()
+    for link in robot.links:
+        for visual in link.visuals:
+            material_ = visual.material
+            if material_ is None or not material_.name or not _defines(material_):
+                continue
+            other = first.setdefault(material_.name, material_)
+            look = _look(material_)
+            if look == _look(other) or (material_.name, look) in told:
+                continue
+            told.add((material_.name, look))
+            yield Problem(
+                link,
+                f"material '{material_.name}' has another colour here than in "
+                f"line {other.place.line}{_file_of(other, material_)}; give it a name of its own",
+                at=material_.element.attribute_place("name"),
+                severity=WARNING,
+            )
+
+
+def _file_of(other: Material, material: Material) -> str:
+    same = other.place.path == material.place.path
+    return "" if same else f" of {other.place.path}"
+
+
+def _defines(material: Material) -> bool:
+    return any(child.tag in ("color", "texture") for child in material.element.children)
+
+
+def _look(material: Material) -> _Look:
+    color = material.color
+    return (None if color is None else tuple(round(c, 4) for c in color)), material.texture
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom": "drops the material",
+        "mujoco, pybullet": "take it as it is",
+    },
+)
+def invalid_color(robot: Robot) -> Iterator[Problem]:
+    """A colour has a number outside 0 to 1.
+
+    ``rgba`` is red, green, blue and opacity, each from 0 to 1. Of numbers on a scale of 0 to 255
+    urdfdom says that they are malformed and drops the material; others take them for very bright.
+    """
+    for material in _all_materials(robot):
+        color = material.element.child("color")
+        text = None if color is None else color.get("rgba")
+        if color is None or text is None:
+            continue
+        wrong = _wrong_color(text)
+        if wrong:
+            of = f" of material '{material.name}'" if material.name else ""
+            yield Problem(material.element, f"colour{of} {wrong}", at=color.attribute_place("rgba"))
+
+
+def _all_materials(robot: Robot) -> Iterator[Material]:
+    yield from robot.materials
+    for link in robot.links:
+        for visual in link.visuals:
+            if visual.material is not None:
+                yield visual.material
+
+
+def _wrong_color(text: str) -> str:
+    """What is wrong with an ``rgba``; empty if nothing is."""
+    values = numbers(text, 4)
+    if values is None:
+        return ""  # what is no number, or not four of them, is a matter of any attribute
+    if max(values) > 1 and all(value == int(value) and 0 <= value <= 255 for value in values):
+        opacity = 1 if values[3] <= 1 and values[3] else values[3] / 255
+        scaled = " ".join(f"{value:.3g}" for value in (*(v / 255 for v in values[:3]), opacity))
+        return f"'{text}' is on a scale of 0 to 255; write '{scaled}'"
+    if max(values) > 1 or min(values) < 0:
+        return f"'{text}' has a number outside 0 to 1"
+    return ""

@@ -1,0 +1,45 @@
+"""Words: lists of them for messages and tables, and the one that was perhaps meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+def nearest(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
+    """The known name nearest to a wrong one; empty if none is near.
+
+    Names that differ only in case, ``_`` and ``-`` are nearest.
+    """
+    from difflib import get_close_matches
+
+    names = [other for other in dict.fromkeys(known) if other and other != name]
+    folded = fold(name)
+    for other in names:
+        if fold(other) == folded:
+            return other
+    near = get_close_matches(name, names, 1, cutoff)
+    return near[0] if near else ""
+
+
+def did_you_mean(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
+    """``; did you mean 'x'?`` with the nearest known name; empty if none is near."""
+    near = nearest(name, known, cutoff)
+    return f"; did you mean '{near}'?" if near else ""
+
+
+def fold(name: str) -> str:
+    """A name without case, ``_`` and ``-``."""
+    return name.replace("_", "").replace("-", "").lower()
+
+
+def quoted(names: Iterable[str], most: int = 4) -> str:
+    """``'a', 'b' and 'c'``; from more than ``most``, the first and how many others there are."""
+    words = [f"'{name}'" for name in names]
+    if len(words) > most:
+        words = [*words[: most - 1], f"{len(words) - most + 1} others"]
+    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) if words else ""
+
+
+def words(text: str) -> frozenset[str]:
+    """The words of a text, for tables."""
+    return frozenset(text.split())

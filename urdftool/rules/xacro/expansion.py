@@ -1,0 +1,104 @@
+"""What stops the expansion.
+
+The expansion itself reports these, with the place at which it stopped; the functions are their
+pages.
+"""
+
+from __future__ import annotations
+
+from ..rule import ERROR, Problem, rule
+
+_STOPS = {"xacro": "stops; there is no robot"}
+_NOTHING: tuple[Problem, ...] = ()
+
+
+@rule(ERROR, effects=_STOPS)
+def missing_xmlns() -> tuple[Problem, ...]:
+    """A file uses ``xacro:`` tags and does not declare the prefix.
+
+    Every file needs ``xmlns:xacro="http://www.ros.org/wiki/xacro"`` on its ``<robot>``, the
+    included ones as well: each is parsed on its own. The parser calls it an unbound prefix.
+    """
+    return _NOTHING
+
+
+@rule(ERROR, effects=_STOPS)
+def unknown_macro() -> tuple[Problem, ...]:
+    """A macro is called that is not defined.
+
+    Its name is misspelled, its file is not included, or it is defined further down: xacro works
+    from the top to the bottom. Macros of a file included with ``ns`` have that name before theirs.
+    """
+    return _NOTHING
+
+
+@rule(ERROR, effects=_STOPS)
+def undefined_name() -> tuple[Problem, ...]:
+    """An expression names something that is not defined.
+
+    What stands in ``${…}`` may name properties defined further up, parameters of the macro, and
+    what xacro knows from Python and its ``math``. Arguments are not names: they are ``$(arg …)``.
+    """
+    return _NOTHING
+
+
+@rule(ERROR, effects=_STOPS)
+def undeclared_arg() -> tuple[Problem, ...]:
+    """An argument is used that has no value.
+
+    ``$(arg NAME)`` wants ``<xacro:arg name="NAME" default="…"/>`` before it, in this file or in
+    one that includes it, or a value on the command line.
+    """
+    return _NOTHING
+
+
+@rule(ERROR, effects=_STOPS)
+def include_not_found() -> tuple[Problem, ...]:
+    """An included file is not there.
+
+    The path is wrong or the file has another name. A relative path is relative to the file with
+    the include. With ``optional="true"`` xacro passes over it.
+    """
+    return _NOTHING
+
+
+@rule(ERROR, effects=_STOPS)
+def macro_arguments_mismatch() -> tuple[Problem, ...]:
+    """A macro is called with other arguments than it takes.
+
+    One without a default is missing, one that it does not have is given, or there are too few or
+    too many elements inside the call for its ``*block`` parameters.
+    """
+    return _NOTHING
+
+
+@rule(ERROR, effects=_STOPS)
+def circular_property() -> tuple[Problem, ...]:
+    """Properties are defined by one another in a circle.
+
+    A property is evaluated when it is first used, and its value must not need the property itself.
+    ``lazy_eval="false"`` evaluates it where it stands, so that ``x`` may be the old ``x`` plus
+    one.
+    """
+    return _NOTHING
+
+
+@rule(ERROR, effects=_STOPS)
+def endless_expansion() -> tuple[Problem, ...]:
+    """The expansion has no end.
+
+    A macro calls itself, a file includes itself, or each call makes several more. xacro goes on
+    until Python's stack or the memory is used up; a recursion wants an ``<xacro:if>`` that ends
+    it.
+    """
+    return _NOTHING
+
+
+@rule(ERROR, effects=_STOPS)
+def expansion_failed() -> tuple[Problem, ...]:
+    """The expansion stopped for another reason.
+
+    An expression that Python refuses, a condition that is neither true nor false, a YAML file that
+    is not YAML, a tag without an attribute it needs. The message is xacro's, with the place.
+    """
+    return _NOTHING

@@ -1,0 +1,77 @@
+"""Expressions that are still there after the expansion."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ...source.description import Description
+from ...source.document import Element
+from ...source.location import Place
+from ..rule import ERROR, Problem, rule
+from ..unexpanded import is_unexpanded
+from .definitions import definitions
+
+_BRACED = re.compile(r"(?<!\$)\{(\w+)\}")
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom": "takes it for a name; where a number is wanted, the link loses its shapes",
+        "gazebo": "passes over a reference with it; a number ends the process",
+    },
+)
+def unexpanded_expression(description: Description) -> Iterator[Problem]:
+    """An expression of xacro is still there in the robot.
+
+    A brace that lost its ``$`` (``{prefix}``), the escape ``$${…}``, or ``${…}`` in a file that is
+    not expanded. The text itself becomes the name, the number or the reference: names do not
+    match, and nobody says so. A plain URDF that is full of them is xacro whose ``xmlns:xacro`` is
+    missing; that is one finding.
+    """
+    root = description.document.root
+    found = [item for element in root.walk() for item in _leftovers(element)]
+    if description.expansion is None:
+        if found:
+            element, text, place = found[0]
+            more = f" (and in {len(found) - 1} other places)" if len(found) > 1 else ""
+            yield Problem(
+                element,
+                f"'{_short(text)}' is not expanded{more}; if this is xacro, declare its namespace "
+                "on <robot> and name the file .urdf.xacro",
+                at=place,
+            )
+        return
+    known = definitions(description)
+    names = {*known.properties, *known.arguments}
+    for macros in known.macros.values():
+        for macro in macros:
+            names.update(re.findall(r"\w+", macro.get("params") or ""))
+    for element, text, place in found:
+        braced = _BRACED.search(text)
+        if braced is None or "${" in text or "$(" in text:
+            yield Problem(
+                element, f"'{_short(text)}' is not expanded; a doubled '$' escapes it", at=place
+            )
+        elif place is not None or braced[1] in names:
+            yield Problem(
+                element,
+                f"'{_short(text)}' is not expanded: it lacks its '$'; "
+                f"write '${{{braced[1]}}}' for '{braced[0]}'",
+                at=place,
+            )
+
+
+def _leftovers(element: Element) -> Iterator[tuple[Element, str, Place | None]]:
+    """The values in an element that hold an expression: the element, the text, its attribute."""
+    for name, text in element.attributes.items():
+        if is_unexpanded(text):
+            yield element, text, element.attribute_place(name)
+    text = element.text
+    if text and is_unexpanded(text):
+        yield element, " ".join(text.split()), None
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 60 else text[:57] + "…"

@@ -1,0 +1,73 @@
+"""The namespace and the tags of xacro."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...source.description import Description
+from ...source.document import Document, Element
+from ..rule import ERROR, INFO, Problem, rule
+from ..words import words
+from .definitions import macro_names
+
+XMLNS = "http://www.ros.org/wiki/xacro"
+
+_TAGS = frozenset(("include", "macro", "property", "if", "unless", "insert_block", "arg"))
+_OTHERS = frozenset(("gazebo", "ros2_control", "mujoco", "transmission", "plugin", "sensor"))
+_URDF = words(
+    "robot link joint material inertial visual collision origin mass inertia geometry box cylinder "
+    "sphere capsule mesh color texture parent child axis limit dynamics mimic safety_controller "
+    "calibration"
+)
+
+
+@rule(INFO, effects={"xacro": "looks at the prefix alone", "other XML tools": "see other tags"})
+def nonstandard_xmlns(document: Document) -> Iterator[Problem]:
+    """The xacro namespace is spelled in a way of its own.
+
+    The name is ``http://www.ros.org/wiki/xacro``; ``http://ros.org/…`` and
+    ``http://wiki.ros.org/…`` are seen as well. xacro itself compares the prefix ``xacro:`` and no
+    more, and expands a file of either spelling; its warning of inconsistent namespaces comes for
+    other prefixes only. Tools that read XML as it is meant take the tags of two spellings for
+    different ones.
+    """
+    root = document.root
+    name = root.get("xmlns:xacro")
+    if name is not None and name != XMLNS:
+        yield Problem(
+            root,
+            f"the xacro namespace is spelled '{name}'; write {XMLNS}",
+            at=root.attribute_place("xmlns:xacro"),
+        )
+
+
+@rule(
+    ERROR,
+    effects={
+        "xacro": "copies the tag to its output",
+        "urdfdom": "passes over it: that part of the robot is missing",
+    },
+)
+def unprefixed_xacro_tag(document: Document, description: Description) -> Iterator[Problem]:
+    """A tag of xacro, or a call of a macro, lacks its ``xacro:``.
+
+    Old xacro took ``<include>``, ``<property>`` and ``<wheel …/>`` without the prefix; today's
+    copies them to the output as they are, and readers of URDF pass over what they do not know.
+    Nothing is said, and the robot has no wheels.
+    """
+    if "xmlns:xacro" not in document.root.attributes:
+        return
+    macros = macro_names(description)
+    for element in document.root.children:
+        yield from _unprefixed(element, macros)
+
+
+def _unprefixed(element: Element, macros: frozenset[str]) -> Iterator[Problem]:
+    tag = element.tag
+    if tag in _OTHERS:
+        return
+    if tag in _TAGS or (tag in macros and tag not in _URDF):
+        what = "is copied and not expanded" if tag in _TAGS else "does not call the macro"
+        yield Problem(element, f"<{tag}> without its prefix {what}; write <xacro:{tag}>")
+    for child in element.children:
+        yield from _unprefixed(child, macros)
