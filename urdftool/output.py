@@ -22,13 +22,7 @@ def write_result(text: str, target: str | None, *, inputs: Iterable[str | Path] 
         OutputError: It cannot be written, or would overwrite an input. The file is as it was.
     """
     if target is None or target == "-":
-        stream = getattr(sys.stdout, "buffer", None)
-        if stream is None:
-            sys.stdout.write(text)
-        else:
-            sys.stdout.flush()
-            stream.write(text.encode("utf-8"))
-        sys.stdout.flush()
+        _write_stdout(text)
         return
     for source in inputs:
         if _same_file(source, target):
@@ -36,6 +30,23 @@ def write_result(text: str, target: str | None, *, inputs: Iterable[str | Path] 
                 f"is read as an input ({source}); write the output to another file", path=target
             )
     write_file(target, text.encode("utf-8"))
+
+
+def _write_stdout(text: str) -> None:
+    """Write all of a text, also where PYTHONUNBUFFERED makes each write a partial one."""
+    stream = getattr(sys.stdout, "buffer", None)
+    try:
+        sys.stdout.flush()
+        if stream is None:
+            sys.stdout.write(text)
+        else:
+            rest = memoryview(text.encode("utf-8"))
+            while rest:
+                rest = rest[stream.write(rest) or 0 :]
+        sys.stdout.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise OutputError("standard output was closed before all was written") from None
 
 
 def _same_file(one: str | Path, other: str | Path) -> bool:

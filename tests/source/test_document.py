@@ -16,7 +16,11 @@ def element(text, tag):
     return next(e for e in document(text).root.walk() if e.tag == tag)
 
 
-ROBOT = '<?xml version="1.0"?>\n<robot name="r">\n  <link\n    name = \'a\' /><joint name="j"></joint>\n</robot>'
+ROBOT = """<?xml version="1.0"?>
+<robot name="r">
+  <link
+    name = 'a' /><joint name="j"></joint>
+</robot>"""
 
 
 def test_an_element_knows_its_bytes():
@@ -82,7 +86,7 @@ def test_comments_are_kept_with_their_place():
         ("hello", 1, 1, "not XML"),
         ('<robot name="r"><link', 1, 17, "truncated"),
         ('<robot name="r">\n<link name="x">', 2, 16, "<link> of line 2"),
-        ('<robot>\n<link>\n</robot>', 3, 3, "</robot> closes"),
+        ("<robot>\n<link>\n</robot>", 3, 3, "</robot> closes"),
         ("<robot/>\n<robot/>", 2, 1, "one root element"),
         ("<!-- c -->\n<?xml version='1.0'?><robot/>", 2, 1, "move the declaration"),
         ("<?xml?><robot/>", 1, 6, "declaration is wrong"),

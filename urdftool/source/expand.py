@@ -16,6 +16,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from types import ModuleType
 from typing import Any, NamedTuple
 
 import xacro
@@ -23,7 +24,6 @@ import xacro
 from ..errors import SourceError, UrdftoolError, XacroError
 from .document import Document, Element, read_file
 from .expressions import BUILTINS, compile_expression
-from .lazy import import_lazily, is_loaded
 from .location import Call, Place, SourceFile
 from .packages import Packages, shown_path
 from .xacro_tree import (
@@ -177,6 +177,19 @@ def _time_limit(run: _Run) -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
+def _substitution_args() -> Any:
+    """Xacro's module for ``$(…)``, imported without yaml, which it names and hardly ever uses."""
+    absent = "yaml" not in sys.modules
+    if absent:
+        sys.modules["yaml"] = ModuleType("yaml")
+    try:
+        import xacro.substitution_args as substitution
+    finally:
+        if absent:
+            del sys.modules["yaml"]
+    return substitution
+
+
 class _Run:
     """One expansion under way."""
 
@@ -211,9 +224,7 @@ class _Run:
             "root_dir": os.curdir,
         }
         saved = {name: getattr(xacro, name) for name in (*here, "filestack", "macrostack")}
-        import_lazily("yaml")  # which the next line imports, and few descriptions need
-        import xacro.substitution_args as substitution
-
+        substitution = _substitution_args()
         find, eval_find = substitution._eval_find, substitution._eval_dict["find"]
         limit = sys.getrecursionlimit()
         try:
@@ -272,10 +283,8 @@ class _Run:
         return absolute
 
     def use_fast_yaml(self) -> None:
-        """Let ``load_yaml``, once it has imported yaml, read with libyaml: some ten times faster."""
-        yaml: Any = sys.modules["yaml"]
-        if not is_loaded(yaml):
-            return
+        """Let ``load_yaml``, once it has imported yaml, read with libyaml, which is much faster."""
+        yaml: Any = sys.modules.get("yaml")
         fast = getattr(yaml, "CSafeLoader", None)
         if fast is None or self.yaml_safe_load is not None:
             return

@@ -1,0 +1,105 @@
+import pytest
+
+from urdftool import check
+from urdftool.source import packages
+
+TWO = """<robot name="r">
+  <link name="a"/>
+  <link name="b"/>
+  <joint name="j" type="continuous">
+    <parent link="a"/>
+    <child link="b"/>
+    <axis xyz="0 0 2"/>
+  </joint>
+</robot>
+"""
+
+
+@pytest.fixture
+def robot(write):
+    return write("src/r.urdf", TWO)
+
+
+def rules(path, **options):
+    return {(f.rule, f.severity.label) for f in check(path, **options)}
+
+
+def config(write, text, name="urdftool.toml"):
+    from urdftool import configuration
+
+    configuration._read.clear()
+    return write(name, text)
+
+
+def test_the_nearest_configuration_above_the_file_holds(robot, write):
+    assert ("axis-not-unit", "warning") in rules(robot)
+    config(write, '[lint]\nignore = ["axis-not-unit"]\n')
+    assert not {r for r, _ in rules(robot)} & {"axis-not-unit"}
+    config(write, "[lint]\n", "src/.urdftool.toml")
+    assert ("axis-not-unit", "warning") in rules(robot)
+
+
+def test_pyproject_has_it_under_tool(robot, write):
+    config(
+        write, '[tool.other]\nx = 1\n[tool.urdftool.lint]\nselect = ["tree"]\n', "pyproject.toml"
+    )
+    assert "axis-not-unit" not in {r for r, _ in rules(robot)}
+
+
+def test_severity_and_off(robot, write):
+    config(write, '[lint.severity]\naxis-not-unit = "error"\n')
+    assert ("axis-not-unit", "error") in rules(robot)
+    config(write, '[lint.severity]\naxis-not-unit = "off"\n')
+    assert "axis-not-unit" not in {r for r, _ in rules(robot)}
+
+
+def test_thresholds(robot, write):
+    config(write, "[lint.axis-not-unit]\ntolerance = 5\n")
+    assert "axis-not-unit" not in {r for r, _ in rules(robot)}
+
+
+def test_per_file_ignores(robot, write):
+    config(write, '[lint.per-file-ignores]\n"src/*" = ["joint"]\n')
+    assert "axis-not-unit" not in {r for r, _ in rules(robot)}
+    config(write, '[lint.per-file-ignores]\n"test/*" = ["joint"]\n')
+    assert "axis-not-unit" in {r for r, _ in rules(robot)}
+
+
+def test_the_command_line_counts_more(robot, write):
+    config(write, '[lint]\nselect = ["tree"]\n')
+    assert "axis-not-unit" in {r for r, _ in rules(robot, select=["joint"])}
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[lint]\nselct = []", "did you mean 'select'?"),
+        ('[lint]\nselect = "all"', "wants a list"),
+        ('[lint]\nignore = ["zero-axes"]', "did you mean 'zero-axis'?"),
+        ('[lint]\ntargets = ["gazbo"]', "no target"),
+        ('[lint.severity]\nzero-axis = "fatal"', "there are off, info"),
+        ("[lint.zero-axis]\nsize = 1", "it has shortest"),
+        ('[lint.zero-axis]\nshortest = "x"', "wants a number"),
+        ("[lnt]", "unknown table 'lnt'"),
+        ("[lint", "not valid TOML"),
+        ("[packages]\na = 1", "wants lines like"),
+    ],
+)
+def test_a_wrong_configuration_says_what_is_right(robot, write, urdftool, text, message):
+    config(write, text)
+    result = urdftool("lint", robot)
+    assert result.code == 2
+    assert message in result.err
+    assert "urdftool.toml" in result.err
+
+
+def test_targets_are_inferred_and_said(robot, urdftool, write):
+    assert "(targets: any reader of URDF)" in urdftool("lint", robot).err
+    write(
+        "src/package.xml",
+        "<package><name>p</name><exec_depend>ros_gz_sim</exec_depend>"
+        "<export><build_type>ament_cmake</build_type></export></package>",
+    )
+    packages._names.clear()
+    assert "(targets: gz, ros2)" in urdftool("lint", robot).err
+    assert "(targets: mujoco)" in urdftool("lint", robot, "--target", "mujoco").err

@@ -1,0 +1,71 @@
+"""What a command imports, not how long it takes: a test on ``sys.modules``."""
+
+import subprocess
+import sys
+
+import pytest
+
+from tests.conftest import FIXTURES
+
+HEAVY = [
+    *("numpy", "scipy", "trimesh", "yourdfpy", "pybullet", "coacd", "mujoco", "lxml", "rich"),
+    *("importlib.metadata", "yaml"),
+]
+
+ROBOT = str(FIXTURES / "robots" / "ten_links.urdf")
+XACRO = str(FIXTURES / "robots" / "demo_arm" / "urdf" / "arm_sound.urdf.xacro")
+
+PROBE = """
+import sys
+from urdftool import cli
+code = cli.call(sys.argv[1:])
+print("LOADED", *(name for name in {heavy!r} if type(sys.modules.get(name)) is type(sys)))
+"""
+
+
+def loaded(*words):
+    done = subprocess.run(
+        [sys.executable, "-c", PROBE.format(heavy=HEAVY), *words], capture_output=True, text=True
+    )
+    last = [line for line in done.stdout.splitlines() if line.startswith("LOADED")]
+    assert last, done.stderr
+    return last[-1].split()[1:]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("--version",),
+        ("--help",),
+        ("expand", "--help"),
+        ("lint", "--help"),
+        ("lint", ROBOT),
+        ("lint", ROBOT, "--format", "json"),
+        ("lint", "--list-rules"),
+        ("lint", "--explain", "zero-axis"),
+        ("lint", XACRO),
+        ("expand", XACRO),
+        ("expand", ROBOT),
+    ],
+    ids=lambda words: " ".join(w.rpartition("/")[2] for w in words),
+)
+def test_the_light_commands_stay_light(words):
+    assert loaded(*words) == []
+
+
+def test_lint_of_a_plain_urdf_needs_no_xacro():
+    done = subprocess.run(
+        [sys.executable, "-c", PROBE.format(heavy=["xacro", "multiprocessing"]), "lint", ROBOT],
+        capture_output=True,
+        text=True,
+    )
+    assert done.stdout.splitlines()[-1] == "LOADED"
+
+
+def test_importing_the_package_imports_nothing_of_it():
+    code = (
+        "import sys; before = set(sys.modules); import urdftool; urdftool.__version__\n"
+        "print(sorted(n for n in set(sys.modules) - before if n.startswith('urdftool.')))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.stdout.strip() == "[]"
