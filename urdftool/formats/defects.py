@@ -89,16 +89,19 @@ def defect(rule: str, message: str, place: Place, kind: str = "", name: str = ""
 def _names(robot: Robot) -> Iterator[Finding]:
     if not robot.links:
         yield defect("no-links", "the robot has no link; write at least one", robot.place, "robot")
-    for kind, parts in (("link", robot.links), ("joint", robot.joints)):
+    named: tuple[tuple[str, Sequence[Link | Joint]], ...] = (
+        ("link", robot.links),
+        ("joint", robot.joints),
+    )
+    for kind, parts in named:
         seen: dict[str, Link | Joint] = {}
         for part in parts:
-            assert isinstance(part, Link | Joint)
             if not part.name:
                 yield defect("missing-name", f"a {kind} has no name", part.place, kind)
             elif part.name in seen:
                 yield defect(
                     f"duplicate-{kind}-name",
-                    f"{kind} '{part.name}' is there already, at {seen[part.name].place}; rename one",
+                    f"{kind} '{part.name}' is there already ({seen[part.name].place}); rename one",
                     part.element.attribute_place("name"),
                     kind,
                     part.name,
@@ -133,21 +136,21 @@ def _ends(robot: Robot) -> Iterator[Finding]:
 
 def _roots(robot: Robot) -> Iterator[Finding]:
     tree = robot.tree
-    for link, joints in tree.joints_of_child.items():
+    for name, joints in tree.joints_of_child.items():
         for joint in joints[1:]:
-            if link in robot.link:
+            if name in robot.link:
                 yield defect(
                     "multiple-parents",
-                    f"link '{link}' is the child of joint '{joints[0].name}' and of "
+                    f"link '{name}' is the child of joint '{joints[0].name}' and of "
                     f"'{joint.name}'; a link hangs on one joint",
                     (joint.child_element or joint.element).place,
                     "link",
-                    link,
+                    name,
                 )
     if robot.links and not tree.roots:
         yield defect(
             "no-root",
-            "every link is some joint's child, so there is no root; one link must be nobody's child",
+            "every link is some joint's child, so there is no root; one must be nobody's child",
             robot.place,
             "robot",
         )

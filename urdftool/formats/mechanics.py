@@ -1,0 +1,188 @@
+"""The mechanics of a robot as its description has them, for comparing an export with them.
+
+Nothing here is shared with an exporter, not even the arithmetic of poses: frames are 4 × 4 matrices
+made of elementary turns, the mass matrix is a sum over Jacobians of the links' centres of mass.
+Joints that are neither hinges nor slides stay at zero.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from ..model.elements import Joint, Link, Origin, Robot
+
+Array = npt.NDArray[np.float64]
+
+GRAVITY = np.array([0.0, 0.0, -9.81])
+"""Acceleration [m/s²] in the root's frame."""
+
+TURNING = ("revolute", "continuous")
+SLIDING = ("prismatic",)
+
+
+class Mechanics:
+    """Frames, masses and forces of a robot whose root is held.
+
+    Attributes:
+        joints: Its hinges and slides, in the order of the file.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        """Sort the joints of a tree from its root on."""
+        self.robot = robot
+        self.root = robot.tree.roots[0].name
+        self._below: dict[str, list[Joint]] = {}
+        for joint in robot.joints:
+            self._below.setdefault(joint.parent, []).append(joint)
+        self.joints = [j for j in robot.joints if j.type in TURNING + SLIDING and _length(j) > 1e-6]
+        self._column = {joint.name: index for index, joint in enumerate(self.joints)}
+
+    def frames(self, positions: Mapping[str, float]) -> dict[str, Array]:
+        """The pose of every link in the root's frame, 4 × 4.
+
+        Args:
+            positions: Of the joints by name [rad or m]; zero where it is not given.
+        """
+        found = {self.root: np.eye(4)}
+        todo = [self.root]
+        while todo:
+            parent = todo.pop()
+            for joint in self._below.get(parent, ()):
+                moved = found[parent] @ origin_matrix(joint.origin)
+                if joint.name in self._column:
+                    moved = moved @ _motion(joint, positions.get(joint.name, 0.0))
+                found[joint.child] = moved
+                todo.append(joint.child)
+        return found
+
+    def mass_matrix(self, positions: Mapping[str, float]) -> Array:
+        """The mass matrix of the joints [kg·m², kg·m, kg]."""
+        size = len(self.joints)
+        matrix = np.zeros((size, size))
+        for mass, tensor, linear, angular in self._jacobians(positions):
+            matrix += mass * linear.T @ linear + angular.T @ tensor @ angular
+        return matrix
+
+    def gravity(self, positions: Mapping[str, float]) -> Array:
+        """The force [N·m or N] that each joint needs to hold the robot still."""
+        force = np.zeros(len(self.joints))
+        for mass, _, linear, _ in self._jacobians(positions):
+            force -= mass * linear.T @ GRAVITY
+        return force
+
+    def centroid(self, positions: Mapping[str, float]) -> tuple[float, Array, Array]:
+        """Mass [kg], centre of mass [m] and inertia about it [kg·m²], along the root's axes."""
+        frames = self.frames(positions)
+        bodies = [
+            properties
+            for link in self.robot.links
+            if link.name in frames
+            if (properties := _mass_properties(link, frames[link.name])) is not None
+        ]
+        mass = math.fsum(body[0] for body in bodies)
+        if mass == 0:
+            return 0.0, np.zeros(3), np.zeros((3, 3))
+        com = sum((m * c for m, c, _ in bodies), np.zeros(3)) / mass
+        tensor = np.zeros((3, 3))
+        for m, c, inertia in bodies:
+            arm = c - com
+            tensor += inertia + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        return mass, com, tensor
+
+    def _jacobians(self, positions: Mapping[str, float]) -> list[tuple[float, Array, Array, Array]]:
+        """Mass, tensor, and linear and angular Jacobian of each link's centre of mass."""
+        frames = self.frames(positions)
+        axes = {
+            joint.name: frames[joint.child][:3, :3] @ (_axis(joint) / _length(joint))
+            for joint in self.joints
+            if joint.child in frames
+        }
+        moving: dict[str, list[Joint]] = {self.root: []}
+        found = []
+        for name in frames:
+            if name != self.root:
+                joint = next(j for j in self.robot.joints if j.child == name)
+                own = [joint] if joint.name in self._column else []
+                moving[name] = moving[joint.parent] + own
+            properties = _mass_properties(self.robot.link[name], frames[name])
+            if properties is None:
+                continue
+            mass, com, tensor = properties
+            linear = np.zeros((3, len(self.joints)))
+            angular = np.zeros((3, len(self.joints)))
+            for joint in moving[name]:
+                column, axis = self._column[joint.name], axes[joint.name]
+                if joint.type in TURNING:
+                    linear[:, column] = np.cross(axis, com - frames[joint.child][:3, 3])
+                    angular[:, column] = axis
+                else:
+                    linear[:, column] = axis
+            found.append((mass, tensor, linear, angular))
+        return found
+
+
+def origin_matrix(origin: Origin | None) -> Array:
+    """The 4 × 4 pose of an ``<origin>``."""
+    pose = np.eye(4)
+    if origin is None:
+        return pose
+    if origin.quaternion is not None:
+        vector, scalar = np.array(origin.quaternion[:3]), origin.quaternion[3]
+        size = math.hypot(*origin.quaternion)
+        angle = 2 * math.atan2(float(np.linalg.norm(vector)), scalar) if size else 0.0
+        pose[:3, :3] = turn(vector, angle)
+    else:
+        for axis, angle in zip(np.eye(3), origin.rpy, strict=True):
+            pose[:3, :3] = turn(axis, angle) @ pose[:3, :3]
+    pose[:3, 3] = origin.xyz
+    return pose
+
+
+def turn(axis: Array, angle: float) -> Array:
+    """The rotation about an axis by an angle [rad] (Rodrigues)."""
+    length = float(np.linalg.norm(axis))
+    if length == 0:
+        return np.eye(3)
+    x, y, z = axis / length
+    skew = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    rotation: Array = np.eye(3) + math.sin(angle) * skew + (1 - math.cos(angle)) * skew @ skew
+    return rotation
+
+
+def _axis(joint: Joint) -> Array:
+    return np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
+
+
+def _length(joint: Joint) -> float:
+    return float(np.linalg.norm(_axis(joint)))
+
+
+def _motion(joint: Joint, position: float) -> Array:
+    pose = np.eye(4)
+    if joint.type in TURNING:
+        pose[:3, :3] = turn(_axis(joint), position)
+    else:
+        pose[:3, 3] = _axis(joint) / _length(joint) * position
+    return pose
+
+
+def _mass_properties(link: Link, frame: Array) -> tuple[float, Array, Array] | None:
+    """Mass, centre of mass and tensor of a link in the root's frame."""
+    inertial = link.inertial
+    if inertial is None:
+        return None
+    pose = frame @ origin_matrix(inertial.origin)
+    tensor = np.zeros((3, 3))
+    if inertial.inertia is not None:
+        i = inertial.inertia
+        tensor = np.array(
+            [[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]], dtype=float
+        )
+    mass = inertial.mass or 0.0
+    if not (mass or tensor.any()):
+        return None
+    return mass, pose[:3, 3], pose[:3, :3] @ tensor @ pose[:3, :3].T

@@ -1,0 +1,132 @@
+"""The tree: one body a link, none fused, each with its inertia, joint and geometry."""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from ...model.elements import Joint, Link, Origin, Robot, Vector
+from ...model.pose import pose_of
+from ...model.read import numbers
+from ..written import Written
+from .frame import set_origin, set_pose
+from .gazebo import link_friction, link_is_weightless
+from .geom import collision_geoms, visual_geoms
+from .inertials import massless_leaves
+from .joint import joint_elements
+from .link_inertia import LinkInertia, inertial_element
+from .material import Materials
+from .meshes import Assets
+from .names import Names
+from .structure import Structure
+
+Bodies = dict[str, etree._Element]
+
+
+def body_tree(structure: Structure, model: str, written: Written) -> tuple[etree._Element, Bodies]:
+    """``<worldbody>`` with an empty body for each link, and these by the link's name.
+
+    A root link named world is the world itself. Free bodies hang on the world, as MuJoCo wants it.
+
+    Args:
+        structure: The tree.
+        model: The model's name, which is that of its default class.
+        written: Takes what is lost.
+    """
+    robot = structure.robot
+    world = etree.Element("worldbody")
+    bodies: Bodies = {structure.root.name: world}
+    start = _robot_origin(robot)
+    if not structure.in_world:
+        bodies[structure.root.name] = etree.SubElement(world, "body", name=structure.root.name)
+        set_origin(bodies[structure.root.name], start)
+    for joint in structure.joints:
+        body = etree.Element("body", name=joint.child)
+        parent = bodies[joint.parent]
+        if structure.kind(joint) == "free" and parent is not world:
+            set_pose(body, pose_of(start) @ structure.pose_at_zero(joint.child))
+            world.append(body)
+            if not structure.is_static(joint.parent):
+                _say_torn(joint, written)
+        else:
+            set_origin(body, joint.origin)
+            parent.append(body)
+        bodies[joint.child] = body
+    for body in world:
+        body.set("childclass", model)
+    return world, bodies
+
+
+def fill_bodies(
+    structure: Structure,
+    bodies: Bodies,
+    masses: dict[str, LinkInertia],
+    assets: Assets,
+    materials: Materials,
+    written: Written,
+) -> None:
+    """Put into each body what belongs to its link, before the bodies below it."""
+    names = Names()
+    leaves = massless_leaves(structure)
+    for name, body in bodies.items():
+        link = structure.robot.link[name]
+        parts: list[etree._Element] = []
+        if name in masses:
+            if body.tag == "worldbody":
+                _say_massless_world(link, written)
+            else:
+                parts.append(inertial_element(masses[name]))
+        parts.extend(_joints(structure, name, leaves, written))
+        parts.extend(visual_geoms(link, assets, materials, names, written))
+        friction = link_friction(structure.robot, name)
+        parts.extend(collision_geoms(link, assets, names, written, friction))
+        for index, part in enumerate(parts):
+            body.insert(index, part)
+        if link_is_weightless(structure.robot, name) and body.tag == "body":
+            body.set("gravcomp", "1")
+
+
+def _joints(
+    structure: Structure, link: str, leaves: set[str], written: Written
+) -> list[etree._Element]:
+    joint = structure.robot.tree.parent_joint(link)
+    if joint is None:
+        return [etree.Element("freejoint", name=f"{link}_freejoint")] if structure.free else []
+    if structure.kind(joint) == "weld":
+        return []
+    return joint_elements(structure, joint, written, leaf=structure.group[link] in leaves)
+
+
+def _robot_origin(robot: Robot) -> Origin | None:
+    """The pose of the whole robot in its world, which some readers take from ``<robot>``."""
+    element = robot.element.child("origin")
+    if element is None:
+        return None
+    zero: Vector = (0.0, 0.0, 0.0)
+    xyz, rpy = numbers(element.get("xyz"), 3), numbers(element.get("rpy"), 3)
+    return Origin(
+        element,
+        zero if xyz is None else (xyz[0], xyz[1], xyz[2]),
+        zero if rpy is None else (rpy[0], rpy[1], rpy[2]),
+    )
+
+
+def _say_torn(joint: Joint, written: Written) -> None:
+    written.lose(
+        "floating",
+        f"link '{joint.child}' floats, and its parent '{joint.parent}' moves; free bodies of "
+        "MuJoCo hang on the world, so it starts where it is with every joint at zero",
+        joint.place,
+        kind="joint",
+        name=joint.name,
+    )
+
+
+def _say_massless_world(link: Link, written: Written) -> None:
+    place = link.place if link.inertial is None else link.inertial.place
+    written.lose(
+        "world-mass",
+        f"link '{link.name}' is MuJoCo's world, which has no mass; it does not move",
+        place,
+        kind="link",
+        name=link.name,
+    )

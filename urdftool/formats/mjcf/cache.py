@@ -1,0 +1,110 @@
+"""Conversions of meshes, kept for the next export of the same file."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Sequence
+from hashlib import sha256
+from pathlib import Path
+
+from .convert import Converted, Piece, conversion
+
+_VERSION = 2
+_BIG = 400_000
+
+
+def convert_all(jobs: Sequence[tuple[Path, bool]]) -> list[Converted | str]:
+    """``conversion`` of each (file, whether it collides), from the cache or side by side."""
+    keys = [_key(path, collides) for path, collides in jobs]
+    found: list[Converted | str | None] = [
+        None if key is None else _read(key, path) for key, (path, _) in zip(keys, jobs, strict=True)
+    ]
+    todo = [index for index, known in enumerate(found) if known is None]
+    for index, made in zip(todo, _run([jobs[index] for index in todo]), strict=True):
+        found[index] = made
+        key = keys[index]
+        if key is not None and isinstance(made, Converted):
+            _write(key, made, jobs[index][0])
+    return [made for made in found if made is not None]
+
+
+def _run(jobs: Sequence[tuple[Path, bool]]) -> list[Converted | str]:
+    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1
+    size = sum(path.stat().st_size for path, _ in jobs if path.is_file())
+    if len(jobs) < 2 or processors < 2 or size < _BIG:
+        return [conversion(*job) for job in jobs]
+    from concurrent.futures import ProcessPoolExecutor
+
+    with ProcessPoolExecutor(min(processors, len(jobs))) as pool:
+        return list(pool.map(conversion, *zip(*jobs, strict=True)))
+
+
+def _key(path: Path, collides: bool) -> str | None:
+    """What the conversion depends on; None where that is more than can be told cheaply."""
+    if path.suffix.lower() == ".gltf":
+        return None  # its buffers are other files
+    try:
+        data = path.read_bytes()
+        digest = sha256(f"{_VERSION} {collides} {path.suffix.lower()} ".encode() + data)
+        for library in _libraries(data) if path.suffix.lower() == ".obj" else ():
+            digest.update((path.parent / library).read_bytes())
+    except (OSError, ValueError):
+        return None
+    return digest.hexdigest()
+
+
+def _libraries(data: bytes) -> Iterable[str]:
+    for line in data.split(b"\n"):
+        if line.startswith(b"mtllib "):
+            yield line[7:].strip().decode("utf-8", "replace")
+
+
+def _folder() -> Path:
+    base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    return Path(base) / "urdftool" / "mjcf-meshes"
+
+
+def _read(key: str, path: Path) -> Converted | None:
+    try:
+        with open(_folder() / key, "rb") as stream:
+            head = json.loads(stream.readline())
+            pieces = []
+            for facts in head["pieces"]:
+                data = None if facts["bytes"] is None else stream.read(facts["bytes"])
+                if data is not None and len(data) != facts["bytes"]:
+                    return None
+                rgba = None if facts["rgba"] is None else tuple(facts["rgba"])
+                texture = None if facts["texture"] is None else path.parent / facts["texture"]
+                pieces.append(Piece(data, rgba, texture, facts["shell"]))
+            return Converted(pieces, head["hull"], head["notes"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def _write(key: str, made: Converted, path: Path) -> None:
+    head = {
+        "hull": made.hull,
+        "notes": made.notes,
+        "pieces": [
+            {
+                "bytes": None if piece.data is None else len(piece.data),
+                "rgba": piece.rgba,
+                "texture": None
+                if piece.texture is None
+                else os.path.relpath(piece.texture, path.parent),
+                "shell": piece.shell,
+            }
+            for piece in made.pieces
+        ],
+    }
+    folder = _folder()
+    neighbour = folder / f".{key}.{os.getpid()}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with open(neighbour, "wb") as stream:
+            stream.write(json.dumps(head).encode() + b"\n")
+            stream.writelines(piece.data for piece in made.pieces if piece.data is not None)
+        os.replace(neighbour, folder / key)
+    except OSError:
+        neighbour.unlink(missing_ok=True)

@@ -1,0 +1,134 @@
+"""A compiled MJCF file: what MuJoCo made of it. The only module that imports mujoco."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...errors import MissingDependency, OutputError
+from ..mechanics import GRAVITY, Array
+
+INSTALL = "pip install 'urdftool[mujoco]'"
+
+
+def mujoco_module() -> Any:
+    """The library.
+
+    Raises:
+        MissingDependency: It is not installed.
+    """
+    try:
+        import mujoco  # type: ignore[import-untyped,unused-ignore]
+    except ImportError as error:
+        raise MissingDependency(
+            f"--verify needs MuJoCo, which is not installed; {INSTALL}"
+        ) from error
+    return mujoco
+
+
+class Compiled:
+    """A model in MuJoCo, posed joint by joint.
+
+    Attributes:
+        model: MuJoCo's model.
+        root: The body of the robot's root link; 0 is the world.
+        warnings: What the compiler said, which should be nothing.
+    """
+
+    def __init__(self, path: Path, root: str) -> None:
+        """Compile a file.
+
+        Raises:
+            MissingDependency: MuJoCo is not installed.
+            OutputError: It does not compile.
+        """
+        import warnings
+
+        self.mujoco = mujoco_module()
+        try:
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                self.model = self.mujoco.MjModel.from_xml_path(str(path))
+        except ValueError as error:
+            reason = " ".join(str(error).split())
+            raise OutputError(f"MuJoCo does not compile the export: {reason}", path=path) from None
+        self.warnings = [str(warning.message) for warning in caught]
+        self.model.opt.gravity = GRAVITY
+        self.data = self.mujoco.MjData(self.model)
+        self.root = max(self.id("BODY", root), 0)
+
+    def id(self, kind: str, name: str) -> int:
+        """Number of an object by its kind (``BODY``, ``JOINT`` …) and name; -1 if there is none."""
+        number = self.mujoco.mj_name2id(self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{kind}"), name)
+        return int(number)
+
+    def name(self, kind: str, number: int) -> str:
+        """The name of an object; empty if it has none."""
+        found = self.mujoco.mj_id2name(self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{kind}"), number)
+        return found or ""
+
+    def pose(self, positions: Mapping[str, float]) -> None:
+        """Put the joints to positions by name [rad or m], the others to where they start."""
+        self.mujoco.mj_resetData(self.model, self.data)
+        for name, value in positions.items():
+            joint = self.id("JOINT", name)
+            if joint >= 0:
+                self.data.qpos[self.model.jnt_qposadr[joint]] = value
+        self.mujoco.mj_fwdPosition(self.model, self.data)
+        self.mujoco.mj_fwdVelocity(self.model, self.data)
+
+    def frame(self, link: str) -> Array | None:
+        """The pose of a link in the root's frame, 4 × 4; None if it is no body."""
+        body = 0 if link == "world" else self.id("BODY", link)
+        return None if body < 0 else self._in_root(self.data.xpos[body], self.data.xmat[body])
+
+    def geom_frame(self, geom: int) -> Array:
+        """The pose of a geom in the root's frame, 4 × 4."""
+        return self._in_root(self.data.geom_xpos[geom], self.data.geom_xmat[geom])
+
+    def _in_root(self, position: Array, rotation: Array) -> Array:
+        turn = self.data.xmat[self.root].reshape(3, 3)
+        pose = np.eye(4)
+        pose[:3, :3] = turn.T @ rotation.reshape(3, 3)
+        pose[:3, 3] = turn.T @ (position - self.data.xpos[self.root])
+        return pose
+
+    def dofs(self, joints: list[str]) -> list[int]:
+        """The degree of freedom of each hinge or slide; -1 where there is no such joint."""
+        numbers = [self.id("JOINT", name) for name in joints]
+        return [int(self.model.jnt_dofadr[n]) if n >= 0 else -1 for n in numbers]
+
+    def mass_matrix(self, dofs: list[int]) -> Array:
+        """The mass matrix of some degrees of freedom, without armature."""
+        count = self.model.nv
+        full = np.zeros((count, count))
+        for dof in range(count):  # one column at a time: the call for all has changed its form
+            unit, column = np.zeros(count), np.zeros(count)
+            unit[dof] = 1.0
+            self.mujoco.mj_mulM(self.model, self.data, column, unit)
+            full[:, dof] = column
+        full -= np.diag(self.model.dof_armature)
+        return full[np.ix_(dofs, dofs)]
+
+    def gravity(self, dofs: list[int]) -> Array:
+        """The force [N·m or N] that each degree of freedom needs to hold still."""
+        return np.array(self.data.qfrc_bias)[dofs]
+
+    def centroid(self) -> tuple[float, Array, Array]:
+        """Mass [kg], centre of mass [m] and inertia about it [kg·m²], along the root's axes."""
+        masses = np.array(self.model.body_mass)
+        mass = float(masses.sum())
+        if mass == 0:
+            return 0.0, np.zeros(3), np.zeros((3, 3))
+        com = masses @ self.data.xipos / mass
+        tensor = np.zeros((3, 3))
+        for body in range(self.model.nbody):
+            axes = self.data.ximat[body].reshape(3, 3)
+            arm = self.data.xipos[body] - com
+            tensor += axes @ np.diag(self.model.body_inertia[body]) @ axes.T
+            tensor += masses[body] * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        turn = self.data.xmat[self.root].reshape(3, 3)
+        return mass, turn.T @ (com - self.data.xpos[self.root]), turn.T @ tensor @ turn

@@ -1,0 +1,79 @@
+"""Pairs of bodies that do not collide.
+
+MuJoCo does not collide the geoms of one rigid body, nor those of a rigid body with those of the
+one it hangs on, unless that one is held by the world. Those pairs are excluded here, as every
+engine for URDF does it; then those that an SRDF disables.
+"""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from .body import Bodies
+from .srdf import Srdf
+from .structure import Structure
+
+
+def contact_section(
+    structure: Structure, bodies: Bodies, srdf: Srdf | None
+) -> etree._Element | None:
+    """``<contact>``, or None where nothing needs to be excluded."""
+    pairs = _beside_the_world(structure, bodies)
+    filtered = set(map(frozenset, pairs))
+    if srdf is not None:
+        for one, other in srdf.disabled:
+            pair = frozenset((one, other))
+            if pair in filtered or not _can_collide(structure, bodies, one, other):
+                continue
+            filtered.add(pair)
+            pairs.append((one, other))
+    if not pairs:
+        return None
+    section = etree.Element("contact")
+    for one, other in pairs:
+        etree.SubElement(section, "exclude", body1=_name(bodies, one), body2=_name(bodies, other))
+    return section
+
+
+def _touching(structure: Structure, bodies: Bodies, top: str) -> list[str]:
+    """The links of a rigid body that have a geom which collides."""
+    return [
+        link.name
+        for link in structure.members[top]
+        if any(geom.get("class") == "collision" for geom in bodies[link.name].iterchildren("geom"))
+    ]
+
+
+def _beside_the_world(structure: Structure, bodies: Bodies) -> list[tuple[str, str]]:
+    """What is held by the world, with each link of the rigid bodies that hang on it."""
+    if structure.free:
+        return []
+    pairs = []
+    root = structure.root.name
+    for joint in structure.moving:
+        if structure.group[joint.parent] != root or structure.kind(joint) == "free":
+            continue
+        for held in _touching(structure, bodies, root):
+            for moving in _touching(structure, bodies, joint.child):
+                pairs.append((held, moving))
+    return pairs
+
+
+def _can_collide(structure: Structure, bodies: Bodies, one: str, other: str) -> bool:
+    """Whether two links would collide in MuJoCo without an exclusion."""
+    if one not in bodies or other not in bodies:
+        return False
+    tops = structure.group[one], structure.group[other]
+    if tops[0] == tops[1]:
+        return False
+    for top, neighbour in (tops, tops[::-1]):
+        joint = structure.robot.tree.parent_joint(top)
+        if joint is None or structure.kind(joint) == "free":
+            continue
+        if structure.group[joint.parent] == neighbour and not structure.is_static(joint.parent):
+            return False
+    return all(name in _touching(structure, bodies, structure.group[name]) for name in (one, other))
+
+
+def _name(bodies: Bodies, link: str) -> str:
+    return bodies[link].get("name") or "world"

@@ -1,0 +1,209 @@
+"""One mesh file as MuJoCo reads it: copied where it can, else converted to OBJ by material.
+
+MuJoCo reads binary STL of at most 200,000 triangles and OBJ, of which older versions take the first
+object alone; it wants four points that are not in one plane for what collides, and a volume for
+what is not declared a shell.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import MeshError
+from ...meshes.facts import stl_facts
+from ...meshes.load import load_mesh
+from ...meshes.mesh import Faces, Mesh, Part, Points
+from .obj import obj_bytes
+
+MAX_STL_TRIANGLES = 200_000
+
+FLAT = 1e-6
+"""Thickness relative to the size below which a mesh counts as flat."""
+
+THICKENED = 1e-3
+"""What a flat mesh that collides is thickened to, relative to its size."""
+
+Rgba = tuple[float, float, float, float]
+
+
+@dataclass
+class Piece:
+    """One mesh asset: its file, and how it looks.
+
+    Attributes:
+        data: The file; None for the original.
+        rgba: Its colour, where the file gives one.
+        texture: Its image, where the file gives one.
+        shell: Whether it has too little volume to be anything but a shell.
+    """
+
+    data: bytes | None
+    rgba: Rgba | None = None
+    texture: Path | None = None
+    shell: bool = False
+
+
+@dataclass
+class Converted:
+    """A mesh file in one role.
+
+    Attributes:
+        pieces: One for what collides; one for each material of what is seen.
+        hull: Volume of the convex hull over that of the mesh; None where the mesh has none.
+        notes: What should be said of it, in sentences.
+    """
+
+    pieces: list[Piece]
+    hull: float | None = None
+    notes: list[str] = field(default_factory=list)
+
+
+def convert(path: Path, *, collides: bool) -> Converted:
+    """A mesh file in MuJoCo's formats, unscaled, in the frame of the ``<geometry>``.
+
+    Raises:
+        MeshError: It cannot be read.
+    """
+    mesh = load_mesh(path)
+    notes = list(mesh.notes)
+    copied = _is_readable(mesh)
+    if collides:
+        return _collision(mesh, copied, notes)
+    groups = _by_material(mesh)
+    pieces = []
+    for part, faces in groups:
+        vertices = mesh.vertices
+        shell = _is_shell(vertices, faces)
+        data = None
+        if not (copied and len(groups) == 1):
+            used = vertices[faces]
+            data = _thick_obj(used) if _points(used) < 4 else obj_bytes(vertices, faces)
+        elif _points(vertices[faces]) < 4:
+            data = _thick_obj(vertices[faces])
+        if data is not None and part.texture is not None:
+            notes.append("Texture coordinates are not converted; the texture is lost.")
+        pieces.append(Piece(data, part.rgba, part.texture if data is None else None, shell))
+    return Converted(pieces, None, list(dict.fromkeys(notes)))
+
+
+def _collision(mesh: Mesh, copied: bool, notes: list[str]) -> Converted:
+    corners = mesh.vertices[mesh.faces]
+    if _points(corners) < 4 or _thickness(corners.reshape(-1, 3)) < FLAT:
+        notes.append(
+            "The mesh is flat, and MuJoCo collides bodies with volume; it is thickened to "
+            f"{THICKENED:.1%} of its size."
+        )
+        return Converted([Piece(_thick_obj(corners))], None, notes)
+    data = None if copied else obj_bytes(mesh.vertices, mesh.faces)
+    shell = _is_shell(mesh.vertices, mesh.faces)
+    return Converted([Piece(data, shell=shell)], _hull_ratio(mesh), notes)
+
+
+def _is_readable(mesh: Mesh) -> bool:
+    if mesh.format == "stl":
+        facts = stl_facts(mesh.path)
+        return (
+            facts.kind == "binary"
+            and facts.size_agrees
+            and 0 < (facts.triangles or 0) <= MAX_STL_TRIANGLES
+        )
+    if mesh.format == "obj":
+        data = b"\n" + mesh.path.read_bytes()
+        return data.count(b"\no ") + data.count(b"\ng ") <= 1 and len(mesh.parts) == 1
+    return False
+
+
+def _by_material(mesh: Mesh) -> list[tuple[Part, Faces]]:
+    """The faces by how they look, in the order of the file."""
+    looks: dict[tuple[Rgba | None, Path | None], list[Part]] = {}
+    for part in mesh.parts:
+        looks.setdefault((part.rgba, part.texture), []).append(part)
+    return [
+        (parts[0], np.concatenate([mesh.part_faces(part) for part in parts]))
+        for parts in looks.values()
+    ]
+
+
+def _points(corners: Points) -> int:
+    """How many different points there are, counted up to four."""
+    return min(len(np.unique(corners.reshape(-1, 3)[:64], axis=0)), 4)
+
+
+def _thickness(points: Points) -> float:
+    """The extent of points across their flattest direction, relative to their size."""
+    centred = points - points.mean(axis=0)
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    if size == 0:
+        return 0.0
+    normal = np.linalg.eigh(centred.T @ centred)[1][:, 0]
+    return float(np.ptp(centred @ normal)) / size
+
+
+def _thick_obj(corners: Points) -> bytes:
+    """Triangles, shape (n, 3, 3), as two layers with walls between: a body with volume."""
+    points = corners.reshape(-1, 3)
+    size = float(np.linalg.norm(np.ptp(points, axis=0))) or 1e-3
+    centred = points - points.mean(axis=0)
+    normal = np.linalg.eigh(centred.T @ centred)[1][:, 0]
+    offset = normal * size * THICKENED / 2
+    layers = np.concatenate([points + offset, points - offset])
+    count = len(points)
+    faces = np.arange(count).reshape(-1, 3)
+    walls = []
+    for a, b in ((0, 1), (1, 2), (2, 0)):
+        first, second = faces[:, a], faces[:, b]
+        walls.append(np.stack([first, first + count, second], axis=1))
+        walls.append(np.stack([second, first + count, second + count], axis=1))
+    return obj_bytes(layers, np.concatenate([faces, faces[:, ::-1] + count, *walls]))
+
+
+def signed_volume(vertices: Points, faces: Faces) -> float:
+    """Volume [m³] by the divergence theorem; of a closed surface, wherever the origin is."""
+    a, b, c = (vertices[faces[:, i]] - vertices[faces[0, 0]] for i in range(3))
+    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum()) / 6
+
+
+def _is_shell(vertices: Points, faces: Faces) -> bool:
+    extent = np.ptp(vertices[faces].reshape(-1, 3), axis=0)
+    volume = signed_volume(vertices, faces)
+    return volume < 1e-12 or volume < 1e-3 * float(np.prod(extent))
+
+
+def _hull_ratio(mesh: Mesh) -> float | None:
+    """Volume of the hull over the mesh's; None for an open mesh, or without scipy."""
+    try:
+        from scipy.spatial import ConvexHull, QhullError  # type: ignore[import-untyped,unused-ignore]
+    except ImportError:
+        return None
+    if not _is_closed(mesh):
+        return None
+    volume = signed_volume(mesh.vertices, mesh.faces)
+    if volume <= 0:
+        return None
+    try:
+        return float(ConvexHull(mesh.vertices).volume) / volume
+    except QhullError:
+        return None
+
+
+def _is_closed(mesh: Mesh) -> bool:
+    """Whether every edge is run through once in either direction, equal points being one."""
+    _, same = np.unique(mesh.vertices, axis=0, return_inverse=True)
+    faces = same.reshape(-1)[mesh.faces]
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    edges = edges[edges[:, 0] != edges[:, 1]]
+    count = int(faces.max()) + 1
+    forward = np.sort(edges[:, 0] * count + edges[:, 1])
+    backward = np.sort(edges[:, 1] * count + edges[:, 0])
+    return bool(np.array_equal(forward, backward))
+
+
+def conversion(path: Path, collides: bool) -> Converted | str:
+    """As ``convert``; a file that cannot be read gives its message, for a worker process."""
+    try:
+        return convert(path, collides=collides)
+    except MeshError as error:
+        return error.message

@@ -1,0 +1,82 @@
+"""The sections as a file: in Menagerie's order, two blanks a level, a line between sections."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from itertools import pairwise
+
+from lxml import etree
+
+from ...finding import Finding, Severity
+from .body import Bodies
+
+ORDER = (
+    "compiler", "option", "size", "visual", "statistic", "default", "asset", "worldbody",
+    "contact", "equality", "actuator", "sensor", "keyframe", "custom",
+)  # fmt: skip
+
+# the order in which one would write the attributes of an element
+ATTRIBUTES = (
+    "name", "class", "joint", "joint1", "joint2", "body1", "body2", "site", "objtype", "objname",
+    "type", "childclass", "mass", "pos", "quat", "axis", "dir", "mesh", "material", "rgba", "size",
+)  # fmt: skip
+
+
+def assemble(model: str, sections: dict[str, etree._Element], head: Iterable[str]) -> bytes:
+    """The file of a model.
+
+    Args:
+        model: Its name.
+        sections: By the name of their element.
+        head: Comments at the top.
+    """
+    root = etree.Element("mujoco", model=model)
+    for text in head:
+        root.append(comment(text))
+    for name in ORDER:
+        section = sections.get(name)
+        if section is not None and (len(section) or len(section.attrib)):
+            root.append(section)
+    return serialise(root)
+
+
+def serialise(root: etree._Element) -> bytes:
+    """A tree as text, the same bytes for the same tree."""
+    for element in root.iter(etree.Element):
+        _order(element)
+    etree.indent(root, "  ")
+    sections = list(root)
+    for before, after in pairwise(sections):
+        if not isinstance(after, etree._Comment):
+            before.tail = "\n\n  "
+    text = etree.tostring(root, encoding="unicode", with_tail=False)
+    return (text + "\n").encode()
+
+
+def note_losses(losses: Iterable[Finding], bodies: Bodies) -> None:
+    """Write what was lost of a link or joint as a comment where it would stand."""
+    joints = {j.get("name"): j for body in bodies.values() for j in body.iterchildren("joint")}
+    for loss in losses:
+        if loss.severity is Severity.INFO:
+            continue
+        if loss.kind == "link" and loss.name in bodies:
+            body = bodies[loss.name]
+            body.insert(0, comment(loss.message))
+        elif loss.kind == "joint" and loss.name in joints:
+            joints[loss.name].addprevious(comment(loss.message))
+
+
+def comment(text: str) -> etree._Comment:
+    """A comment; XML allows no two dashes in it."""
+    return etree.Comment(f" {re.sub('-(?=-)', '- ', text.rstrip('-'))} ")
+
+
+def _order(element: etree._Element) -> None:
+    if element.tag in ("compiler", "option", "size"):
+        return
+    rank = {name: index for index, name in enumerate(ATTRIBUTES)}
+    attributes = sorted(element.attrib.items(), key=lambda item: rank.get(str(item[0]), len(rank)))
+    element.attrib.clear()
+    for name, value in attributes:
+        element.set(name, value)

@@ -1,0 +1,81 @@
+"""Joints that follow another, and joints that cannot move, as equalities."""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from ...finding import Severity
+from ...model.elements import Joint
+from ..numbers import numbers_text
+from ..written import Written
+from .joint import locked_at
+from .structure import Structure
+
+STIFF = {"solimp": "0.95 0.99 0.001", "solref": "0.005 1"}
+"""Softness of the constraint, as MuJoCo Menagerie has it for coupled fingers."""
+
+
+def equality_section(structure: Structure, written: Written) -> etree._Element | None:
+    """``<equality>``, or None where no joint follows or is locked."""
+    section = etree.Element("equality")
+    for joint in structure.moving:
+        if joint.mimic is not None:
+            _follow(structure, joint, section, written)
+        if structure.kind(joint) not in ("hinge", "slide"):
+            continue
+        held = locked_at(joint)
+        if held is not None:
+            _hold(joint, held, section)
+    return section if len(section) else None
+
+
+def follows(structure: Structure, joint: Joint) -> bool:
+    """Whether a joint follows another in MuJoCo."""
+    if joint.mimic is None or structure.kind(joint) not in ("hinge", "slide"):
+        return False
+    leader = structure.robot.joint.get(joint.mimic.joint)
+    return leader is not None and leader is not joint
+
+
+def _follow(structure: Structure, joint: Joint, section: etree._Element, written: Written) -> None:
+    mimic = joint.mimic
+    assert mimic is not None
+    leader = structure.robot.joint.get(mimic.joint)
+    if leader is None or leader is joint or structure.kind(joint) not in ("hinge", "slide"):
+        _lose(joint, "it is free to move", written)
+    elif structure.kind(leader) == "weld":
+        _hold(joint, mimic.offset, section)
+        written.lose(
+            "mimic-fixed",
+            f"joint '{joint.name}' mimics '{mimic.joint}', which is fixed; it is held at the "
+            f"offset, {mimic.offset:g}",
+            mimic.place,
+            kind="joint",
+            name=joint.name,
+            severity=Severity.INFO,
+        )
+    elif structure.kind(leader) not in ("hinge", "slide"):
+        _lose(joint, f"'{mimic.joint}' of type {leader.type} cannot lead it in MuJoCo", written)
+    else:
+        coefficients = (mimic.offset, mimic.multiplier, 0, 0, 0)
+        section.append(_equality(joint, coefficients, joint2=leader.name))
+
+
+def _hold(joint: Joint, value: float, section: etree._Element) -> None:
+    section.append(_equality(joint, (value, 0, 0, 0, 0)))
+
+
+def _equality(joint: Joint, coefficients: tuple[float, ...], **leader: str) -> etree._Element:
+    attributes = {"joint1": joint.name, **leader, "polycoef": numbers_text(coefficients), **STIFF}
+    return etree.Element("joint", attributes)
+
+
+def _lose(joint: Joint, why: str, written: Written) -> None:
+    assert joint.mimic is not None
+    written.lose(
+        "mimic",
+        f"mimic of joint '{joint.name}' is not carried: {why}",
+        joint.mimic.place,
+        kind="joint",
+        name=joint.name,
+    )

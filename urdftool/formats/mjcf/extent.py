@@ -1,0 +1,74 @@
+"""How large a link is: the box around its geometry, along its own axes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...errors import UrdftoolError
+from ...meshes.load import load_mesh
+from ...model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Geometry,
+    Link,
+    Mesh,
+    Robot,
+    Sphere,
+    Visual,
+)
+from ...model.pose import pose_of
+from .inertia import Array
+
+
+def link_size(robot: Robot, link: Link) -> Array | None:
+    """Edges [m] of the box around a link's collision geometry, or else its visual one."""
+    for shapes in (link.collisions, link.visuals):
+        points = [points for shape in shapes if (points := shape_points(robot, shape)) is not None]
+        if points:
+            corners = np.concatenate(points)
+            size: Array = corners.max(axis=0) - corners.min(axis=0)
+            return size
+    return None
+
+
+def shape_points(robot: Robot, shape: Visual | Collision) -> Array | None:
+    """Points in the link's frame [m] that reach as far as a shape does along every axis of it.
+
+    None where the shape has no size or its mesh cannot be read.
+    """
+    points = None if shape.geometry is None else _points(robot, shape.geometry)
+    if points is None:
+        return None
+    pose = pose_of(shape.origin)
+    placed: Array = points @ np.array(pose.rotation).T + np.array(pose.translation)
+    return placed
+
+
+def _points(robot: Robot, geometry: Geometry) -> Array | None:
+    if isinstance(geometry, Box):
+        return _corners([edge / 2 for edge in geometry.size])
+    if isinstance(geometry, Sphere):
+        return _corners([geometry.radius] * 3)
+    if isinstance(geometry, Cylinder):
+        return _corners([geometry.radius, geometry.radius, geometry.length / 2])
+    if isinstance(geometry, Capsule):
+        reach = geometry.length / 2 + geometry.radius
+        return _corners([geometry.radius, geometry.radius, reach])
+    if isinstance(geometry, Mesh) and robot.source is not None:
+        try:
+            return load_mesh(robot.source.resolve(geometry.filename), geometry.scale).vertices
+        except UrdftoolError:
+            return None
+    return None
+
+
+def _corners(half: Sequence[float]) -> Array | None:
+    if min(half) <= 0:
+        return None
+    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+    corners: Array = signs * np.array(half)
+    return corners

@@ -1,0 +1,77 @@
+"""Where a body, geom or site is: ``pos`` [m] and ``quat`` (w, x, y, z) in its parent."""
+
+from __future__ import annotations
+
+import math
+
+from lxml import etree
+
+from ...model.elements import Origin
+from ...model.pose import Pose, Quaternion, Rotation, quaternion_of_rpy
+from ..numbers import numbers_text
+
+_SAME = 1e-15
+
+
+def set_origin(element: etree._Element, origin: Origin | None) -> None:
+    """Put an element at a URDF origin; what is MuJoCo's default is not written."""
+    if origin is None:
+        return
+    if any(origin.xyz):
+        element.set("pos", numbers_text(origin.xyz))
+    quaternion = quaternion_of(origin)
+    if quaternion is not None:
+        element.set("quat", numbers_text(quaternion))
+
+
+def set_pose(element: etree._Element, pose: Pose) -> None:
+    """Put an element at a pose; what is MuJoCo's default is not written."""
+    if any(pose.translation):
+        element.set("pos", numbers_text(pose.translation))
+    quaternion = plain(quaternion_of_rotation(pose.rotation))
+    if quaternion is not None:
+        element.set("quat", numbers_text(quaternion))
+
+
+def quaternion_of(origin: Origin) -> Quaternion | None:
+    """The quaternion of an origin as one would write it; None for no rotation."""
+    if origin.quaternion is not None:
+        x, y, z, w = origin.quaternion
+        return plain((w, x, y, z))
+    if not any(origin.rpy):
+        return None
+    return plain(quaternion_of_rpy(origin.rpy))
+
+
+def plain(quaternion: Quaternion) -> Quaternion | None:
+    """A quaternion as one would write it by hand, or None for no rotation.
+
+    MuJoCo normalises, so that a quarter turn may be ``1 1 0 0``. Parts count as equal, or as zero,
+    only where they are so to the last bits of a double.
+    """
+    size = max(map(abs, quaternion))
+    if size == 0:
+        return None
+    parts = [0.0 if abs(part) < _SAME * size else part for part in quaternion]
+    if all(part == 0 or abs(abs(part) - size) < 4 * _SAME * size for part in parts):
+        parts = [math.copysign(1.0, part) if part else 0.0 for part in parts]
+    if parts[0] < 0 or (parts[0] == 0 and next(filter(None, parts)) < 0):
+        parts = [-part for part in parts]
+    w, x, y, z = parts
+    return None if x == y == z == 0 else (w, x, y, z)
+
+
+def quaternion_of_rotation(r: Rotation) -> Quaternion:
+    """The unit quaternion of a rotation matrix, by its largest component (Shepperd's method)."""
+    trace = r[0][0] + r[1][1] + r[2][2]
+    largest = max(range(4), key=lambda i: (trace, r[0][0], r[1][1], r[2][2])[i])
+    if largest == 0:
+        four = (1 + trace, r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1])
+    elif largest == 1:
+        four = (r[2][1] - r[1][2], 1 + 2 * r[0][0] - trace, r[0][1] + r[1][0], r[0][2] + r[2][0])
+    elif largest == 2:
+        four = (r[0][2] - r[2][0], r[0][1] + r[1][0], 1 + 2 * r[1][1] - trace, r[1][2] + r[2][1])
+    else:
+        four = (r[1][0] - r[0][1], r[0][2] + r[2][0], r[1][2] + r[2][1], 1 + 2 * r[2][2] - trace)
+    size = math.hypot(*four)
+    return four[0] / size, four[1] / size, four[2] / size, four[3] / size

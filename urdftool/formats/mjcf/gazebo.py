@@ -1,0 +1,155 @@
+"""What ``<gazebo>`` says of links, joints and the robot, as far as MuJoCo has it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...finding import Finding, Severity
+from ...model.elements import GazeboExtension, Robot
+from ...model.read import number
+from ..defects import defect
+from ..numbers import number_text
+from ..written import Written
+
+DEFAULT_FRICTION = "1 0.005 0.0001"
+"""MuJoCo's sliding, torsional [m] and rolling [m] friction."""
+
+NUMERIC = (
+    "mu1", "mu2", "mu", "kp", "kd", "maxVel", "minDepth", "maxContacts", "laserRetro",
+    "dampingFactor", "springStiffness", "springReference", "stopCfm", "stopErp", "fudgeFactor",
+)  # fmt: skip
+"""Keywords whose value is a number."""
+
+# keyword -> what becomes of it, and whether that changes the robot
+LOST: dict[str, tuple[str, Severity]] = {
+    "fdir1": ("friction has no direction of its own in MuJoCo's geoms", Severity.WARNING),
+    "kp": ("contacts keep MuJoCo's stiffness (solref)", Severity.INFO),
+    "kd": ("contacts keep MuJoCo's damping (solref)", Severity.INFO),
+    "maxVel": ("MuJoCo bounds no contact correction velocity", Severity.INFO),
+    "minDepth": ("MuJoCo has no contact depth of that kind", Severity.INFO),
+    "maxContacts": ("MuJoCo bounds contacts as a whole", Severity.INFO),
+    "laserRetro": ("MuJoCo has no laser intensity", Severity.WARNING),
+    "dampingFactor": ("MuJoCo damps joints, not bodies", Severity.WARNING),
+    "selfCollide": ("bodies of one robot collide in MuJoCo unless excluded", Severity.INFO),
+    "self_collide": ("bodies of one robot collide in MuJoCo unless excluded", Severity.INFO),
+    "implicitSpringDamper": ("MuJoCo integrates damping implicitly already", Severity.INFO),
+    "cfmDamping": ("MuJoCo integrates damping implicitly already", Severity.INFO),
+    "stopCfm": ("limits keep MuJoCo's softness (solreflimit)", Severity.INFO),
+    "stopErp": ("limits keep MuJoCo's softness (solreflimit)", Severity.INFO),
+    "fudgeFactor": ("it belongs to another solver", Severity.INFO),
+    "provideFeedback": ("MuJoCo measures forces by its sensors", Severity.INFO),
+    "projector": ("MuJoCo has no projectors", Severity.WARNING),
+    "audio_sink": ("MuJoCo has no sound", Severity.WARNING),
+    "audio_source": ("MuJoCo has no sound", Severity.WARNING),
+    "battery": ("MuJoCo has no batteries", Severity.WARNING),
+    "particle_emitter": ("MuJoCo has no particles", Severity.WARNING),
+    "joint": ("a joint that closes a loop is not written", Severity.WARNING),
+    "gripper": ("MuJoCo grasps by contact alone", Severity.WARNING),
+    "include": ("other models are not included", Severity.WARNING),
+    "velocity_decay": ("MuJoCo damps joints, not bodies", Severity.WARNING),
+}
+
+KNOWN = frozenset(
+    ("mu1", "mu2", "mu", "material", "turnGravityOff", "gravity", "sensor", "light", "plugin",
+     "springStiffness", "springReference", "static", "preserveFixedJoint",
+     "disableFixedJointLumping", "canonicalBody", "visual", "collision", "pose")
+)  # fmt: skip
+"""Keywords that are carried, or need not be."""
+
+
+def link_friction(robot: Robot, link: str) -> str | None:
+    """The friction of a link's collisions as MuJoCo writes it; None where Gazebo says nothing."""
+    sliding = None
+    for block in robot.extensions.get(link, ()):
+        for keyword in ("mu1", "mu"):
+            value = number(block.value(keyword))
+            sliding = value if value is not None and value >= 0 else sliding
+    if sliding is None:
+        return None
+    return " ".join([number_text(sliding), *DEFAULT_FRICTION.split()[1:]])
+
+
+def link_is_weightless(robot: Robot, link: str) -> bool:
+    """Whether gravity does not act on a link."""
+    weightless = False
+    for block in robot.extensions.get(link, ()):
+        off, gravity = block.value("turnGravityOff"), block.value("gravity")
+        if off:
+            weightless = off.lower() in ("true", "1", "yes")
+        if gravity:
+            weightless = gravity.lower() in ("false", "0", "no")
+    return weightless
+
+
+def gazebo_defects(robot: Robot) -> Iterator[Finding]:
+    """Numbers of extensions that are none."""
+    for block in robot.gazebo:
+        for keyword in NUMERIC:
+            text = block.value(keyword)
+            if text is not None and number(text) is None:
+                child = block.element.child(keyword)
+                assert child is not None
+                yield defect(
+                    "bad-extension-number",
+                    f"<{keyword}> of <gazebo reference='{block.reference or ''}'> is '{text}', "
+                    "which is not a finite number",
+                    child.place,
+                    "gazebo",
+                    block.reference or "",
+                )
+
+
+def gazebo_losses(robot: Robot, written: Written) -> None:
+    """Say what of the extensions is not carried."""
+    for block in robot.gazebo:
+        reference = block.reference
+        if reference is not None and reference not in robot.link and reference not in robot.joint:
+            written.lose(
+                "gazebo",
+                f"<gazebo reference='{reference}'> names no link or joint; it is not carried",
+                block.place,
+                kind="gazebo",
+                name=reference,
+            )
+            continue
+        _keyword_losses(block, written)
+        _unequal_friction(block, written)
+    for plugin in robot.plugins:
+        written.lose(
+            "plugin",
+            f"plugin {plugin.filename or plugin.name} belongs to Gazebo and is not carried",
+            plugin.place,
+            kind="plugin",
+            name=plugin.name,
+            severity=Severity.INFO,
+        )
+
+
+def _keyword_losses(block: GazeboExtension, written: Written) -> None:
+    about = f" of '{block.reference}'" if block.reference else ""
+    for child in block.element.children:
+        lost = LOST.get(child.tag)
+        if lost is None and child.tag in KNOWN:
+            continue
+        why, severity = lost or ("nothing is known of it", Severity.INFO)
+        written.lose(
+            "gazebo",
+            f"<{child.tag}>{about} is not carried: {why}",
+            child.place,
+            kind="gazebo",
+            name=block.reference or "",
+            severity=severity,
+        )
+
+
+def _unequal_friction(block: GazeboExtension, written: Written) -> None:
+    one, two = number(block.value("mu1")), number(block.value("mu2"))
+    if one is not None and two is not None and one != two:
+        written.lose(
+            "friction",
+            f"friction of '{block.reference}' is {one:g} and {two:g} by direction; MuJoCo's geoms "
+            f"have one, {one:g}",
+            block.place,
+            kind="link",
+            name=block.reference or "",
+        )

@@ -1,0 +1,130 @@
+"""What is seen of a link and what touches, as geoms of the classes ``visual`` and ``collision``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lxml import etree
+
+from ...model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Link,
+    Mesh,
+    Sphere,
+    UnknownShape,
+    Visual,
+)
+from ...model.read import number
+from ..numbers import numbers_text
+from ..written import Written
+from .frame import set_origin
+from .material import Materials
+from .meshes import Assets, MeshPiece
+from .names import Names
+
+SIZELESS = "dropped: it has no size"
+
+
+def visual_geoms(
+    link: Link, assets: Assets, materials: Materials, names: Names, written: Written
+) -> Iterator[etree._Element]:
+    """The geoms of a link's visuals, one for each material of a mesh."""
+    for visual in link.visuals:
+        for index, (geom, piece) in enumerate(_geoms(link, visual, assets, written)):
+            _set_name(geom, link, visual, names, index)
+            geom.set("class", "visual")
+            materials.dress(geom, visual, link.name, piece)
+            yield geom
+
+
+def collision_geoms(
+    link: Link, assets: Assets, names: Names, written: Written, friction: str | None
+) -> Iterator[etree._Element]:
+    """The geoms of a link's collisions, with a friction if Gazebo gives one."""
+    for collision in link.collisions:
+        for index, (geom, _) in enumerate(_geoms(link, collision, assets, written)):
+            _set_name(geom, link, collision, names, index)
+            geom.set("class", "collision")
+            if friction is not None:
+                geom.set("friction", friction)
+            yield geom
+
+
+def shape_size(shape: object) -> tuple[str, tuple[float, ...]] | None:
+    """MuJoCo's type and half sizes [m] of a simple shape; None for a mesh or an unknown one."""
+    if isinstance(shape, Box):
+        return "box", tuple(edge / 2 for edge in shape.size)
+    if isinstance(shape, Cylinder):
+        return "cylinder", (shape.radius, shape.length / 2)
+    if isinstance(shape, Capsule):
+        return "capsule", (shape.radius, shape.length / 2)
+    if isinstance(shape, Sphere):
+        return "sphere", (shape.radius,)
+    if isinstance(shape, UnknownShape):
+        return _drake_size(shape)
+    return None
+
+
+def _drake_size(shape: UnknownShape) -> tuple[str, tuple[float, ...]] | None:
+    """The shapes that Drake adds."""
+    read = {
+        name: number(shape.element.get(name)) or 0.0 for name in ("a", "b", "c", "radius", "length")
+    }
+    if shape.element.tag == "drake:ellipsoid":
+        return "ellipsoid", (read["a"], read["b"], read["c"])
+    if shape.element.tag == "drake:capsule":
+        return "capsule", (read["radius"], read["length"] / 2)
+    return None
+
+
+def _geoms(
+    link: Link, shape: Visual | Collision, assets: Assets, written: Written
+) -> Iterator[tuple[etree._Element, MeshPiece | None]]:
+    what = "visual" if isinstance(shape, Visual) else "collision"
+    if isinstance(shape.geometry, Mesh):
+        for piece in assets.pieces.get(id(shape.geometry), ()):
+            geom = etree.Element("geom", type="mesh", mesh=piece.name)
+            set_origin(geom, shape.origin)
+            yield geom, piece
+        if id(shape.geometry) not in assets.pieces:
+            _lose(
+                link,
+                shape,
+                f"a {what} of link '{link.name}' is dropped: its mesh is missing",
+                written,
+            )
+        return
+    simple = shape_size(shape.geometry)
+    if simple is None:
+        tag = f"<{shape.geometry.element.tag}>" if shape.geometry is not None else "nothing"
+        _lose(link, shape, f"a {what} of link '{link.name}' is dropped: it is {tag}", written)
+        return
+    if not min(simple[1]) > 0:
+        if simple[0] == "capsule" and simple[1][0] > 0 and simple[1][1] == 0:
+            simple = "sphere", simple[1][:1]
+        else:
+            _lose(link, shape, f"a {what} of link '{link.name}' is {SIZELESS}", written)
+            return
+    geom = etree.Element("geom", type=simple[0], size=numbers_text(simple[1]))
+    set_origin(geom, shape.origin)
+    yield geom, None
+
+
+def _lose(link: Link, shape: Visual | Collision, message: str, written: Written) -> None:
+    kind = "visual" if isinstance(shape, Visual) else "collision"
+    written.lose(kind, message, shape.place, kind="link", name=link.name)
+
+
+def _set_name(
+    geom: etree._Element, link: Link, shape: Visual | Collision, names: Names, index: int
+) -> None:
+    """Keep a name that is written; geoms of several links may not share one."""
+    if not shape.name:
+        return
+    kind = "visual" if isinstance(shape, Visual) else "collision"
+    own = shape.name if index == 0 else f"{shape.name}_{index}"
+    name = names.take(own, f"{link.name}_{own}", f"{link.name}_{own}_{kind}")
+    geom.set("name", name)

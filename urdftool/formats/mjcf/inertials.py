@@ -1,0 +1,247 @@
+"""Mass and inertia of every body: as written wherever MuJoCo takes it, else exact by other means.
+
+Links that are welded are one rigid body, so a tensor that no body has can be mended exactly where a
+neighbour in the same rigid body can take up the difference. Only what is left after that changes
+the robot, and then only as the user chose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...finding import Finding, Severity
+from ...model.elements import Link
+from ..defects import defect
+from ..written import Written
+from . import inertia as tensors
+from .extent import link_size
+from .inertia import Array
+from .link_inertia import LinkInertia, inertia_of
+from .options import FixInertia
+from .structure import Structure
+
+TINY = 1e-12
+"""Mass [kg] and moment [kg·m²] of a moving body that has none; MuJoCo wants more than 1e-15."""
+
+ENOUGH = 1e-14
+"""What MuJoCo takes for a mass [kg] or a moment [kg·m²] above zero, with a margin."""
+
+LEAF_ARMATURE = 1e-4
+"""Inertia [kg·m² or kg] added to the joint of a massless last link, so that it can be simulated."""
+
+
+def inertials(
+    structure: Structure, fix: FixInertia, written: Written, *, force: bool = False
+) -> tuple[dict[str, LinkInertia], list[Finding]]:
+    """Mass properties by link, as they are to be written, and the defects that forbid an export.
+
+    Links without mass are not in it.
+    """
+    found: dict[str, LinkInertia] = {}
+    wrong: list[Finding] = []
+    for link in structure.robot.links:
+        wrong.extend(_negative(link))
+        read = inertia_of(link)
+        if read is not None:
+            found[link.name] = read
+    for top, members in structure.members.items():
+        group = {link.name: found[link.name] for link in members if link.name in found}
+        bad = [name for name, read in group.items() if not read.is_possible]
+        if bad and not _compose(structure, top, group, bad, written):
+            for name in bad:
+                if not group[name].is_possible:
+                    wrong.extend(_mend(structure, name, group, fix, force, written))
+        if top != structure.root.name or structure.free:
+            _give_weight(structure, top, group, written)
+        for name in [link.name for link in members]:
+            found.pop(name, None)
+        found.update(group)
+    return found, wrong
+
+
+def massless_leaves(structure: Structure) -> set[str]:
+    """Topmost links of moving rigid bodies that have no mass, nor has anything below them."""
+    weight = {
+        top: sum(max(link.mass, 0.0) for link in links) for top, links in structure.members.items()
+    }
+    heavy: set[str] = set()
+    for top in reversed(structure.members):
+        if weight[top] > ENOUGH or top in heavy:
+            heavy.add(top)
+            joint = structure.robot.tree.parent_joint(top)
+            if joint is not None:
+                heavy.add(structure.group[joint.parent])
+    return set(structure.members) - heavy - {structure.root.name}
+
+
+def _negative(link: Link) -> Iterator[Finding]:
+    if link.mass < 0 and link.inertial is not None:
+        yield defect(
+            "negative-mass",
+            f"link '{link.name}' has a mass of {link.mass:g} kg; write one above zero",
+            link.inertial.place,
+            "link",
+            link.name,
+        )
+
+
+def _compose(
+    structure: Structure, top: str, group: dict[str, LinkInertia], bad: list[str], written: Written
+) -> bool:
+    """Mend tensors exactly inside a rigid body; whether all of them could be."""
+    for name in bad:
+        source = group[name]
+        turn = np.array(structure.pose_in_group(name).rotation)
+        kept = tensors.lift(source.tensor) if source.mass > 0 else np.zeros((3, 3))
+        surplus = turn @ (source.tensor - kept) @ turn.T
+        for other in sorted(set(group) - {name}, key=lambda n: (n != top, -group[n].mass, n)):
+            taker = group[other]
+            back = np.array(structure.pose_in_group(other).rotation).T
+            tensor = taker.tensor + back @ surplus @ back.T
+            if taker.mass > 0 and taker.is_possible and tensors.is_possible(tensor):
+                group[other] = taker.changed(tensor)
+                group[name] = source.changed(kept)
+                written.lose(
+                    "inertia-moved",
+                    f"no rigid body has the inertia of link '{name}' (principal moments "
+                    f"{tensors.moments_text(source.tensor)} kg·m²); what is too much of it is "
+                    f"written to link '{other}', which is welded to it: the whole is the same",
+                    source.place,
+                    kind="link",
+                    name=name,
+                    severity=Severity.INFO,
+                )
+                break
+    if all(group[name].is_possible for name in bad):
+        return True
+    return _unite(structure, top, group, bad, written)
+
+
+def _unite(
+    structure: Structure, top: str, group: dict[str, LinkInertia], bad: list[str], written: Written
+) -> bool:
+    """Write a rigid body's whole mass to its topmost link, if that is a tensor a body has."""
+    if len(group) < 2 and top in group:
+        return False
+    mass = sum(read.mass for read in group.values())
+    if mass <= 0:
+        return False
+    poses = {name: structure.pose_in_group(name) for name in group}
+    coms = {name: np.array(poses[name].transform(group[name].com)) for name in group}
+    com = sum((group[name].mass * coms[name] for name in group), np.zeros(3)) / mass
+    tensor = np.zeros((3, 3))
+    for name, read in group.items():
+        turn, arm = np.array(poses[name].rotation), coms[name] - com
+        tensor += turn @ read.tensor @ turn.T
+        tensor += read.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    if not tensors.is_possible(tensor):
+        return False
+    places = {name: group[name].place for name in bad}
+    names = list(group)
+    group.clear()
+    group[top] = LinkInertia.about(mass, com, tensor, next(iter(places.values())))
+    for name in bad:
+        written.lose(
+            "inertia-moved",
+            f"no rigid body has the inertia of link '{name}'; it and the links welded to it "
+            f"({', '.join(n for n in names if n != name)}) are one body, whose mass is written to "
+            f"link '{top}': the whole is the same",
+            places[name],
+            kind="link",
+            name=name,
+            severity=Severity.INFO,
+        )
+    return True
+
+
+def _mend(
+    structure: Structure,
+    name: str,
+    group: dict[str, LinkInertia],
+    fix: FixInertia,
+    force: bool,
+    written: Written,
+) -> Iterator[Finding]:
+    """Change a tensor as the user chose; held links without being asked, for they do not move."""
+    read = group[name]
+    before = tensors.moments_text(read.tensor)
+    static = structure.is_static(name)
+    if fix == "none" and not (static or force):
+        yield defect(
+            "inertia-triangle-inequality",
+            f"link '{name}' has principal moments {before} kg·m², which no rigid body has (none "
+            "may be negative or above the sum of the other two), and MuJoCo refuses it; "
+            "--fix-inertia lift, balance or box changes it",
+            read.place,
+            "link",
+            name,
+        )
+        return
+    if read.mass <= 0:
+        del group[name]
+        what = "it has no mass, and is written without inertia"
+    else:
+        tensor, how = _repaired(structure, name, read, "lift" if fix == "none" else fix)
+        group[name] = read.changed(tensor)
+        what = f"{how} to {tensors.moments_text(tensor)} kg·m²"
+    held = "; it is held by the world and does not move" if static else ""
+    written.lose(
+        "inertia",
+        f"link '{name}' has principal moments {before} kg·m², which no rigid body has: "
+        f"{what}{held}",
+        read.place,
+        kind="link",
+        name=name,
+    )
+
+
+def _repaired(
+    structure: Structure, name: str, read: LinkInertia, fix: FixInertia
+) -> tuple[Array, str]:
+    if fix == "box":
+        size = link_size(structure.robot, structure.robot.link[name])
+        if size is not None:
+            return tensors.box(read.mass, size), "made that of a box around its geometry, changed"
+    if fix == "balance":
+        return tensors.balance(read.tensor), "balanced"
+    lifted = tensors.lift(read.tensor)
+    if fix == "box":
+        return lifted, "it has no geometry for a box, so it is lifted"
+    return lifted, "lifted"
+
+
+def _give_weight(
+    structure: Structure, top: str, group: dict[str, LinkInertia], written: Written
+) -> None:
+    """Give a moving body the least that MuJoCo wants, where it has no mass or is a point."""
+    if any(read.is_heavy(ENOUGH) for read in group.values()):
+        return
+    link = structure.robot.link[top]
+    mass = sum(read.mass for read in group.values())
+    if mass > ENOUGH:
+        heaviest = max(group, key=lambda name: group[name].mass)
+        group[heaviest] = group[heaviest].changed(group[heaviest].tensor + TINY * np.eye(3))
+        written.lose(
+            "point-mass",
+            f"link '{heaviest}' is a point mass; MuJoCo wants inertia, so it has {TINY:g} kg·m²",
+            group[heaviest].place,
+            kind="link",
+            name=heaviest,
+            severity=Severity.INFO,
+        )
+        return
+    group.clear()
+    group[top] = LinkInertia.about(TINY, np.zeros(3), TINY * np.eye(3), link.place)
+    leaf = top in massless_leaves(structure)
+    written.lose(
+        "massless",
+        f"link '{top}' moves and has no mass; MuJoCo wants some, so it has {TINY:g} kg"
+        + (f", and its joint an armature of {LEAF_ARMATURE:g}" if leaf else ""),
+        link.place,
+        kind="link",
+        name=top,
+        severity=Severity.WARNING if leaf else Severity.INFO,
+        hint="write an <inertial> with its true mass" if leaf else "",
+    )

@@ -1,0 +1,204 @@
+"""Joints: hinges, slides, and what else URDF's types become."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lxml import etree
+
+from ...finding import Severity
+from ...model.elements import GazeboExtension, Joint, Limit, Vector
+from ...model.pose import cross, norm
+from ...model.read import number
+from ..numbers import number_text, numbers_text
+from ..written import Written
+from .inertials import LEAF_ARMATURE
+from .structure import Structure
+
+PLANAR_SUFFIXES = ("_TX", "_TY", "_RZ")
+"""What follows the joint's name in the two slides and the hinge of a planar joint."""
+
+UNIT: Vector = (1.0, 0.0, 0.0)
+
+
+def joint_elements(
+    structure: Structure, joint: Joint, written: Written, *, leaf: bool = False
+) -> list[etree._Element]:
+    """The elements of a joint that moves, in the order MuJoCo applies them.
+
+    Args:
+        structure: The tree.
+        joint: A joint that is not welded.
+        written: Takes what is lost.
+        leaf: Whether nothing that it moves has mass.
+    """
+    kind = structure.kind(joint)
+    if kind == "free":
+        return [etree.Element("freejoint", name=joint.name)]
+    if kind == "planar":
+        elements = _planar(joint, written)
+    elif kind == "ball":
+        elements = [etree.Element("joint", name=joint.name, type="ball")]
+    else:
+        elements = [_single(joint, kind, written)]
+    for element in elements:
+        _set_dynamics(element, joint)
+        if leaf:
+            element.set("armature", number_text(LEAF_ARMATURE))
+        for block in structure.robot.extensions.get(joint.name, ()):
+            _set_spring(element, block)
+    return elements
+
+
+def axis_of(joint: Joint) -> Vector:
+    """The axis as written; x where none is."""
+    return UNIT if joint.axis is None else joint.axis.xyz
+
+
+def bounds(joint: Joint) -> tuple[float, float] | None:
+    """Lower and upper limit [rad or m]; None for a joint without.
+
+    A limit that is not written counts as zero, as the specification has it.
+    """
+    if not joint.is_limited or joint.limit is None:
+        return None
+    return joint.limit.lower or 0.0, joint.limit.upper or 0.0
+
+
+def locked_at(joint: Joint) -> float | None:
+    """The position that equal limits leave to a joint; None if it can move."""
+    limits = bounds(joint)
+    return limits[0] if limits is not None and limits[0] == limits[1] else None
+
+
+def effort_of(joint: Joint) -> float | None:
+    """The bound of a joint's effort [N·m or N] where it has one above zero."""
+    effort = joint.limit.effort if joint.limit is not None else None
+    return abs(effort) if effort else None
+
+
+def _single(joint: Joint, kind: str, written: Written) -> etree._Element:
+    element = etree.Element("joint", name=joint.name)
+    if kind == "slide":
+        element.set("type", "slide")
+    element.set("axis", numbers_text(axis_of(joint)))
+    limits = bounds(joint)
+    if limits is not None and limits[0] < limits[1]:
+        element.set("range", numbers_text(limits))
+    effort = effort_of(joint)
+    if effort is not None:
+        element.set("actuatorfrcrange", numbers_text((-effort, effort)))
+    for what, text, severity in _limit_losses(joint):
+        place = joint.place if joint.limit is None else joint.limit.place
+        written.lose(what, text, place, kind="joint", name=joint.name, severity=severity)
+    return element
+
+
+def _limit_losses(joint: Joint) -> Iterator[tuple[str, str, Severity]]:
+    limit = joint.limit
+    if limit is None:
+        if joint.is_limited:
+            yield (
+                "limit-missing",
+                f"joint '{joint.name}' of type {joint.type} has no <limit>; it moves unbounded",
+                Severity.WARNING,
+            )
+        return
+    yield from _bound_losses(joint, limit)
+    if limit.effort == 0:
+        yield (
+            "effort",
+            f"effort 0 of joint '{joint.name}' cannot be written (0 is no bound in MuJoCo); its "
+            "effort is not bounded",
+            Severity.WARNING,
+        )
+    if limit.velocity:
+        yield (
+            "velocity",
+            f"MuJoCo bounds no velocity; that of joint '{joint.name}' ({limit.velocity:g}) is kept "
+            "as a number in <custom>",
+            Severity.INFO,
+        )
+    elif limit.velocity == 0:
+        text = f"velocity 0 of joint '{joint.name}' is not kept; MuJoCo bounds no velocity"
+        yield "velocity", text, Severity.INFO
+
+
+def _bound_losses(joint: Joint, limit: Limit) -> Iterator[tuple[str, str, Severity]]:
+    if not joint.is_limited:
+        if limit.lower or limit.upper:
+            text = f"joint '{joint.name}' is continuous; its lower and upper limit are not used"
+            yield "limit-unused", text, Severity.INFO
+        return
+    lower, upper = limit.lower or 0.0, limit.upper or 0.0
+    if limit.lower is None and limit.upper is None:
+        yield (
+            "limit-missing",
+            f"joint '{joint.name}' has no lower and upper limit, which count as zero: it is locked "
+            "there; write them, or the type continuous",
+            Severity.WARNING,
+        )
+    elif lower == upper:
+        text = f"limits of joint '{joint.name}' are equal; an equality holds it at {lower:g}"
+        yield "limit-equal", text, Severity.INFO
+    elif lower > upper:
+        yield (
+            "limit-inverted",
+            f"lower limit {lower:g} of joint '{joint.name}' is above the upper, {upper:g}; it "
+            "moves without bounds",
+            Severity.WARNING,
+        )
+
+
+def _planar(joint: Joint, written: Written) -> list[etree._Element]:
+    """Two slides in the plane and a hinge about its normal.
+
+    The slides point along x and y of the joint's frame turned the shortest way to the normal.
+    """
+    x, y, normal = plane(axis_of(joint))
+    if joint.limit is not None:
+        written.lose(
+            "planar-limit",
+            f"limits of planar joint '{joint.name}' are not written; it moves without bounds",
+            joint.limit.place,
+            kind="joint",
+            name=joint.name,
+        )
+    elements = []
+    for suffix, axis in zip(PLANAR_SUFFIXES, (x, y, normal), strict=True):
+        element = etree.Element("joint", name=joint.name + suffix)
+        if suffix != "_RZ":
+            element.set("type", "slide")
+        element.set("axis", numbers_text(axis))
+        elements.append(element)
+    return elements
+
+
+def plane(axis: Vector) -> tuple[Vector, Vector, Vector]:
+    """Unit vectors x and y in the plane of a normal, and the normal: z turned the shortest way."""
+    length = norm(axis)
+    a, b, c = (part / length for part in axis)
+    if c < -1 + 1e-12:
+        return (1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)
+    x = (1 - a * a / (1 + c), -a * b / (1 + c), -a)
+    return x, cross((a, b, c), x), (a, b, c)
+
+
+def _set_dynamics(element: etree._Element, joint: Joint) -> None:
+    dynamics = joint.dynamics
+    if dynamics is None:
+        return
+    if dynamics.damping:
+        element.set("damping", number_text(dynamics.damping))
+    if dynamics.friction:
+        element.set("frictionloss", number_text(dynamics.friction))
+
+
+def _set_spring(element: etree._Element, block: GazeboExtension) -> None:
+    """Gazebo's spring: stiffness [N·m/rad or N/m] and where it is at rest."""
+    stiffness = number(block.value("springStiffness"))
+    if stiffness:
+        element.set("stiffness", number_text(stiffness))
+        reference = number(block.value("springReference"))
+        if reference and element.get("type", "hinge") != "ball":
+            element.set("springref", number_text(reference))

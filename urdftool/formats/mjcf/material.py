@@ -1,0 +1,154 @@
+"""How visuals look: named materials with a colour or a texture, and colours of their own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from lxml import etree
+
+from ...errors import SourceError
+from ...model.elements import Material, Robot, Visual
+from ..numbers import numbers_text
+from ..written import Written
+from .convert import Rgba
+from .gazebo_colors import gazebo_color
+from .meshes import MeshPiece
+from .names import Names, file_name
+from .texture import png_bytes
+
+
+class Materials:
+    """The materials and textures of a robot, as far as they are used.
+
+    Attributes:
+        elements: ``<texture>`` and ``<material>`` elements in the order of use.
+    """
+
+    def __init__(self, robot: Robot, written: Written, mesh_dir: str) -> None:
+        """Index the definitions; of one name the first counts."""
+        self._written = written
+        self._folder = mesh_dir
+        self._defined: dict[str, Material] = {}
+        for material in (
+            *robot.materials,
+            *(visual.material for link in robot.links for visual in link.visuals),
+        ):
+            if material is not None and (material.color or material.texture):
+                self._defined.setdefault(material.name, material)
+        self._robot = robot
+        self._names = Names()
+        self._files = Names(fold=True)
+        self._used: dict[tuple[str, Rgba | None, Path | None], str] = {}
+        self._textures: dict[Path, str | None] = {}
+        self.elements: list[etree._Element] = []
+
+    @property
+    def has_textures(self) -> bool:
+        """Whether any image is used."""
+        return any(self._textures.values())
+
+    def dress(
+        self, geom: etree._Element, visual: Visual, link: str, piece: MeshPiece | None
+    ) -> None:
+        """Give a geom its looks.
+
+        What a mesh file says of its own parts comes first, as RViz has it; then the material of the
+        visual; then Gazebo's colour for the link.
+        """
+        if piece is not None and piece.texture is not None and piece.texture.is_file():
+            name = self._material(piece.texture.stem, None, piece.texture, visual)
+            if name is not None:
+                geom.set("material", name)
+                return
+        if piece is not None and piece.rgba is not None:
+            geom.set("rgba", numbers_text(piece.rgba))
+            return
+        material = self._definition(visual)
+        if material is None:
+            color = gazebo_color(self._robot, link)
+            if color is not None:
+                geom.set("rgba", numbers_text(color))
+        elif material.name or material.texture:
+            name = self._material(material.name, material.color, self._image(material), visual)
+            if name is not None:
+                geom.set("material", name)
+        elif material.color is not None:
+            geom.set("rgba", numbers_text(material.color))
+
+    def _definition(self, visual: Visual) -> Material | None:
+        material = visual.material
+        if material is None or material.color or material.texture:
+            return material
+        found = self._defined.get(material.name) if material.name else None
+        if found is None:
+            self._written.lose(
+                "material",
+                f"material '{material.name}' is defined nowhere; the visual has no colour",
+                material.place,
+                kind="material",
+                name=material.name,
+            )
+        return found
+
+    def _image(self, material: Material) -> Path | None:
+        """The file of a material's texture, if it is there."""
+        if not material.texture or self._robot.source is None:
+            return None
+        try:
+            path = self._robot.source.resolve(material.texture)
+        except SourceError as error:
+            self._lose_texture(material, error.message)
+            return None
+        if not path.is_file():
+            self._lose_texture(material, f"{path} is not there")
+            return None
+        return path
+
+    def _lose_texture(self, material: Material, why: str) -> None:
+        self._written.lose(
+            "texture",
+            f"texture '{material.texture}' of material '{material.name}' is lost: {why}",
+            material.place,
+            kind="material",
+            name=material.name,
+        )
+
+    def _material(
+        self, name: str, color: Rgba | None, image: Path | None, visual: Visual
+    ) -> str | None:
+        key = (name, color, image)
+        if key in self._used:
+            return self._used[key]
+        texture = self._texture(image, visual) if image is not None else None
+        if texture is None and color is None:
+            return None
+        element = etree.Element("material", name=self._names.take(name or "material"))
+        if texture is not None:
+            element.set("texture", texture)
+        elif color is not None:
+            element.set("rgba", numbers_text(color))
+        self.elements.append(element)
+        self._used[key] = element.get("name", "")
+        return self._used[key]
+
+    def _texture(self, image: Path, visual: Visual) -> str | None:
+        if image in self._textures:
+            return self._textures[image]
+        data = image if image.suffix.lower() == ".png" else png_bytes(image)
+        if data is None:
+            self._written.lose(
+                "texture",
+                f"texture {image.name} is no PNG and cannot be converted (pip install pillow); "
+                "it is lost",
+                visual.place,
+                kind="material",
+                name=visual.material.name if visual.material is not None else "",
+            )
+            self._textures[image] = None
+            return None
+        name = self._files.take(file_name(image.stem))
+        folder = f"{self._folder}/" if self._folder else ""
+        self._written.files[f"{folder}{name}.png"] = data
+        self.elements.append(etree.Element("texture", type="2d", name=name, file=f"{name}.png"))
+        self._textures[image] = name
+        return name

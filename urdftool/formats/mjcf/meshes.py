@@ -1,0 +1,209 @@
+"""Which mesh assets a robot needs: one for each file, scale and role, each file converted once."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from lxml import etree
+
+from ...errors import SourceError
+from ...finding import Finding, Severity
+from ...model.elements import Collision, Mesh, Robot, Vector, Visual
+from ..defects import defect
+from ..numbers import numbers_text
+from ..written import Written
+from .convert import Converted, Piece, Rgba
+from .names import Names, file_name
+
+ONE: Vector = (1.0, 1.0, 1.0)
+
+HULL = 1.05
+"""Hull over mesh volume above which it is said that MuJoCo collides the hull."""
+
+
+@dataclass(frozen=True)
+class MeshPiece:
+    """A mesh asset to be shown or collided with: its name and how the file says it looks."""
+
+    name: str
+    rgba: Rgba | None
+    texture: Path | None
+
+
+@dataclass(frozen=True)
+class Assets:
+    """The mesh assets of a robot.
+
+    Attributes:
+        pieces: What stands for the mesh of a shape, by the identity of its ``Mesh`` element.
+        elements: The ``<mesh>`` elements, collision meshes first, then visual ones.
+        sources: The mesh files that were read.
+    """
+
+    pieces: dict[int, list[MeshPiece]]
+    elements: list[etree._Element]
+    sources: list[Path]
+
+
+def mesh_assets(robot: Robot, written: Written, mesh_dir: str) -> tuple[Assets, list[Finding]]:
+    """The mesh assets, with their files put into ``written``; and what is wrong with meshes."""
+    uses, wrong = _uses(robot)
+    jobs = list(dict.fromkeys((path, collides) for path, collides, _ in uses))
+    made: dict[tuple[Path, bool], Converted] = {}
+    if jobs:
+        from .cache import convert_all
+
+        for job, result in zip(jobs, convert_all(jobs), strict=True):
+            if isinstance(result, Converted):
+                made[job] = result
+            else:
+                wrong.extend(_unreadable(uses, job, result))
+    _say_notes(uses, made, written)
+    files = _Files(written, mesh_dir)
+    pieces: dict[int, list[MeshPiece]] = {}
+    known: dict[tuple[str, Vector], str] = {}
+    elements: dict[bool, list[etree._Element]] = {True: [], False: []}
+    names = Names()
+    for path, collides, shape in sorted(uses, key=lambda use: use[1]):
+        if (path, collides) not in made:
+            continue
+        mesh = _mesh(shape)
+        for index, piece in enumerate(made[path, collides].pieces):
+            many = len(made[path, collides].pieces) > 1
+            file = files.place(path, piece, index if many else None, collides)
+            key = (file, mesh.scale)
+            if key not in known:
+                stem = file.rpartition(".")[0]
+                known[key] = names.take(stem)
+                elements[collides].append(_element(known[key], file, mesh.scale, piece))
+            pieces.setdefault(id(mesh), []).append(MeshPiece(known[key], piece.rgba, piece.texture))
+    sources = list(dict.fromkeys(path for path, _, _ in uses))
+    return Assets(pieces, [*elements[False], *elements[True]], sources), wrong
+
+
+_Use = tuple[Path, bool, Visual | Collision]
+
+
+def _mesh(shape: Visual | Collision) -> Mesh:
+    assert isinstance(shape.geometry, Mesh)
+    return shape.geometry
+
+
+def _uses(robot: Robot) -> tuple[list[_Use], list[Finding]]:
+    uses: list[_Use] = []
+    wrong: list[Finding] = []
+    for link, shape in robot.shapes:
+        mesh = shape.geometry
+        if not isinstance(mesh, Mesh):
+            continue
+        place = mesh.element.attribute_place("filename")
+        path: Path | None = None
+        why = "names no file"
+        if mesh.filename and robot.source is not None:
+            try:
+                path = Path(os.path.realpath(robot.source.resolve(mesh.filename)))
+                why = f"is not there ({path})"
+            except SourceError as error:
+                why = f"is not found: {error.message}"
+        if path is None or not path.is_file():
+            text = f"mesh '{mesh.filename}' of link '{link.name}' {why}"
+            wrong.append(defect("mesh-not-found", text, place, "link", link.name))
+        elif not all(mesh.scale):
+            text = f"scale of mesh '{mesh.filename}' of link '{link.name}' has a zero in it"
+            place = mesh.element.attribute_place("scale")
+            wrong.append(defect("mesh-scale-zero", text, place, "link", link.name))
+        else:
+            uses.append((path, isinstance(shape, Collision), shape))
+    return uses, wrong
+
+
+def _unreadable(uses: list[_Use], job: tuple[Path, bool], message: str) -> Iterator[Finding]:
+    path, collides = job
+    shape = next(shape for file, role, shape in uses if (file, role) == job)
+    if collides and any((file, role) == (path, False) for file, role, _ in uses):
+        return  # said of the visual
+    place = _mesh(shape).element.attribute_place("filename")
+    link = shape.element.parent
+    name = (link.get("name") or "") if link is not None else ""
+    yield defect("corrupt-mesh", f"mesh {path}: {message}", place, "link", name)
+
+
+def _say_notes(
+    uses: list[_Use], made: dict[tuple[Path, bool], Converted], written: Written
+) -> None:
+    said: set[tuple[Path, str]] = set()
+    for path, collides, shape in uses:
+        result = made.get((path, collides))
+        if result is None:
+            continue
+        place = _mesh(shape).element.attribute_place("filename")
+        for note in result.notes:
+            if (path, note) not in said:
+                said.add((path, note))
+                lossy = "lost" in note or "thickened" in note
+                severity = Severity.WARNING if lossy else Severity.INFO
+                written.lose(
+                    "mesh",
+                    f"{path.name}: {note}",
+                    place,
+                    kind="mesh",
+                    name=path.name,
+                    severity=severity,
+                )
+        if result.hull is not None and result.hull > HULL and (path, "hull") not in said:
+            said.add((path, "hull"))
+            written.lose(
+                "nonconvex",
+                f"{path.name}: MuJoCo collides its convex hull, whose volume is {result.hull:.2f} "
+                "times the mesh's",
+                place,
+                kind="mesh",
+                name=path.name,
+                hint="convex pieces collide as they are",
+            )
+
+
+class _Files:
+    """Places for mesh files in the export: equal content is there once."""
+
+    def __init__(self, written: Written, mesh_dir: str) -> None:
+        self._written = written
+        self._folder = mesh_dir
+        self._names = Names(fold=True)
+        self._known: dict[tuple[Path, bytes | None], str] = {}
+        self._seen: set[str] = set()
+
+    def place(self, path: Path, piece: Piece, index: int | None, collides: bool) -> str:
+        """The name of a piece's file in the folder of meshes."""
+        key = (path, piece.data)
+        if key not in self._known:
+            stem = file_name(path.stem)
+            folder = file_name(path.parent.name)
+            end = "" if index is None else f"_{index}"
+            if collides and stem.casefold() in self._seen:
+                candidates = [f"{stem}_collision", f"{stem}_{folder}_collision"]
+            else:
+                candidates = [f"{stem}{end}", f"{stem}_{folder}{end}"]
+            if not collides:
+                self._seen.add(stem.casefold())
+            name = self._names.take(*candidates)
+            suffix = path.suffix.lower() if piece.data is None else ".obj"
+            self._known[key] = name + suffix
+            where = f"{self._folder}/{name}{suffix}" if self._folder else name + suffix
+            self._written.files[where] = path if piece.data is None else piece.data
+        return self._known[key]
+
+
+def _element(name: str, file: str, scale: Vector, piece: Piece) -> etree._Element:
+    element = etree.Element("mesh")
+    if name != file.rpartition(".")[0]:
+        element.set("name", name)
+    element.set("file", file)
+    if scale != ONE:
+        element.set("scale", numbers_text(scale))
+    if piece.shell:
+        element.set("inertia", "shell")
+    return element

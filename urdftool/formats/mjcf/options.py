@@ -1,0 +1,40 @@
+"""What one can choose of an MJCF export."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+Actuators = Literal["auto", "none", "position", "velocity", "motor"]
+Base = Literal["auto", "fixed", "free"]
+FixInertia = Literal["none", "lift", "balance", "box"]
+
+ACTUATORS: tuple[Actuators, ...] = ("auto", "none", "position", "velocity", "motor")
+BASES: tuple[Base, ...] = ("auto", "fixed", "free")
+REPAIRS: tuple[FixInertia, ...] = ("none", "lift", "balance", "box")
+
+
+@dataclass(frozen=True)
+class Options:
+    """The choices of one export.
+
+    Attributes:
+        actuators: Of what kind; ``auto`` is what transmissions and ros2_control say.
+        base: Whether the root is held; ``auto`` is what the description says, else held.
+        scene: Write also a scene with floor and light around the robot.
+        srdf: A MoveIt SRDF whose disabled collisions are taken over.
+        fix_inertia: What becomes of a tensor that no rigid body has.
+        force: Go past defects of the source where a robot is left.
+        mesh_dir: Folder of the meshes, relative to the model.
+        file: Name of the model's file; empty for the robot's with ``scene.xml`` beside it.
+    """
+
+    actuators: Actuators = "auto"
+    base: Base = "auto"
+    scene: bool = False
+    srdf: Path | None = None
+    fix_inertia: FixInertia = "none"
+    force: bool = False
+    mesh_dir: str = "assets"
+    file: str = ""

@@ -1,0 +1,266 @@
+"""Gazebo's and ros2_control's sensors: cameras in bodies, and sites that sensors look from."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+
+from lxml import etree
+
+from ...model.elements import ControlComponent, Robot, Sensor
+from ...model.pose import Pose, rotation_of_quaternion, rotation_of_rpy
+from ...model.read import number, numbers
+from ...source.document import Element
+from ..numbers import number_text, numbers_text
+from ..written import Written
+from .body import Bodies
+from .frame import set_pose
+from .names import Names
+
+MAX_RAYS = 36
+"""Rays of a scanner up to which each becomes a rangefinder."""
+
+SITE_SIZE = "0.005"
+
+CAMERA_TURN = Pose(rotation_of_quaternion((0.5, 0.5, -0.5, -0.5)))
+"""Gazebo's cameras look along x with z up, MuJoCo's along -z with y up."""
+
+# type -> the sensors at its site, with what follows its name in theirs
+AT_SITE: dict[str, tuple[tuple[str, str], ...]] = {
+    "imu": (("accelerometer", "_accelerometer"), ("gyro", "_gyro"), ("framequat", "_orientation")),
+    "force_torque": (("force", "_force"), ("torque", "_torque")),
+    "gps": (("framepos", ""),),
+    "navsat": (("framepos", ""),),
+    "altimeter": (("framepos", ""),),
+    "magnetometer": (("magnetometer", ""),),
+}
+
+CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "openni_kinect", "multicamera")
+SCANNERS = ("ray", "gpu_ray", "lidar", "gpu_lidar", "sonar")
+
+
+def sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Element | None:
+    """``<sensor>``, or None where nothing is measured; sites and cameras go into the bodies."""
+    section = etree.Element("sensor")
+    sites, cameras, taken = Names(), Names(), Names()
+    for block in robot.gazebo:
+        link = _link_of(robot, block.reference)
+        for sensor in block.sensors:
+            if link is None:
+                _lose(sensor, "it is on no link", written)
+                continue
+            body = bodies[link]
+            if sensor.type in CAMERAS:
+                for camera in sensor.element.all("camera"):
+                    _camera(sensor, camera, body, cameras, written)
+            elif sensor.type in AT_SITE:
+                site = _site(
+                    sensor.name or f"{link}_{sensor.type}", _pose(sensor.element), body, sites
+                )
+                _measure(section, sensor.name or link, AT_SITE[sensor.type], site, taken)
+            elif sensor.type == "contact":
+                _touch(sensor, link, body, section, sites, taken, written)
+            elif sensor.type in SCANNERS:
+                _scanner(sensor, link, body, section, sites, taken, written)
+            else:
+                _lose(sensor, f"MuJoCo has nothing like type '{sensor.type}'", written)
+    for control in robot.ros2_controls:
+        for component in control.components:
+            if component.kind == "sensor":
+                _control_sensor(component, robot, bodies, section, sites, taken, written)
+    return section if len(section) else None
+
+
+def _link_of(robot: Robot, reference: str | None) -> str | None:
+    """The link a sensor rides on; of a joint, its child."""
+    if reference is None:
+        return None
+    if reference in robot.link:
+        return reference
+    joint = robot.joint.get(reference)
+    return joint.child if joint is not None and joint.child in robot.link else None
+
+
+def _pose(element: Element) -> Pose:
+    """``<pose>`` of Gazebo: x y z [m] and roll pitch yaw [rad]."""
+    child = element.child("pose")
+    values = numbers(child.text, 6) if child is not None else None
+    if values is None:
+        return Pose()
+    return Pose(
+        rotation_of_rpy((values[3], values[4], values[5])), (values[0], values[1], values[2])
+    )
+
+
+def _site(name: str, pose: Pose, body: etree._Element, sites: Names) -> str:
+    element = etree.Element("site", name=sites.take(name), size=SITE_SIZE, group="5")
+    set_pose(element, pose)
+    _insert(body, element)
+    return element.get("name", "")
+
+
+def _insert(body: etree._Element, element: etree._Element) -> None:
+    """Put a site or camera before the bodies below."""
+    first = body.find("body")
+    body.insert(len(body) if first is None else body.index(first), element)
+
+
+def _measure(
+    section: etree._Element,
+    name: str,
+    kinds: tuple[tuple[str, str], ...],
+    site: str,
+    taken: Names,
+) -> None:
+    for kind, suffix in kinds:
+        element = etree.SubElement(section, kind, name=taken.take(name + suffix))
+        if kind.startswith("frame"):
+            element.set("objtype", "site")
+            element.set("objname", site)
+        else:
+            element.set("site", site)
+
+
+def _camera(
+    sensor: Sensor, camera: Element, body: etree._Element, cameras: Names, written: Written
+) -> None:
+    image, fov = camera.child("image"), camera.child("horizontal_fov")
+    horizontal = (number(fov.text) if fov is not None else None) or 1.047
+    width, height = (_whole(image, name, size) for name, size in (("width", 320), ("height", 240)))
+    if not 0 < horizontal < math.pi:
+        written.lose(
+            "camera",
+            f"camera '{sensor.name}' sees {horizontal:g} rad wide, which no flat image shows; "
+            "it sees 2.8 rad",
+            sensor.place,
+            kind="sensor",
+            name=sensor.name,
+        )
+        horizontal = 2.8
+    vertical = 2 * math.atan(math.tan(horizontal / 2) * height / width)
+    name = cameras.take(sensor.name or "camera", f"{sensor.name}_{camera.get('name') or ''}")
+    element = etree.Element("camera", name=name, fovy=number_text(math.degrees(vertical)))
+    element.set("resolution", f"{width} {height}")
+    set_pose(element, _pose(sensor.element) @ _pose(camera) @ CAMERA_TURN)
+    _insert(body, element)
+
+
+def _whole(image: Element | None, name: str, default: int) -> int:
+    child = image.child(name) if image is not None else None
+    value = number(child.text) if child is not None else None
+    return int(value) if value is not None and value >= 1 else default
+
+
+def _touch(
+    sensor: Sensor,
+    link: str,
+    body: etree._Element,
+    section: etree._Element,
+    sites: Names,
+    taken: Names,
+    written: Written,
+) -> None:
+    """Contact forces on a link, added up inside a site that is as large as its first geom."""
+    name = sensor.name or f"{link}_contact"
+    geoms = [g for g in body.iterchildren("geom") if g.get("class") == "collision"]
+    sized = [g for g in geoms if g.get("size")]
+    if not sized:
+        _lose(sensor, "its link has no simple collision that a site could cover", written)
+        return
+    own = sites.take(name)
+    size = (float(part) for part in sized[0].get("size", "").split())
+    site = etree.Element("site", name=own, type=sized[0].get("type", ""), group="5")
+    site.set("size", numbers_text(1.01 * part for part in size))
+    for attribute in ("pos", "quat"):
+        if attribute in sized[0].attrib:
+            site.set(attribute, sized[0].get(attribute, ""))
+    _insert(body, site)
+    etree.SubElement(section, "touch", name=taken.take(name), site=own)
+    if len(geoms) > 1:
+        _lose(sensor, "it covers only the first collision of its link", written)
+
+
+def _scanner(
+    sensor: Sensor,
+    link: str,
+    body: etree._Element,
+    section: etree._Element,
+    sites: Names,
+    taken: Names,
+    written: Written,
+) -> None:
+    """One rangefinder a ray, along the z axis of a site."""
+    name = sensor.name or f"{link}_scan"
+    scan = next((e for e in sensor.element.walk() if e.tag == "horizontal"), None)
+    read: Callable[[str, float], float] = lambda tag, default: _value(scan, tag, default)  # noqa: E731
+    count = int(read("samples", 0))
+    pose = _pose(sensor.element)
+    if not 0 < count <= MAX_RAYS:
+        _site(name, pose, body, sites)
+        _lose(sensor, f"its {count} rays are too many for rangefinders; its site is there", written)
+        return
+    low, high = read("min_angle", 0.0), read("max_angle", 0.0)
+    for index in range(count):
+        angle = low + (high - low) * index / max(count - 1, 1)
+        ray = (
+            pose
+            @ Pose(rotation_of_rpy((0.0, 0.0, angle)))
+            @ Pose(rotation_of_rpy((0.0, math.pi / 2, 0.0)))
+        )
+        site = _site(f"{name}_{index}", ray, body, sites)
+        etree.SubElement(section, "rangefinder", name=taken.take(f"{name}_{index}"), site=site)
+
+
+def _value(scan: Element | None, tag: str, default: float) -> float:
+    child = scan.child(tag) if scan is not None else None
+    value = number(child.text) if child is not None else None
+    return default if value is None else value
+
+
+def _control_sensor(
+    component: ControlComponent,
+    robot: Robot,
+    bodies: Bodies,
+    section: etree._Element,
+    sites: Names,
+    taken: Names,
+    written: Written,
+) -> None:
+    """A sensor of ros2_control, by the names of its state interfaces and its ``frame_id``."""
+    names = {interface.name.partition(".")[0] for interface in component.state_interfaces}
+    kinds = list(_control_kinds(names))
+    frame = component.params.get("frame_id", "")
+    if frame not in robot.link or not kinds:
+        why = "its frame_id names no link" if kinds else "its interfaces are unknown to MuJoCo"
+        written.lose(
+            "sensor",
+            f"sensor '{component.name}' of ros2_control is not carried: {why}",
+            component.place,
+            kind="sensor",
+            name=component.name,
+        )
+        return
+    site = _site(component.name, Pose(), bodies[frame], sites)
+    _measure(section, component.name, tuple(kinds), site, taken)
+
+
+def _control_kinds(interfaces: set[str]) -> Iterator[tuple[str, str]]:
+    for interface, kind, suffix in (
+        ("force", "force", "_force"),
+        ("torque", "torque", "_torque"),
+        ("linear_acceleration", "accelerometer", "_accelerometer"),
+        ("angular_velocity", "gyro", "_gyro"),
+        ("orientation", "framequat", "_orientation"),
+    ):
+        if interface in interfaces:
+            yield kind, suffix
+
+
+def _lose(sensor: Sensor, why: str, written: Written) -> None:
+    written.lose(
+        "sensor",
+        f"sensor '{sensor.name}' is not carried whole: {why}",
+        sensor.place,
+        kind="sensor",
+        name=sensor.name,
+    )

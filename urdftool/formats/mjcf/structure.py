@@ -1,0 +1,152 @@
+"""What hangs on what: kinds of joints, rigid groups of links, and what the root stands on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from ...model.elements import Joint, Link, Robot
+from ...model.pose import IDENTITY, Pose, norm, pose_of
+from .options import Base
+
+WORLD = "world"
+"""The root link of this name is MuJoCo's world itself."""
+
+KINDS = {
+    "revolute": "hinge",
+    "continuous": "hinge",
+    "prismatic": "slide",
+    "planar": "planar",
+    "floating": "free",
+    "spherical": "ball",
+    "ball": "ball",
+    "fixed": "weld",
+}
+"""What each type of joint becomes; any other is welded."""
+
+DRIVES = (
+    "diff_drive",
+    "skid_steer",
+    "ackermann",
+    "tricycle",
+    "planar_move",
+    "mecanum",
+    "hoverboard",
+)
+"""Words in the name of a Gazebo plugin that drives a robot over the ground."""
+
+
+@dataclass(frozen=True, eq=False)
+class Structure:
+    """The tree as MuJoCo sees it.
+
+    Attributes:
+        robot: The robot, whose tree has one root.
+        root: Its root link.
+        free: Whether the root moves freely.
+        reason: Why it does or does not, in words.
+    """
+
+    robot: Robot
+    root: Link
+    free: bool
+    reason: str
+
+    @property
+    def in_world(self) -> bool:
+        """Whether the root link is the world itself, and no body."""
+        return self.root.name == WORLD
+
+    def kind(self, joint: Joint) -> str:
+        """What a joint becomes: one of the values of ``KINDS``."""
+        if joint.has_axis and joint.axis is not None and norm(joint.axis.xyz) < 1e-6:
+            return "weld"
+        return KINDS.get(joint.type, "weld")
+
+    @cached_property
+    def joints(self) -> list[Joint]:
+        """Each link's joint to its parent, in the order of MuJoCo's bodies."""
+        tree = self.robot.tree
+        return [joint for link in tree.order if (joint := tree.parent_joint(link)) is not None]
+
+    @cached_property
+    def moving(self) -> list[Joint]:
+        """The joints that MuJoCo has, in its order."""
+        return [joint for joint in self.joints if self.kind(joint) != "weld"]
+
+    @cached_property
+    def group(self) -> dict[str, str]:
+        """For each link the topmost link of the rigid body it belongs to."""
+        owner: dict[str, str] = {self.root.name: self.root.name}
+        for joint in self.joints:
+            welded = self.kind(joint) == "weld"
+            owner[joint.child] = owner[joint.parent] if welded else joint.child
+        return owner
+
+    @cached_property
+    def members(self) -> dict[str, list[Link]]:
+        """The links of each rigid body, by its topmost link, which is the first."""
+        found: dict[str, list[Link]] = {}
+        for name, owner in self.group.items():
+            found.setdefault(owner, []).append(self.robot.link[name])
+        return found
+
+    def is_static(self, link: str) -> bool:
+        """Whether a link is held by the world."""
+        return not self.free and self.group[link] == self.root.name
+
+    def pose_in_group(self, link: str) -> Pose:
+        """The pose of a link in the frame of its rigid body's topmost link."""
+        pose, top = IDENTITY, self.group[link]
+        while link != top:
+            joint = self.robot.tree.parent_joint(link)
+            assert joint is not None
+            pose, link = pose_of(joint.origin) @ pose, joint.parent
+        return pose
+
+    def pose_at_zero(self, link: str) -> Pose:
+        """The pose of a link in the root's frame with every joint at zero."""
+        pose = IDENTITY
+        joint = self.robot.tree.parent_joint(link)
+        while joint is not None:
+            pose = pose_of(joint.origin) @ pose
+            joint = self.robot.tree.parent_joint(joint.parent)
+        return pose
+
+    def children(self, link: str) -> Iterator[Joint]:
+        """The joints below a link, in the order of the file."""
+        yield from self.robot.tree.child_joints(link)
+
+
+def structure_of(robot: Robot, base: Base, virtual_joint: str | None = None) -> Structure:
+    """The structure of a robot with one root.
+
+    Args:
+        robot: The robot.
+        base: Held, free, or what the description says.
+        virtual_joint: Type of the joint to the world in an SRDF, if there is one.
+    """
+    root = robot.tree.roots[0]
+    free, reason = _base(robot, root, base, virtual_joint)
+    return Structure(robot, root, free, reason)
+
+
+def _base(robot: Robot, root: Link, base: Base, virtual_joint: str | None) -> tuple[bool, str]:
+    if root.name == WORLD:
+        return False, "the root link is the world"
+    if base != "auto":
+        return base == "free", f"--base {base}"
+    if any(_is_true(block.value("static")) for block in robot.extensions.get(None, ())):
+        return False, "<gazebo> says static"
+    if virtual_joint is not None:
+        return virtual_joint in ("floating", "planar"), f"virtual joint of type {virtual_joint}"
+    for plugin in robot.plugins:
+        words = f"{plugin.filename} {plugin.name}".lower().replace("-", "_")
+        if any(drive in words or drive.replace("_", "") in words for drive in DRIVES):
+            return True, f"the plugin {plugin.filename or plugin.name} drives it over the ground"
+    return False, "nothing says otherwise"
+
+
+def _is_true(text: str | None) -> bool:
+    return text is not None and text.strip().lower() in ("true", "1", "yes")

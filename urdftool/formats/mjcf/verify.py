@@ -1,0 +1,288 @@
+"""Proof that an export is the same robot: MuJoCo's model against the description, number by number.
+
+The description's side is computed in ``mechanics``, which shares nothing with the exporter. What
+differs is allowed only where the export said so, of that very link or joint.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ...model.elements import Joint, Robot
+from ..check import Check
+from ..mechanics import Mechanics
+from ..written import Written
+from .compiled import Compiled
+from .verify_shapes import collision_check, visual_check
+
+CONFIGURATIONS = 20
+
+POSE, MATRIX, MASS = 1e-9, 1e-8, 1e-12
+
+_INERTIA = (
+    "lossy-inertia", "lossy-massless", "lossy-point-mass", "lossy-world-mass", "negative-mass",
+    "inertia-triangle-inequality",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Said:
+    """What an export announced.
+
+    Attributes:
+        rules: The names of the losses.
+        about: The names of links, joints and materials they are about.
+    """
+
+    rules: frozenset[str]
+    about: frozenset[str]
+
+    @property
+    def inertia(self) -> bool:
+        """Whether masses or tensors were changed."""
+        return any(rule in self.rules for rule in _INERTIA)
+
+
+def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[Check]:
+    """Compare a written export with its robot.
+
+    Args:
+        robot: The robot.
+        written: What was exported.
+        model: Where the model lies, beside its meshes.
+        again: The same export made once more.
+
+    Raises:
+        MissingDependency: MuJoCo is not installed.
+        OutputError: MuJoCo does not compile it.
+    """
+    said = Said(
+        frozenset(loss.rule for loss in written.losses),
+        frozenset(loss.name for loss in written.losses),
+    )
+    mechanics = Mechanics(robot)
+    compiled = Compiled(model, mechanics.root)
+    clean = Check("loads", "MuJoCo compiles it without a warning", 0)
+    for warning in compiled.warnings:
+        clean.compare(math.inf, warning)
+    repeat = Check("repeats", "a second export has the same bytes", 0)
+    for name in sorted(written.files.keys() | again.files.keys()):
+        repeat.compare(0 if written.files.get(name) == again.files.get(name) else math.inf, name)
+    configurations = list(_configurations(mechanics))
+    return [
+        clean,
+        _tree(robot, compiled, said),
+        _frames(mechanics, compiled, configurations, said),
+        *_dynamics(mechanics, compiled, configurations, said),
+        _centroid(mechanics, compiled, configurations, said),
+        _limits(mechanics, compiled, said),
+        collision_check(robot, mechanics, compiled, configurations, said.about),
+        visual_check(robot, mechanics, compiled, configurations, said.about),
+        repeat,
+    ]
+
+
+def _configurations(mechanics: Mechanics) -> Iterator[dict[str, float]]:
+    """All joints at zero, then within their limits at random."""
+    yield dict.fromkeys((joint.name for joint in mechanics.joints), 0.0)
+    random = np.random.default_rng(0)
+    for _ in range(CONFIGURATIONS):
+        positions = {}
+        for joint in mechanics.joints:
+            reach = math.pi if joint.type != "prismatic" else 1.0
+            low, high = -reach, reach
+            if joint.is_limited and joint.limit is not None:
+                written = joint.limit.lower or 0.0, joint.limit.upper or 0.0
+                low, high = written if written[0] < written[1] else (low, high)
+            positions[joint.name] = float(random.uniform(max(low, -1e3), min(high, 1e3)))
+        yield positions
+
+
+def _tree(robot: Robot, compiled: Compiled, said: Said) -> Check:
+    """Joints by name: type, parent, child, and whom they follow."""
+    check = Check("tree", "joints, their types, parents and children, mimics", 0)
+    kinds = {
+        "revolute": 3,
+        "continuous": 3,
+        "prismatic": 2,
+        "floating": 0,
+        "spherical": 1,
+        "ball": 1,
+    }
+    model = compiled.model
+    freedom = 6 if compiled.id("JOINT", f"{robot.tree.roots[0].name}_freejoint") >= 0 else 0
+    for joint in robot.joints:
+        known = joint.name in said.about
+        body = compiled.id("BODY", joint.child)
+        if body < 0:
+            check.compare(math.inf, f"link '{joint.child}' is missing", known=known)
+            continue
+        parent = "world" if joint.parent == "world" else joint.parent
+        if joint.type != "floating" and compiled.name("BODY", model.body_parentid[body]) != parent:
+            check.compare(math.inf, f"link '{joint.child}' hangs elsewhere", known=known)
+        if joint.type == "planar":
+            found = [compiled.id("JOINT", joint.name + end) for end in ("_TX", "_TY", "_RZ")]
+            freedom += 3
+            check.compare(0 if min(found) >= 0 else math.inf, f"joint '{joint.name}'", known=known)
+            continue
+        if joint.type not in kinds:
+            continue
+        number = compiled.id("JOINT", joint.name)
+        freedom += {0: 6, 1: 3}.get(kinds[joint.type], 1)
+        right = number >= 0 and model.jnt_type[number] == kinds[joint.type]
+        right = right and model.jnt_bodyid[number] == body
+        check.compare(0 if right else math.inf, f"joint '{joint.name}'", known=known)
+        if joint.mimic is not None:
+            same = _follows(joint, compiled)
+            check.compare(0 if same else math.inf, f"mimic of joint '{joint.name}'", known=known)
+    if freedom != model.nv:
+        text = f"{model.nv} degrees of freedom instead of {freedom}"
+        check.compare(math.inf, text, known=bool({"zero-axis", "unknown-joint-type"} & said.rules))
+    return check
+
+
+def _follows(joint: Joint, compiled: Compiled) -> bool:
+    assert joint.mimic is not None
+    model = compiled.model
+    for number in range(model.neq):
+        if model.eq_obj1id[number] == compiled.id("JOINT", joint.name):
+            leader = compiled.id("JOINT", joint.mimic.joint)
+            data = model.eq_data[number][:5]
+            if model.eq_obj2id[number] == leader >= 0 and np.array_equal(
+                data, [joint.mimic.offset, joint.mimic.multiplier, 0, 0, 0]
+            ):
+                return True
+    return False
+
+
+def _frames(
+    mechanics: Mechanics, compiled: Compiled, configurations: list[dict[str, float]], said: Said
+) -> Check:
+    check = Check("frames", f"pose of every link, {len(configurations)} configurations", POSE)
+    torn = "lossy-floating" in said.rules
+    for positions in configurations:
+        compiled.pose(positions)
+        for link, expected in mechanics.frames(positions).items():
+            found = compiled.frame(link)
+            difference = math.inf if found is None else float(abs(found - expected).max())
+            check.compare(difference, f"link '{link}'", known=torn)
+    return check
+
+
+def _dynamics(
+    mechanics: Mechanics, compiled: Compiled, configurations: list[dict[str, float]], said: Said
+) -> Iterator[Check]:
+    """Mass matrix and gravity over the joints, with the root held."""
+    inertia = Check("mass matrix", "over all joints, the root held", MATRIX)
+    gravity = Check("gravity", "force at every joint that holds the robot", MATRIX)
+    names = [joint.name for joint in mechanics.joints]
+    dofs = compiled.dofs(names)
+    present = [index for index, dof in enumerate(dofs) if dof >= 0]
+    if names and not present:
+        inertia.compare(math.inf, "no joint is there")
+    for positions in configurations if present else ():
+        compiled.pose(positions)
+        expected = mechanics.mass_matrix(positions)[np.ix_(present, present)]
+        found = compiled.mass_matrix([dofs[index] for index in present])
+        scale = np.sqrt(np.maximum(np.diag(expected), 0.0))
+        floor = 1e-6 * max(float(np.diag(expected).max()), 1e-300)
+        difference = abs(found - expected) / np.maximum(np.outer(scale, scale), floor)
+        inertia.compare(float(difference.max()), "the mass matrix", known=said.inertia)
+        force = mechanics.gravity(positions)[present]
+        bias = compiled.gravity([dofs[index] for index in present])
+        weight = max(
+            float(abs(force).max()), 1e-6 * 9.81 * mechanics.centroid(positions)[0], 1e-300
+        )
+        gravity.compare(float(abs(bias - force).max()) / weight, "gravity", known=said.inertia)
+    yield inertia
+    yield gravity
+
+
+def _centroid(
+    mechanics: Mechanics, compiled: Compiled, configurations: list[dict[str, float]], said: Said
+) -> Check:
+    check = Check("centroid", "total mass, centre of mass and inertia about it", MATRIX)
+    for positions in configurations:
+        compiled.pose(positions)
+        mass, com, tensor = mechanics.centroid(positions)
+        found_mass, found_com, found_tensor = compiled.centroid()
+        if mass == 0:
+            check.compare(found_mass, "mass where there is none", known=said.inertia)
+            continue
+        known = said.inertia or "lossy-floating" in said.rules
+        # the tolerances of the three are brought to that of the row
+        check.compare(abs(found_mass - mass) / mass * MATRIX / MASS, "total mass", known=known)
+        check.compare(
+            float(abs(found_com - com).max()) * MATRIX / POSE, "centre of mass", known=known
+        )
+        size = max(float(abs(tensor).max()), 1e-300)
+        check.compare(float(abs(found_tensor - tensor).max()) / size, "inertia", known=known)
+    return check
+
+
+def _limits(mechanics: Mechanics, compiled: Compiled, said: Said) -> Check:
+    """Bounds, damping and friction of each joint; a locked one is an equality."""
+    check = Check("limits", "lower, upper, effort, velocity, damping, friction", POSE)
+    model = compiled.model
+    for joint in mechanics.joints:
+        number = compiled.id("JOINT", joint.name)
+        if number < 0:
+            continue
+        dof = model.jnt_dofadr[number]
+        found = {
+            "lower": float(model.jnt_range[number][0]) if model.jnt_limited[number] else -math.inf,
+            "upper": float(model.jnt_range[number][1]) if model.jnt_limited[number] else math.inf,
+            "effort": math.inf,
+            "velocity": _custom(compiled, f"{joint.name}_velocity_limit"),
+            "damping": float(np.ravel(model.dof_damping[dof])[0]),
+            "friction": float(model.dof_frictionloss[dof]),
+        }
+        if model.jnt_actfrclimited[number]:
+            found["effort"] = float(model.jnt_actfrcrange[number][1])
+        for held in _held(compiled, number):
+            found["lower"] = found["upper"] = held
+        for what, expected in _expected(joint).items():
+            both = abs(found[what]) >= 1e15 and abs(expected) >= 1e15
+            scale = max(abs(expected), 1.0) if math.isfinite(expected) else 1.0
+            difference = 0.0 if both else abs(found[what] - expected) / scale
+            check.compare(
+                difference, f"{what} of joint '{joint.name}'", known=joint.name in said.about
+            )
+    return check
+
+
+def _expected(joint: Joint) -> dict[str, float]:
+    limit, dynamics = joint.limit, joint.dynamics
+    bounded = joint.is_limited and limit is not None
+    return {
+        "lower": (limit.lower or 0.0) if bounded and limit else -math.inf,
+        "upper": (limit.upper or 0.0) if bounded and limit else math.inf,
+        "effort": _bound(limit.effort if limit else None),
+        "velocity": _bound(limit.velocity if limit else None),
+        "damping": (dynamics.damping or 0.0) if dynamics else 0.0,
+        "friction": (dynamics.friction or 0.0) if dynamics else 0.0,
+    }
+
+
+def _bound(value: float | None) -> float:
+    return math.inf if value is None else abs(value)
+
+
+def _custom(compiled: Compiled, name: str) -> float:
+    number = compiled.id("NUMERIC", name)
+    if number < 0:
+        return math.inf
+    return float(compiled.model.numeric_data[compiled.model.numeric_adr[number]])
+
+
+def _held(compiled: Compiled, joint: int) -> Iterator[float]:
+    """The position an equality holds a joint at."""
+    model = compiled.model
+    for number in range(model.neq):
+        if model.eq_obj1id[number] == joint and model.eq_obj2id[number] < 0:
+            yield float(model.eq_data[number][0])
