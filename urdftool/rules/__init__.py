@@ -20,6 +20,10 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "wrong-root",
             "missing-name",
         ),
+        "vocabulary": ("unknown-element", "unknown-attribute", "wrong-case-keyword"),
+        "shape": ("repeated-element", "several-shapes-in-geometry", "empty-geometry"),
+        "numbers": ("wrong-arity", "not-a-number", "tab-or-newline-in-vector"),
+        "reference": ("padded-reference",),
     },
     "xacro": {
         "expansion": (
@@ -36,7 +40,19 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "tags": ("unprefixed-xacro-tag", "nonstandard-xmlns"),
         "leftovers": ("unexpanded-expression",),
     },
-    "tree": {},
+    "tree": {
+        "links": (
+            "no-links",
+            "duplicate-link-name",
+            "duplicate-joint-name",
+            "link-joint-name-clash",
+            "unknown-parent-link",
+            "unknown-child-link",
+            "missing-parent-or-child",
+            "joint-to-itself",
+        ),
+        "roots": ("multiple-roots", "no-root", "detached-cycle", "multiple-parents"),
+    },
     "joint": {"axis": ("zero-axis", "axis-not-unit", "axis-omitted")},
     "inertia": {},
     "collision": {

@@ -1,1 +1,1 @@
-
+"""Links and joints as one tree."""

@@ -1,1 +1,1 @@
-
+"""The document as text: its elements, attributes and numbers."""

@@ -12,8 +12,9 @@ from ..rule import ERROR, WARNING, Problem, rule
 def not_well_formed() -> tuple[Problem, ...]:
     """The file is not well-formed XML.
 
-    A tag that is not closed, ``--`` in a comment, an unknown entity. The C++ readers use lax parsers
-    and take some of these, so that it "works in RViz", and fails in xacro and every Python tool.
+    A tag that is not closed, ``--`` in a comment, an unknown entity. The C++ readers use lax
+    parsers and take some of these, so that it "works in RViz", and fails in xacro and every Python
+    tool.
     """
     return ()
 
@@ -29,8 +30,8 @@ def not_well_formed() -> tuple[Problem, ...]:
 def content_before_declaration() -> tuple[Problem, ...]:
     """Something stands before the ``<?xml …?>`` declaration.
 
-    Usually a licence comment. The declaration must be the very first bytes of the file; a robot that
-    loaded with ROS 1 stops loading with ROS 2.
+    Usually a licence comment. The declaration must be the very first bytes of the file; a robot
+    that loaded with ROS 1 stops loading with ROS 2.
     """
     return ()
 
@@ -53,7 +54,7 @@ def wrong_root(description: Description) -> Iterator[Problem]:
     """
     root = description.document.root
     if root.tag and root.tag != "robot":
-        belongs = _BELONGS.get(root.tag, "a robot description starts with <robot name=\"…\">")
+        belongs = _BELONGS.get(root.tag, 'a robot description starts with <robot name="…">')
         yield Problem(root, f"the root element is <{root.tag}>; {belongs}")
 
 

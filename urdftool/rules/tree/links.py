@@ -1,0 +1,199 @@
+"""Links and joints by name, and what joints refer to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Joint, Robot
+from ...source.document import Element
+from ..rule import ERROR, GAZEBO, INFO, Problem, rule
+from ..unexpanded import is_unexpanded
+from ..words import did_you_mean
+from ..xml.vocabulary_table import misspelt_children
+
+
+@rule(ERROR, effects={"urdfdom": "rejects the robot", "every other reader": "the same"})
+def no_links(robot: Robot) -> Iterator[Problem]:
+    """The robot has no link.
+
+    Links are the bodies; without one there is nothing to show or to move, and every reader refuses
+    the file.
+    """
+    if not robot.links and "link" not in misspelt_children(robot.element).values():
+        yield Problem(robot, f"robot '{robot.name}' has no link; write <link name=\"…\"/>")
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic": "reject the robot: link is not unique",
+        "mujoco": "rejects the file: repeated name",
+    },
+)
+def duplicate_link_name(robot: Robot) -> Iterator[Problem]:
+    """Two links have one name.
+
+    Joints refer to links by name and could mean either; readers refuse the robot. Often a macro is
+    called twice with one prefix.
+    """
+    for link in robot.links:
+        first = robot.link[link.name]
+        if first is not link and link.name.strip():
+            where = f"line {first.place.line}"
+            yield Problem(
+                link,
+                f"a second link is called '{link.name}'; the first is at {where}",
+                at=link.element.attribute_place("name"),
+            )
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic": "reject the robot: joint is not unique",
+        "mujoco": "3.3 rejects the file, 4.0 takes it",
+        "pybullet": "crashes",
+    },
+)
+def duplicate_joint_name(robot: Robot) -> Iterator[Problem]:
+    """Two joints have one name.
+
+    Joint states and commands go by name, so both would be meant. urdfdom refuses the robot,
+    PyBullet crashes.
+    """
+    for joint in robot.joints:
+        first = robot.joint[joint.name]
+        if first is not joint and joint.name.strip():
+            yield Problem(
+                joint,
+                f"a second joint is called '{joint.name}'; the first is at line {first.place.line}",
+                at=joint.element.attribute_place("name"),
+            )
+
+
+@rule(
+    INFO,
+    raised=dict.fromkeys(GAZEBO, ERROR),
+    effects={
+        "gz, gazebo-classic": "reject the model: a name in it is not unique",
+        "urdfdom, tf, mujoco, pybullet": "do not mind",
+    },
+)
+def link_joint_name_clash(robot: Robot) -> Iterator[Problem]:
+    """A link and a joint have the same name.
+
+    In SDF, links and joints are siblings that share one space of names, so Gazebo refuses the model
+    that everything else loads.
+    """
+    for name, joint in robot.joint.items():
+        if name in robot.link and name.strip():
+            yield Problem(
+                joint,
+                f"joint '{name}' has the name of a link; call it '{name}_joint'",
+                at=joint.element.attribute_place("name"),
+            )
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet": "reject the robot: parent link not found",
+    },
+)
+def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
+    """A joint's parent is no link of the robot.
+
+    The joint hangs on nothing and readers refuse the robot. ``world`` has to be declared like every
+    other link.
+    """
+    stripped = {name.strip() for name in robot.link}
+    for joint in robot.joints:
+        name = joint.parent
+        if name in robot.link or name.strip() in stripped or is_unexpanded(name):
+            continue
+        if name.strip() and joint.parent_element is not None:
+            yield Problem(
+                joint,
+                f"parent '{name}' of joint '{joint.name}' is no link{_remedy(name, robot)}",
+                at=joint.parent_element.attribute_place("link"),
+            )
+
+
+@rule(ERROR, effects={"every reader": "rejects the robot: child link not found"})
+def unknown_child_link(robot: Robot) -> Iterator[Problem]:
+    """A joint's child is no link of the robot.
+
+    There is nothing for the joint to move, and readers refuse the robot.
+    """
+    stripped = {name.strip() for name in robot.link}
+    for joint in robot.joints:
+        name = joint.child
+        if name in robot.link or name.strip() in stripped or is_unexpanded(name):
+            continue
+        if name.strip() and joint.child_element is not None:
+            yield Problem(
+                joint,
+                f"child '{name}' of joint '{joint.name}' is no link{_remedy(name, robot)}",
+                at=joint.child_element.attribute_place("link"),
+            )
+
+
+def _remedy(name: str, robot: Robot) -> str:
+    if name == "world":
+        return '; add <link name="world"/>'
+    return did_you_mean(name, robot.link) or f'; add <link name="{name}"/>'
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic": "reject the robot",
+        "pybullet": "rejects it: parent link or child link is empty",
+    },
+)
+def missing_parent_or_child(robot: Robot) -> Iterator[Problem]:
+    """A joint does not say which links it joins.
+
+    It needs a ``<parent link="…"/>`` and a ``<child link="…"/>``; without either, readers refuse
+    the robot.
+    """
+    for joint in robot.joints:
+        missing = list(_missing_ends(joint))
+        for tag, element in missing:
+            what = f"no <{tag}>" if element is None else f"a <{tag}> without a link"
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' has {what}; write <{tag} link=\"…\"/>",
+                at=element,
+            )
+
+
+def _missing_ends(joint: Joint) -> Iterator[tuple[str, Element | None]]:
+    ends = (
+        ("parent", joint.parent, joint.parent_element),
+        ("child", joint.child, joint.child_element),
+    )
+    for tag, name, element in ends:
+        if name.strip():
+            continue
+        if element is None:
+            if tag not in misspelt_children(joint.element).values():
+                yield tag, None
+        elif element.attributes.keys() <= {"link"}:
+            yield tag, element
+
+
+@rule(ERROR, effects={"every reader": "rejects the robot, or loses the link and all below it"})
+def joint_to_itself(robot: Robot) -> Iterator[Problem]:
+    """A joint joins a link to itself.
+
+    Parent and child are the same link, which then hangs on itself and is reached from no root.
+    """
+    for joint in robot.joints:
+        if joint.parent and joint.parent == joint.child and joint.child_element is not None:
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' joins link '{joint.child}' to itself; "
+                "its child must be another link than its parent",
+                at=joint.child_element.attribute_place("link"),
+            )

@@ -1,0 +1,149 @@
+"""Whether the links make one tree."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Link, Robot
+from ..rule import ERROR, Problem, rule
+from ..unexpanded import is_unexpanded
+from ..xml.vocabulary_table import misspelt_children
+
+_SHOWN = 6
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic": "reject the robot: two root links found",
+        "mujoco": "welds every root to the world",
+        "pybullet": "crashes",
+    },
+)
+def multiple_roots(robot: Robot) -> Iterator[Problem]:
+    """More than one link hangs on no joint.
+
+    A robot is one tree with one root. urdfdom refuses several, MuJoCo welds each to the world, and
+    PyBullet crashes. Mostly a joint was forgotten.
+    """
+    roots = robot.tree.roots
+    if len(roots) < 2 or "joint" in misspelt_children(robot.element).values():
+        return
+    main = max(roots, key=lambda link: sum(1 for _ in robot.tree.descendants(link.name)))
+    others = [link for link in roots if link is not main]
+    lost = sum(1 for joint in robot.joints if joint.child not in robot.link)
+    if len(others) <= lost or any(is_unexpanded(link.name) for link in others):
+        return
+    names = ", ".join(f"'{link.name}'" for link in others[:_SHOWN])
+    more = f" and {len(others) - _SHOWN} more" if len(others) > _SHOWN else ""
+    if len(others) == 1:
+        message = f"link {names} is the child of no joint, as is '{main.name}'; join them"
+    else:
+        message = f"links {names}{more} are children of no joint, as is '{main.name}'; join them"
+    yield Problem(others[0], f"{message} by joints")
+
+
+@rule(ERROR, effects={"urdfdom": "rejects the robot: no root link found", "others": "the same"})
+def no_root(robot: Robot) -> Iterator[Problem]:
+    """Every link is some joint's child.
+
+    The joints go round in a circle and the tree has no link to start from, so every reader refuses
+    the robot.
+    """
+    if not robot.links or robot.tree.roots:
+        return
+    if any(joint.parent == joint.child or joint.parent not in robot.link for joint in robot.joints):
+        return
+    cycle = _cycle(robot, robot.links[0])
+    joint = robot.tree.parent_joint(cycle[0].name)
+    yield Problem(
+        robot if joint is None else joint,
+        f"every link is some joint's child: {_round(cycle)}; one link must be the root",
+        at=None if joint is None else joint.child_element,
+    )
+
+
+@rule(
+    ERROR,
+    effects={
+        "check_urdf": "reports success",
+        "gz, gazebo-classic, pybullet": "load the robot without those links",
+        "mujoco": "rejects the file",
+    },
+)
+def detached_cycle(robot: Robot) -> Iterator[Problem]:
+    """Joints join some links in a circle that does not hang on the root.
+
+    urdfdom walks down from the root and never meets them. It reports success, and Gazebo and
+    PyBullet load a robot without those links.
+    """
+    if not robot.tree.roots:
+        return
+    seen: set[str] = set()
+    for link in robot.tree.detached:
+        if link.name in seen:
+            continue
+        cycle = _cycle(robot, link)
+        if len(cycle) > 1:
+            seen.update((cycle[0].name, *robot.tree.descendants(cycle[0].name)))
+            yield Problem(
+                cycle[0],
+                f"links hang on each other and not on the root: {_round(cycle)}; "
+                "let one of these joints start at a link of the tree",
+            )
+
+
+def _cycle(robot: Robot, link: Link) -> list[Link]:
+    """The circle that is met going up from a link, child before parent; empty if there is none."""
+    above: dict[str, None] = {}
+    name = link.name
+    while name in robot.link and name not in above:
+        above[name] = None
+        joint = robot.tree.parent_joint(name)
+        if joint is None:
+            return []
+        name = joint.parent
+    if name not in above:
+        return []
+    names = list(above)
+    circle = names[names.index(name) :]
+    start = min(range(len(circle)), key=lambda i: robot.link[circle[i]].element.start)
+    return [robot.link[n] for n in (*circle[start:], *circle[:start])]
+
+
+def _round(cycle: list[Link]) -> str:
+    """A circle in words, from child to parent."""
+    names = [link.name for link in cycle]
+    shown = names if len(names) <= _SHOWN else [*names[: _SHOWN - 1], "…"]
+    return " on ".join(f"'{name}'" for name in (*shown, names[0]))
+
+
+@rule(
+    ERROR,
+    effects={
+        "check_urdf": "reports success",
+        "gz, gazebo-classic, mujoco": "reject the robot",
+        "pybullet": "crashes",
+        "robot_state_publisher": "publishes two poses for one frame",
+    },
+)
+def multiple_parents(robot: Robot) -> Iterator[Problem]:
+    """A link is the child of two joints.
+
+    URDF is a tree, it cannot close a chain. urdfdom passes it on without a word; tf then hears two
+    poses for one frame, Gazebo and MuJoCo refuse the model, and PyBullet crashes.
+    """
+    for name, joints in robot.tree.joints_of_child.items():
+        if len(joints) < 2 or name not in robot.link:
+            continue
+        joined = [joint for joint in joints if joint.parent != joint.child]
+        first = joined[0] if joined else joints[0]
+        for joint in joined[1:]:
+            if joint.name == first.name:
+                continue
+            yield Problem(
+                joint,
+                f"link '{name}' is the child of joint '{joint.name}' and already of "
+                f"'{first.name}'; take one away, or close the chain in the simulator",
+                at=joint.child_element,
+            )

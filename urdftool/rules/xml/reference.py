@@ -1,0 +1,52 @@
+"""Names and what refers to them, as text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ...source.document import Element
+from ..rule import ERROR, Problem, rule
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom": "rejects the robot: link not found",
+        "gz, gazebo-classic": "drop a <gazebo> block whose reference is not found",
+    },
+)
+def padded_reference(robot: Robot) -> Iterator[Problem]:
+    """A name or a reference to one has a blank before or behind it.
+
+    Readers compare names letter by letter, so ``"base "`` is not ``base``: the joint does not find
+    its link, and the robot is rejected for a fault that nobody sees.
+    """
+    references: list[tuple[Element, str]] = []
+    for joint in robot.joints:
+        if joint.parent_element is not None:
+            references.append((joint.parent_element, "link"))
+        if joint.child_element is not None:
+            references.append((joint.child_element, "link"))
+        if joint.mimic is not None:
+            references.append((joint.mimic.element, "joint"))
+    references += [(block.element, "reference") for block in robot.gazebo]
+    names = {*robot.link, *robot.joint}
+    used = {element.attributes.get(attribute) for element, attribute in references}
+    for element, attribute in references:
+        text = element.attributes.get(attribute)
+        if text and text not in names and text.strip() in names:
+            yield _padded(element, attribute, text)
+    for element in (part.element for parts in (robot.links, robot.joints) for part in parts):
+        name = element.attributes.get("name", "")
+        if name not in used and name != name.strip() and name.strip() in used:
+            yield _padded(element, "name", name)
+
+
+def _padded(element: Element, attribute: str, text: str) -> Problem:
+    return Problem(
+        element,
+        f"{attribute} of <{element.tag}> is '{text}', with a blank at its end or start; "
+        f"write '{text.strip()}'",
+        at=element.attribute_place(attribute),
+    )

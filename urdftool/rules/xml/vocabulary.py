@@ -1,0 +1,238 @@
+"""Elements and attributes that URDF does not have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ...source.description import Description
+from ...source.document import Element
+from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..xacro.definitions import macro_names
+from .owner import owner
+from .vocabulary_table import DIALECT_ATTRIBUTES, VOCABULARY, attributes_of, census, meant
+
+_ELSEWHERE = {
+    ("robot", "inertial"): "it belongs into a <link>",
+    ("robot", "visual"): "it belongs into a <link>",
+    ("robot", "collision"): "it belongs into a <link>",
+    ("robot", "origin"): "a robot is placed by the joint of its root link, or where it is spawned",
+    ("robot", "plugin"): "write it inside a <gazebo>",
+    ("robot", "model"): "it is SDF; links and joints stand directly in <robot>",
+    ("link", "pose"): "it is SDF; a link sits where the <origin> of the joint above it says",
+    ("link", "origin"): "a link sits where the <origin> of the joint above it says",
+    ("link", "mass"): "write it inside <inertial>",
+    ("link", "inertia"): "write it inside <inertial>",
+    ("link", "geometry"): "write it inside <visual>, <collision> or both",
+    ("link", "material"): "write it inside <visual>",
+    ("link", "color"): "write it inside <visual><material>",
+    ("link", "sensor"): 'write it inside <gazebo reference="the link">',
+    ("link", "gravity"): 'write <turnGravityOff> inside <gazebo reference="the link">',
+    ("link", "self_collide"): 'write <selfCollide> inside <gazebo reference="the link">',
+    ("link", "surface"): 'write mu1, mu2, kp and kd inside <gazebo reference="the link">',
+    ("link", "parent"): "only joints have a parent",
+    ("visual", "pose"): "it is SDF; URDF has <origin>",
+    ("visual", "color"): "write it inside <material>",
+    ("visual", "texture"): "write it inside <material>",
+    ("collision", "pose"): "it is SDF; URDF has <origin>",
+    ("collision", "surface"): "it is SDF; for URDF, "
+    'write mu1, mu2, kp and kd inside <gazebo reference="the link">',
+    ("collision", "max_contacts"): 'write <maxContacts> inside <gazebo reference="the link">',
+    ("collision", "material"): "what collides has no colour; write it inside <visual>",
+    ("inertial", "pose"): "it is SDF; URDF has <origin>",
+    ("inertial", "ixx"): "write the six numbers as attributes of <inertia>",
+    ("inertia", "ixx"): "it is SDF; in URDF the six numbers are attributes",
+    ("box", "size"): 'it is SDF; URDF has <box size="x y z"/>',
+    ("cylinder", "radius"): 'it is SDF; URDF has <cylinder radius="…" length="…"/>',
+    ("cylinder", "length"): 'it is SDF; URDF has <cylinder radius="…" length="…"/>',
+    ("sphere", "radius"): 'it is SDF; URDF has <sphere radius="…"/>',
+    ("mesh", "uri"): 'it is SDF; URDF has <mesh filename="…"/>',
+    ("mesh", "scale"): 'it is SDF; URDF has <mesh scale="x y z"/>',
+    ("material", "ambient"): "it is SDF; URDF has <color rgba=…>",
+    ("material", "diffuse"): "it is SDF; URDF has <color rgba=…>",
+    ("material", "specular"): "it is SDF; URDF has <color rgba=…>",
+    ("material", "script"): 'Gazebo\'s materials go inside <gazebo reference="the link">',
+    ("joint", "pose"): "it is SDF; URDF has <origin>",
+    ("joint", "joint_properties"): 'URDF has <dynamics damping="…" friction="…"/>',
+    ("joint", "joint_limits"): 'URDF has <limit lower="…" upper="…" effort="…" velocity="…"/>',
+    ("joint", "damping"): 'URDF has <dynamics damping="…"/>',
+    ("joint", "friction"): 'URDF has <dynamics friction="…"/>',
+    ("joint", "physics"): 'write it inside <gazebo reference="the joint">',
+    ("joint", "actuator"): "write it inside a <transmission>",
+    ("axis", "xyz"): 'it is SDF; URDF has <axis xyz="x y z"/>',
+    ("axis", "limit"): "it is SDF; in URDF <limit> stands beside <axis>",
+    ("axis", "dynamics"): "it is SDF; in URDF <dynamics> stands beside <axis>",
+    ("limit", "lower"): "it is SDF; in URDF it is an attribute",
+    ("limit", "upper"): "it is SDF; in URDF it is an attribute",
+    ("limit", "effort"): "it is SDF; in URDF it is an attribute",
+    ("limit", "velocity"): "it is SDF; in URDF it is an attribute",
+}
+"""Where the thing meant goes, by parent and tag."""
+
+_NOT_LOST = frozenset((("collision", "material"),))
+"""Elements whose loss changes nothing."""
+
+_INSTEAD = {
+    ("axis", "rpy"): "a direction has no rotation; turn the joint by the rpy of its <origin>",
+    ("origin", "pos"): "write xyz",
+    ("origin", "position"): "write xyz",
+    ("origin", "rot"): "write rpy",
+    ("origin", "rotation"): "write rpy",
+    ("origin", "orientation"): "write rpy",
+    ("origin", "quat"): "write rpy",
+    ("origin", "x"): 'write xyz="x y z"',
+    ("mass", "mass"): "write value",
+    ("box", "x"): 'write size="x y z"',
+    ("box", "dimensions"): "write size",
+    ("box", "length"): 'write size="x y z"',
+    ("cylinder", "height"): "write length",
+    ("cylinder", "diameter"): "write radius, which is half of it",
+    ("sphere", "diameter"): "write radius, which is half of it",
+    ("sphere", "size"): "write radius",
+    ("mesh", "uri"): "write filename",
+    ("mesh", "file"): "write filename",
+    ("mesh", "url"): "write filename",
+    ("texture", "uri"): "write filename",
+    ("texture", "file"): "write filename",
+    ("color", "rgb"): "write rgba, with a fourth number for opacity",
+    ("color", "value"): "write rgba",
+    ("material", "rgba"): 'write <color rgba="…"/> inside it',
+    ("material", "color"): 'write <color rgba="…"/> inside it',
+    ("parent", "name"): "write link",
+    ("child", "name"): "write link",
+    ("parent", "joint"): "write link",
+    ("child", "joint"): "write link",
+    ("mimic", "name"): "write joint",
+    ("limit", "min"): "write lower",
+    ("limit", "max"): "write upper",
+    ("limit", "k_velocity"): "it belongs to <safety_controller>",
+    ("limit", "k_position"): "it belongs to <safety_controller>",
+    ("limit", "soft_lower_limit"): "it belongs to <safety_controller>",
+    ("limit", "soft_upper_limit"): "it belongs to <safety_controller>",
+    ("limit", "damping"): "it belongs to <dynamics>",
+    ("limit", "friction"): "it belongs to <dynamics>",
+    ("joint", "parent"): 'write <parent link="…"/> inside it',
+    ("joint", "child"): 'write <child link="…"/> inside it',
+    ("inertia", "mass"): 'write <mass value="…"/> beside it',
+}
+"""What to write instead of an attribute, by element and name."""
+
+_XACRO = frozenset(("include", "macro", "property", "if", "unless", "insert_block", "arg"))
+"""Tags that are xacro's where they lack their prefix."""
+
+_REDUNDANT = ("iyx", "izx", "izy")
+
+
+@rule(
+    WARNING,
+    effects={"every reader": "looks up the elements it knows and passes over the rest silently"},
+)
+def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]:
+    """URDF has no such element there.
+
+    Readers look up the children they know by name and pass over all others without a word. A
+    misspelt ``<colision>`` or an ``<inertia>`` outside ``<inertial>`` is simply gone: the link
+    falls through the floor, or weighs nothing. Tags of SDF in a URDF have the same fate.
+    """
+    strangers = census(robot.element).strangers
+    in_xacro = bool(strangers) and description.expansion is not None
+    of_xacro = _XACRO | macro_names(description) if in_xacro else frozenset()
+    for element in strangers:
+        parent = element.parent
+        if parent is None or parent.tag in ("geometry", "dynamics") or element.tag in of_xacro:
+            continue
+        where = f"{_the(parent)} has no <{element.tag}>"
+        instead = _ELSEWHERE.get((parent.tag, element.tag))
+        if instead:
+            lost = (parent.tag, element.tag) not in _NOT_LOST
+            severity = WARNING if lost else INFO
+            yield Problem(element, f"{where}; {instead}", severity=severity)
+            continue
+        word = meant(element.tag, VOCABULARY[parent.tag].children)
+        if word is None:
+            yield Problem(element, f"{where}; URDF readers pass over it")
+        elif word != element.tag.lower():
+            yield Problem(element, f"{where}; write <{word}>", severity=ERROR)
+
+
+@rule(WARNING, effects={"every reader": "passes over it and takes the default"})
+def unknown_attribute(robot: Robot) -> Iterator[Problem]:
+    """URDF has no such attribute on that element.
+
+    It is passed over without a word and the default is taken for the one that was meant. A misspelt
+    ``uper`` makes the upper limit 0, a ``height`` on a cylinder leaves it without a length.
+    """
+    nothing: frozenset[str] = frozenset()
+    for tag, elements in census(robot.element).known.items():
+        known = {*attributes_of(tag), *DIALECT_ATTRIBUTES.get(tag, nothing)}
+        for element in elements:
+            if not element.attributes.keys() <= known:
+                yield from _strange_attributes(element, known)
+
+
+def _strange_attributes(element: Element, known: set[str]) -> Iterator[Problem]:
+    tag = element.tag
+    for name in element.attributes:
+        if name in known or ":" in name or name in _REDUNDANT:
+            continue
+        what = f"{_the(element)} has no attribute '{name}'"
+        at = element.attribute_place(name)
+        instead = _INSTEAD.get((tag, name))
+        if instead:
+            yield Problem(element, f"{what}; {instead}", at=at)
+            continue
+        free = [word for word in attributes_of(tag) if word not in element.attributes]
+        word = meant(name, free)
+        if word is None:
+            yield Problem(element, f"{what}; URDF readers pass over it", at=at)
+        elif word != name.lower():
+            yield Problem(element, f"{what}; write {word}", at=at, severity=ERROR)
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom": "rejects a robot with a joint type it does not know; passes over the rest",
+        "every other reader": "the same",
+    },
+)
+def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
+    """An element, an attribute or a joint type differs from URDF's by upper and lower case alone.
+
+    URDF's words are in lower case and readers compare them letter by letter. A joint of type
+    ``Revolute`` gets the whole robot rejected; an ``<Inertial>`` is passed over in silence.
+    """
+    for element in census(robot.element).strangers:
+        parent = element.parent
+        lower = element.tag.lower()
+        if parent is None or parent.tag == "geometry" or lower == element.tag:
+            continue
+        if lower in VOCABULARY[parent.tag].children:
+            yield Problem(element, f"{_the(parent)} has no <{element.tag}>; write <{lower}>")
+    for tag, elements in census(robot.element).known.items():
+        known = set(attributes_of(tag))
+        for element in elements:
+            if element.attributes.keys() <= known:
+                continue
+            for name in element.attributes:
+                lower = name.lower()
+                if name != lower and lower in known and lower not in element.attributes:
+                    what = f"{_the(element)} has no attribute '{name}'; write {lower}"
+                    yield Problem(element, what, at=element.attribute_place(name))
+    for joint in robot.joints:
+        if joint.type != joint.type.lower() and joint.type.lower() in _TYPES:
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' is of type '{joint.type}'; write {joint.type.lower()}",
+                at=joint.element.attribute_place("type"),
+            )
+
+
+_TYPES = frozenset(("revolute", "continuous", "prismatic", "fixed", "floating", "planar"))
+
+
+def _the(element: Element) -> str:
+    """An element in words: ``link 'arm'``, or ``<inertial> of link 'arm'``."""
+    if element.tag in ("link", "joint"):
+        return owner(element)
+    return f"<{element.tag}>" if element.tag == "robot" else f"<{element.tag}> of {owner(element)}"
