@@ -1,1 +1,1 @@
-
+"""What a joint can do."""

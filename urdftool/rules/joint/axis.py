@@ -70,3 +70,30 @@ def axis_omitted(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"joint '{joint.name}' has no <axis>, so it is 1 0 0; write it down",
             )
+
+
+@rule(INFO, effects={"analytic inverse kinematics": "does not recognise the axis as x, y or z"})
+def axis_nearly_canonical(
+    robot: Robot, *, smallest: float = 1e-6, largest: float = 1e-2
+) -> Iterator[Problem]:
+    """A joint's axis is almost, but not quite, along x, y or z.
+
+    That is noise of a drawing program. It tilts the arm by a hair, keeps analytic inverse
+    kinematics from seeing the axis for what it is, and makes mirrored arms differ.
+    """
+    for joint in robot.joints:
+        if not joint.has_axis or joint.axis is None:
+            continue
+        x, y, z = map(abs, joint.axis.xyz)
+        _, middle, high = sorted((x, y, z))
+        if middle <= smallest * high or middle >= largest * high:
+            continue
+        place = (x, y, z).index(high)
+        sign = "-1" if joint.axis.xyz[place] < 0 else "1"
+        snapped = " ".join(sign if i == place else "0" for i in range(3))
+        yield Problem(
+            joint,
+            f"axis of joint '{joint.name}' is off by {middle / high:.1g} rad; "
+            f"write {snapped} if that is meant",
+            at=joint.axis.element.attribute_place("xyz"),
+        )

@@ -1,0 +1,231 @@
+"""What drives a joint: effort, velocity, damping and friction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Joint, Limit, Robot
+from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..xml.vocabulary_table import misspelt_attributes
+
+_UNITS = {"prismatic": ("N", "m/s")}
+
+
+@rule(
+    WARNING,
+    raised={"gz": ERROR},
+    effects={
+        "gz": "the joint cannot be driven",
+        "mujoco": "takes it as unlimited",
+    },
+)
+def zero_effort_limit(robot: Robot) -> Iterator[Problem]:
+    """A moving joint's effort limit is 0.
+
+    It says that the motor has no force at all. Gazebo's physics believes it and the joint never
+    moves by itself; MuJoCo takes it for "no limit". Write what the drive can do, from its data
+    sheet.
+    """
+    for joint, limit in _driven(robot):
+        if limit.effort == 0.0:
+            yield Problem(
+                joint,
+                f"effort limit of joint '{joint.name}' is 0, so nothing can drive it; "
+                f"write the {'force [N]' if joint.type == 'prismatic' else 'torque [N·m]'} it has",
+                at=limit.element.attribute_place("effort"),
+            )
+
+
+@rule(
+    WARNING,
+    raised={"moveit": ERROR},
+    effects={
+        "moveit": "does not plan: no velocity limit was defined",
+        "gz": "the joint stands still",
+    },
+)
+def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
+    """A moving joint's velocity limit is 0.
+
+    It says that the joint may not move. Gazebo's physics keeps to that; MoveIt takes it for no
+    limit and then cannot time a trajectory.
+    """
+    for joint, limit in _driven(robot):
+        if limit.velocity == 0.0:
+            yield Problem(
+                joint,
+                f"velocity limit of joint '{joint.name}' is 0, so it may not move; "
+                f"write what it reaches [{_units(joint)[1]}]",
+                at=limit.element.attribute_place("velocity"),
+            )
+
+
+def _driven(robot: Robot) -> Iterator[tuple[Joint, Limit]]:
+    for joint in robot.joints:
+        if joint.limit is not None and joint.mimic is None:
+            if joint.type in ("revolute", "continuous", "prismatic"):
+                yield joint, joint.limit
+
+
+def _units(joint: Joint) -> tuple[str, str]:
+    return _UNITS.get(joint.type, ("N·m", "rad/s"))
+
+
+@rule(
+    ERROR,
+    effects={
+        "gz": "takes it as unlimited",
+        "moveit, mujoco": "take the absolute value",
+        "drake": "aborts",
+        "pinocchio": "rejects a negative velocity",
+    },
+)
+def negative_limit(robot: Robot) -> Iterator[Problem]:
+    """An effort or velocity limit is negative.
+
+    Both are magnitudes. Readers disagree on what a negative one means: no limit, its absolute
+    value, or a refusal.
+    """
+    for joint in robot.joints:
+        if joint.limit is None:
+            continue
+        for name, value in (("effort", joint.limit.effort), ("velocity", joint.limit.velocity)):
+            if value is not None and value < 0:
+                yield Problem(
+                    joint,
+                    f"{name} limit of joint '{joint.name}' is {value:g}; write {-value:g}",
+                    at=joint.limit.element.attribute_place(name),
+                )
+
+
+@rule(INFO, effects={"moveit, ros2_control": "the limit limits nothing"})
+def implausible_velocity(
+    robot: Robot, *, fastest_turn: float = 100.0, fastest_slide: float = 20.0
+) -> Iterator[Problem]:
+    """A joint's velocity limit is faster than arms and slides are.
+
+    In most cases it is in degrees or turns per minute, or a large number that means "none".
+    Planners time trajectories by it.
+    """
+    for joint, limit in _driven(robot):
+        if joint.type == "continuous" or limit.velocity is None:
+            continue
+        fastest = fastest_slide if joint.type == "prismatic" else fastest_turn
+        if limit.velocity > fastest:
+            yield Problem(
+                joint,
+                f"velocity limit of joint '{joint.name}' is {limit.velocity:g} {_units(joint)[1]}, "
+                f"above {fastest:g}; write what the drive reaches",
+                at=limit.element.attribute_place("velocity"),
+            )
+
+
+@rule(INFO, effects={"gz, ros2_control": "clamp no command"})
+def implausible_effort(robot: Robot, *, largest: float = 1e4) -> Iterator[Problem]:
+    """A joint's effort limit is larger than drives have.
+
+    A large number that means "none" lets every command through, and a simulated motor tears the
+    robot apart where the real one would have stalled.
+    """
+    for joint, limit in _driven(robot):
+        if limit.effort is not None and limit.effort > largest:
+            yield Problem(
+                joint,
+                f"effort limit of joint '{joint.name}' is {limit.effort:g} {_units(joint)[0]}, "
+                f"above {largest:g}; write what the drive has",
+                at=limit.element.attribute_place("effort"),
+            )
+
+
+@rule(
+    ERROR,
+    effects={
+        "drake": "rejects the file",
+        "mujoco": "simulates it as it is",
+    },
+)
+def negative_dynamics(robot: Robot) -> Iterator[Problem]:
+    """A joint's damping or friction is negative.
+
+    It feeds energy into the joint instead of taking it out: the slightest motion grows until the
+    simulation blows up.
+    """
+    for joint in robot.joints:
+        dynamics = joint.dynamics
+        if dynamics is None:
+            continue
+        for name, value in (("damping", dynamics.damping), ("friction", dynamics.friction)):
+            if value is not None and value < 0:
+                yield Problem(
+                    joint,
+                    f"{name} of joint '{joint.name}' is {value:g}; write {-value:g}",
+                    at=dynamics.element.attribute_place(name),
+                )
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic, pybullet": "reject the robot",
+        "mujoco, drake": "take 0",
+    },
+)
+def empty_dynamics(robot: Robot) -> Iterator[Problem]:
+    """A ``<dynamics>`` has neither damping nor friction.
+
+    Leaving the element out is fine, an empty one is not: urdfdom refuses the whole robot for it.
+    """
+    for joint in robot.joints:
+        if joint.dynamics is None:
+            continue
+        element = joint.dynamics.element
+        if element.attributes.keys() & {"damping", "friction"} or element.children:
+            continue
+        if not misspelt_attributes(element):
+            yield Problem(
+                joint,
+                f"<dynamics> of joint '{joint.name}' has neither damping nor friction; "
+                "write one, or take it out",
+                at=element,
+            )
+
+
+@rule(
+    WARNING,
+    effects={"urdfdom": "rejects the robot: no damping and no friction", "drake": "ignores them"},
+)
+def dynamics_as_child_elements(robot: Robot) -> Iterator[Problem]:
+    """Damping or friction is written as an element inside ``<dynamics>``.
+
+    That is how SDF writes them. In URDF they are attributes, and a ``<dynamics>`` without
+    attributes gets the robot rejected.
+    """
+    for joint in robot.joints:
+        if joint.dynamics is None or not joint.dynamics.element.children:
+            continue
+        children = joint.dynamics.element.children
+        written = " ".join(f'{c.tag}="{c.text.strip()}"' for c in children if c.text.strip())
+        first = children[0]
+        yield Problem(
+            joint,
+            f"<{first.tag}> in the <dynamics> of joint '{joint.name}' is not read; "
+            f"write <dynamics {written or first.tag + '=…'}/>",
+            at=first,
+        )
+
+
+@rule(INFO, effects={"every simulator": "takes 0: nothing stops a swing"}, default=False)
+def missing_dynamics(robot: Robot) -> Iterator[Problem]:
+    """A moving joint has no damping.
+
+    Nothing takes energy out of it, so a joint under position control swings for long and a limp one
+    never comes to rest.
+    """
+    for joint in robot.joints:
+        if joint.type in ("revolute", "continuous", "prismatic"):
+            if joint.dynamics is None or joint.dynamics.damping is None:
+                yield Problem(
+                    joint,
+                    f"joint '{joint.name}' has no damping; write <dynamics damping=\"…\"/>",
+                    at=joint.dynamics,
+                )

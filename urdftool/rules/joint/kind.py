@@ -1,0 +1,99 @@
+"""The type of a joint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import JOINT_TYPES, Robot
+from ..rule import ERROR, GAZEBO, INFO, Problem, rule
+from ..unexpanded import is_unexpanded
+from ..xml.vocabulary_table import meant
+
+_ELSEWHERE = {
+    "spherical": "PyBullet alone has it; three revolute joints do the same",
+    "ball": "Drake alone has it; three revolute joints do the same",
+    "universal": "Drake alone has it; two revolute joints do the same",
+    "screw": "Drake and SDF alone have it",
+    "hinge": "write revolute, or continuous without limits",
+    "slide": "write prismatic",
+    "linear": "write prismatic",
+    "rotary": "write revolute",
+    "rotational": "write revolute",
+    "free": "write floating",
+    "weld": "write fixed",
+}
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic": "reject the robot: joint has no known type",
+        "mujoco, pybullet": "reject it as well",
+    },
+)
+def unknown_joint_type(robot: Robot) -> Iterator[Problem]:
+    """A joint has no type, or one that URDF does not have.
+
+    There are revolute, continuous, prismatic, fixed, floating and planar. Readers refuse the robot
+    for any other word.
+    """
+    for joint in robot.joints:
+        kind = joint.type
+        if kind.lower() in JOINT_TYPES or is_unexpanded(kind):
+            continue
+        element = joint.element
+        if "type" in element.attributes:
+            instead = _ELSEWHERE.get(kind)
+            word = meant(kind, JOINT_TYPES)
+            if instead is None:
+                instead = f"write {word}" if word else f"there are {', '.join(sorted(JOINT_TYPES))}"
+            message = f"joint '{joint.name}' is of unknown type '{kind}'; {instead}"
+        elif any(name.lower() == "type" for name in element.attributes):
+            continue
+        else:
+            message = f"joint '{joint.name}' has no type; write type=\"…\""
+        yield Problem(joint, message, at=element.attribute_place("type"))
+
+
+@rule(
+    INFO,
+    raised=dict.fromkeys(GAZEBO, ERROR),
+    effects={
+        "gz, gazebo-classic": "do not load the model (Error 25)",
+        "robot_state_publisher": "publishes no transform for floating, a fixed one for planar",
+        "KDL, pybullet": "take floating for fixed",
+        "mujoco": "has both, floating at the root only",
+    },
+)
+def planar_or_floating(robot: Robot) -> Iterator[Problem]:
+    """A joint is planar or floating.
+
+    The two types are in the specification and hardly any reader has them. sdformat drops the joint
+    and keeps a pose relative to it, so Gazebo loads nothing; elsewhere the joint is fixed.
+    """
+    for joint in robot.joints:
+        if joint.type in ("planar", "floating"):
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' is {joint.type}, which few readers have; "
+                "use revolute and prismatic joints, or leave the root free",
+                at=joint.element.attribute_place("type"),
+            )
+
+
+@rule(INFO, effects={"every reader": "takes them and does nothing with them"}, default=False)
+def redundant_on_fixed(robot: Robot) -> Iterator[Problem]:
+    """A fixed joint has an axis, a limit or dynamics.
+
+    It does not move, so they mean nothing. Exporters write them. An incomplete ``<limit>`` gets the
+    robot rejected even so.
+    """
+    for joint in robot.joints:
+        if joint.is_fixed:
+            for part in (joint.axis, joint.limit, joint.dynamics):
+                if part is not None:
+                    yield Problem(
+                        joint,
+                        f"joint '{joint.name}' is fixed; its <{part.element.tag}> means nothing",
+                        at=part,
+                    )

@@ -1,0 +1,228 @@
+"""Joints that follow another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Joint, Mimic, Robot
+from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..unexpanded import is_unexpanded
+from ..words import did_you_mean
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom": "takes it; without the attribute it rejects the robot",
+        "moveit": "cannot mimic unknown joint",
+        "mujoco": "drops the constraint silently",
+        "ros2_control, drake": "reject it",
+    },
+)
+def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
+    """A mimic joint follows a joint that is not there.
+
+    Nothing then moves it. urdfdom does not look, MuJoCo drops it silently, ros2_control refuses to
+    start.
+    """
+    stripped = {name.strip() for name in robot.joint}
+    for joint, mimic in _mimics(robot):
+        name = mimic.joint
+        if name in robot.joint or is_unexpanded(name):
+            continue
+        if not name.strip():
+            if "joint" in mimic.element.attributes or len(mimic.element.attributes) == 0:
+                message = f"<mimic> of joint '{joint.name}' names no joint; write joint=\"…\""
+                yield Problem(joint, message, at=mimic)
+            continue
+        if name.strip() in stripped:
+            continue
+        near = did_you_mean(name, robot.joint)
+        yield Problem(
+            joint,
+            f"joint '{joint.name}' mimics '{name}', which is no joint{near}",
+            at=mimic.element.attribute_place("joint"),
+        )
+
+
+@rule(
+    ERROR,
+    effects={
+        "moveit": "ignores every mimic joint of the robot",
+        "mujoco": "3.3 ignores it, 4.0 rejects the file",
+        "drake": "rejects it",
+    },
+)
+def mimic_cycle(robot: Robot) -> Iterator[Problem]:
+    """Mimic joints follow each other in a circle.
+
+    None of them leads. MoveIt then ignores all mimic joints of the robot.
+    """
+    done: set[str] = set()
+    for joint, _ in _mimics(robot):
+        names: list[str] = []
+        follower: Joint | None = joint
+        while follower is not None and follower.mimic is not None and follower.name not in done:
+            if follower.name in names:
+                circle = names[names.index(follower.name) :]
+                yield _of_circle(robot.joint[circle[0]], circle)
+                break
+            names.append(follower.name)
+            follower = robot.joint.get(follower.mimic.joint)
+        done.update(names)
+
+
+def _of_circle(joint: Joint, circle: list[str]) -> Problem:
+    assert joint.mimic is not None  # only mimic joints are gone through
+    if len(circle) == 1:
+        message = f"joint '{joint.name}' mimics itself; it must follow another joint"
+    else:
+        names = " follows ".join(f"'{name}'" for name in (*circle, circle[0]))
+        message = f"mimic joints follow each other: {names}; one must lead"
+    return Problem(joint, message, at=joint.mimic.element.attribute_place("joint"))
+
+
+@rule(
+    WARNING,
+    effects={
+        "robot_state_publisher": "publishes the joint only if the leading joints sort before it",
+        "moveit": "follows the chain",
+    },
+)
+def mimic_chain(robot: Robot) -> Iterator[Problem]:
+    """A mimic joint follows a joint that is itself a mimic joint.
+
+    robot_state_publisher goes over the joints once, in the order of the alphabet. A joint whose
+    leader comes later gets no transform, and its part of the robot vanishes from tf. Let each
+    follow the first leader, with the multipliers multiplied.
+    """
+    for joint, mimic in _mimics(robot):
+        leader = robot.joint.get(mimic.joint)
+        if leader is None or leader.mimic is None or leader is joint:
+            continue
+        first = robot.joint.get(leader.mimic.joint)
+        if first is None or first is joint or first.mimic is not None:
+            continue
+        multiplier = mimic.multiplier * leader.mimic.multiplier
+        offset = mimic.multiplier * leader.mimic.offset + mimic.offset
+        yield Problem(
+            joint,
+            f"joint '{joint.name}' mimics '{leader.name}', itself a mimic joint; "
+            f"mimic '{first.name}' with multiplier {multiplier:g} and offset {offset:g}",
+            at=mimic.element.attribute_place("joint"),
+        )
+
+
+@rule(WARNING, effects={"every simulator": "the two constraints fight, and the joint stops early"})
+def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]:
+    """A mimic joint's own limits stop it before its leader is at its limit.
+
+    Where the leader goes to its end, the follower would have to go beyond its own. The constraint
+    pulls, the stop holds, and the gripper halts half way or shakes.
+    """
+    for joint, mimic in _mimics(robot):
+        leader = robot.joint.get(mimic.joint)
+        if leader is None or leader.limit is None or joint.limit is None:
+            continue
+        if not (joint.is_limited and leader.is_limited) or leader is joint:
+            continue
+        bounds = (leader.limit.lower, leader.limit.upper, joint.limit.lower, joint.limit.upper)
+        if None in bounds:
+            continue
+        low, high, lower, upper = (value or 0.0 for value in bounds)
+        ends = sorted(mimic.multiplier * value + mimic.offset for value in (low, high))
+        if low <= high and (ends[0] < lower - tolerance or ends[1] > upper + tolerance):
+            name = "lower" if ends[0] < lower - tolerance else "upper"
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' follows '{leader.name}' from {ends[0]:.4g} "
+                f"to {ends[1]:.4g}, beyond its own limits {lower:g} to {upper:g}",
+                at=joint.limit.element.attribute_place(name),
+            )
+
+
+@rule(
+    ERROR,
+    effects={
+        "moveit": "ignores it: different number of degrees of freedom",
+        "ros2_control": "rejects a fixed joint",
+    },
+)
+def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
+    """A mimic joint or its leader does not have just one way to move, or the multiplier is 0.
+
+    A fixed joint has no position to follow or to give, a floating or planar one has several. With a
+    multiplier of 0 the joint stands still.
+    """
+    for joint, mimic in _mimics(robot):
+        leader = robot.joint.get(mimic.joint)
+        for one in (joint, leader):
+            if one is not None and one.type in ("fixed", "floating", "planar"):
+                what = "follows another" if one is joint else f"is followed by '{joint.name}'"
+                yield Problem(
+                    joint,
+                    f"joint '{one.name}' is {one.type} and {what}; only a joint with one axis can",
+                    at=mimic,
+                )
+                break
+        else:
+            if mimic.multiplier == 0.0 and leader is not None:
+                yield Problem(
+                    joint,
+                    f"joint '{joint.name}' follows '{leader.name}' with multiplier 0, so it never "
+                    "moves; write how far it goes, or make it fixed",
+                    at=mimic.element.attribute_place("multiplier"),
+                )
+
+
+@rule(
+    INFO,
+    on=("gazebo-classic", "mujoco", "pybullet"),
+    effects={
+        "gazebo-classic, pybullet": "ignore <mimic>: the joint hangs free",
+        "gz": "has it from Harmonic on",
+        "mujoco": "3.3 ignores it, 4.0 makes it a constraint",
+    },
+)
+def mimic_not_simulated(robot: Robot) -> Iterator[Problem]:
+    """The robot has mimic joints, and the simulator does not simulate them.
+
+    The follower is then a free joint that hangs where gravity takes it. Gazebo Classic needs a
+    plugin for it, MuJoCo before 4.0 an ``<equality>``, PyBullet a gear constraint.
+    """
+    mimics = list(_mimics(robot))
+    if mimics:
+        joint, mimic = mimics[0]
+        more = f" and {len(mimics) - 1} more" if len(mimics) > 1 else ""
+        are = "mimic joints hang" if more else "a mimic joint hangs"
+        yield Problem(
+            joint,
+            f"joint '{joint.name}'{more}: {are} free where <mimic> is not simulated; "
+            "add a plugin or a constraint",
+            at=mimic,
+        )
+
+
+@rule(INFO, effects={"every simulator": "moves the fingers each on its own"}, default=False)
+def gripper_finger_not_mimic(robot: Robot) -> Iterator[Problem]:
+    """A left and a right finger move on their own.
+
+    Most parallel grippers have one motor. Without ``<mimic>`` the fingers need two commands and
+    close off centre.
+    """
+    for joint in robot.joints:
+        if "left" not in joint.name or "finger" not in joint.name or not joint.is_limited:
+            continue
+        other = robot.joint.get(joint.name.replace("left", "right"))
+        if other is None or other.type != joint.type or other.parent != joint.parent:
+            continue
+        if joint.mimic is None and other.mimic is None:
+            yield Problem(
+                other,
+                f"joints '{joint.name}' and '{other.name}' move on their own; "
+                "if one motor drives both, let one <mimic> the other",
+            )
+
+
+def _mimics(robot: Robot) -> Iterator[tuple[Joint, Mimic]]:
+    return ((joint, joint.mimic) for joint in robot.joints if joint.mimic is not None)

@@ -1,0 +1,41 @@
+"""Where and how a part is placed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ..rule import WARNING, Problem, rule
+from ..xml.owner import owner
+from ..xml.vocabulary_table import census
+
+_DEGREES = frozenset(map(float, (*range(30, 361, 30), *range(45, 361, 45))))
+
+
+@rule(WARNING, effects={"every reader": "takes radians: 90 is 116.6° after fourteen turns"})
+def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iterator[Problem]:
+    """A rotation is more than a full turn.
+
+    Roll, pitch and yaw are in radians. 90 is taken for 90 rad, which comes out at 116.6°, so the
+    part stands askew.
+    """
+    for element in census(robot.element).known["origin"]:
+        text = element.attributes.get("rpy")
+        if not text:
+            continue
+        try:
+            angles = [float(word) for word in text.split()]
+        except ValueError:
+            continue
+        angle = max(angles, key=abs, default=0.0)
+        if abs(angle) <= largest or not math.isfinite(angle):
+            continue
+        if abs(angle) in _DEGREES:
+            shown = " ".join(f"{math.radians(a):.6g}" for a in angles)
+            what = f"has {angle:g} in its rpy, which looks like degrees; in radians write {shown}"
+        else:
+            what = f"has {angle:g} rad in its rpy, more than a full turn; are these degrees?"
+        around = element.parent.tag if element.parent is not None else "robot"
+        whose = owner(element) if around == "joint" else f"the <{around}> of {owner(element)}"
+        yield Problem(element, f"{whose} {what}", at=element.attribute_place("rpy"))

@@ -1,0 +1,84 @@
+"""Soft limits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..xml.vocabulary_table import misspelt_attributes
+
+
+@rule(
+    ERROR,
+    effects={"urdfdom, gz, gazebo-classic": "reject the robot: no k_velocity", "pybullet": "ok"},
+)
+def incomplete_safety_controller(robot: Robot) -> Iterator[Problem]:
+    """A ``<safety_controller>`` has no ``k_velocity``.
+
+    It is the one attribute of it that must be written; urdfdom refuses the whole robot without it.
+    """
+    for joint in robot.joints:
+        safety = joint.safety_controller
+        if safety is None or "k_velocity" in safety.element.attributes:
+            continue
+        if "k_velocity" not in misspelt_attributes(safety.element).values():
+            yield Problem(
+                joint,
+                f"<safety_controller> of joint '{joint.name}' has no k_velocity; write it",
+                at=safety,
+            )
+
+
+@rule(
+    WARNING,
+    raised={"moveit": ERROR},
+    effects={"moveit": "takes the soft limits for the joint's range", "others": "ignore them"},
+)
+def soft_limits_lock_joint(robot: Robot) -> Iterator[Problem]:
+    """A joint's soft limits leave it no range.
+
+    Both are 0 where they are not written. MoveIt takes them for the range of the joint, so a
+    ``<safety_controller k_velocity="10"/>`` alone locks it at 0.
+    """
+    for joint in robot.joints:
+        safety, limit = joint.safety_controller, joint.limit
+        if safety is None or not joint.is_limited or "k_velocity" not in safety.element.attributes:
+            continue
+        low, high = safety.soft_lower_limit, safety.soft_upper_limit
+        apart = limit is not None and None not in (limit.lower, limit.upper)
+        if apart and limit is not None:
+            lower, upper = limit.lower or 0.0, limit.upper or 0.0
+            apart = lower < upper and (low >= upper or high <= lower)
+        if low >= high or apart:
+            yield Problem(
+                joint,
+                f"soft limits {low:g} to {high:g} of joint '{joint.name}' leave it no range; "
+                "write soft_lower_limit and soft_upper_limit within its limits",
+                at=safety,
+            )
+
+
+@rule(INFO, effects={"every reader": "never reaches them"})
+def soft_limits_outside_hard(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Problem]:
+    """A joint's soft limits lie beyond its hard ones.
+
+    They should slow the joint before the stop; out there they never do.
+    """
+    for joint in robot.joints:
+        safety, limit = joint.safety_controller, joint.limit
+        if safety is None or limit is None or not joint.is_limited:
+            continue
+        low, high = safety.soft_lower_limit, safety.soft_upper_limit
+        if limit.lower is None or limit.upper is None or low >= high:
+            continue
+        if low >= limit.upper or high <= limit.lower:
+            continue
+        if low < limit.lower - tolerance or high > limit.upper + tolerance:
+            name = "soft_lower_limit" if low < limit.lower - tolerance else "soft_upper_limit"
+            yield Problem(
+                joint,
+                f"soft limits {low:g} to {high:g} of joint '{joint.name}' are beyond its limits "
+                f"{limit.lower:g} to {limit.upper:g}, so they do nothing",
+                at=safety.element.attribute_place(name),
+            )
