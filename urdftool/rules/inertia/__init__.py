@@ -1,1 +1,1 @@
-
+"""Mass and inertia."""

@@ -1,0 +1,213 @@
+"""Masses, and whether an inertial says all it has to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ...model.elements import Inertial, Link, Robot
+from ...source.document import Element
+from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
+from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
+from .bodies import bodies, mass_of
+from .solids import box_of, solid_volume
+
+_SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic": "silently drop all visuals and collisions of the link",
+        "check_urdf": "reports success nevertheless",
+        "mujoco": "rejects the file",
+        "pybullet": "takes 0",
+    },
+)
+def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
+    """An ``<inertial>`` lacks its mass, its inertia or one of the six numbers.
+
+    urdfdom gives up on the link right there: its visuals and collisions are lost, its inertia is
+    zero, and the robot is reported as parsed all the same. A number that is zero has to be written.
+    """
+    for link in robot.links:
+        if link.inertial is None:
+            continue
+        missing, at = _missing(link.inertial)
+        if missing:
+            yield Problem(
+                link,
+                f"<inertial> of link '{link.name}' has no {', '.join(missing)}; write it",
+                at=at,
+            )
+
+
+def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
+    element = inertial.element
+    missing: list[str] = []
+    mass, inertia = element.child("mass"), element.child("inertia")
+    if mass is None:
+        missing.append("<mass>")
+    elif not mass.attributes:
+        missing.append("mass value")
+    if inertia is None:
+        missing.append("<inertia>")
+    if mass is None or inertia is None:
+        if missing and (meant := misspelt_children(element)):
+            missing = [name for name in missing if name.strip("<>") not in meant.values()]
+    if inertia is not None:
+        lacking = [name for name in _SIX if name not in inertia.attributes]
+        if lacking and (meant := misspelt_attributes(inertia)):
+            lacking = [name for name in lacking if name not in meant.values()]
+        if lacking and not missing:
+            return lacking, Inertial(inertia)
+        missing += lacking
+    return missing, inertial
+
+
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic": "leave out the link and all that hangs on it",
+        "mujoco": "rejects a moving body",
+        "pybullet": "fixes a base to the world",
+    },
+)
+def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+    """A link's mass is 0.
+
+    Nothing that moves weighs nothing. Gazebo leaves out such a link with all below, MuJoCo refuses
+    it, PyBullet bolts a base of zero mass to the world. A frame needs no ``<inertial>``.
+    """
+    zero = [link for link in robot.links if link.inertial and link.inertial.mass == 0.0]
+    if not zero:
+        return
+    body = {link.name: links for links in bodies(robot).values() for link in links}
+    for link in zero:
+        if link.name == "world":
+            continue
+        links = body.get(link.name, [link])
+        joint = robot.tree.parent_joint(links[0].name)
+        alone = mass_of(links) <= 0
+        moved = joint is not None and not joint.is_fixed
+        if alone and not targets.isdisjoint(GAZEBO):
+            severity, so = ERROR, "Gazebo leaves it out, with all that hangs on it"
+        elif alone and moved and "mujoco" in targets:
+            severity, so = ERROR, "MuJoCo rejects it"
+        elif link.collisions and (alone or moved):
+            severity, so = ERROR, "write what it weighs"
+        elif alone and moved:
+            severity, so = WARNING, "write what it weighs"
+        elif link.collisions or link.visuals:
+            severity, so = WARNING, "write what it weighs, or take the <inertial> out"
+        else:
+            severity, so = INFO, "a frame needs no <inertial>"
+        mass = link.inertial.element.child("mass") if link.inertial else None
+        yield Problem(
+            link,
+            f"mass of link '{link.name}' is 0; {so}",
+            at=mass.attribute_place("value") if mass is not None else None,
+            severity=severity,
+        )
+
+
+@rule(
+    ERROR,
+    effects={
+        "gz, gazebo-classic": "reject the model (Error 18)",
+        "mujoco": "rejects the file",
+        "pybullet": "simulates it",
+        "urdfdom": "takes it silently",
+    },
+)
+def negative_mass(robot: Robot) -> Iterator[Problem]:
+    """A link's mass is negative.
+
+    It accelerates against the force. Gazebo and MuJoCo refuse it, PyBullet simulates it.
+    """
+    for link, mass, element in _masses(robot):
+        if mass < 0:
+            yield Problem(
+                link,
+                f"mass of link '{link.name}' is {mass:g} kg; write {-mass:g}",
+                at=element.attribute_place("value"),
+            )
+
+
+@rule(INFO, effects={"every simulator": "takes it as written"})
+def implausible_mass(
+    robot: Robot, *, heaviest: float = 1000.0, lightest: float = 1e-5
+) -> Iterator[Problem]:
+    """A link weighs more than a tonne, or less than a hundredth of a gram.
+
+    Masses are in kilograms. Grams make a robot a thousand times too heavy.
+    """
+    for link, mass, element in _masses(robot):
+        if mass > heaviest:
+            what = f"{mass:g} kg; if that is grams, write {mass / 1000:g}"
+        elif 0 < mass < lightest:
+            what = f"{mass:g} kg, less than {lightest * 1e6:g} mg; are the units right?"
+        else:
+            continue
+        yield Problem(
+            link,
+            f"mass of link '{link.name}' is {what}",
+            at=element.attribute_place("value"),
+        )
+
+
+@rule(INFO, effects={"every simulator": "takes it as written"})
+def implausible_density(
+    robot: Robot,
+    *,
+    least: float = 5.0,
+    most: float = 12000.0,
+    least_possible: float = 1.0,
+    most_possible: float = 22600.0,
+) -> Iterator[Problem]:
+    """A link's mass does not go with its size.
+
+    Between foam and lead lie 5 and 12,000 kg/m³, and nothing is denser than osmium with 22,600.
+    Beyond that, a unit is wrong: grams, or millimetres.
+    """
+    for link, mass, element in _masses(robot):
+        density = _density(link, mass)
+        if density is None or least <= density <= most:
+            continue
+        impossible = density > most_possible or density < least_possible
+        yield Problem(
+            link,
+            f"link '{link.name}' weighs {mass:g} kg and has a density of {density:.3g} kg/m³; "
+            "water has 1000",
+            at=element.attribute_place("value"),
+            severity=WARNING if impossible else INFO,
+        )
+
+
+def _density(link: Link, mass: float) -> float | None:
+    """Density [kg/m³] of a link with one kind of shapes, all primitives; None where not known.
+
+    One shape is taken solid. Several may overlap, so of them the box around counts, which makes the
+    density a lower bound.
+    """
+    if mass <= 0:
+        return None
+    if len(link.visuals) <= 1 and len(link.collisions) <= 1:
+        volumes = [solid_volume(visual.geometry) for visual in link.visuals]
+        volumes += [solid_volume(collision.geometry) for collision in link.collisions]
+        return mass / max(volumes) if volumes and min(volumes) > 0 else None
+    box = box_of(link)
+    if box is None:
+        return None
+    volume = math.prod(high - low for low, high in zip(*box, strict=True))
+    density = mass / volume if volume > 0 else 0.0
+    return density if density > 5.0 else None
+
+
+def _masses(robot: Robot) -> Iterator[tuple[Link, float, Element]]:
+    """Links with a mass that is written and can be read, and its element."""
+    for link in robot.links:
+        if link.inertial is not None and link.inertial.mass is not None:
+            mass = link.inertial.element.child("mass")
+            if mass is not None:
+                yield link, link.inertial.mass, mass

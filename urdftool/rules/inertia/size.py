@@ -1,0 +1,175 @@
+"""Inertia against the size of the link."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ...model.elements import Link, Robot
+from ...model.tensor3 import Six
+from ..rule import INFO, WARNING, Problem, rule
+from .solids import box_of, solid_moments, solid_text, spread_ratio
+from .tensors import is_positive, moments_of, tensors
+
+
+@rule(
+    INFO,
+    effects={"every simulator": "takes it: a light arm swings like a flywheel"},
+)
+def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
+    """An inertia is the same power of ten about every axis, such as 1 or 1e-3.
+
+    Nobody measured that. 1 kg·m² on a link of 100 g puts its mass 3 m from its centre: the arm
+    turns like a flywheel and its motors look too weak.
+    """
+    for link, inertial, six in tensors(robot):
+        if not _is_placeholder(link, six):
+            continue
+        moment = six[0]
+        radius = math.sqrt(moment / inertial.mass) if inertial.mass and inertial.mass > 0 else 0.0
+        large = moment == 1.0 or radius > 1.0
+        far = f", as if its {link.mass:g} kg were {radius:.2g} m from the centre" if large else ""
+        yield Problem(
+            link,
+            f"inertia of link '{link.name}' is a placeholder, {moment:g} about every axis{far}"
+            f"{solid_text(link)}",
+            at=inertial.inertia,
+            severity=WARNING if large else INFO,
+            hint="'urdftool inertia' computes it",
+        )
+
+
+def _is_placeholder(link: Link, six: Six) -> bool:
+    """Whether a tensor is a power of ten times the identity, and not by chance the right one."""
+    xx, xy, xz, yy, yz, zz = six
+    if not xx == yy == zz > 0 or xy or xz or yz:
+        return False
+    power = math.log10(xx)
+    if abs(power - round(power)) > 1e-9:
+        return False
+    solid = solid_moments(link)
+    return solid is None or not all(0.5 <= moment / xx <= 2 for moment in solid)
+
+
+@rule(WARNING, effects={"every simulator": "takes it: the link turns more sluggishly than it can"})
+def inertia_exceeds_geometry(
+    robot: Robot, *, allowed: float = 1.1, rounding: float = 0.01
+) -> Iterator[Problem]:
+    """An inertia is larger than any body of the link's size can have.
+
+    Mass is most spread out along an axis when it sits in two lumps at the ends of the shape, and
+    even that gives less. Square millimetres for square metres, grams for kilograms, or the moment
+    of one axis written for all three do it. Links with meshes are not looked at.
+    """
+    for link, inertial, six in tensors(robot):
+        if link.mass <= 0 or _is_placeholder(link, six) or not is_positive(moments_of(six)):
+            continue
+        low, middle, high = moments_of(six)
+        if low + middle < high * 0.99:
+            continue
+        ratio, axis = spread_ratio(link, inertial, rounding)
+        if ratio <= allowed:
+            continue
+        yield Problem(
+            link,
+            f"inertia of link '{link.name}' spreads its mass along {'xyz'[axis]} more than its "
+            f"shapes allow, by a factor of {ratio:.2g}{solid_text(link)}",
+            at=inertial.inertia,
+        )
+
+
+@rule(WARNING, effects={"every simulator": "takes it; the link tips over or turns off centre"})
+def com_outside_geometry(robot: Robot, *, margin: float = 0.02) -> Iterator[Problem]:
+    """A link's centre of mass is outside the box around its shapes.
+
+    The mean of a body's mass is inside its hull. Millimetres, or the pose of another frame, put it
+    elsewhere; the link then falls to a side it should not. Links with meshes are not looked at.
+    """
+    for link in robot.links:
+        inertial = link.inertial
+        if inertial is None or not inertial.mass:
+            continue
+        box = box_of(link)
+        if box is None:
+            continue
+        lower, upper = box
+        slack = margin * math.dist(lower, upper)
+        com = inertial.origin.xyz if inertial.origin is not None else (0.0, 0.0, 0.0)
+        off = [
+            (max(lower[i] - com[i], com[i] - upper[i]), i)
+            for i in range(3)
+            if not lower[i] - slack <= com[i] <= upper[i] + slack
+        ]
+        if off:
+            distance, axis = max(off)
+            yield Problem(
+                link,
+                f"centre of mass of link '{link.name}' is {distance:.3g} m outside its shapes "
+                f"along {'xyz'[axis]}; they reach from {lower[axis]:.4g} to {upper[axis]:.4g} m",
+                at=inertial.origin if inertial.origin is not None else inertial,
+            )
+
+
+@rule(INFO, effects={"every simulator": "hangs the mass on the joint's axis"})
+def inertial_not_at_com_suspect(robot: Robot, *, far: float = 0.2) -> Iterator[Problem]:
+    """An ``<inertial>`` has no origin though the link's shapes lie to one side.
+
+    The mass then sits at the frame of the link, that is on the axis of its joint, and gravity turns
+    nothing. Mostly the ``<origin>`` was forgotten. Links with meshes are not looked at.
+    """
+    for link in robot.links:
+        inertial = link.inertial
+        if inertial is None or not inertial.mass:
+            continue
+        if inertial.origin is not None and any(inertial.origin.xyz):
+            continue
+        box = box_of(link)
+        if box is None:
+            continue
+        lower, upper = box
+        slack = 0.02 * math.dist(lower, upper)
+        if max(lower) - slack > 0 or min(upper) + slack < 0:
+            continue  # the centre of mass is outside, which is more than a suspicion
+        centre = tuple((low + high) / 2 for low, high in zip(lower, upper, strict=True))
+        if math.hypot(*centre) > far * math.dist(lower, upper):
+            shown = " ".join(f"{value:.4g}" for value in centre)
+            yield Problem(
+                link,
+                f"mass of link '{link.name}' is at its frame, while its shapes are centred at "
+                f"{shown}; write that as the <origin> of its <inertial>",
+                at=inertial.origin if inertial.origin is not None else inertial,
+            )
+
+
+@rule(WARNING, effects={"every simulator": "takes it"})
+def radius_of_gyration(
+    robot: Robot, *, largest: float = 1.0, smallest: float = 1e-3, heavy: float = 0.01
+) -> Iterator[Problem]:
+    """A link's inertia does not go with its mass.
+
+    The root of the one over the other is how far from its centre the mass sits on average. A metre
+    is more than most robots are long, a millimetre is a pinhead. Square millimetres for square
+    metres are the usual cause.
+    """
+    for link, inertial, six in tensors(robot):
+        mass = link.mass
+        if mass <= 0 or not any(six) or _is_placeholder(link, six):
+            continue
+        if inertial.mass is None or box_of(link) is not None:
+            continue
+        high = moments_of(six)[2]
+        if high <= 0:
+            continue
+        radius = math.sqrt(high / mass)
+        if radius > largest:
+            remedy = "; if it is in kg·mm², divide it by 1e6" if radius > 10 else ""
+        elif radius < smallest and mass > heavy:
+            remedy = "; are the units kg·m²?"
+        else:
+            continue
+        yield Problem(
+            link,
+            f"inertia of link '{link.name}' puts its {mass:g} kg {radius:.2g} m from its centre"
+            f"{remedy}",
+            at=inertial.inertia,
+        )

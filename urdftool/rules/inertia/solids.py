@@ -1,0 +1,117 @@
+"""What the shapes of a link say of its mass: the box around them, their volume, their moments."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from ...model.bounds import Bounds, bounds_of
+from ...model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Geometry,
+    Inertial,
+    Link,
+    Sphere,
+    Vector,
+    Visual,
+)
+from ...model.pose import pose_of
+from ...model.tensor3 import turned
+
+
+def box_of(link: Link) -> Bounds | None:
+    """The box around a link's shapes in the link frame; None unless all are primitives."""
+    found: Bounds | None = None
+    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+    for shape in shapes:
+        bounds = bounds_of(shape)
+        if bounds is None:
+            return None
+        found = bounds if found is None else found.joined(bounds)
+    return found if found is not None and any(found.size) else None
+
+
+def solid_volume(geometry: Geometry | None) -> float:
+    """Its volume [m³]; 0 if it is no primitive."""
+    if isinstance(geometry, Box):
+        return abs(math.prod(geometry.size))
+    if isinstance(geometry, Sphere):
+        return 4 / 3 * math.pi * geometry.radius**3
+    if isinstance(geometry, Cylinder):
+        return math.pi * geometry.radius**2 * geometry.length
+    if isinstance(geometry, Capsule):
+        round_part = 4 / 3 * math.pi * geometry.radius**3
+        return math.pi * geometry.radius**2 * geometry.length + round_part
+    return 0.0
+
+
+def solid_moments(link: Link) -> Vector | None:
+    """Moments [kg·m²] of a link's one shape, were it solid, along the axes of its ``<inertial>``.
+
+    None where the link has several shapes, none that is a primitive, or one that is turned against
+    the ``<inertial>``.
+    """
+    inertial = link.inertial
+    shape = _only_shape(link)
+    if inertial is None or shape is None or not inertial.mass:
+        return None
+    if pose_of(inertial.origin).rotation != pose_of(shape.origin).rotation:
+        return None
+    return _moments(shape.geometry, inertial.mass)
+
+
+def _only_shape(link: Link) -> Visual | Collision | None:
+    """A link's collision if it has one, or its visual; None where there are several."""
+    shapes: Sequence[Visual | Collision] = link.collisions or link.visuals
+    return shapes[0] if len(shapes) == 1 else None
+
+
+def _moments(geometry: Geometry | None, mass: float) -> Vector | None:
+    if isinstance(geometry, Box):
+        x, y, z = (side * side for side in geometry.size)
+        return mass / 12 * (y + z), mass / 12 * (x + z), mass / 12 * (x + y)
+    if isinstance(geometry, Sphere):
+        moment = 0.4 * mass * geometry.radius**2
+        return moment, moment, moment
+    if isinstance(geometry, Cylinder):
+        across = mass / 12 * (3 * geometry.radius**2 + geometry.length**2)
+        return across, across, mass / 2 * geometry.radius**2
+    return None
+
+
+def solid_text(link: Link) -> str:
+    """What to write: ``; a solid box of that mass has ixx 1, iyy 2, izz 3``, or nothing."""
+    moments, shape = solid_moments(link), _only_shape(link)
+    if moments is None or shape is None or shape.geometry is None:
+        return ""
+    x, y, z = moments
+    tag = shape.geometry.element.tag
+    return f"; a solid {tag} of {link.mass:g} kg has ixx {x:.4g}, iyy {y:.4g}, izz {z:.4g}"
+
+
+def spread_ratio(link: Link, inertial: Inertial, rounding: float) -> tuple[float, int]:
+    """By how much the mass of a link is spread wider than its shapes allow, and along which axis.
+
+    Mass within an interval [lo, hi] with its mean at c has a variance of at most (hi − c)(c − lo)
+    (Bhatia and Davis, "A Better Bound on the Variance", 2000). The variance along an axis is the
+    second moment ½ tr(I) − Iₐₐ over the mass. Above 1 is impossible for a body inside its shapes.
+    Of a plate the difference is small and lost in rounding, so that part of ½ tr(I) is allowed.
+    """
+    box, tensor, mass = box_of(link), inertial.inertia, inertial.mass
+    if box is None or tensor is None or not mass or mass < 0:
+        return 0.0, 0
+    pose = pose_of(inertial.origin)
+    xx, _, _, yy, _, zz = turned(
+        (tensor.ixx, tensor.ixy, tensor.ixz, tensor.iyy, tensor.iyz, tensor.izz), pose.rotation
+    )
+    half_trace = (xx + yy + zz) / 2
+    worst = (0.0, 0)
+    for i, moment in enumerate((xx, yy, zz)):
+        low, high, centre = box[0][i], box[1][i], pose.translation[i]
+        room = (high - centre) * (centre - low) * mass + rounding * half_trace
+        if low < centre < high and room > 0:
+            worst = max(worst, ((half_trace - moment) / room, i))
+    return worst

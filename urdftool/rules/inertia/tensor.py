@@ -1,0 +1,180 @@
+"""Inertia tensors that no rigid body has, or hardly any."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot, Vector
+from ..rule import ERROR, INFO, WARNING, Problem, rule
+from .bodies import bodies, mass_of
+from .slips import slip_of
+from .solids import solid_text
+from .tensors import is_positive, moments_of, tensors
+
+_REJECTED = {
+    "gz, gazebo-classic": "reject the model (Error 18)",
+    "mujoco": "rejects the file",
+    "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
+    "urdfdom, KDL, pinocchio": "take it silently",
+}
+
+
+@rule(ERROR, effects=_REJECTED)
+def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Problem]:
+    """An inertia tensor has a negative principal moment.
+
+    About that axis the body would turn against the torque. A sign is wrong, or a product of inertia
+    is larger than the moments beside it allow.
+    """
+    for link, inertial, six in tensors(robot):
+        moments = moments_of(six)
+        if is_positive(moments, tolerance) or slip_of(link, inertial, six):
+            continue
+        yield Problem(
+            link,
+            f"inertia of link '{link.name}' has a negative principal moment ({_shown(moments)}); "
+            f"all three must be positive{solid_text(link)}",
+            at=inertial.inertia,
+        )
+
+
+@rule(ERROR, effects={**_REJECTED, "mujoco": "rejects the file: inertia must satisfy A + B >= C"})
+def inertia_triangle_inequality(
+    robot: Robot, *, tolerance: float = 1e-6, rounding: float = 0.01
+) -> Iterator[Problem]:
+    """The largest principal moment is larger than the sum of the other two.
+
+    No rigid body is like that: a moment sums squared distances from its axis, and of three axes at
+    right angles each distance counts in two. At best, for a flat plate, the largest equals the sum.
+    A radius and a length that were swapped are the usual cause.
+    """
+    for link, inertial, six in tensors(robot):
+        moments = low, middle, high = moments_of(six)
+        if low + middle >= high * (1 - rounding) or not is_positive(moments, tolerance):
+            continue
+        if slip_of(link, inertial, six):
+            continue
+        yield Problem(
+            link,
+            f"inertia of link '{link.name}' belongs to no rigid body: principal moment "
+            f"{high:.4g} is larger than {low:.4g} + {middle:.4g}{solid_text(link)}",
+            at=inertial.inertia,
+        )
+
+
+@rule(
+    INFO,
+    raised={"mujoco": ERROR, "gz": ERROR},
+    effects={
+        "mujoco": "rejects the file, however small the excess",
+        "gz": "rejects the model",
+        "other readers": "do not mind",
+    },
+)
+def inertia_triangle_inequality_rounding(
+    robot: Robot, *, tolerance: float = 1e-12, rounding: float = 0.01
+) -> Iterator[Problem]:
+    """The largest principal moment is larger than the sum of the others by a rounding error.
+
+    For a flat plate the largest moment equals the sum of the others, and a few digits too few push
+    it above. Gazebo and MuJoCo allow nothing for that.
+    """
+    for link, inertial, six in tensors(robot):
+        low, middle, high = moments_of(six)
+        excess = high - low - middle
+        if low >= 0 and tolerance * high < excess <= rounding * high:
+            yield Problem(
+                link,
+                f"principal moment {high:.9g} of link '{link.name}' is larger than the sum of the "
+                f"others by {excess:.1g}; write the moments with more digits, or lower the largest",
+                at=inertial.inertia,
+            )
+
+
+@rule(
+    WARNING,
+    raised={"mujoco": ERROR},
+    effects={
+        "gz, gazebo-classic": "call it valid; the link spins up without limit",
+        "mujoco": "rejects a moving body",
+        "pinocchio": "has a singular mass matrix",
+    },
+)
+def zero_inertia(robot: Robot) -> Iterator[Problem]:
+    """A link has a mass and no inertia: all six numbers are 0.
+
+    That is a point. The slightest torque turns it infinitely fast, so a joint that turns it shakes
+    or blows up.
+    """
+    for link, inertial, six in tensors(robot):
+        if not any(six):
+            yield Problem(
+                link,
+                f"inertia of link '{link.name}' is zero, though it weighs {link.mass:g} kg"
+                f"{solid_text(link) or '; urdftool inertia computes it'}",
+                at=inertial.inertia,
+            )
+
+
+@rule(WARNING, effects={"every simulator": "turns it about that axis without any resistance"})
+def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Problem]:
+    """An inertia tensor is zero about one axis.
+
+    Only an infinitely thin rod is like that. About this axis the slightest torque accelerates the
+    link beyond all bounds.
+    """
+    for link, inertial, six in tensors(robot):
+        moments = low, middle, high = moments_of(six)
+        if high <= 0 or low > smallest * high or not is_positive(moments):
+            continue
+        if low + middle < high * 0.99:
+            continue
+        yield Problem(
+            link,
+            f"inertia of link '{link.name}' is zero about one axis ({_shown(moments)})"
+            f"{solid_text(link)}",
+            at=inertial.inertia,
+        )
+
+
+@rule(
+    WARNING,
+    on=("gazebo-classic", "gz", "mujoco", "pybullet"),
+    effects={"gz, gazebo-classic, pybullet": "diverge at their usual step of a millisecond"},
+)
+def tiny_moving_inertia(
+    robot: Robot, *, smallest: float = 1e-7, lightest: float = 1e-3
+) -> Iterator[Problem]:
+    """A joint moves a body with next to no inertia.
+
+    A simulator steps in milliseconds. What the smallest force throws over the stop within one step
+    shakes, and shakes the robot with it.
+    """
+    tensor_of = {link.name: (inertial, six) for link, inertial, six in tensors(robot)}
+    for name, links in bodies(robot).items():
+        joint = robot.tree.parent_joint(name)
+        if joint is None or joint.is_fixed:
+            continue
+        mass = mass_of(links)
+        weighty = [link for link in links if link.mass > 0]
+        if len(weighty) != 1 or weighty[0].name not in tensor_of:
+            continue
+        link = weighty[0]
+        inertial, six = tensor_of[link.name]
+        low = moments_of(six)[0]
+        if mass < lightest:
+            what = f"weighs {mass:g} kg"
+        elif 0 < low < smallest:
+            what = f"has a moment of {low:.2g} kg·m²"
+        else:
+            continue
+        yield Problem(
+            link,
+            f"link '{link.name}' is moved by joint '{joint.name}' and {what}, too little for a "
+            f"simulator; write at least {lightest:g} kg and {smallest:g} kg·m²",
+            at=inertial.inertia,
+        )
+
+
+def _shown(moments: Vector) -> str:
+    return ", ".join(f"{moment:.4g}" for moment in moments)
