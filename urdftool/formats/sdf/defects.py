@@ -57,11 +57,11 @@ def mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
 def inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
     """Bodies whose inertia no rigid body has, also with what fixed joints add to them."""
     for owner, mass in plan.mass.items():
-        short = shortfall(mass.tensor)
+        short = shortfall(mass.tensor, mass.mass)
         if mass.mass <= 0 or short <= ROUNDING:
             continue
         members = [robot.link[name] for name in plan.members[owner]]
-        worst = max(members, key=lambda link: _own_shortfall(link))
+        worst = max(members, key=_own_shortfall)
         inertia = worst.inertial and (worst.inertial.inertia or worst.inertial)
         yield defect(
             "triangle-inequality",
@@ -74,7 +74,7 @@ def inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
 
 
 def _own_shortfall(link: Link) -> float:
-    return shortfall(tensor_of(link.inertial.inertia if link.inertial else None))
+    return shortfall(tensor_of(link.inertial.inertia if link.inertial else None), link.mass)
 
 
 def _inertial(link: Link) -> Iterator[Finding]:

@@ -12,6 +12,9 @@ from .pose import set_origin, set_pose
 from .translation import Translation
 from .xml import Node, add
 
+_MARGIN = 1e-12
+_EPSILON = 2e-15
+
 WEIGHTLESS = 1e-12
 """The mass [kg] of a moving link that has none; its radius of gyration is a millimetre."""
 
@@ -33,7 +36,7 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
         set_pose(node, Pose(translation=mass.center))
         tensor, about = mass.tensor, own or link
     add(node, "mass", number_text(mass.mass))
-    short = shortfall(tensor)
+    short = shortfall(tensor, mass.mass)
     if short > EXACT:
         what = "is off by rounding" if short <= ROUNDING else "no rigid body has"
         t.lose(
@@ -42,10 +45,15 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
             f"by {short:.2g} of itself; the nearest possible one is written",
             about,
             link,
-            severity=Severity.WARNING,
         )
-        tensor = lifted(tensor)
-    _tensor(node, tensor)
+    _tensor(node, tensor if _is_safe(tensor) else lifted(tensor))
+
+
+def _is_safe(tensor: Rotation) -> bool:
+    """Whether a reader finds it possible, however it computes the principal moments."""
+    short = shortfall(tensor)
+    products = tensor[0][1], tensor[0][2], tensor[1][2]
+    return short < -_MARGIN or (not any(products) and short <= _EPSILON)
 
 
 def _tensor(node: Node, tensor: Rotation) -> None:

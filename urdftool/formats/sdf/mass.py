@@ -113,13 +113,21 @@ def principal(tensor: Rotation) -> tuple[Vector, Rotation]:
     return moments, tuple(tuple(axes[k]) for k in order)  # type: ignore[return-value]
 
 
-def shortfall(tensor: Rotation) -> float:
+SMALLEST = 1e-5
+"""The smallest radius of gyration [m] that is told from none: below it moments are noise."""
+
+
+def shortfall(tensor: Rotation, mass: float = 0.0) -> float:
     """How far a tensor is from being possible, relative to its largest moment; at most 0 if it is.
 
     It is possible if no principal moment is negative and none exceeds the sum of the others.
+
+    Args:
+        tensor: Inertia about the centre of mass [kg·m²].
+        mass: The body's mass [kg]; moments that are nothing to it count as rounding.
     """
     low, middle, high = principal(tensor)[0]
-    scale = max(abs(low), abs(high))
+    scale = max(abs(low), abs(high), mass * SMALLEST**2)
     if scale == 0.0:
         return 0.0
     return max(high - middle - low, -low) / scale

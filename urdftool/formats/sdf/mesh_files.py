@@ -84,6 +84,9 @@ def find_meshes(robot: Robot, options: Options) -> MeshFiles:
 def _find(robot: Robot, name: str) -> Path | None:
     if not name or robot.source is None:
         return None
+    scheme, separator, rest = name.partition("://")
+    if separator and scheme in ("package", "model"):  # several readers take package:///NAME/… too
+        name = f"{scheme}://{rest.lstrip('/')}"
     try:
         path = robot.source.resolve(name)
         return path if path.is_file() else None

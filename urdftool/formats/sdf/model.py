@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import count
+
 from ...model.elements import ZERO, GazeboExtension, Origin
 from ...model.read import numbers
 from ...source.document import Element
@@ -89,6 +91,16 @@ def _parts(node: Node, t: Translation) -> None:
 def _closing_joint(node: Node, t: Translation, element: Element) -> None:
     """A joint of SDF in a block, which closes a loop: its links by the names they have now."""
     made = copied(node, element)
+    name = made.get("name") or "joint"
+    taken = {other.get("name") for other in node if other is not made}
+    if name in taken:
+        new = next(f"{name}_{number}" for number in count(2) if f"{name}_{number}" not in taken)
+        made.set("name", new)
+        t.lose(
+            "name",
+            f"<joint> '{name}' of a <gazebo> block is '{new}' in SDF, since the name is taken",
+            element,
+        )
     for end in ("parent", "child"):
         for tag in made.findall(end):
             name = (tag.text or "").strip()

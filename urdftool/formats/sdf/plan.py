@@ -116,7 +116,7 @@ def _said_to_stay(robot: Robot, joint: Joint) -> bool:
 
 def _stands(mass: Mass) -> bool:
     """Whether a link of this mass can be a link of its own."""
-    return mass.mass > 0 and shortfall(mass.tensor) <= EXACT
+    return mass.mass > 0 and shortfall(mass.tensor, mass.mass) <= EXACT
 
 
 def _mend_groups(

@@ -46,6 +46,7 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
     kind = (element.get("type") or "").strip()
     types = TO_CLASSIC if t.options.classic else TO_GZ
     made = copied(node, element)
+    _name_once(node, t, part, made, element)
     other = types.get(kind)
     if other is not None and not other.type:
         t.lose(
@@ -68,6 +69,18 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
     if kind == "multicamera" and not t.options.classic:
         return _split(node, made)
     return [made]
+
+
+def _name_once(
+    node: Node, t: Translation, part: Link | Joint, made: Node, element: Element
+) -> None:
+    """Give a sensor another name where one of its link has it already."""
+    name = made.get("name") or f"{part.name}_sensor"
+    taken = {other.get("name") for other in node.findall("sensor") if other is not made}
+    new = next(n for n in (name, *(f"{name}_{i}" for i in range(2, 1000))) if n not in taken)
+    if new != made.get("name"):
+        made.set("name", new)
+        t.lose("name", f"sensor '{name}' is '{new}' in SDF, since the name is taken", element, part)
 
 
 def _plugins(made: Node, t: Translation, part: Link | Joint, element: Element) -> None:

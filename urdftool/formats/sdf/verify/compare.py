@@ -1,0 +1,252 @@
+"""The written robot against the source, check by check."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ....model.elements import Robot
+from ...written import Written
+from ..options import Options
+from ..write import write
+from .check import Check
+from .dynamics import centroidal, mass_matrix, poses
+from .excuses import Excuses, excuses_of
+from .loader import loads
+from .mechanism import Array, Hinge, Mechanism, inverse
+from .reader import read_sdf
+from .shapes import compare_colors, compare_shapes
+from .source import mechanism_of
+
+CONFIGURATIONS = 20
+FRAMES, MASSES, WEIGHTS, LIMITS, TOTALS = 1e-9, 1e-8, 1e-8, 1e-9, 1e-8
+FLOOR = 1e-6
+"""What a joint with next to nothing on it may be off by, relative to the heaviest."""
+
+
+@dataclass
+class Pair:
+    """The source, what was written, and how names go from one to the other."""
+
+    robot: Robot
+    source: Mechanism
+    made: Mechanism
+    renamed: dict[tuple[str, str], str]
+    excuses: Excuses
+
+    def link(self, name: str) -> str:
+        """The name of a link, or its frame, in what was written."""
+        return self.renamed.get(("link", name), name)
+
+    def joint(self, name: str) -> str:
+        """The name of a joint in what was written."""
+        return self.renamed.get(("joint", name), name)
+
+
+def verify(robot: Robot, written: Written, options: Options, output: str | Path) -> list[Check]:
+    """Read a written robot back and compare it.
+
+    Args:
+        robot: The source.
+        written: What was written of it.
+        options: The choices it was written with.
+        output: Where it was written: the file or the folder.
+    """
+    place = Path(output) if options.file else Path(output) / written.main
+    pair = pair_of(robot, written, place)
+    checks = compare(pair)
+    checks.append(_same_again(robot, written, options))
+    checks.append(loads(robot, options, place))
+    return checks
+
+
+def pair_of(robot: Robot, written: Written, place: Path) -> Pair:
+    """Both robots as mechanisms."""
+
+    def find(uri: str) -> Path:
+        return robot.source.resolve(uri) if robot.source is not None else Path(uri)
+
+    made = read_sdf(place, find)
+    return Pair(
+        robot, mechanism_of(robot), made, written.renamed, excuses_of(written.losses, robot)
+    )
+
+
+def compare(pair: Pair) -> list[Check]:
+    """All checks that need no other program."""
+    checks = [_tree(pair), *_motion(pair), _limits(pair)]
+    configurations = list(_configurations(pair.source, 1))
+    checks.append(compare_shapes(pair, "collisions", configurations))
+    checks.append(compare_shapes(pair, "visuals", configurations))
+    checks.append(compare_colors(pair))
+    return checks
+
+
+def _configurations(source: Mechanism, count: int) -> list[dict[str, float]]:
+    """All zeros, and some at random within the limits, half a turn or a metre where there are none."""
+    random = np.random.default_rng(0)
+    result: list[dict[str, float]] = [{}]
+    for _ in range(count):
+        q = {}
+        for joint in source.joints:
+            if joint.moves:
+                reach = np.pi if joint.kind == "revolute" else 1.0
+                low, high = joint.limits["lower"], joint.limits["upper"]
+                low = low if np.isfinite(low) else -reach
+                high = high if np.isfinite(high) else reach
+                q[joint.name] = float(random.uniform(min(low, high), max(low, high)))
+        result.append(q)
+    return result
+
+
+def _tree(pair: Pair) -> Check:
+    check = Check("joints, their types, links and leaders")
+    made = {joint.name: joint for joint in pair.made.joints}
+    expected = [joint for joint in pair.source.joints if joint.kind not in ("fixed", "free")]
+    for joint in expected:
+        check.compared += 1
+        other = made.pop(pair.joint(joint.name), None)
+        text = _tree_difference(pair, joint, other)
+        if text:
+            excused = joint.name in pair.excuses.motion or (
+                text.startswith("leader") and joint.name in pair.excuses.mimic
+            )
+            (check.announced if excused else check.differences).append(f"{joint.name}: {text}")
+    planar = {f"{name}{end}" for name in pair.excuses.motion for end in ("_x", "_y")}
+    for name, other in made.items():
+        if other.moves and name not in planar:
+            closes = any(
+                name == e.get("name") for b in pair.robot.gazebo for e in b.element.all("joint")
+            )
+            (check.announced if closes else check.differences).append(f"{name}: not in the source")
+    return check
+
+
+def _tree_difference(pair: Pair, joint: Hinge, other: Hinge | None) -> str:
+    if other is None:
+        return "is missing"
+    if joint.kind != other.kind:
+        return f"is {other.kind}, not {joint.kind}"
+    for end in ("parent", "child"):
+        name = getattr(joint, end)
+        body = pair.made.frames.get(pair.link(name), ("nothing", None))[0]
+        if body != getattr(other, end):
+            return f"its {end} is '{getattr(other, end)}', not '{name}'"
+    said = joint.mimic and (pair.joint(joint.mimic[0]), *joint.mimic[1:])
+    if said != other.mimic:
+        return f"leader, multiplier and offset are {other.mimic}, not {said}"
+    return ""
+
+
+def _motion(pair: Pair) -> list[Check]:
+    frames = Check("frames of all links", tolerance=FRAMES)
+    masses = Check("mass matrix", tolerance=MASSES)
+    weights = Check("weight on the joints", tolerance=WEIGHTS)
+    totals = Check("mass, centre and inertia of all", tolerance=TOTALS)
+    orders = pair.source.in_order(), pair.made.in_order()
+    present = {joint.name for joint in orders[1] if joint.moves}
+    names = [j.name for j in orders[0] if j.moves and pair.joint(j.name) in present]
+    for q in _configurations(pair.source, CONFIGURATIONS):
+        renamed = {pair.joint(name): value for name, value in q.items()}
+        here = poses(pair.source, q, orders[0])
+        there = poses(pair.made, renamed, orders[1])
+        base = _base(pair, there)
+        there = {name: base @ pose for name, pose in there.items()}
+        _compare_frames(pair, frames, here, there)
+        one = mass_matrix(pair.source, here, orders[0], names)
+        two = mass_matrix(pair.made, there, orders[1], [pair.joint(name) for name in names])
+        _compare_masses(pair, masses, weights, names, one, two)
+        _compare_totals(pair, totals, here, there)
+    for check in (frames, masses, weights, totals):
+        check.differences = sorted(set(check.differences))
+        check.announced = sorted(set(check.announced))
+    return [frames, masses, weights, totals]
+
+
+def _base(pair: Pair, there: dict[str, Array]) -> Array:
+    """What brings the written robot's root to the identity, where the source has it."""
+    root = pair.robot.tree.root
+    if root is None or root.name == "world":
+        return np.eye(4)
+    body, inside = pair.made.frames.get(pair.link(root.name), ("world", np.eye(4)))
+    return inverse(there[body] @ inside)
+
+
+def _compare_frames(
+    pair: Pair, check: Check, here: dict[str, Array], there: dict[str, Array]
+) -> None:
+    for name, (body, _) in pair.source.frames.items():
+        found = pair.made.frames.get(pair.link(name))
+        excused = name in pair.excuses.frames
+        if found is None:
+            check.compared += 1
+            (check.announced if excused else check.differences).append(f"{name}: is missing")
+            continue
+        off = float(np.abs(here[body] - there[found[0]] @ found[1]).max())
+        check.see(off, f"{name}: is elsewhere", announced=excused)
+
+
+def _compare_masses(
+    pair: Pair,
+    masses: Check,
+    weights: Check,
+    names: list[str],
+    one: tuple[Array, Array],
+    two: tuple[Array, Array],
+) -> None:
+    if not names:
+        return
+    diagonal = np.maximum(np.diag(one[0]), FLOOR * max(float(np.diag(one[0]).max()), 1e-30))
+    scale = np.sqrt(np.outer(diagonal, diagonal))
+    off = np.abs(one[0] - two[0]) / scale
+    total = sum(body.mass for body in pair.source.bodies.values())
+    heaviest = max(float(np.abs(one[1]).max()), 1e-6 * total * 9.81, 1e-30)
+    heavy = np.abs(one[1] - two[1]) / heaviest
+    for row, name in enumerate(names):
+        excused = name in pair.excuses.heavy
+        masses.see(float(off[row].max()), f"{name}: other inertia", announced=excused)
+        weights.see(float(heavy[row]), f"{name}: other weight", announced=excused)
+
+
+def _compare_totals(
+    pair: Pair, check: Check, here: dict[str, Array], there: dict[str, Array]
+) -> None:
+    one, two = centroidal(pair.source, here), centroidal(pair.made, there)
+    if one[0] == 0.0:
+        return
+    size = max(float(np.abs(one[2]).max()), 1e-30)
+    # Mass is held to 1e-12 and the centre to 1e-9 m: both are put on the scale of the tolerance.
+    parts = {
+        "mass": abs(one[0] - two[0]) / one[0] * 1e4,
+        "centre": float(np.abs(one[1] - two[1]).max()) * 10,
+        "inertia": float(np.abs(one[2] - two[2]).max()) / size,
+    }
+    for what, off in parts.items():
+        check.see(off, f"{what} of the whole", announced=pair.excuses.massy)
+
+
+def _limits(pair: Pair) -> Check:
+    check = Check("limits, damping, friction", tolerance=LIMITS)
+    made = {joint.name: joint for joint in pair.made.joints}
+    for joint in pair.source.joints:
+        other = made.get(pair.joint(joint.name))
+        if not joint.moves or other is None or not other.moves:
+            continue
+        for name, value in joint.limits.items():
+            found = other.limits[name]
+            one, two = (np.sign(x) * np.inf if abs(x) >= 1e15 else x for x in (value, found))
+            off = 0.0 if one == two else abs(one - two) / max(abs(one), 1e-30)
+            text = f"{joint.name}: {name} is {found:g}, not {value:g}"
+            check.see(float(off), text, announced=joint.name in pair.excuses.limits)
+    return check
+
+
+def _same_again(robot: Robot, written: Written, options: Options) -> Check:
+    check = Check("the same bytes when written again", len(written.files))
+    again = write(robot, options)
+    for name, content in written.files.items():
+        if again.files.get(name) != content:
+            check.differences.append(f"{name}: other bytes")
+    return check

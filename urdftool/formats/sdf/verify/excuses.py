@@ -1,0 +1,80 @@
+"""What was announced, and which differences each announcement accounts for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ....finding import Finding
+from ....model.elements import Joint, Robot
+
+MASS = frozenset(("lossy-inertia", "lossy-mass", "lossy-world", "lossy-negative-mass"))
+MOTION = frozenset(("lossy-axis", "lossy-joint-type", "lossy-planar"))
+LIMITS = MOTION | {"lossy-limit"}
+FRAMES = frozenset(("lossy-frame",))
+SHAPES = frozenset(("lossy-mesh", "lossy-shape", "lossy-capsule", "lossy-world"))
+COLORS = SHAPES | {"lossy-material", "lossy-texture"}
+MIMIC = MOTION | {"lossy-mimic"}
+
+
+@dataclass
+class Excuses:
+    """Names of links and joints by what is said of them.
+
+    Attributes:
+        heavy: Joints above a link whose mass is not as written.
+        massy: Whether any mass is not as written.
+        motion: Joints that move otherwise.
+        frames: Links whose frame is gone, or hangs below a joint that moves otherwise.
+        limits: Joints with other limits.
+        mimic: Joints that follow otherwise.
+        shapes: Links with other shapes.
+        colors: Links with other colours.
+    """
+
+    heavy: set[str] = field(default_factory=set)
+    massy: bool = False
+    motion: set[str] = field(default_factory=set)
+    frames: set[str] = field(default_factory=set)
+    limits: set[str] = field(default_factory=set)
+    mimic: set[str] = field(default_factory=set)
+    shapes: set[str] = field(default_factory=set)
+    colors: set[str] = field(default_factory=set)
+
+
+def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
+    """Sort announcements by what they account for."""
+    made = Excuses()
+    for loss in losses:
+        rule, name = loss.rule, loss.name
+        if rule in MASS:
+            made.massy = True
+            made.heavy |= {joint.name for joint in _above(robot, name)}
+        if rule in MOTION:
+            made.motion.add(name)
+            joint = robot.joint.get(name)
+            if joint is not None:
+                below = {joint.child, *robot.tree.descendants(joint.child)}
+                made.frames |= below
+                made.shapes |= below
+                made.heavy |= {j.name for link in below for j in _above(robot, link)}
+                made.massy = True
+        if rule in LIMITS:
+            made.limits.add(name)
+        if rule in FRAMES:
+            made.frames.add(name)
+        if rule in MIMIC:
+            made.mimic.add(name)
+        if rule in SHAPES:
+            made.shapes.add(name)
+        if rule in COLORS:
+            made.colors.add(name)
+    return made
+
+
+def _above(robot: Robot, link: str) -> list[Joint]:
+    chain = []
+    for name in (link, *robot.tree.ancestors(link)):
+        joint = robot.tree.parent_joint(name)
+        if joint is not None:
+            chain.append(joint)
+    return chain

@@ -1,0 +1,82 @@
+"""Gazebo's own reader, where it is installed: does it take the file without a word?"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import tempfile
+from dataclasses import replace
+from pathlib import Path
+
+from ....model.elements import Robot
+from ..options import VERSIONS, Options
+from ..write import write
+from .check import Check
+
+_TOO_NEW = re.compile(r"Unable to convert from SDF version \S+ to (\S+)")
+_TOOLS = ("gz", "ign")
+_SECONDS = 60
+_IGNORED = ("Library error", "backtrace")
+
+
+def loads(robot: Robot, options: Options, place: Path) -> Check:
+    """Ask ``gz sdf -k`` or ``ign sdf -k``.
+
+    A reader that is older than the version written is asked about the same robot in its own.
+    """
+    for tool in _TOOLS:
+        if shutil.which(tool) is None:
+            continue
+        said = _ask(tool, place)
+        if said is None:
+            continue
+        check = Check(f"{tool} sdf -k")
+        older = _TOO_NEW.search(said)
+        if older and older[1] in VERSIONS[options.target]:
+            check.name += f" (at {older[1]}, the newest it reads)"
+            said = _ask_older(tool, robot, replace(options, version=older[1], file="model.sdf"))
+        elif older:
+            check.skipped = f"it reads SDF up to {older[1]}"
+            return check
+        check.compared = 1
+        check.differences = _complaints(said or "")
+        return check
+    return Check("gz sdf -k", skipped="neither gz nor ign with sdf is installed")
+
+
+def _ask(tool: str, place: Path) -> str | None:
+    """What the tool says, or None where it has no ``sdf``."""
+    try:
+        done = subprocess.run(
+            [tool, "sdf", "-k", str(place)],
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=_SECONDS,
+            check=False,
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return f"Error: {error}"
+    said = done.stdout + done.stderr
+    if "cannot find any available" in said or "unrecognized command" in said.lower():
+        return None
+    return said if done.returncode == 0 else f"{said}\nError: exit code {done.returncode}"
+
+
+def _ask_older(tool: str, robot: Robot, options: Options) -> str | None:
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder) / "model.sdf"
+        content = write(robot, options).files["model.sdf"]
+        assert isinstance(content, bytes)
+        place.write_bytes(content)
+        return _ask(tool, place)
+
+
+def _complaints(said: str) -> list[str]:
+    lines = [re.sub(r"\x1b\[[0-9;]*m", "", line).strip() for line in said.splitlines()]
+    return [
+        line
+        for line in lines
+        if re.search(r"\b(Error|Warning|Err|Wrn)\b", line) and not any(w in line for w in _IGNORED)
+    ]

@@ -1,0 +1,136 @@
+"""Bodies, joints, frames and shapes, as numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+INFINITE = 1e15
+"""A limit at or beyond this is none: older readers and writers have no infinity."""
+
+
+@dataclass
+class Body:
+    """A rigid body: mass [kg], centre [m] and inertia about it [kg·m²], in the body's frame."""
+
+    name: str
+    mass: float = 0.0
+    center: Array = field(default_factory=lambda: np.zeros(3))
+    inertia: Array = field(default_factory=lambda: np.zeros((3, 3)))
+
+
+@dataclass
+class Hinge:
+    """A joint between two bodies.
+
+    Attributes:
+        name: Its name.
+        kind: ``revolute``, ``prismatic``, ``fixed``, ``free`` or ``ball``.
+        parent: The body above.
+        child: The body below.
+        before: Pose of the joint's frame in the parent body.
+        after: Pose of the joint's frame in the child body.
+        axis: Unit axis in the joint's frame.
+        limits: ``lower``, ``upper``, ``effort``, ``velocity``, ``damping``, ``friction``.
+        mimic: Leader, multiplier and offset.
+    """
+
+    name: str
+    kind: str
+    parent: str
+    child: str
+    before: Array
+    after: Array
+    axis: Array
+    limits: dict[str, float] = field(default_factory=dict)
+    mimic: tuple[str, float, float] | None = None
+
+    @property
+    def moves(self) -> bool:
+        """Whether it has a coordinate."""
+        return self.kind in ("revolute", "prismatic")
+
+
+@dataclass
+class Shape:
+    """A visual or collision: on which body, where, what, and in which colour."""
+
+    link: str
+    body: str
+    pose: Array
+    what: tuple[Any, ...]
+    rgba: tuple[float, ...] | None = None
+
+
+@dataclass
+class Mechanism:
+    """A robot.
+
+    Attributes:
+        bodies: By name, ``world`` not among them.
+        joints: Parents before children.
+        frames: For each name a body and a pose in it; the body ``world`` is the model's frame.
+        collisions: What touches.
+        visuals: What is seen.
+    """
+
+    bodies: dict[str, Body] = field(default_factory=dict)
+    joints: list[Hinge] = field(default_factory=list)
+    frames: dict[str, tuple[str, Array]] = field(default_factory=dict)
+    collisions: list[Shape] = field(default_factory=list)
+    visuals: list[Shape] = field(default_factory=list)
+
+    def in_order(self) -> list[Hinge]:
+        """Joints, parents before children; each body hangs on the first that has it as a child."""
+        by_parent: dict[str, list[Hinge]] = {}
+        hung: set[str] = set()
+        for joint in self.joints:
+            if joint.child not in hung:
+                hung.add(joint.child)
+                by_parent.setdefault(joint.parent, []).append(joint)
+        order: list[Hinge] = []
+        todo = ["world", *(name for name in self.bodies if name not in hung)]
+        while todo:
+            for joint in by_parent.pop(todo.pop(0), []):
+                order.append(joint)
+                todo.append(joint.child)
+        return order
+
+
+def turned(rpy: Any) -> Array:
+    """The rotation of fixed-axis angles about x, then y, then z [rad]."""
+    (sr, sp, sy), (cr, cp, cy) = np.sin(rpy), np.cos(rpy)
+    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
+    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
+    about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
+    product: Array = about_z @ about_y @ about_x
+    return product
+
+
+def by_quaternion(x: float, y: float, z: float, w: float) -> Array:
+    """The rotation of a quaternion of any length: v + 2 w q × v + 2 q × (q × v)."""
+    x, y, z, w = np.array([x, y, z, w]) / np.linalg.norm([x, y, z, w])
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    rotation: Array = np.eye(3) + 2 * w * cross + 2 * cross @ cross
+    return rotation
+
+
+def matrix(rotation: Array, translation: Any) -> Array:
+    """The 4 × 4 matrix of a rotation and a translation."""
+    pose = np.eye(4)
+    pose[:3, :3] = rotation
+    pose[:3, 3] = translation
+    return pose
+
+
+def inverse(pose: Array) -> Array:
+    """The inverse of a pose."""
+    back = np.eye(4)
+    back[:3, :3] = pose[:3, :3].T
+    back[:3, 3] = -pose[:3, :3].T @ pose[:3, 3]
+    return back

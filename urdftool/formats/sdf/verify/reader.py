@@ -1,0 +1,219 @@
+"""A file of SDF as a mechanism: frames resolved, poses numbers, no more than what is compared."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote, urlparse
+
+import numpy as np
+
+from .mechanism import Array, Body, Hinge, Mechanism, Shape, by_quaternion, inverse, matrix, turned
+from .source import digest
+
+Find = Callable[[str], Path]
+
+
+class Frames:
+    """The frames of a model, by name: each with its pose in the model's frame."""
+
+    def __init__(self, model: ET.Element, old: bool) -> None:
+        """Take the model; ``old`` is SDF before 1.7, where poses have frames of their own."""
+        self.old = old
+        self.model = model
+        self.elements = {e.get("name", ""): e for e in model if e.tag in ("link", "joint", "frame")}
+        self.known: dict[str, Array] = {"__model__": np.eye(4), "": np.eye(4), "world": np.eye(4)}
+
+    def pose(self, name: str, depth: int = 0) -> Array:
+        """The pose of a link, joint or frame in the model's frame."""
+        if name not in self.known:
+            if depth > 1000:
+                raise ValueError(f"the pose of '{name}' goes round in a circle")
+            element = self.elements[name]
+            base = _relative_to(element) or self._default(element)
+            self.known[name] = self.pose(base, depth + 1) @ read_pose(element)
+        return self.known[name]
+
+    def _default(self, element: ET.Element) -> str:
+        """What a pose is relative to where it does not say."""
+        if element.tag == "frame":
+            return element.get("attached_to", "")
+        return _text(element, "child") if element.tag == "joint" else ""
+
+    def body(self, name: str, depth: int = 0) -> str:
+        """The link that a frame is fixed to; ``world`` for the model's own."""
+        if name in ("", "__model__", "world"):
+            return "world"
+        element = self.elements[name]
+        if element.tag == "link" or depth > 1000:
+            return name
+        if element.tag == "joint":
+            return self.body(_text(element, "child"), depth + 1)
+        return self.body(element.get("attached_to", ""), depth + 1)
+
+    def local(self, link: str, element: ET.Element) -> Array:
+        """The pose of something in a link, in the link's frame."""
+        base = _relative_to(element)
+        pose = read_pose(element)
+        return inverse(self.pose(link)) @ self.pose(base) @ pose if base else pose
+
+
+def read_sdf(path: Path, find: Find) -> Mechanism:
+    """Read the first model of a file.
+
+    Args:
+        path: The file.
+        find: Finds the file of a ``package://`` URI.
+    """
+    root = ET.parse(path).getroot()
+    models = [*root.findall("model"), *root.findall("world/model")]
+    model = next(m for m in models if m.get("name") != "ground_plane")
+    frames = Frames(model, tuple(map(int, root.get("version", "1.0").split("."))) < (1, 7))
+    made = Mechanism()
+    for link in model.findall("link"):
+        name = link.get("name", "")
+        made.bodies[name] = _body(link)
+        made.frames[f"//{name}"] = ("world", frames.pose(name))
+        for kind in ("visual", "collision"):
+            for part in link.findall(kind):
+                getattr(made, f"{kind}s").append(_shape(frames, name, part, path, find))
+    for name, element in frames.elements.items():
+        if element.tag != "joint":
+            body = frames.body(name)
+            inside = inverse(frames.pose(body)) @ frames.pose(name)
+            made.frames[name] = (body, inside)
+    made.frames["world"] = ("world", np.eye(4))
+    made.joints = [_hinge(frames, joint) for joint in model.findall("joint")]
+    return made
+
+
+def read_pose(element: ET.Element) -> Array:
+    """The ``<pose>`` of an element; the identity where there is none."""
+    pose = element.find("pose")
+    numbers = [float(word) for word in (pose.text or "").split()] if pose is not None else []
+    if pose is None or not numbers:
+        return np.eye(4)
+    if pose.get("rotation_format") == "quat_xyzw":
+        return matrix(by_quaternion(*numbers[3:]), numbers[:3])
+    return matrix(turned(numbers[3:]), numbers[:3])
+
+
+def _relative_to(element: ET.Element) -> str:
+    pose = element.find("pose")
+    return "" if pose is None else pose.get("relative_to", "")
+
+
+def _text(element: ET.Element, path: str) -> str:
+    return (element.findtext(path) or "").strip()
+
+
+def _number(element: ET.Element | None, path: str, default: float) -> float:
+    text = "" if element is None else _text(element, path)
+    return float(text) if text else default
+
+
+def _body(link: ET.Element) -> Body:
+    inertial = link.find("inertial")
+    if inertial is None:
+        return Body(link.get("name", ""), 1.0, np.zeros(3), np.eye(3))  # what SDF makes of none
+    frame = read_pose(inertial)
+    t = {
+        k: _number(inertial, f"inertia/{k}", 0.0)
+        for k in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    }
+    tensor = np.array(
+        [
+            [t["ixx"], t["ixy"], t["ixz"]],
+            [t["ixy"], t["iyy"], t["iyz"]],
+            [t["ixz"], t["iyz"], t["izz"]],
+        ]
+    )
+    turn = frame[:3, :3]
+    return Body(
+        link.get("name", ""), _number(inertial, "mass", 1.0), frame[:3, 3], turn @ tensor @ turn.T
+    )
+
+
+def _hinge(frames: Frames, joint: ET.Element) -> Hinge:
+    name = joint.get("name", "")
+    parent, child = (frames.body(_text(joint, end)) for end in ("parent", "child"))
+    placed = frames.pose(name)
+    axis = joint.find("axis")
+    direction = np.array([float(w) for w in (_text(axis, "xyz") or "0 0 1").split()]) if axis is not None else np.zeros(3)  # fmt: skip
+    if axis is not None:
+        expressed = axis.find("xyz")
+        frame = "" if expressed is None else expressed.get("expressed_in", "")
+        if frame:
+            direction = placed[:3, :3].T @ frames.pose(frame)[:3, :3] @ direction
+    length = np.linalg.norm(direction)
+    return Hinge(
+        name,
+        joint.get("type", ""),
+        parent,
+        child,
+        inverse(frames.pose(parent)) @ placed,
+        inverse(frames.pose(child)) @ placed,
+        direction / length if length else direction,
+        _limits(axis),
+        _mimic(axis),
+    )
+
+
+def _limits(axis: ET.Element | None) -> dict[str, float]:
+    limits = {
+        "lower": _number(axis, "limit/lower", -np.inf),
+        "upper": _number(axis, "limit/upper", np.inf),
+        "damping": _number(axis, "dynamics/damping", 0.0),
+        "friction": _number(axis, "dynamics/friction", 0.0),
+    }
+    for name in ("effort", "velocity"):
+        value = _number(axis, f"limit/{name}", -1.0)
+        limits[name] = np.inf if value < 0 else value
+    return limits
+
+
+def _mimic(axis: ET.Element | None) -> tuple[str, float, float] | None:
+    mimic = None if axis is None else axis.find("mimic")
+    if mimic is None:
+        return None
+    multiplier = _number(mimic, "multiplier", 1.0)
+    offset = _number(mimic, "offset", 0.0) - multiplier * _number(mimic, "reference", 0.0)
+    return mimic.get("joint", ""), multiplier, offset
+
+
+def _shape(frames: Frames, link: str, part: ET.Element, path: Path, find: Find) -> Shape:
+    rgba = _text(part, "material/diffuse")
+    return Shape(
+        link,
+        link,
+        frames.local(link, part),
+        _what(part, path, find),
+        tuple(map(float, rgba.split())) if rgba else None,
+    )
+
+
+def _what(part: ET.Element, path: Path, find: Find) -> tuple[Any, ...]:
+    holder = part.find("geometry")
+    shape = holder[0] if holder is not None and len(holder) else None
+    if shape is None:
+        return ("unknown",)
+    if shape.tag == "box":
+        return ("box", *map(float, _text(shape, "size").split()))
+    if shape.tag == "mesh":
+        scale = (_text(shape, "scale") or "1 1 1").split()
+        return ("mesh", digest(_file(_text(shape, "uri"), path, find)), *map(float, scale))
+    sizes = [
+        _number(shape, name, 0.0) for name in ("radius", "length") if shape.find(name) is not None
+    ]
+    return (shape.tag, *sizes)
+
+
+def _file(uri: str, path: Path, find: Find) -> Path:
+    parts = urlparse(uri)
+    if parts.scheme == "file":
+        return Path(unquote(parts.path))
+    if parts.scheme == "model":
+        return path.parent.parent / parts.netloc / parts.path.lstrip("/")
+    return find(uri) if parts.scheme else path.parent / uri

@@ -1,0 +1,119 @@
+"""Visuals and collisions: the same shapes at the same places, whichever link has them now."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .check import Check
+from .dynamics import poses
+from .mechanism import Array, Mechanism, Shape, inverse
+
+if TYPE_CHECKING:
+    from .compare import Pair
+
+PLACES = 1e-9
+COLORS = 1e-6
+SIZES = 1e-9
+
+
+def compare_shapes(pair: Pair, kind: str, configurations: Sequence[Mapping[str, float]]) -> Check:
+    """Compare all visuals or collisions by what they are and where they are in the root's frame."""
+    check = Check(f"{kind}: shapes, sizes, meshes, places", tolerance=PLACES)
+    source: list[Shape] = getattr(pair.source, kind)
+    made: list[Shape] = getattr(pair.made, kind)
+    here = _places(pair, pair.source, source, configurations, renamed=False)
+    there = _places(pair, pair.made, made, configurations, renamed=True)
+    left = list(range(len(made)))
+    for index, shape in enumerate(source):
+        nearest = _nearest(shape, here[index], made, there, left)
+        excused = shape.link in pair.excuses.shapes
+        if nearest is None:
+            check.compared += 1
+            text = f"{shape.link}: {_said(shape)} is missing"
+            (check.announced if excused else check.differences).append(text)
+            continue
+        left.remove(nearest)
+        off = float(np.abs(here[index] - there[nearest]).max())
+        check.see(off, f"{shape.link}: {_said(shape)} is elsewhere", announced=excused)
+    for index in left:
+        members = [n for n, (body, _) in pair.made.frames.items() if body == made[index].body]
+        excused = any(pair.link(name) in members for name in pair.excuses.shapes)
+        text = f"{made[index].body}: {_said(made[index])} is not in the source"
+        (check.announced if excused else check.differences).append(text)
+    return check
+
+
+def compare_colors(pair: Pair) -> Check:
+    """Compare the colour of each visual that URDF gives one."""
+    check = Check("colours of visuals", tolerance=COLORS)
+    here = _places(pair, pair.source, pair.source.visuals, [{}], renamed=False)
+    there = _places(pair, pair.made, pair.made.visuals, [{}], renamed=True)
+    left = list(range(len(pair.made.visuals)))
+    for index, shape in enumerate(pair.source.visuals):
+        nearest = _nearest(shape, here[index], pair.made.visuals, there, left)
+        if nearest is None:
+            continue
+        left.remove(nearest)
+        if shape.rgba is None:
+            continue
+        found = pair.made.visuals[nearest].rgba
+        off = 1.0 if found is None else float(np.abs(np.subtract(found, shape.rgba)).max())
+        text = f"{shape.link}: is {found}, not {shape.rgba}"
+        check.see(off, text, announced=shape.link in pair.excuses.colors)
+    return check
+
+
+def _places(
+    pair: Pair,
+    robot: Mechanism,
+    shapes: Sequence[Shape],
+    configurations: Sequence[Mapping[str, float]],
+    *,
+    renamed: bool,
+) -> list[Array]:
+    """The pose of each shape in the root's frame, in every configuration, in one array."""
+    order = robot.in_order()
+    rows: list[list[Array]] = [[] for _ in shapes]
+    for q in configurations:
+        if renamed:
+            q = {pair.joint(name): value for name, value in q.items()}
+        placed = poses(robot, q, order)
+        base = np.eye(4)
+        root = pair.robot.tree.root
+        if renamed and root is not None and root.name != "world":
+            body, inside = robot.frames.get(pair.link(root.name), ("world", np.eye(4)))
+            base = inverse(placed[body] @ inside)
+        for row, shape in zip(rows, shapes, strict=True):
+            row.append(base @ placed[shape.body] @ shape.pose)
+    return [np.array(row) for row in rows]
+
+
+def _nearest(
+    shape: Shape,
+    place: Array,
+    others: Sequence[Shape],
+    places: Sequence[Array],
+    left: Sequence[int],
+) -> int | None:
+    alike = [i for i in left if _alike(shape, others[i])]
+    return min(alike, key=lambda i: float(np.abs(places[i] - place).max()), default=None)
+
+
+def _alike(one: Shape, two: Shape) -> bool:
+    if len(one.what) != len(two.what):
+        return False
+    for a, b in zip(one.what, two.what, strict=True):
+        if isinstance(a, str) or isinstance(b, str):
+            if a != b or a in ("missing", "unknown"):
+                return False
+        elif abs(a - b) > SIZES * max(abs(a), 1e-30):
+            return False
+    return True
+
+
+def _said(shape: Shape) -> str:
+    sizes = " ".join(f"{part:.6g}" for part in shape.what[1:] if not isinstance(part, str))
+    return f"{shape.what[0]} {sizes}".rstrip()

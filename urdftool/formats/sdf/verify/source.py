@@ -1,0 +1,159 @@
+"""The robot as URDF describes it, as a mechanism with one body for each link."""
+
+from __future__ import annotations
+
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ....errors import UrdftoolError
+from ....model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Geometry,
+    Joint,
+    Link,
+    Mesh,
+    Origin,
+    Robot,
+    Sphere,
+    Visual,
+)
+from .mechanism import Array, Body, Hinge, Mechanism, Shape, by_quaternion, matrix, turned
+
+KINDS = {
+    "revolute": "revolute",
+    "continuous": "revolute",
+    "prismatic": "prismatic",
+    "fixed": "fixed",
+    "floating": "free",
+    "planar": "planar",
+    "spherical": "ball",
+    "ball": "ball",
+}
+
+
+def mechanism_of(robot: Robot) -> Mechanism:
+    """The mechanism of a robot that is a tree; a root named ``world`` is the world."""
+    made = Mechanism()
+    root = robot.tree.root
+    anchor = "world" if root is not None and root.name == "world" else None
+    for link in robot.links:
+        if link.name != anchor:
+            made.bodies[link.name] = _body(link)
+        made.frames[link.name] = (link.name, np.eye(4))
+        for kind, shapes in (("visuals", link.visuals), ("collisions", link.collisions)):
+            for shape in shapes:
+                getattr(made, kind).append(_shape(robot, link, shape))
+    made.joints = [_hinge(joint) for joint in robot.joints]
+    return made
+
+
+def pose(origin: Origin | None) -> Array:
+    """The pose that an ``<origin>`` describes."""
+    if origin is None:
+        return np.eye(4)
+    if origin.quaternion is not None:
+        return matrix(by_quaternion(*origin.quaternion), origin.xyz)
+    return matrix(turned(origin.rpy), origin.xyz)
+
+
+def _body(link: Link) -> Body:
+    inertial = link.inertial
+    if inertial is None:
+        return Body(link.name)
+    frame = pose(inertial.origin)
+    tensor = np.zeros((3, 3))
+    if inertial.inertia is not None:
+        i = inertial.inertia
+        tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
+    turn = frame[:3, :3]
+    return Body(link.name, inertial.mass or 0.0, frame[:3, 3], turn @ tensor @ turn.T)
+
+
+def _hinge(joint: Joint) -> Hinge:
+    axis = np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
+    length = np.linalg.norm(axis)
+    mimic = joint.mimic and (joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
+    return Hinge(
+        joint.name,
+        KINDS.get(joint.type, "fixed"),
+        joint.parent,
+        joint.child,
+        pose(joint.origin),
+        np.eye(4),
+        axis / length if length else axis,
+        _limits(joint),
+        mimic or None,
+    )
+
+
+def _limits(joint: Joint) -> dict[str, float]:
+    """Bounds as readers of URDF take them: 0 for one that is not written, none without a limit."""
+    limit, dynamics = joint.limit, joint.dynamics
+    bounds = dict.fromkeys(("lower", "upper", "effort", "velocity"), np.inf)
+    bounds["lower"] = -np.inf
+    if limit is not None:
+        if joint.type in ("revolute", "prismatic"):
+            bounds["lower"], bounds["upper"] = limit.lower or 0.0, limit.upper or 0.0
+        for name, value in (("effort", limit.effort), ("velocity", limit.velocity)):
+            if value is not None:
+                bounds[name] = abs(value)
+    bounds["damping"] = (dynamics.damping if dynamics else None) or 0.0
+    bounds["friction"] = (dynamics.friction if dynamics else None) or 0.0
+    return bounds
+
+
+def _shape(robot: Robot, link: Link, shape: Visual | Collision) -> Shape:
+    rgba = _rgba(robot, link, shape) if isinstance(shape, Visual) else None
+    return Shape(link.name, link.name, pose(shape.origin), _what(robot, shape.geometry), rgba)
+
+
+def _what(robot: Robot, geometry: Geometry | None) -> tuple[Any, ...]:
+    if isinstance(geometry, Box):
+        return ("box", *geometry.size)
+    if isinstance(geometry, Sphere):
+        return ("sphere", geometry.radius)
+    if isinstance(geometry, Cylinder):
+        return ("cylinder", geometry.radius, geometry.length)
+    if isinstance(geometry, Capsule):
+        return ("capsule", geometry.radius, geometry.length)
+    if isinstance(geometry, Mesh):
+        return ("mesh", _digest_of(robot, geometry.filename), *geometry.scale)
+    return ("unknown",)
+
+
+def _digest_of(robot: Robot, filename: str) -> str:
+    scheme, separator, rest = filename.partition("://")
+    if separator and scheme == "package":
+        filename = f"package://{rest.lstrip('/')}"
+    try:
+        return digest(robot.source.resolve(filename)) if robot.source is not None else filename
+    except UrdftoolError:
+        return "missing"
+
+
+def digest(path: Path) -> str:
+    """A digest of a file, or ``missing``."""
+    try:
+        return sha256(path.read_bytes()).hexdigest()
+    except OSError:
+        return "missing"
+
+
+def _rgba(robot: Robot, link: Link, visual: Visual) -> tuple[float, ...] | None:
+    """The colour URDF gives a visual; None where there is none, or Gazebo is told another."""
+    told = (block.element for block in robot.extensions.get(link.name, []))
+    if any(element.child(tag) for element in told for tag in ("material", "visual")):
+        return None
+    own = visual.material
+    if own is None:
+        return None
+    named = [m for m in robot.materials if m.name == own.name and m.color]
+    named += [v.material for k in robot.links for v in k.visuals if v.material and v.material.color
+              and v.material.name == own.name]  # fmt: skip
+    return own.color or (named[0].color if named and not own.texture else None)
