@@ -110,7 +110,8 @@ def shell_moments(vertices: Array, faces: Faces) -> Moments:
 def _middle(vertices: Array) -> Array:
     if not len(vertices):
         return np.zeros(3)
-    return 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
+    middle: Array = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
+    return middle
 
 
 def _triple(corners: Array) -> Array:
@@ -125,7 +126,7 @@ def _triple(corners: Array) -> Array:
 
 def _corner_products(corners: Array, weights: Array) -> Array:
     """Σ w (a aᵀ + b bᵀ + c cᵀ + s sᵀ) over all triangles."""
-    total = np.zeros((3, 3))
+    total: Array = np.zeros((3, 3))
     for points in (corners[:, 0], corners[:, 1], corners[:, 2], corners.sum(axis=1)):
         total += (points * weights[:, None]).T @ points
-    return 0.5 * (total + total.T)
+    return total

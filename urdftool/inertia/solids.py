@@ -26,7 +26,9 @@ def box(
     """A solid cuboid of edges ``size`` [m] along X, Y, Z: ixx = m (y² + z²) / 12."""
     x, y, z = _sizes("box", size=size)
     m = _mass("box", x * y * z, mass, density)
-    return _diagonal(m, m * (y * y + z * z) / 12, m * (x * x + z * z) / 12, m * (x * x + y * y) / 12)
+    return _diagonal(
+        m, m * (y * y + z * z) / 12, m * (x * x + z * z) / 12, m * (x * x + y * y) / 12
+    )
 
 
 def cylinder(
@@ -52,7 +54,7 @@ def sphere(
 def capsule(
     radius: float, length: float, *, mass: float | None = None, density: float | None = None
 ) -> MassProperties:
-    """A solid capsule along Z: a cylinder of ``length`` [m] between two half spheres of ``radius`` [m].
+    """A solid capsule along Z: a cylinder of ``length`` between half spheres of ``radius`` [m].
 
     ``length`` is the cylinder's alone, as in URDF 1.1, SDF and MuJoCo; the whole is length + 2 r
     long. About its own centre of mass, 3r/8 from the flat face, a half sphere has 83 m r² / 320
@@ -132,7 +134,9 @@ def hollow_cylinder(
     """
     r, h = _sizes("hollow cylinder", radius=radius, length=length)
     limit = min(r, h / 2) if closed else r
-    t = _wall("hollow cylinder", thickness, limit, "the radius" if limit == r else "half the length")
+    t = _wall(
+        "hollow cylinder", thickness, limit, "the radius" if limit == r else "half the length"
+    )
     s = r - t
     tube = h - 2 * t if closed else h
     plates = 2 * t if closed else 0.0
@@ -173,7 +177,7 @@ def _others(edges: Sequence[float], axis: int) -> tuple[float, float]:
 
 def _product_difference(outer: Sequence[float], inner: Sequence[float], t: float) -> float:
     """Abc − a'b'c' as a sum of positive terms, for edges that differ by 2t each."""
-    a, b, c = outer
+    _, b, c = outer
     ai, bi, _ = inner
     return 2 * t * (b * c + ai * c + ai * bi)
 

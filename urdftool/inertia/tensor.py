@@ -104,12 +104,15 @@ def shift_from_com(inertia: Array, mass: float, offset: Array) -> Array:
 
 
 def shift_to_com(inertia: Array, mass: float, offset: Array) -> Array:
-    """The tensor [kg·m²] about the centre of mass of one given about a point ``offset`` [m] away."""
+    """The tensor [kg·m²] about the centre of mass, of one about a point ``offset`` [m] from it."""
     return inertia - point_mass_inertia(mass, offset)
 
 
 def move(
-    properties: MassProperties, *, xyz: Sequence[float] = (0, 0, 0), rpy: Sequence[float] = (0, 0, 0)
+    properties: MassProperties,
+    *,
+    xyz: Sequence[float] = (0, 0, 0),
+    rpy: Sequence[float] = (0, 0, 0),
 ) -> MassProperties:
     """The same body seen from a parent frame, in which its own frame sits at ``xyz``, ``rpy``.
 
@@ -198,7 +201,11 @@ def is_possible(
     positivity_tolerance: float = POSITIVITY_TOLERANCE,
     triangle_tolerance: float = TRIANGLE_TOLERANCE,
 ) -> bool:
-    """Whether a rigid body can have this tensor about its centre of mass: finite, positive, λ₁+λ₂≥λ₃."""
+    """Whether a rigid body can have this tensor about its centre of mass.
+
+    It can if the numbers are finite, no principal moment is negative and none is larger than the
+    sum of the others, each within its tolerance relative to the largest moment.
+    """
     if not np.all(np.isfinite(inertia)):
         return False
     return (
@@ -215,7 +222,9 @@ def require_possible(properties: MassProperties, what: str = "the result") -> Ma
             inequality.
     """
     if not (math.isfinite(properties.mass) and properties.mass > 0):
-        raise InertiaError(f"{what} would weigh {properties.mass:g} kg; a mass above zero is needed")
+        raise InertiaError(
+            f"{what} would weigh {properties.mass:g} kg; a mass above zero is needed"
+        )
     if not (np.all(np.isfinite(properties.com)) and is_possible(properties.inertia)):
         if np.all(np.isfinite(properties.inertia)):
             moments = ", ".join(f"{moment:.6g}" for moment in principal(properties.inertia)[0])
@@ -229,4 +238,5 @@ def require_possible(properties: MassProperties, what: str = "the result") -> Ma
 
 
 def _symmetric(matrix: Array) -> Array:
-    return 0.5 * (matrix + matrix.T)
+    symmetric: Array = 0.5 * (matrix + matrix.T)
+    return symmetric

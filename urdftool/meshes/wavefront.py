@@ -61,6 +61,11 @@ def read(path: Path) -> Reading:
     for object_name, material_name, triangles in runs:
         used = materials.get(material_name, Material())
         faces = np.array(triangles, dtype=np.int64).reshape(-1, 3)
+        if faces.max(initial=-1) >= len(vertices):
+            raise MeshError(
+                f"a face of the OBJ file names vertex {faces.max() + 1} of {len(vertices)}",
+                path=path,
+            )
         kept, inverse = np.unique(faces, return_inverse=True)
         pieces.append(
             Piece(
@@ -127,7 +132,9 @@ def _materials(path: Path, libraries: list[str], notes: list[str]) -> dict[str, 
     for library in dict.fromkeys(libraries):
         file = path.parent / library
         if not file.is_file():
-            notes.append(f"The material file {library} is not beside the OBJ file; colours are lost.")
+            notes.append(
+                f"The material file {library} is not beside the OBJ file; colours are lost."
+            )
             continue
         current = Material()
         for _, line in _logical_lines(file):

@@ -1,0 +1,305 @@
+"""Mass properties of any triangle mesh, with the method used and whether to rely on it.
+
+The methods, best first; the first that holds is taken:
+
+- ``exact``: every body is closed and consistently wound, so the polyhedral integrals hold. Bodies
+  that are inside out are turned; how nested bodies count is said in ``nesting``.
+- ``repaired``: the same after faces written twice are dropped, the winding is made consistent and
+  small holes are closed with flat caps, as long as the caps cannot matter much, or the winding
+  numbers agree with them.
+- ``winding-number``: evenly spread points, each judged by the generalised winding number, where
+  holes are too large for that or bodies share much of their space.
+- ``convex-hull``: the hull of the points, where nothing is inside. An upper bound, never reliable.
+
+A surface that crosses itself within one body is integrated as it is wound, so that space it winds
+round twice counts twice; finding that out costs more than everything else here.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import MeshError
+from ..meshes.mesh import Faces, Points
+from ..meshes.solid import body_labels, collapsed, edges_of, weld
+from .hull import hull_moments
+from .inertia_error import InertiaError
+from .nesting import Nesting, nest
+from .polyhedron import Moments, solid_moments
+from .repair import Filling, drop_duplicates, fill_holes, orient
+from .sampling import sampled_moments
+from .tensor import Array, MassProperties, require_possible
+
+ACCEPTED_ERROR = 0.02
+"""Relative error of the volume up to which a result counts as reliable."""
+
+ACCEPTED_OVERLAP = 0.03
+"""Part of the volume that bodies may share before their exact sum gives way to a sampled union."""
+
+AGREEMENT = 0.03
+"""Difference of two independent results within which one confirms the other."""
+
+LARGE_OPENING = 0.1
+"""Part of the surface that may be holes before closing them is a guess about the shape."""
+
+_SHEET = 1e-6
+"""Volume of a body, relative to its area to the power of 3/2, below which it is a sheet."""
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """Mass properties of a mesh, and how far they can be trusted."""
+
+    properties: MassProperties
+    """In the frame of the mesh."""
+    volume: float
+    """Volume [m³] of the solid."""
+    method: str
+    """``"exact"``, ``"repaired"``, ``"winding-number"`` or ``"convex-hull"``."""
+    reliable: bool
+    """Whether the properties are within some 3 % of those of the intended solid."""
+    error: float
+    """Estimated error of the volume, relative to it; 0 for an exact result."""
+    hull_volume: float | None
+    """Volume [m³] of the convex hull, to compare; None for an exact result."""
+    bodies: int
+    """How many separate surfaces the mesh has."""
+    notes: tuple[str, ...]
+    """What was found and done, complete sentences."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Solid:
+    """Moments with the story of how they came about."""
+
+    moments: Moments
+    method: str
+    error: float
+    reliable: bool
+    notes: tuple[str, ...]
+
+
+def estimate_mass_properties(
+    vertices: Points,
+    faces: Faces,
+    *,
+    mass: float | None = None,
+    density: float | None = None,
+) -> Estimate:
+    """Mass properties of the solid a mesh stands for, closed or not.
+
+    Args:
+        vertices: Points [m], shape (n, 3); equal ones are taken as one.
+        faces: Indices into ``vertices``, shape (m, 3).
+        mass: Mass of the whole [kg]; give this or ``density``.
+        density: Density of the solid [kg/m³].
+
+    Raises:
+        MeshError: The mesh encloses nothing, as a flat plate does.
+        InertiaError: Mass or density is not above zero, or the result could be no rigid body's.
+    """
+    _check_amount(mass, density)
+    points, merged, _ = weld(vertices, faces)
+    kept = merged[~collapsed(merged)]
+    if len(kept) < 4:
+        raise MeshError(
+            f"the mesh has {len(kept)} triangles that are no lines; a solid needs four at least"
+        )
+    # a unit of the mesh's own size keeps every threshold below free of units
+    middle, size = _frame(points)
+    points = (points - middle) / size
+    bodies = int(body_labels(len(kept), edges_of(kept)).max()) + 1
+    solid = _exact(points, kept) or _mended(points, kept)
+    hull = None if solid.method == "exact" else hull_moments(points).measure * size**3
+    moments = Moments(
+        solid.moments.measure * size**3,
+        middle + size * solid.moments.centroid,
+        solid.moments.second * size**5,
+    )
+    if mass is not None:
+        properties = moments.with_mass(mass)
+    else:
+        assert density is not None
+        properties = moments.with_density(density)
+    require_possible(properties, "the mesh")
+    return Estimate(
+        properties,
+        float(moments.measure),
+        solid.method,
+        bool(solid.reliable),
+        float(solid.error),
+        hull,
+        bodies,
+        solid.notes,
+    )
+
+
+def _check_amount(mass: float | None, density: float | None) -> None:
+    if (mass is None) == (density is None):
+        raise InertiaError("a mesh needs either a mass [kg] or a density [kg/m³], not both")
+    for name, given in (("mass", mass), ("density", density)):
+        if given is not None and not (math.isfinite(given) and given > 0):
+            raise InertiaError(f"the {name} of a mesh is {given:g}; a number above zero is needed")
+
+
+def _frame(points: Points) -> tuple[Array, float]:
+    low, high = points.min(axis=0), points.max(axis=0)
+    size = float((high - low).max())
+    if not size > 0:
+        raise MeshError("all points of the mesh are one; a solid needs an extent along X, Y and Z")
+    return 0.5 * (low + high), size
+
+
+def _exact(points: Points, faces: Faces) -> _Solid | None:
+    """The integrals, where each body is closed and consistently wound; else None."""
+    edges = edges_of(faces)
+    if not edges.cycle:
+        return None
+    labels = body_labels(len(faces), edges)
+    volumes, areas = _measures(points, faces, labels)
+    sheets = np.abs(volumes) < _SHEET * areas**1.5
+    if sheets.all() or areas[sheets].sum() > 0.01 * areas.sum():
+        return None
+    notes = []
+    if sheets.any():
+        notes.append(f"Sheets without a volume that are left out: {np.count_nonzero(sheets)}.")
+    solid = np.flatnonzero(~sheets)
+    if len(solid) == 1:
+        moments = solid_moments(points, faces[labels == solid[0]])
+        if moments.measure < 0:
+            notes.append("The mesh is inside out; its faces are taken the other way round.")
+            moments = replace(moments, measure=-moments.measure, second=-moments.second)
+        return _Solid(moments, "exact", 0.0, True, tuple(notes))
+    order = np.argsort(labels, kind="stable")
+    runs = np.split(order, np.cumsum(np.bincount(labels))[:-1])
+    corners = [points[faces[runs[body]]] for body in solid]
+    nesting = nest(corners, volumes[solid])
+    notes += _nesting_notes(nesting)
+    # −1 for the faces of a solid body that is inside out and of a cavity that is not
+    turn = nesting.share * np.where(volumes[solid] < 0, -1, 1)
+    chosen = [
+        faces[runs[body]] if sign > 0 else faces[runs[body]][:, ::-1]
+        for body, sign in zip(solid, turn, strict=True)
+        if sign
+    ]
+    moments = solid_moments(points, np.concatenate(chosen))
+    if not nesting.overlaps:
+        return _Solid(moments, "exact", 0.0, True, tuple(notes))
+    return _without_overlap(points[faces], moments, notes)
+
+
+def _measures(points: Points, faces: Faces, labels: npt.NDArray[np.int64]) -> tuple[Array, Array]:
+    """Signed volume and area of each body."""
+    corners = points[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    triple = np.einsum("ij,ij->i", corners[:, 0], normals)
+    areas = np.linalg.norm(normals, axis=1) / 2
+    volume: Array = np.bincount(labels, weights=triple).astype(np.float64) / 6
+    area: Array = np.bincount(labels, weights=areas).astype(np.float64)
+    return volume, area
+
+
+def _nesting_notes(nesting: Nesting) -> list[str]:
+    notes = []
+    if nesting.turned:
+        notes.append(f"Bodies that are inside out and taken the other way round: {nesting.turned}.")
+    if nesting.cavities:
+        notes.append(f"Bodies that are cavities and taken away: {nesting.cavities}.")
+    if nesting.swallowed:
+        notes.append(
+            f"Bodies in the solid of another, which add nothing to it: {nesting.swallowed}."
+        )
+    return notes
+
+
+def _without_overlap(corners: Array, summed: Moments, notes: list[str]) -> _Solid:
+    """The union of bodies that reach into each other, or their sum where it hardly differs."""
+    halves = sampled_moments(corners)
+    if halves is None:
+        return _Solid(summed, "exact", 1.0, False, (*notes, "Bodies overlap by an unknown amount."))
+    union, noise = _average(*halves)
+    share = summed.measure / union.measure - 1
+    if abs(share) <= ACCEPTED_OVERLAP:
+        notes.append(
+            f"Bodies reach into each other; the {abs(share):.1%} of the volume that they share is "
+            "counted twice."
+        )
+        return _Solid(summed, "exact", max(abs(share), noise), True, tuple(notes))
+    notes.append(
+        f"Bodies reach into each other; space they share is counted once, which takes {share:.1%} "
+        "off the sum of their volumes."
+    )
+    return _Solid(union, "winding-number", noise, noise <= ACCEPTED_ERROR, tuple(notes))
+
+
+def _average(first: Moments, second: Moments) -> tuple[Moments, float]:
+    """The mean of two independent results, and how far they are apart, relative to it.
+
+    The largest difference counts: of the volume, of the second moments along X, Y and Z, or of the
+    centroid, relative to the radius of gyration.
+    """
+    volume = 0.5 * (first.measure + second.measure)
+    moment = 0.5 * (first.second + second.second)
+    radius = math.sqrt(max(float(np.trace(moment)) / volume, 1e-300))
+    differences = [
+        abs(first.measure - second.measure) / volume,
+        float(np.abs(np.diag(first.second - second.second)).max() / np.diag(moment).max()),
+        float(np.linalg.norm(first.centroid - second.centroid)) / radius,
+    ]
+    mean = Moments(volume, 0.5 * (first.centroid + second.centroid), moment)
+    return mean, max(differences)
+
+
+def _mended(points: Points, faces: Faces) -> _Solid:
+    """What repair, samples or the hull make of a mesh that is not closed."""
+    notes: list[str] = []
+    unique = drop_duplicates(faces)
+    if len(unique) < len(faces):
+        notes.append(f"Faces written twice and dropped: {len(faces) - len(unique)}.")
+    wound, turned = orient(points, unique)
+    if turned:
+        notes.append(f"Faces turned to agree with their neighbours: {turned}.")
+    filling = fill_holes(points, wound)
+    filled = _exact(filling.vertices, filling.faces)
+    opening = filling.area / _measures(points, wound, np.zeros(len(wound), dtype=np.int64))[1][0]
+    if filling.holes:
+        notes.append(f"Holes closed: {filling.holes}, {opening:.1%} of the surface.")
+    if filled is not None:
+        error = max(filled.error, filling.volume_error / filled.moments.measure)
+        if error <= ACCEPTED_ERROR:
+            method = "repaired" if filled.method == "exact" else filled.method
+            return _Solid(filled.moments, method, error, filled.reliable, (*notes, *filled.notes))
+    return _sampled(points[wound], filled, filling, opening, notes) or _hull(points, notes)
+
+
+def _sampled(
+    corners: Array, filled: _Solid | None, filling: Filling, opening: float, notes: list[str]
+) -> _Solid | None:
+    halves = sampled_moments(corners)
+    if halves is None:
+        return None
+    moments, noise = _average(*halves)
+    error = noise
+    if filled is not None:
+        difference = _average(filled.moments, moments)[1]
+        notes.append(f"Flat caps and winding numbers differ by {difference:.1%}.")
+        caps = filling.volume_error / filled.moments.measure
+        if max(difference, caps) <= AGREEMENT and opening <= LARGE_OPENING:
+            # the caps are free of the samples' noise, and the samples of the caps' guess
+            return _Solid(filled.moments, "repaired", difference, True, tuple(notes))
+        error = max(noise, difference)
+    else:
+        error = max(noise, filling.volume_error / moments.measure)
+    if opening > LARGE_OPENING:
+        notes.append("So much of the surface is missing that closing it is a guess.")
+    reliable = error <= ACCEPTED_ERROR and opening <= LARGE_OPENING
+    return _Solid(moments, "winding-number", error, reliable, tuple(notes))
+
+
+def _hull(points: Points, notes: list[str]) -> _Solid:
+    notes.append("Nothing lies inside the surface, so its convex hull is taken.")
+    return _Solid(hull_moments(points), "convex-hull", 1.0, False, tuple(notes))

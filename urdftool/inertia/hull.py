@@ -1,0 +1,31 @@
+"""The convex hull: the most that a surface of whatever quality can enclose."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import MeshError
+from ..meshes.mesh import Points
+from .polyhedron import Moments, solid_moments
+
+
+def hull_moments(points: Points) -> Moments:
+    """The moments of the smallest convex solid around points [m].
+
+    Raises:
+        MeshError: The points lie in a plane.
+    """
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        hull = ConvexHull(points)
+    except QhullError as error:
+        raise MeshError(
+            "the mesh is flat and encloses no volume; a plate or sheet can be weighed as a shell"
+        ) from error
+    faces = hull.simplices.astype(np.int64)
+    corners = points[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    inwards = np.einsum("ij,ij->i", normals, hull.equations[:, :3]) < 0
+    faces[inwards] = faces[inwards][:, ::-1]
+    return solid_moments(points, faces)

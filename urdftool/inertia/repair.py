@@ -1,0 +1,150 @@
+"""Sound repairs of a triangle surface: twice-written faces, winding, small holes.
+
+Nothing here moves a vertex. Faces are only dropped where they are written twice, turned where their
+neighbours agree on it, and added to close a rim.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ..meshes.mesh import Faces, Points
+from ..meshes.solid import components, edges_of
+
+CAP_RISE = 0.1
+"""How far a surface may bulge over a hole, relative to the hole's size, in the error of a cap."""
+
+
+@dataclass(frozen=True, eq=False)
+class Filling:
+    """A surface without rims, and what closing them may have cost."""
+
+    vertices: Points
+    faces: Faces
+    holes: int
+    """How many rims were closed."""
+    area: float
+    """Area [m²] of all caps together."""
+    volume_error: float
+    """Volume [m³] by which the caps may miss the surface that was there."""
+
+
+def drop_duplicates(faces: Faces) -> Faces:
+    """The faces without those written twice.
+
+    Faces on the same three vertices that look opposite ways cancel: they are a wall between two
+    bodies that touch. Only where cancelling would take most of the surface away was each face
+    written once for either side, and then one of the two is kept.
+    """
+    ordered = np.sort(faces, axis=1)
+    _, first, inverse = np.unique(ordered, axis=0, return_index=True, return_inverse=True)
+    turned = _odd(faces)
+    net = np.bincount(inverse.reshape(-1), weights=np.where(turned, -1.0, 1.0))
+    alive = net != 0
+    if np.count_nonzero(alive) < 0.5 * len(first):
+        alive = np.ones(len(first), dtype=bool)
+        net = np.where(turned[first], -1.0, 1.0)
+    kept = ordered[first[alive]]
+    backwards = net[alive] < 0
+    kept[backwards] = kept[backwards][:, ::-1]
+    return np.ascontiguousarray(kept)
+
+
+def orient(vertices: Points, faces: Faces) -> tuple[Faces, int]:
+    """The faces turned so that neighbours agree, and how many were turned.
+
+    Faces that share an edge with exactly one other are linked to it, once as they are and once
+    turned, and the faces that hang together so have one common winding (two, if the surface is
+    a Möbius strip, which is left alone). Of that winding and its opposite the one is taken that
+    keeps more of the area as it was, so a cavity stays one.
+    """
+    count = len(faces)
+    edges = edges_of(faces)
+    sizes = np.diff(np.r_[edges.starts, len(edges.order)])
+    pairs = edges.starts[sizes == 2]
+    left, right = edges.order[pairs] // 3, edges.order[pairs + 1] // 3
+    agree = edges.forward[sizes == 2] == 1
+    other = np.where(agree, right, right + count)
+    mirrored = np.where(agree, right + count, right)
+    labels = components(2 * count, np.r_[left, left + count], np.r_[other, mirrored])
+    corners = vertices[faces]
+    areas = np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
+    as_is, turned = labels[:count], labels[count:]
+    score = np.bincount(as_is, weights=areas, minlength=int(labels.max(initial=-1)) + 1)
+    turn = (score[as_is] < score[turned]) | ((score[as_is] == score[turned]) & (as_is > turned))
+    result = faces.copy()
+    result[turn] = result[turn][:, ::-1]
+    return result, int(np.count_nonzero(turn))
+
+
+def fill_holes(vertices: Points, faces: Faces) -> Filling:
+    """The surface with every rim closed by a fan about the middle of its loop.
+
+    The rims of a consistently wound surface can always be walked in closed loops, and a fan closes
+    each exactly; for a flat loop it is the right surface, whatever the loop's shape. The error
+    of a cap is its area times the loop's departure from a plane plus ``CAP_RISE`` of its size.
+    """
+    edges = edges_of(faces)
+    surplus = edges.forward - edges.backward
+    rim = np.flatnonzero(surplus)
+    repeat = np.abs(surplus[rim])
+    # a cap walks the rim against the face that is there
+    ends = np.where(surplus[rim, None] > 0, edges.pairs[rim][:, ::-1], edges.pairs[rim])
+    loops = _loops(np.repeat(ends, repeat, axis=0))
+    caps: list[Faces] = []
+    centres: list[Points] = []
+    area = error = 0.0
+    for loop in loops:
+        ring = vertices[loop]
+        if len(loop) < 3:
+            continue
+        middle = ring.mean(axis=0)
+        spokes = ring - middle
+        normal = np.cross(spokes, np.roll(spokes, -1, axis=0)).sum(axis=0) / 2
+        cap_area = float(np.linalg.norm(normal))
+        rise = float(np.abs(spokes @ normal).max()) / cap_area if cap_area > 0 else 0.0
+        area += cap_area
+        error += cap_area * (rise + CAP_RISE * cap_area**0.5)
+        if len(loop) == 3:
+            caps.append(loop[None, :])
+            continue
+        centre = np.full(len(loop), len(vertices) + len(centres))
+        centres.append(middle)
+        caps.append(np.stack([loop, np.roll(loop, -1), centre], axis=1))
+    points = np.concatenate([vertices, np.array(centres).reshape(-1, 3)])
+    return Filling(points, np.concatenate([faces, *caps]), len(caps), area, error)
+
+
+def _odd(faces: Faces) -> npt.NDArray[np.bool_]:
+    """Whether sorting a face's vertices turns it over."""
+    a, b, c = faces.T
+    inversions = (a > b).astype(int) + (a > c) + (b > c)
+    return np.asarray(inversions % 2 == 1)
+
+
+def _loops(directed: Faces) -> list[Faces]:
+    """Closed loops without a repeated vertex that use each directed edge once."""
+    onward: dict[int, list[int]] = {}
+    for begin, end in directed.tolist():
+        onward.setdefault(begin, []).append(end)
+    loops = []
+    for start in list(onward):
+        path = [start]
+        place = {start: 0}
+        while onward.get(path[-1]):
+            after = onward[path[-1]].pop()
+            if after not in place:
+                place[after] = len(path)
+                path.append(after)
+                continue
+            loop = path[place[after] :]
+            loops.append(np.array(loop, dtype=np.int64))
+            for vertex in loop[1:]:
+                del place[vertex]
+            del path[place[after] + 1 :]
+    return loops

@@ -1,0 +1,171 @@
+"""COLLADA (.dae): a scene of nodes with geometries, in the unit the file declares.
+
+What the consumers of a robot description do with ``<asset>``, read in their sources:
+
+- ``<unit meter>``: RViz (assimp puts it into the root node) and Gazebo (``ColladaLoader`` in Gazebo
+  Classic and gz-common scales the finished mesh) both apply it. So does this reader.
+- ``<up_axis>``: RViz sets assimp's IGNORE_UP_DIRECTION, Gazebo's loader never looks at the element,
+  and MoveIt drops the rotation assimp makes of it. All three show Y_UP files unturned, and so they
+  are read here. PyBullet does turn them, so the choice is open to the caller, and a note says when
+  it matters.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote, urlsplit
+
+import numpy as np
+
+from ..errors import MeshError
+from .mesh import Piece, Points, Reading
+
+MAX_DEPTH = 256
+"""Nodes within nodes; deeper files are refused, instances may form a circle."""
+
+# rows: where the file's X, Y and Z point in a frame with Z up
+_UPRIGHT = {
+    "X_UP": np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]),
+    "Y_UP": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]),
+    "Z_UP": np.eye(3),
+}
+
+
+def read(path: Path, *, upright: bool = False) -> Reading:
+    """The triangles of a COLLADA scene in metres, one piece for each primitive of each instance.
+
+    Node transforms are applied in full, mirrored ones with their winding turned. Skins are shown
+    in their bind shape, without their joints. Lines are left out.
+
+    Args:
+        path: The file.
+        upright: Turn a file whose ``<up_axis>`` is not Z_UP so that its up axis becomes Z.
+    """
+    document = _parse(path)
+    unit = 1.0 if document.assetInfo.unitmeter is None else float(document.assetInfo.unitmeter)
+    if not (math.isfinite(unit) and unit > 0):
+        raise MeshError(
+            f"the COLLADA file declares a unit of {unit:g} m; a length above zero is needed",
+            path=path,
+        )
+    notes = []
+    if not math.isclose(unit, 1.0):
+        notes.append(f"The COLLADA file is in units of {unit:g} m, which is applied.")
+    up = str(document.assetInfo.upaxis or "Y_UP")
+    turn = _UPRIGHT.get(up, np.eye(3)) if upright else np.eye(3)
+    if up != "Z_UP" and "up_axis" in _asset_children(document):
+        done = "turned to Z" if upright else "not turned: RViz and Gazebo do not, PyBullet does"
+        notes.append(f"The up_axis of the COLLADA file is {up}, {done}.")
+    matrix = np.eye(4)
+    matrix[:3, :3] = unit * turn
+    if document.scene is None:
+        raise MeshError(
+            "the COLLADA file shows no scene; it needs an instance_visual_scene", path=path
+        )
+    pieces: list[Piece] = []
+    for node in document.scene.nodes:
+        pieces.extend(_node_pieces(node, matrix, path, notes, 0))
+    return Reading(pieces, list(dict.fromkeys(notes)))
+
+
+def _parse(path: Path) -> Any:
+    import collada
+
+    head = path.read_bytes()
+    if b"<!ENTITY" in head or "<!ENTITY".encode("utf-16-le") in head:
+        raise MeshError(
+            "the COLLADA file declares XML entities, which are not read; write their text out",
+            path=path,
+        )
+    try:
+        with open(path, "rb") as file:
+            return collada.Collada(file, ignore=[collada.common.DaeError])
+    # the parser meets malformed files with whatever its arithmetic raises
+    except Exception as error:
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise MeshError(
+            f"the COLLADA file cannot be read ({reason}); export or fetch it again", path=path
+        ) from error
+
+
+def _asset_children(document: Any) -> set[str]:
+    root = document.xmlnode.getroot()
+    return {
+        str(child.tag).rpartition("}")[2]
+        for asset in root
+        if str(asset.tag).endswith("}asset")
+        for child in asset
+    }
+
+
+def _node_pieces(
+    node: Any, matrix: Points, path: Path, notes: list[str], depth: int
+) -> Iterator[Piece]:
+    import collada
+
+    if depth > MAX_DEPTH:
+        raise MeshError(
+            f"the nodes of the COLLADA file are more than {MAX_DEPTH} deep; an instance_node may "
+            "not contain itself",
+            path=path,
+        )
+    if isinstance(node, collada.scene.Node):
+        inner = matrix @ np.asarray(node.matrix, dtype=np.float64)
+        for child in node.children or ():
+            yield from _node_pieces(child, inner, path, notes, depth + 1)
+    elif isinstance(node, collada.scene.GeometryNode):
+        yield from _geometry_pieces(node.geometry, node.materials, matrix, path)
+    elif isinstance(node, collada.scene.ControllerNode):
+        geometry = getattr(node.controller, "geometry", None)
+        bind = getattr(node.controller, "bind_shape_matrix", None)
+        if geometry is not None:
+            notes.append(
+                "A skin of the COLLADA file is read in its bind shape, without its joints."
+            )
+            inner = matrix if bind is None else matrix @ np.asarray(bind, dtype=np.float64)
+            yield from _geometry_pieces(geometry, node.materials, inner, path)
+
+
+def _geometry_pieces(geometry: Any, bound: Any, matrix: Points, path: Path) -> Iterator[Piece]:
+    effects = {material.symbol: material.target.effect for material in bound}
+    for written in geometry.primitives:
+        # polygons are cut into fans
+        primitive = written.triangleset() if hasattr(written, "triangleset") else written
+        corners = getattr(primitive, "vertex_index", None)
+        if primitive.vertex is None or corners is None or np.ndim(corners) != 2:
+            continue
+        if corners.shape[1] != 3:
+            continue
+        faces = np.asarray(corners, dtype=np.int64)
+        if faces.size and (faces.min() < 0 or faces.max() >= len(primitive.vertex)):
+            raise MeshError(
+                f"geometry {geometry.id!r} of the COLLADA file names vertex {faces.max()} of "
+                f"{len(primitive.vertex)}; they are counted from 0",
+                path=path,
+            )
+        points = np.asarray(primitive.vertex, dtype=np.float64)[:, :3]
+        points = points @ matrix[:3, :3].T + matrix[:3, 3]
+        if np.linalg.det(matrix[:3, :3]) < 0:
+            faces = faces[:, ::-1]
+        rgba, texture = _diffuse(effects.get(primitive.material), path)
+        name = geometry.name or geometry.id or ""
+        yield Piece(points, np.ascontiguousarray(faces), name, rgba, texture)
+
+
+def _diffuse(
+    effect: Any, path: Path
+) -> tuple[tuple[float, float, float, float] | None, Path | None]:
+    diffuse = getattr(effect, "diffuse", None)
+    if isinstance(diffuse, tuple) and len(diffuse) in (3, 4):
+        red, green, blue, alpha = (*(float(value) for value in diffuse), 1.0)[:4]
+        return (red, green, blue, alpha), None
+    surface = getattr(getattr(diffuse, "sampler", None), "surface", None)
+    image = getattr(getattr(surface, "image", None), "path", None)
+    if not image:
+        return None, None
+    # an image is named by a URI, in practice also by a Windows path
+    name = unquote(urlsplit(str(image)).path) if str(image).startswith("file:") else str(image)
+    return None, path.parent / unquote(name).replace("\\", "/")

@@ -1,0 +1,130 @@
+"""The way in for every mesh file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import cast
+
+import numpy as np
+
+from ..errors import MeshError
+from .facts import is_lfs_pointer
+from .mesh import Mesh, Part, Reading
+
+# suffix -> module of this package with a function ``read``
+READERS = {
+    "stl": "stl",
+    "obj": "wavefront",
+    "dae": "collada",
+    "ply": "ply",
+    "gltf": "gltf",
+    "glb": "gltf",
+}
+
+
+def load_mesh(
+    path: str | Path,
+    scale: Sequence[float] = (1.0, 1.0, 1.0),
+    *,
+    upright: bool | None = None,
+) -> Mesh:
+    """The triangles of a mesh file [m], as RViz would show them in the frame of the ``<geometry>``.
+
+    The unit and the axes of each format:
+
+    - STL, OBJ, PLY: numbers are taken as metres, axes as they are.
+    - COLLADA: ``<unit meter>`` is applied; ``<up_axis>`` is not, which is what RViz, Gazebo and
+      MoveIt do (PyBullet turns the mesh).
+    - glTF: metres; Y becomes Z, which is what the standard means and RViz does (Gazebo leaves it).
+
+    Args:
+        path: A file whose suffix, in any case, says its format: stl, obj, dae, ply, gltf or glb.
+        scale: The three factors of URDF's ``<mesh scale>``, applied last. Where their product is
+            negative the mesh is mirrored and the winding turned, so that its volume keeps its sign.
+        upright: Turn a COLLADA or glTF file so that its up axis becomes Z; None for what RViz does.
+
+    Raises:
+        MeshError: There is no such file, it is a folder, empty, a git-LFS pointer, truncated or of
+            another format, it has no face or a coordinate that is no number, or the scale is not
+            three finite factors other than zero.
+    """
+    file = Path(path)
+    factors = _factors(scale, file)
+    suffix = _checked_format(file)
+    module = import_module(f".{READERS[suffix]}", __package__)
+    read = cast(Callable[..., Reading], module.read)
+    turns = READERS[suffix] in ("collada", "gltf") and upright is not None
+    try:
+        reading = read(file, upright=upright) if turns else read(file)
+    except OSError as error:
+        raise MeshError(f"the mesh cannot be read: {error.strerror}", path=file) from error
+    return _assemble(file, suffix, reading, factors)
+
+
+def _factors(scale: Sequence[float], file: Path) -> tuple[float, ...]:
+    factors = tuple(float(factor) for factor in scale)
+    if len(factors) != 3 or not all(math.isfinite(f) and f != 0 for f in factors):
+        given = " ".join(f"{factor:g}" for factor in factors)
+        raise MeshError(
+            f'the scale "{given}" is not three finite factors other than zero, such as '
+            '"0.001 0.001 0.001"',
+            path=file,
+        )
+    return factors
+
+
+def _checked_format(file: Path) -> str:
+    if file.is_dir():
+        raise MeshError("this is a folder; a mesh file is needed", path=file)
+    if not file.exists():
+        raise MeshError("there is no such mesh file", path=file)
+    suffix = file.suffix.lower().removeprefix(".")
+    if suffix not in READERS:
+        known = ", ".join(READERS)
+        raise MeshError(
+            f'"{file.suffix}" is not a mesh format that can be read; those are {known}', path=file
+        )
+    try:
+        if file.stat().st_size == 0:
+            raise MeshError("the mesh file is empty; export or fetch it again", path=file)
+        if is_lfs_pointer(file):
+            raise MeshError(
+                "this is a git-LFS pointer, not the mesh itself; fetch it with `git lfs pull`",
+                path=file,
+            )
+    except OSError as error:
+        raise MeshError(f"the mesh cannot be read: {error.strerror}", path=file) from error
+    return suffix
+
+
+def _assemble(file: Path, suffix: str, reading: Reading, factors: tuple[float, ...]) -> Mesh:
+    pieces = [piece for piece in reading.pieces if len(piece.faces)]
+    if not pieces:
+        raise MeshError("the mesh has no faces; at least one triangle is needed", path=file)
+    offsets = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])
+    vertices = np.concatenate([piece.vertices for piece in pieces])
+    faces = np.concatenate(
+        [piece.faces + offset for piece, offset in zip(pieces, offsets[:-1], strict=True)]
+    )
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        raise MeshError(
+            f"a face names vertex {faces.max()} of {len(vertices)}; the file is damaged", path=file
+        )
+    bad = np.unique(faces[~np.isfinite(vertices[faces]).all(axis=(1, 2))])
+    if len(bad):
+        raise MeshError(
+            "coordinates of the mesh are NaN or infinite; every vertex needs three finite numbers",
+            path=file,
+        )
+    vertices = vertices * np.array(factors)
+    if math.prod(factors) < 0:
+        faces = np.ascontiguousarray(faces[:, ::-1])
+    parts, first = [], 0
+    for piece in pieces:
+        count = len(piece.faces)
+        parts.append(Part(piece.name, first, count, piece.rgba, piece.texture))
+        first += count
+    return Mesh(vertices, faces, tuple(parts), suffix, file, tuple(reading.notes))
