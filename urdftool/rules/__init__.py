@@ -24,6 +24,12 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "shape": ("repeated-element", "several-shapes-in-geometry", "empty-geometry"),
         "numbers": ("wrong-arity", "not-a-number", "tab-or-newline-in-vector"),
         "reference": ("padded-reference",),
+        "version": (
+            "unsupported-urdf-version",
+            "feature-needs-newer-version",
+            "rpy-and-quat",
+            "colon-space-in-comment",
+        ),
     },
     "xacro": {
         "expansion": (
@@ -155,7 +161,23 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "transmissions": ("transmission-unknown-joint", "unprefixed-hardware-interface"),
         "ros2_control": ("ros2-control-unknown-joint",),
     },
-    "name": {},
+    "name": {
+        "spelling": (
+            "invalid-frame-name",
+            "not-portable-identifier",
+            "name-style",
+            "non-ascii-name",
+            "confusable-names",
+            "duplicate-geometry-name",
+        ),
+        "frames": (
+            "missing-base-link",
+            "optical-frame-orientation",
+            "camera-sensor-not-optical",
+            "optical-frame-has-sensor-body",
+            "base-footprint-placement",
+        ),
+    },
     "lint": {"suppressions": ("unused-suppression", "unknown-rule")},
 }
 

@@ -143,6 +143,8 @@ def implausible_mass(
     Masses are in kilograms. Grams make a robot a thousand times too heavy.
     """
     for link, mass, element in _masses(robot):
+        if not lightest <= mass <= heaviest and _density(link, mass) is not None:
+            continue  # its size tells more than its mass alone
         if mass > heaviest:
             what = f"{mass:g} kg; if that is grams, write {mass / 1000:g}"
         elif 0 < mass < lightest:
@@ -164,17 +166,22 @@ def implausible_density(
     most: float = 12000.0,
     least_possible: float = 1.0,
     most_possible: float = 22600.0,
+    small: float = 0.02,
 ) -> Iterator[Problem]:
     """A link's mass does not go with its size.
 
     Between foam and lead lie 5 and 12,000 kg/m³, and nothing is denser than osmium with 22,600.
-    Beyond that, a unit is wrong: grams, or millimetres.
+    Beyond that, a unit is wrong: grams, or millimetres. A shape of millimetres that nothing touches
+    is mostly a mark for a frame, and no more than a remark.
     """
     for link, mass, element in _masses(robot):
         density = _density(link, mass)
         if density is None or least <= density <= most:
             continue
         impossible = density > most_possible or density < least_possible
+        box = box_of(link)
+        if box is None or (max(box.size) < small and not link.collisions):
+            impossible = False
         yield Problem(
             link,
             f"link '{link.name}' weighs {mass:g} kg and has a density of {density:.3g} kg/m³; "
@@ -199,7 +206,7 @@ def _density(link: Link, mass: float) -> float | None:
     box = box_of(link)
     if box is None:
         return None
-    volume = math.prod(high - low for low, high in zip(*box, strict=True))
+    volume = math.prod(box.size)
     density = mass / volume if volume > 0 else 0.0
     return density if density > 5.0 else None
 

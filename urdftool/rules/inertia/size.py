@@ -130,7 +130,7 @@ def inertial_not_at_com_suspect(robot: Robot, *, far: float = 0.2) -> Iterator[P
         slack = 0.02 * math.dist(lower, upper)
         if max(lower) - slack > 0 or min(upper) + slack < 0:
             continue  # the centre of mass is outside, which is more than a suspicion
-        centre = tuple((low + high) / 2 for low, high in zip(lower, upper, strict=True))
+        centre = box.centre
         if math.hypot(*centre) > far * math.dist(lower, upper):
             shown = " ".join(f"{value:.4g}" for value in centre)
             yield Problem(

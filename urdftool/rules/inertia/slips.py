@@ -83,7 +83,7 @@ def reordered(six: Six) -> Six | None:
 def shifted(link: Link, six: Six) -> tuple[str, float] | None:
     """The one moment to move the decimal point of, and what it is then; None where unclear.
 
-    Where the link has one solid shape, what comes out has to be its moment, within a factor of two.
+    Where the link has one solid shape, what comes out has to be its moment, within a quarter.
     """
     if is_possible(six, 0.01) or min(six[i] for i in _DIAGONAL) <= 0:
         return None
@@ -96,7 +96,7 @@ def shifted(link: Link, six: Six) -> tuple[str, float] | None:
             changed[i] = value
             if not is_possible((*changed,)):  # type: ignore[arg-type]
                 continue
-            if solid is not None and not 0.5 <= value / solid[place] <= 2:
+            if solid is not None and not 0.8 <= value / solid[place] <= 1.25:
                 continue
             found.append((SIX[i], float(f"{value:.12g}")))
     return found[0] if len(found) == 1 else None

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from ...model.elements import Joint, Limit, Robot
 from ..rule import ERROR, INFO, WARNING, Problem, rule
-from ..xml.vocabulary_table import misspelt_attributes
+from ..words import quoted
+from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
 
 _UNITS = {"prismatic": ("N", "m/s")}
 
@@ -214,18 +215,34 @@ def dynamics_as_child_elements(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@rule(INFO, effects={"every simulator": "takes 0: nothing stops a swing"}, default=False)
+@rule(
+    INFO,
+    on=("gazebo-classic", "gz", "mujoco", "pybullet"),
+    effects={"every simulator": "takes 0: nothing stops a swing"},
+)
 def missing_dynamics(robot: Robot) -> Iterator[Problem]:
-    """A moving joint has no damping.
+    """Moving joints have neither damping nor friction.
 
-    Nothing takes energy out of it, so a joint under position control swings for long and a limp one
-    never comes to rest.
+    Nothing takes energy out of them: a limp joint swings for ever, and one under position control
+    swings for long. Real bearings and gears have both. The robot's joints are named once, together.
     """
-    for joint in robot.joints:
-        if joint.type in ("revolute", "continuous", "prismatic"):
-            if joint.dynamics is None or joint.dynamics.damping is None:
-                yield Problem(
-                    joint,
-                    f"joint '{joint.name}' has no damping; write <dynamics damping=\"…\"/>",
-                    at=joint.dynamics,
-                )
+    free = [joint for joint in robot.joints if joint.type in _MOVING and _is_undamped(joint)]
+    if free:
+        names = quoted(joint.name for joint in free)
+        verb = "has" if len(free) == 1 else "have"
+        yield Problem(
+            free[0],
+            f"{names} {verb} neither damping nor friction, so nothing stops a swing; "
+            'write <dynamics damping="…" friction="…"/>',
+        )
+
+
+_MOVING = ("revolute", "continuous", "prismatic")
+
+
+def _is_undamped(joint: Joint) -> bool:
+    if "dynamics" in misspelt_children(joint.element).values() or joint.element.child(
+        "joint_properties"
+    ):
+        return False
+    return joint.dynamics is None

@@ -1,1 +1,1 @@
-
+"""Names and conventions."""

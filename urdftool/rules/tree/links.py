@@ -159,13 +159,20 @@ def missing_parent_or_child(robot: Robot) -> Iterator[Problem]:
     """
     for joint in robot.joints:
         missing = list(_missing_ends(joint))
-        for tag, element in missing:
+        if not missing:
+            continue
+        tag, element = missing[0]
+        if len(missing) == 2:
+            tag, element = "parent", None
+            what = "neither <parent> nor <child>"
+        else:
             what = f"no <{tag}>" if element is None else f"a <{tag}> without a link"
-            yield Problem(
-                joint,
-                f"joint '{joint.name}' has {what}; write <{tag} link=\"…\"/>",
-                at=element,
-            )
+        also = ' and <child link="…"/>' if len(missing) == 2 else ""
+        yield Problem(
+            joint,
+            f"joint '{joint.name}' has {what}; write <{tag} link=\"…\"/>{also}",
+            at=element,
+        )
 
 
 def _missing_ends(joint: Joint) -> Iterator[tuple[str, Element | None]]:

@@ -120,6 +120,9 @@ _INSTEAD = {
 _XACRO = frozenset(("include", "macro", "property", "if", "unless", "insert_block", "arg"))
 """Tags that are xacro's where they lack their prefix."""
 
+_REMARKS = frozenset(("name", "id", "comment", "note", "description"))
+"""Attributes that say something to people; nothing is lost with them."""
+
 _REDUNDANT = ("iyx", "izx", "izy")
 
 
@@ -184,7 +187,8 @@ def _strange_attributes(element: Element, known: set[str]) -> Iterator[Problem]:
         free = [word for word in attributes_of(tag) if word not in element.attributes]
         word = meant(name, free)
         if word is None:
-            yield Problem(element, f"{what}; URDF readers pass over it", at=at)
+            severity = INFO if name in _REMARKS else WARNING
+            yield Problem(element, f"{what}; URDF readers pass over it", at=at, severity=severity)
         elif word != name.lower():
             yield Problem(element, f"{what}; write {word}", at=at, severity=ERROR)
 

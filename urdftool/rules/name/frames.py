@@ -1,0 +1,143 @@
+"""Frames with a meaning: the base, its footprint, the camera's optical frame."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ...model.elements import Joint, Robot, Sensor
+from ...model.pose import pose_of, rotation_of_rpy
+from ..rule import GAZEBO, INFO, WARNING, Problem, rule
+
+_OPTICAL = rotation_of_rpy((-math.pi / 2, 0.0, -math.pi / 2))
+_CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "multicamera", "wideanglecamera")
+_FRAME_TAGS = ("frameName", "frame_name", "gz_frame_id", "ignition_frame_id", "optical_frame_id")
+
+
+@rule(INFO, effects={"navigation, mobile base drivers": "look for base_link"}, default=False)
+def missing_base_link(robot: Robot) -> Iterator[Problem]:
+    """No link is called ``base_link``.
+
+    ROS calls the frame that is fixed to a mobile base so (REP 105), and much is set to it by
+    default.
+    """
+    root = robot.tree.root
+    if robot.links and not any(name.endswith("base_link") for name in robot.link):
+        yield Problem(root or robot, "no link is called base_link, which ROS expects of the base")
+
+
+@rule(
+    WARNING,
+    effects={"rviz, image_geometry": "show the point cloud turned by a quarter"},
+)
+def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Iterator[Problem]:
+    """An optical frame is not turned against its camera's frame as it has to be.
+
+    A camera looks along x, with z up; its optical frame has z forward and x to the right (REP 103).
+    Between the two lies ``rpy="-1.5708 0 -1.5708"``. Otherwise images and point clouds lie on their
+    side.
+    """
+    for joint in robot.joints:
+        if not joint.is_fixed or not _is_optical_of(joint):
+            continue
+        rotation = pose_of(joint.origin).rotation
+        off = max(
+            abs(a - b)
+            for row, wanted in zip(rotation, _OPTICAL, strict=True)
+            for a, b in zip(row, wanted, strict=True)
+        )
+        if off > tolerance:
+            yield Problem(
+                joint,
+                f"optical frame '{joint.child}' is not turned against '{joint.parent}' as a camera "
+                'looks; write rpy="-1.5708 0 -1.5708"',
+                at=joint.origin,
+            )
+
+
+def _is_optical_of(joint: Joint) -> bool:
+    """Whether a joint goes from a camera's frame to its optical frame, by their names."""
+    stem, optical, _ = joint.child.partition("_optical")
+    if not optical or not stem:
+        return False
+    parent = joint.parent
+    return "optical" not in parent and parent in (stem, f"{stem}_frame", f"{stem}_link")
+
+
+@rule(
+    INFO,
+    on=GAZEBO,
+    effects={"gz, gazebo-classic": "publish images in a frame that looks along x"},
+)
+def camera_sensor_not_optical(robot: Robot) -> Iterator[Problem]:
+    """A camera publishes in its own frame though it has an optical one.
+
+    What reads images expects z forward. In the camera's frame, which looks along x, point clouds
+    stand on their side.
+    """
+    for block in robot.gazebo:
+        for sensor in block.sensors:
+            if sensor.type not in _CAMERAS or block.reference is None:
+                continue
+            frames = {joint.child for joint in robot.tree.child_joints(block.reference)}
+            optical = next((name for name in sorted(frames) if "_optical" in name), None)
+            written = _frames_of(sensor)
+            if optical is None or not written or any("optical" in text for text in written):
+                continue
+            yield Problem(
+                sensor.element,
+                f"camera '{sensor.name}' publishes in '{written[0]}'; "
+                f"its optical frame is '{optical}'",
+            )
+
+
+def _frames_of(sensor: Sensor) -> list[str]:
+    return [
+        e.text.strip() for e in sensor.element.walk() if e.tag in _FRAME_TAGS and e.text.strip()
+    ]
+
+
+@rule(
+    INFO, effects={"gz, gazebo-classic": "look along x of the link with the sensor"}, default=False
+)
+def optical_frame_has_sensor_body(robot: Robot) -> Iterator[Problem]:
+    """An optical frame carries a shape or a sensor.
+
+    Gazebo's cameras look along x. The sensor belongs to the camera's link, and the optical frame
+    carries nothing.
+    """
+    for link in robot.links:
+        if "_optical" not in link.name:
+            continue
+        blocks = robot.extensions.get(link.name, [])
+        if link.visuals or link.collisions:
+            what = "a shape"
+        elif any(block.sensors for block in blocks):
+            what = "a sensor"
+        else:
+            continue
+        yield Problem(
+            link, f"optical frame '{link.name}' carries {what}; give it to the camera's link"
+        )
+
+
+@rule(INFO, effects={"navigation": "takes the floor to be elsewhere"}, default=False)
+def base_footprint_placement(robot: Robot) -> Iterator[Problem]:
+    """``base_footprint`` is not straight below ``base_link``.
+
+    It is the base's projection on the floor (REP 120): a fixed joint that goes up or down and does
+    not tilt.
+    """
+    for joint in robot.joints:
+        ends = {joint.parent.rpartition("/")[2], joint.child.rpartition("/")[2]}
+        if ends != {"base_footprint", "base_link"}:
+            continue
+        origin = joint.origin
+        x, y, _ = origin.xyz if origin is not None else (0.0, 0.0, 0.0)
+        roll, pitch, _ = origin.rpy if origin is not None else (0.0, 0.0, 0.0)
+        if not joint.is_fixed or max(abs(x), abs(y), abs(roll), abs(pitch)) > 1e-6:
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' does not put base_footprint straight below base_link",
+                at=origin,
+            )

@@ -1,0 +1,135 @@
+"""How names are spelled."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ...model.elements import Joint, Link, Material, Robot
+from ..rule import ERROR, INFO, ROS, WARNING, Problem, rule
+from ..unexpanded import is_unexpanded
+from ..words import fold
+
+_IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_SNAKE = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
+
+
+@rule(ERROR, on=ROS, effects={"tf2": "refuses the frame; nothing can be transformed to it"})
+def invalid_frame_name(robot: Robot) -> Iterator[Problem]:
+    """A link's name begins with a slash or has a blank in it.
+
+    Every link is a frame of tf, and tf2 refuses such names.
+    """
+    for link in robot.links:
+        name = link.name
+        inner = name.strip()
+        if not inner or is_unexpanded(name) or (inner != name and inner in robot.tree.order):
+            continue
+        if name.startswith("/"):
+            what = f"begins with a slash; write '{name.lstrip('/')}'"
+        elif len(inner.split()) > 1:
+            what = f"has a blank in it; write '{'_'.join(inner.split())}'"
+        else:
+            continue
+        yield Problem(
+            link, f"name of link '{name}' {what}", at=link.element.attribute_place("name")
+        )
+
+
+@rule(INFO, effects={"USD importers, code generators": "rename it"}, default=False)
+def not_portable_identifier(robot: Robot) -> Iterator[Problem]:
+    """A link's or joint's name is not made of letters, digits and underscores alone.
+
+    Importers that need identifiers rename it, and what refers to it no longer matches.
+    """
+    for part in _parts(robot):
+        if part.name and not _IDENTIFIER.fullmatch(part.name) and not is_unexpanded(part.name):
+            renamed = re.sub(r"\W", "_", part.name, flags=re.ASCII)
+            renamed = f"_{renamed}" if renamed[0].isdigit() else renamed
+            yield Problem(
+                part,
+                f"name of {part.element.tag} '{part.name}' is no identifier; write '{renamed}'",
+                at=part.element.attribute_place("name"),
+            )
+
+
+@rule(INFO, effects={"every reader": "takes it"}, default=False)
+def name_style(robot: Robot) -> Iterator[Problem]:
+    """A link's or joint's name is not in lower case with underscores.
+
+    That is how ROS writes names; a mixture makes them hard to guess.
+    """
+    for part in _parts(robot):
+        if part.name and not _SNAKE.fullmatch(part.name) and not is_unexpanded(part.name):
+            yield Problem(
+                part,
+                f"name of {part.element.tag} '{part.name}' is not in lower case with underscores",
+                at=part.element.attribute_place("name"),
+            )
+
+
+@rule(INFO, effects={"tf, topics": "must be ASCII", "CSV and USD tools": "garble it"})
+def non_ascii_name(robot: Robot) -> Iterator[Problem]:
+    """A name has a letter outside ASCII.
+
+    Topics and frames of ROS are ASCII, and tools that write tables garble the rest.
+    """
+    materials = [*robot.materials, *(v.material for link in robot.links for v in link.visuals)]
+    seen: set[str] = set()
+    parts: list[Link | Joint | Material] = [*_parts(robot), *filter(None, materials)]
+    for part in parts:
+        if not part.name.isascii() and part.name not in seen:
+            seen.add(part.name)
+            yield Problem(
+                part,
+                f"name of {part.element.tag} '{part.name}' has letters outside ASCII",
+                at=part.element.attribute_place("name"),
+            )
+
+
+@rule(INFO, effects={"Windows, USD importers": "take the two for one"}, default=False)
+def confusable_names(robot: Robot) -> Iterator[Problem]:
+    """Two links or two joints differ only in case, ``_`` or ``-``.
+
+    People mix them up, and so do file systems and importers.
+    """
+    for parts in (robot.link, robot.joint):
+        seen: dict[str, str] = {}
+        for name, part in parts.items():
+            first = seen.setdefault(fold(name), name)
+            if first != name:
+                tag = part.element.tag
+                yield Problem(
+                    part,
+                    f"{tag} '{name}' is hard to tell from {tag} '{first}'",
+                    at=part.element.attribute_place("name"),
+                )
+
+
+@rule(
+    WARNING,
+    effects={"mujoco": "drops the second name", "drake": "renames it"},
+)
+def duplicate_geometry_name(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+    """Two visuals or two collisions of a link have one name.
+
+    MuJoCo drops the second, so a contact pair by that name means one of them alone. There, names
+    have to be different in the whole robot.
+    """
+    seen: set[tuple[str, str, str]] = set()
+    for link, shape in robot.shapes:
+        if not shape.name or is_unexpanded(shape.name):
+            continue
+        key = ("" if "mujoco" in targets else link.name, shape.element.tag, shape.name)
+        if key in seen:
+            yield Problem(
+                link,
+                f"a second {shape.element.tag} is called '{shape.name}', in link '{link.name}'; "
+                "give it a name of its own, or none",
+                at=shape.element.attribute_place("name"),
+            )
+        seen.add(key)
+
+
+def _parts(robot: Robot) -> list[Link | Joint]:
+    return [*robot.links, *robot.joints]

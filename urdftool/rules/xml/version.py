@@ -1,0 +1,133 @@
+"""The URDF version, and what needs a newer one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ...source.description import Description
+from ...source.document import Document
+from ...source.location import Place
+from ..rule import ERROR, INFO, Problem, rule
+from ..unexpanded import is_unexpanded
+from .owner import owner
+from .vocabulary_table import census
+
+_LATER = ("acceleration", "deceleration", "jerk")
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom 5.0 and earlier (every released ROS)": "rejects every version but 1.0",
+        "urdfdom 5.1": "takes 1.1 as well",
+        "urdfdom 6": "takes 1.2 as well",
+        "pybullet, mujoco": "do not look",
+    },
+)
+def unsupported_urdf_version(robot: Robot) -> Iterator[Problem]:
+    """The robot says that it is of a URDF version that readers do not know.
+
+    urdfdom refuses a robot of a version it does not know, and the urdfdom of every released ROS
+    knows 1.0 alone. Without the attribute it is 1.0.
+    """
+    version = robot.version
+    if version is None or version.strip() in ("1.0", "1") or is_unexpanded(version):
+        return
+    known = version.strip() in ("1.1", "1.2")
+    what = "is read by urdfdom 5.1 or 6 alone" if known else "does not exist"
+    if known and next(_newer(robot, 1.0), None) is not None:
+        remedy = "do without what is new in it, and write 1.0"
+    else:
+        remedy = "write 1.0, or leave it out"
+    yield Problem(
+        robot,
+        f"URDF version '{version}' {what}; {remedy}",
+        at=robot.element.attribute_place("version"),
+    )
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic": "the link loses its shapes for a capsule; "
+        "a quaternion is no rotation",
+    },
+)
+def feature_needs_newer_version(robot: Robot) -> Iterator[Problem]:
+    """Something is used that URDF 1.0 does not have, and the robot is of version 1.0.
+
+    A capsule and ``quat_xyzw`` came with 1.1, limits of acceleration and jerk with 1.2. Under 1.0
+    readers drop the link's shapes for a capsule, and pass over the others: the part is not turned.
+    """
+    version = (robot.version or "1.0").strip()
+    yield from _newer(robot, {"1.1": 1.1, "1.2": 1.2}.get(version, 1.0))
+
+
+def _newer(robot: Robot, version: float) -> Iterator[Problem]:
+    known = census(robot.element).known
+    if version < 1.1:
+        for element in known["capsule"]:
+            yield Problem(
+                element,
+                f"{owner(element)} has a <capsule>, which URDF 1.0 does not have; "
+                "write a <cylinder> and two <sphere>s",
+            )
+        for element in known["origin"]:
+            if "quat_xyzw" in element.attributes and "rpy" not in element.attributes:
+                yield Problem(
+                    element,
+                    f"quat_xyzw in {owner(element)} is passed over by readers of URDF 1.0; "
+                    "write rpy",
+                    at=element.attribute_place("quat_xyzw"),
+                )
+    if version < 1.2:
+        for element in known["limit"]:
+            for name in _LATER:
+                if name in element.attributes:
+                    yield Problem(
+                        element,
+                        f"{name} of {owner(element)} is passed over by readers of URDF "
+                        f"{version}; it came with 1.2",
+                        at=element.attribute_place(name),
+                        severity=INFO,
+                    )
+
+
+@rule(ERROR, effects={"urdfdom 6": "rejects it", "urdfdom 5.0 and earlier": "takes rpy"})
+def rpy_and_quat(robot: Robot) -> Iterator[Problem]:
+    """An ``<origin>`` has a rotation twice: as ``rpy`` and as ``quat_xyzw``.
+
+    Readers that know both refuse it, the others take ``rpy``.
+    """
+    for element in census(robot.element).known["origin"]:
+        if "rpy" in element.attributes and "quat_xyzw" in element.attributes:
+            yield Problem(
+                element,
+                f"an <origin> of {owner(element)} has both rpy and quat_xyzw; write rpy alone",
+                at=element.attribute_place("quat_xyzw"),
+            )
+
+
+@rule(
+    INFO,
+    on=("ros2",),
+    effects={"ros2 run … -p robot_description:=…": "couldn't parse parameter override rule"},
+)
+def colon_space_in_comment(document: Document, description: Description) -> Iterator[Problem]:
+    """A comment holds a colon with a blank behind it.
+
+    ROS 2 reads a parameter on its command line as YAML, and there that is a key and a value: the
+    node does not start, with an error that does not mention the comment. A launch file that wraps
+    the description in ``ParameterValue(…, value_type=str)`` is safe.
+    """
+    if document.file is not description.files[0]:
+        return
+    found = [comment for comment in document.comments if ": " in comment.text]
+    if found:
+        more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+        yield Problem(
+            document.root,
+            f"a comment{more} holds ': ', which ROS 2 may take for YAML; write ' - '",
+            at=Place(document.file, found[0].start, found[0].end),
+        )
