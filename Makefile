@@ -10,6 +10,7 @@ DEMO   := fixtures/robots/demo_arm/urdf/arm.urdf.xacro
 $(BIN)/urdftool: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	$(BIN)/python -m compileall -q urdftool
 	@touch $@
 
 $(VENV)/.dev: pyproject.toml $(BIN)/urdftool

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import statistics
 import subprocess
 import sys
@@ -15,14 +16,19 @@ CORPUS = Path(__file__).resolve().parents[3] / "shared" / "corpus"
 
 
 def run(command: Sequence[str], *, env: Mapping[str, str] | None = None) -> Callable[[], None]:
-    """A call of a command whose output nobody reads; it may exit 0 or 1, but not fail."""
+    """A call of a command whose output nobody reads; it may exit 0 or 1, but not fail.
+
+    Python's bytecode cache is on, as it is for whoever has installed both sides.
+    """
+    chosen = dict(os.environ if env is None else env)
+    chosen.pop("PYTHONDONTWRITEBYTECODE", None)
 
     def call() -> None:
         done = subprocess.run(
             command,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
-            env=None if env is None else dict(env),
+            env=chosen,
             check=False,
         )
         assert done.returncode in (0, 1), command

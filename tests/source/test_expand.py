@@ -91,7 +91,8 @@ CASES = [
     '<xacro:property name="p" value="3"/><xacro:property name="q" value="${p*2}"/><a b="${q}"/>',
     '<xacro:property name="p" value="3"/><xacro:property name="p" value="4"/><a b="${p}"/>',
     '<xacro:macro name="m" params="a b:=2 *block"><l n="${a}-${b}"/>'
-    '<xacro:insert_block name="block"/></xacro:macro><xacro:m a="1"><o x="${1/2}"/></xacro:m><xacro:m a="x" b="y"><o/></xacro:m>',
+    '<xacro:insert_block name="block"/></xacro:macro><xacro:m a="1"><o x="${1/2}"/></xacro:m>'
+    '<xacro:m a="x" b="y"><o/></xacro:m>',
     '<xacro:macro name="m" params="**many"><w><xacro:insert_block name="many"/></w></xacro:macro>'
     "<xacro:m><many><i/><j/></many></xacro:m>",
     '<xacro:macro name="m" params="n"><xacro:if value="${n > 0}"><l n="${n}"/><xacro:m n="${n-1}"/>'

@@ -12,6 +12,7 @@ from ..errors import ConfigError, SourceError, UrdftoolError
 from ..finding import Finding, Severity
 from ..model.elements import Robot
 from ..model.read import read_robot
+from ..rules import ONLY_WITH, speaks_of
 from ..rules.rule import Problem, Rule
 from ..source.description import Description, is_xacro, read_description
 from ..source.document import Document, mend, parse, read_file
@@ -199,7 +200,7 @@ def _check_description(
     else:
         targets = frozenset()
     report.targets = targets
-    rules = settings.rules(targets)
+    rules = _rules(settings, targets, description)
     documents = list(_documents(description))
     findings = [_of_failure(failure, settings) for failure in failures]
     subjects: dict[str, Any] = {
@@ -219,9 +220,35 @@ def _check_description(
     if comments:
         suppressions, wrong = read_suppressions(comments)
         findings, report.suppressed = suppress(findings, suppressions)
-        stale = unused(suppressions, ran) if robot is not None else ()
-        findings += [f for f in (*wrong, *stale) if f.rule in {r.name for r in rules}]
+        selected = set(settings.names())
+        tags = _tags(description)
+        idle = {name for name in selected if not speaks_of(name, tags)}
+        stale = unused(suppressions, ran | idle) if robot is not None else ()
+        findings += [f for f in (*wrong, *stale) if f.rule in selected]
     report.findings = in_order(merge(findings))
+
+
+_chosen: dict[tuple[int, frozenset[str], frozenset[str]], tuple[Settings, list[Rule]]] = {}
+_TELLING = frozenset(tag for tags in ONLY_WITH.values() for tag in tags)
+
+
+def _rules(settings: Settings, targets: frozenset[str], description: Description) -> list[Rule]:
+    """The rules that are to run; worked out once for descriptions of one kind."""
+    tags = _tags(description) & _TELLING
+    key = (id(settings), targets, frozenset(tags))
+    if key not in _chosen:
+        _chosen[key] = settings, settings.rules(targets, tags)
+    return _chosen[key][1]
+
+
+def _tags(description: Description) -> set[str]:
+    tags: set[str] = set()
+    todo = [description.document.root]
+    while todo:
+        element = todo.pop()
+        tags.add(element.tag)
+        todo += element.children
+    return tags
 
 
 def _documents(description: Description) -> Iterator[Document]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from difflib import get_close_matches
 from fnmatch import fnmatch
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,7 @@ from typing import Any
 from ..configuration import Configuration
 from ..errors import ConfigError
 from ..finding import Severity
-from ..rules import FAMILIES, FAMILY_OF, get_rule
+from ..rules import FAMILIES, FAMILY_OF, get_rule, speaks_of
 from ..rules.rule import TARGETS, Rule
 
 _LISTS = ("select", "ignore", "extend-select", "targets")
@@ -41,21 +40,31 @@ class Settings:
     severity: Mapping[str, Severity | None] = field(default_factory=dict)
     thresholds: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
-    def rules(self, targets: frozenset[str]) -> list[Rule]:
-        """The rules that are to run for a set of targets."""
-        named = {s for s in (*(self.select or ()), *self.extend_select) if s in FAMILY_OF}
-        ignored = _expand(self.ignore)
-        chosen: list[Rule] = []
-        wanted = FAMILY_OF if self.select is None else _expand(self.select)
-        extended = _expand(self.extend_select)
-        for name in FAMILY_OF:
-            if name in ignored or not (name in wanted or name in extended):
-                continue
-            if self.severity.get(name, Severity.INFO) is None:
-                continue
-            rule = get_rule(name)
-            if name in named or (rule.default and rule.is_on_for(targets)):
-                chosen.append(rule)
+    def names(self) -> list[str]:
+        """The rules that are selected, whether or not they are on for the targets."""
+        wanted = set(FAMILY_OF) if self.select is None else _expand(self.select)
+        wanted |= _expand(self.extend_select)
+        wanted -= _expand(self.ignore)
+        return [
+            name
+            for name in FAMILY_OF
+            if name in wanted and self.severity.get(name, Severity.INFO) is not None
+        ]
+
+    def rules(self, targets: frozenset[str], tags: set[str]) -> list[Rule]:
+        """The rules that are to run.
+
+        Args:
+            targets: The active targets.
+            tags: The elements the description has.
+        """
+        named = {*(self.select or ()), *self.extend_select}
+        chosen = []
+        for name in self.names():
+            if speaks_of(name, tags):
+                rule = get_rule(name)
+                if name in named or (rule.default and rule.is_on_for(targets)):
+                    chosen.append(rule)
         return chosen
 
 
@@ -93,8 +102,15 @@ def check_selectors(selectors: Iterable[str], path: str | None = None) -> tuple[
 
 def nearest_rule(word: str) -> str:
     """A hint at the rule or family that was perhaps meant."""
-    near = get_close_matches(word, (*FAMILY_OF, *FAMILIES), 1, 0.5)
-    return f"; did you mean '{near[0]}'?" if near else "; --list-rules shows them all"
+    return nearest(word, (*FAMILY_OF, *FAMILIES)) or "; --list-rules shows them all"
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """``; did you mean '…'?``, or nothing where no word is near."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(word, list(known), 1, 0.5)
+    return f"; did you mean '{near[0]}'?" if near else ""
 
 
 def check_targets(targets: Iterable[str], path: str | None = None) -> frozenset[str] | None:
@@ -106,9 +122,8 @@ def check_targets(targets: Iterable[str], path: str | None = None) -> frozenset[
     words = [word.strip() for text in targets for word in text.split(",") if word.strip()]
     for word in words:
         if word not in TARGETS:
-            near = get_close_matches(word, TARGETS, 1, 0.4)
-            hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(TARGETS)}"
-            raise ConfigError(f"no target is called '{word}'; {hint}", path=path)
+            hint = nearest(word, TARGETS) or f"; there are {', '.join(TARGETS)}"
+            raise ConfigError(f"no target is called '{word}'{hint}", path=path)
     return frozenset(words) if words else None
 
 
@@ -149,8 +164,7 @@ def _from_table(table: Mapping[str, Any], path: str | None) -> Settings:
         elif key in FAMILY_OF:
             thresholds[key] = _thresholds(key, value, path)
         elif key not in _KEYS:
-            near = get_close_matches(key, (*_KEYS, *FAMILY_OF), 1)
-            hint = f"; did you mean '{near[0]}'?" if near else f"; there are {', '.join(_KEYS)}"
+            hint = nearest(key, (*_KEYS, *FAMILY_OF)) or f"; there are {', '.join(_KEYS)}"
             raise ConfigError(f"no option is called lint.{key}{hint}", path=path)
     return Settings(
         select=check_selectors(lists["select"], path) if "select" in lists else None,

@@ -100,11 +100,8 @@ def _expand_tabs(text: str) -> str:
 
 
 def _remarks(finding: Finding, paint: Painter) -> Iterator[str]:
-    if finding.effects:
-        said = [
-            f"{paint(target, bold=True)}: {effect}" for target, effect in finding.effects.items()
-        ]
-        yield "   ".join(said)
+    for target, effect in finding.effects.items():
+        yield f"{paint(target, bold=True)}: {effect}"
     if finding.hint:
         yield f"{paint('hint', bold=True)}: {clean(finding.hint)}"
     yield from (f"from {line}" for line in call_lines(finding.place.calls))

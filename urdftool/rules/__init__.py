@@ -153,13 +153,80 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
     "package": {"resolution": ("package-not-found",)},
     "gazebo": {
         "tags": ("missing-gazebo-tags", "missing-gazebo-material", "missing-friction"),
-        "references": ("dangling-reference", "misplaced-extension"),
+        "references": ("dangling-reference", "misplaced-extension", "conflicting-references"),
         "vocabulary": ("unknown-extension",),
-        "values": ("bad-extension-number",),
+        "values": ("bad-extension-number", "half-friction", "implausible-friction"),
+        "settings": ("deprecated-cfm-damping", "no-effect-in-gz"),
+        "lumping": (
+            "lumped-joint-loses-content",
+            "lumped-flag-leaks",
+            "preserved-joint-massless",
+            "named-geometry-loses-extensions",
+            "lumped-link-referenced",
+            "surface-without-collision",
+        ),
+        "model": (
+            "robot-level-static",
+            "gravity-off-everywhere",
+            "reserved-name",
+            "missing-control-plugin",
+            "root-not-anchored",
+        ),
+        "sensors": (
+            "unknown-sensor-type",
+            "cpu-ray-in-gz",
+            "ros-plugin-inside-sensor",
+            "missing-gz-frame-id",
+            "duplicate-sensor-name",
+        ),
+        "plugins": (
+            "plugin-without-filename",
+            "classic-plugin-in-gz",
+            "gz-plugin-in-classic",
+            "ignition-name",
+            "plugin-class-mismatch",
+            "plugin-unknown-entity",
+            "duplicate-plugin-name",
+        ),
     },
     "control": {
-        "transmissions": ("transmission-unknown-joint", "unprefixed-hardware-interface"),
-        "ros2_control": ("ros2-control-unknown-joint",),
+        "transmissions": (
+            "transmission-unknown-joint",
+            "unprefixed-hardware-interface",
+            "incomplete-transmission",
+            "missing-hardware-interface",
+            "unknown-hardware-interface",
+            "several-hardware-interfaces",
+            "duplicate-transmission",
+            "transmission-on-immovable-joint",
+            "actuated-joint-without-transmission",
+            "ros1-transmission-in-ros2",
+        ),
+        "ros2_control": (
+            "ros2-control-unknown-joint",
+            "ros2-control-fixed-joint",
+            "ros2-control-mimic",
+            "ros2-control-legacy-mimic-param",
+            "ros2-control-duplicate-interface",
+            "nonstandard-interface-name",
+            "command-without-state",
+            "joint-outside-ros2-control",
+            "bad-initial-value",
+        ),
+        "ros2_control_form": (
+            "ros2-control-missing-attribute",
+            "ros2-control-missing-plugin",
+            "ros2-control-invalid-tag",
+            "ros2-control-nested",
+            "ros2-control-bad-param",
+        ),
+        "ros2_control_simulated": (
+            "ros2-control-wrong-sim-plugin",
+            "ros2-control-sim-plugin-pair",
+            "ros2-control-empty-parameters",
+            "ros2-control-unknown-imu-interface",
+            "sensor-name-mismatch",
+        ),
     },
     "name": {
         "spelling": (
@@ -181,11 +248,43 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
     "lint": {"suppressions": ("unused-suppression", "unknown-rule")},
 }
 
+# A file of rules that speak of certain elements alone is not imported for a robot without them;
+# one with no element is never imported to look, because the readers of files report its rules.
+ONLY_WITH: dict[str, tuple[str, ...]] = {
+    "xacro.expansion": (),
+    "package.resolution": ("mesh",),
+    "lint.suppressions": (),
+    "joint.mimic": ("mimic", "joint"),
+    "joint.safety": ("safety_controller",),
+    "visual.materials": ("material",),
+    "mesh.files": ("mesh",),
+    "mesh.uris": ("mesh",),
+    "inertia.slips": ("inertia",),
+    "gazebo.references": ("gazebo",),
+    "gazebo.vocabulary": ("gazebo",),
+    "gazebo.values": ("gazebo",),
+    "gazebo.settings": ("gazebo",),
+    "gazebo.lumping": ("gazebo",),
+    "gazebo.sensors": ("sensor",),
+    "gazebo.plugins": ("plugin",),
+    "control.transmissions": ("transmission",),
+    "control.ros2_control": ("ros2_control",),
+    "control.ros2_control_form": ("ros2_control",),
+    "control.ros2_control_simulated": ("ros2_control", "plugin"),
+}
+
 FAMILIES = tuple(RULES)
 
-FAMILY_OF = {
-    name: family for family, files in RULES.items() for names in files.values() for name in names
+FILE_OF = {
+    name: f"{family}.{file}"
+    for family, files in RULES.items()
+    for file, names in files.items()
+    for name in names
 }
+
+FAMILY_OF = {name: file.partition(".")[0] for name, file in FILE_OF.items()}
+
+_loaded: dict[str, Rule] = {}
 
 
 def get_rule(name: str) -> Rule:
@@ -194,13 +293,17 @@ def get_rule(name: str) -> Rule:
     Raises:
         KeyError: There is no rule of that name.
     """
-    family = FAMILY_OF[name]
-    for file, names in RULES[family].items():
-        if name in names:
-            module = import_module(f".{family}.{file}", __name__)
-            found: Rule = getattr(module, name.replace("-", "_"))
-            return found
-    raise KeyError(name)
+    rule = _loaded.get(name)
+    if rule is None:
+        module = import_module(f".{FILE_OF[name]}", __name__)
+        rule = _loaded[name] = getattr(module, name.replace("-", "_"))
+    return rule
+
+
+def speaks_of(name: str, tags: set[str]) -> bool:
+    """Whether a rule can find anything in a robot that has only certain elements."""
+    wanted = ONLY_WITH.get(FILE_OF[name])
+    return wanted is None or not tags.isdisjoint(wanted)
 
 
 def all_rules() -> Iterator[Rule]:

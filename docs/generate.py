@@ -1,0 +1,126 @@
+"""Write the parts of the documentation that the code knows: ``python docs/generate.py [--check]``.
+
+A page a rule, from its docstring, its decorator and its fixtures; an index of them; the help of each
+command, between marks in its page. With ``--check`` nothing is written, and stale pages are named.
+"""
+
+from __future__ import annotations
+
+import argparse
+import inspect
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import click
+
+from urdftool import cli
+from urdftool.report.rule_pages import facts
+from urdftool.rules import RULES, all_rules, get_rule
+from urdftool.rules.rule import TARGETS, Rule
+
+DOCS = Path(__file__).resolve().parent
+FIXTURES = DOCS.parent / "fixtures" / "rules"
+BEGIN, END = "<!-- help begins -->", "<!-- help ends -->"
+
+
+def pages() -> Iterator[tuple[Path, str]]:
+    """Every generated page with its text."""
+    for rule in all_rules():
+        yield DOCS / "rules" / f"{rule.name}.md", rule_page(rule)
+    yield DOCS / "rules" / "index.md", rule_index()
+    for path in sorted((DOCS / "commands").glob("*.md")):
+        yield path, with_help(path)
+
+
+def rule_page(rule: Rule) -> str:
+    """A rule's page: the fact, why it hurts, what readers do, and its fixtures."""
+    fact, _, rest = inspect.cleandoc(rule.check.__doc__ or "").partition("\n")
+    parts = [f"# {rule.name}", _markdown(fact), _markdown(rest.strip())]
+    parts.append("\n".join(f"- {label}: {value}" for label, value in facts(rule)))
+    if rule.effects:
+        rows = "\n".join(f"| {target} | {effect} |" for target, effect in rule.effects.items())
+        parts.append(f"| reader | what it does |\n|---|---|\n{rows}")
+    for title, pattern in (("Found", "bad.*"), ("Right", "good.*")):
+        for path in sorted((FIXTURES / rule.name).glob(pattern)):
+            if path.suffix in (".urdf", ".xacro"):
+                text = path.read_text("utf-8", "replace").rstrip()
+                parts.append(f"## {title}\n\n```xml\n{text}\n```")
+                break
+    parts.append(
+        f"Silence it where it is meant: `<!-- urdftool-ignore[{rule.name}] reason -->` "
+        "on the line or before the element."
+    )
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def _markdown(text: str) -> str:
+    return text.replace("``", "`")
+
+
+def rule_index() -> str:
+    """All rules by family, and by target."""
+    lines = ["# Rules", ""]
+    lines.append(f"{len(list(all_rules()))} rules. `urdftool lint --explain RULE` shows a page.")
+    for family in RULES:
+        names = [name for group in RULES[family].values() for name in group]
+        if not names:
+            continue
+        lines += ["", f"## {family}", "", "| rule | severity | what it says |", "|---|---|---|"]
+        for name in names:
+            rule = get_rule(name)
+            off = "" if rule.default else " *(off)*"
+            fact = _markdown(rule.fact).replace("|", "\\|")
+            lines.append(f"| [{name}]({name}.md) | {rule.severity.label} | {fact}{off} |")
+    lines += ["", "## By target", ""]
+    for target in TARGETS:
+        special = [r for r in all_rules() if target in (r.on or ()) or target in r.raised]
+        links = ", ".join(f"[{rule.name}]({rule.name}.md)" for rule in special) or "none"
+        lines += [f"**{target}**: on or raised for it: {links}", ""]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def with_help(path: Path) -> str:
+    """A command's page with the help between its marks as it is now."""
+    text = path.read_text("utf-8")
+    words = path.stem.split("-")
+    command: click.Command = cli.main
+    context = click.Context(cli.main, info_name="urdftool", terminal_width=88)
+    for word in words:
+        assert isinstance(command, click.Group)
+        found = command.get_command(context, word)
+        assert found is not None, f"{path}: no command {word}"
+        command = found
+        context = click.Context(command, info_name=word, parent=context, terminal_width=88)
+    shown = f"{BEGIN}\n```text\n{command.get_help(context)}\n```\n{END}"
+    pattern = re.compile(re.escape(BEGIN) + ".*?" + re.escape(END), re.DOTALL)
+    return pattern.sub(lambda _: shown, text)
+
+
+def stale() -> list[Path]:
+    """Generated pages that are not as they would be written now, and pages of rules that are gone."""
+    fresh = dict(pages())
+    wrong = [p for p, text in fresh.items() if not p.exists() or p.read_text("utf-8") != text]
+    return wrong + [path for path in (DOCS / "rules").glob("*.md") if path not in fresh]
+
+
+def main() -> int:
+    """Write the pages, or check them."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--check", action="store_true", help="write nothing; name stale pages")
+    if parser.parse_args().check:
+        wrong = stale()
+        for path in wrong:
+            print(f"{path}: is stale; run python docs/generate.py")
+        return int(bool(wrong))
+    for path in (DOCS / "rules").glob("*.md"):
+        path.unlink()
+    for path, text in pages():
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text, "utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
