@@ -2,26 +2,91 @@
 
 from __future__ import annotations
 
-from ...model.elements import Link
+from ...model.elements import Joint, Link
 from ...model.pose import Pose, rotation_of_rpy
 from ...model.read import numbers
 from ...source.document import Element
+from .imu import is_old_noise
 from .pose import set_pose
 from .translation import Translation
-from .xml import Node, add, copied
+from .vocabulary import DE_FACTO, ELEMENTS
+from .xml import Node, add, comment, copied
 
 PLACED = frozenset(
     ("light", "projector", "sensor", "audio_source", "particle_emitter", "collision", "visual")
 )
 """Elements of a link that have a pose in it."""
 
+BEFORE_SDF = frozenset(
+    ("body", "controller", "geom", "interface", "joint", "model", "physics", "rendering", "sensor")
+)
+"""Prefixes of Gazebo's own XML before there was SDF, which nothing reads any more."""
 
-def blob(node: Node, t: Translation, link: Link, element: Element) -> Node:
-    """Copy an element of a link's block into the link that it is in now."""
+
+def blob(
+    node: Node, t: Translation, element: Element, about: Link | Joint | None = None
+) -> Node | None:
+    """Copy an element of a block, if SDF has it; what SDF has not becomes a comment.
+
+    Args:
+        node: The link, joint or model that it goes into.
+        t: The export.
+        element: The element.
+        about: The link or joint that the block refers to.
+
+    Returns:
+        The copy; None where it is not SDF.
+    """
+    if not _is_known(str(node.tag), element):
+        _lose(node, t, element, about)
+        return None
     made = copied(node, element)
-    if element.tag in PLACED:
-        move(made, t, link)
+    _prune(made, t, element, about)
+    if isinstance(about, Link) and element.tag in PLACED:
+        move(made, t, about)
     return made
+
+
+def _is_known(parent: str, element: Element) -> bool:
+    """Whether SDF has an element in another; a prefix marks what is meant for some program."""
+    prefix, colon, _ = element.tag.partition(":")
+    if colon:
+        return prefix not in BEFORE_SDF
+    known = ELEMENTS.get(parent)
+    return known is None or element.tag in known or element.tag in DE_FACTO
+
+
+def _prune(made: Node, t: Translation, element: Element, about: Link | Joint | None) -> None:
+    if element.tag == "plugin":
+        return
+    for child, source in zip(list(made), element.children, strict=True):
+        if is_old_noise(source):
+            made.remove(child)
+        elif _is_known(element.tag, source):
+            _prune(child, t, source, about)
+        else:
+            _lose(made, t, source, about)
+            made.replace(child, made[-1])
+
+
+def _lose(node: Node, t: Translation, element: Element, about: Link | Joint | None) -> None:
+    """Keep what is not SDF as a comment, the last child, and say so."""
+    comment(node, spoken(element))
+    what = f"<{element.tag}>"
+    t.lose(
+        "element",
+        f"{what} in <{node.tag}> is no element of SDF; it stays as a comment",
+        element,
+        about,
+    )
+
+
+def spoken(element: Element) -> str:
+    """An element in one line, for a comment."""
+    words = [element.tag, *(f'{name}="{value}"' for name, value in element.attributes.items())]
+    words += element.text.split()
+    inner = "; ".join(spoken(child) for child in element.children)
+    return " ".join(words) + (f" ({inner})" if inner else "")
 
 
 def move(made: Node, t: Translation, link: Link) -> None:

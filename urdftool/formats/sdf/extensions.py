@@ -119,7 +119,7 @@ def link_extensions(node: Node, t: Translation, link: Link) -> None:
                 text = f"<{tag}> is said of link '{link.name}', and is of joints"
                 t.lose("extension", f"{text}; it is left out", element, link)
         elif tag not in ELSEWHERE and tag not in COLLISION_KEYWORDS and tag not in IGNORED:
-            blob(node, t, link, element)
+            blob(node, t, element, link)
 
 
 def _set_flag(node: Node, tag: str, text: str) -> None:
@@ -154,7 +154,7 @@ def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
                 text = f"<{tag}> is said of joint '{joint.name}', and is of links; it is left out"
                 t.lose("extension", text, element, joint)
             else:
-                copied(node, element)
+                blob(node, t, element, joint)
 
 
 def note_dissolved_joint(t: Translation, joint: Joint) -> None:

@@ -7,6 +7,7 @@ from itertools import count
 from ...model.elements import ZERO, GazeboExtension, Origin
 from ...model.read import numbers
 from ...source.document import Element
+from .blobs import blob
 from .control import control
 from .frames import frames
 from .joints import joint
@@ -84,13 +85,15 @@ def _parts(node: Node, t: Translation) -> None:
                     node.remove(old)
                 node.insert(0, copied(node, element))
             elif element.tag not in ("static", "canonicalBody"):
-                copied(node, element)
+                blob(node, t, element)
     _note_dangling(t)
 
 
 def _closing_joint(node: Node, t: Translation, element: Element) -> None:
     """A joint of SDF in a block, which closes a loop: its links by the names they have now."""
-    made = copied(node, element)
+    made = blob(node, t, element)
+    if made is None:
+        return
     name = made.get("name") or "joint"
     taken = {other.get("name") for other in node if other is not made}
     if name in taken:

@@ -28,7 +28,7 @@ def sensor_plugin(made: Node, t: Translation, part: Link | Joint, element: Eleme
     if rate not in ("", "0", "0.0"):
         _once(made, "update_rate", rate)
     frame = next((settings[tag] for tag in known.frame if tag in settings), "")
-    _once(made, _frame_tag(t), frame)
+    _name_frame(made, t, part, element, frame)
     on = f" on topic '{topic}'" if topic else ""
     t.note(
         "plugin",
@@ -48,11 +48,27 @@ def _once(made: Node, tag: str, text: str) -> None:
         made.insert(0 if pose is None else list(made).index(pose) + 1, node)
 
 
-def _frame_tag(t: Translation) -> str:
-    """The element that names the frame of a sensor's messages."""
+def _name_frame(
+    made: Node, t: Translation, part: Link | Joint, element: Element, frame: str
+) -> None:
+    """Say in which frame a sensor's messages are, where the version has a word for it."""
+    if not frame or made.find("gz_frame_id") is not None:
+        return
+    camera = made.find("camera")
     if t.options.since("1.12"):
-        return "frame_id"
-    return "gz_frame_id" if t.options.since("1.10") else "ignition_frame_id"
+        _once(made, "frame_id", frame)
+    elif camera is not None:
+        if camera.find("optical_frame_id") is None:
+            add(camera, "optical_frame_id", frame)
+    else:
+        t.lose(
+            "frame-id",
+            f"messages of sensor '{made.get('name')}' are in frame '{frame}', which SDF "
+            f"{t.options.sdf_version} cannot say; in gz their frame is MODEL/LINK/SENSOR",
+            element,
+            part,
+            hint="--sdf-version 1.12 can, or write <gz_frame_id> in the <sensor>",
+        )
 
 
 def _topic(element: Element, settings: dict[str, str]) -> str:

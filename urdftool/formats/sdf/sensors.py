@@ -7,14 +7,15 @@ from copy import deepcopy
 from ...finding import Severity
 from ...model.elements import Joint, Link
 from ...source.document import Element
-from .blobs import move, rename_frames
+from .blobs import blob, move, rename_frames
 from .extensions import said_of
+from .imu import imu_noise
 from .plugins import plugin
 from .sensor_plugins import sensor_plugin
 from .sensor_types import TO_CLASSIC, TO_GZ
 from .shape_names import shape_names
 from .translation import Translation
-from .xml import Node, copied
+from .xml import Node
 
 _LUMP = "_fixed_joint_lump__"
 
@@ -45,7 +46,9 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
     """A sensor of the source in the words of the target; several of a multicamera."""
     kind = (element.get("type") or "").strip()
     types = TO_CLASSIC if t.options.classic else TO_GZ
-    made = copied(node, element)
+    made = blob(node, t, element, about=None)
+    assert made is not None  # a link and a joint may have sensors
+    imu_noise(made, element)
     _name_once(node, t, part, made, element)
     other = types.get(kind)
     if other is not None and not other.type:

@@ -131,13 +131,23 @@ def _tree_difference(pair: Pair, joint: Hinge, other: Hinge | None) -> str:
         return f"is {other.kind}, not {joint.kind}"
     for end in ("parent", "child"):
         name = getattr(joint, end)
-        body = pair.made.frames.get(pair.link(name), ("nothing", None))[0]
+        body = _body_of(pair, name)
         if body != getattr(other, end):
             return f"its {end} is '{getattr(other, end)}', not '{name}'"
     said = joint.mimic and (pair.joint(joint.mimic[0]), *joint.mimic[1:])
     if said != other.mimic:
         return f"leader, multiplier and offset are {other.mimic}, not {said}"
     return ""
+
+
+def _body_of(pair: Pair, link: str) -> str:
+    """The body that has a link; without frames, the nearest one above it over fixed joints."""
+    while pair.link(link) not in pair.made.frames:
+        joint = pair.robot.tree.parent_joint(link)
+        if joint is None or not joint.is_fixed:
+            return "nothing"
+        link = joint.parent
+    return pair.made.frames[pair.link(link)][0]
 
 
 def _motion(pair: Pair) -> list[Check]:

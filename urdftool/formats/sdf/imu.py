@@ -1,0 +1,41 @@
+"""The noise of an inertial sensor as it was written before SDF 1.5, in the words of today."""
+
+from __future__ import annotations
+
+from ...source.document import Element
+from .xml import Node, add, at
+
+KINDS = {"rate": "angular_velocity", "accel": "linear_acceleration"}
+_NUMBERS = ("mean", "stddev", "bias_mean", "bias_stddev")
+
+
+def imu_noise(made: Node, sensor: Element) -> None:
+    """Say of each axis what ``imu/noise`` said of all three.
+
+    Args:
+        made: The sensor that is written.
+        sensor: The sensor in the source.
+    """
+    imu = sensor.child("imu")
+    noise = imu.child("noise") if imu is not None else None
+    holder = made.find("imu")
+    if noise is None or holder is None:
+        return
+    kind = noise.child("type")
+    for old, new in KINDS.items():
+        said = noise.child(old)
+        for axis in "xyz" if said is not None else "":
+            node = at(holder, f"{new}/{axis}")
+            if said is None or node.find("noise") is not None:
+                continue
+            one = add(node, "noise", type=kind.text.strip() if kind is not None else "gaussian")
+            for name in _NUMBERS:
+                number = said.child(name)
+                if number is not None:
+                    add(one, name, number.text.strip())
+
+
+def is_old_noise(element: Element) -> bool:
+    """Whether an element is the noise that :func:`imu_noise` translates."""
+    parent = element.parent
+    return element.tag == "noise" and parent is not None and parent.tag == "imu"
