@@ -67,13 +67,15 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "missing-limit",
             "limit-without-effort-or-velocity",
             "limit-without-bounds",
+            "continuous-with-bounds",
+        ),
+        "range": (
             "lower-above-upper",
             "locked-by-limits",
             "limit-in-degrees",
             "prismatic-in-millimetres",
             "limit-rounded-outward",
             "range-above-full-turn",
-            "continuous-with-bounds",
             "zero-outside-limits",
         ),
         "drive": (

@@ -171,8 +171,8 @@ def implausible_density(
     """A link's mass does not go with its size.
 
     Between foam and lead lie 5 and 12,000 kg/m³, and nothing is denser than osmium with 22,600.
-    Beyond that, a unit is wrong: grams, or millimetres. A shape of millimetres that nothing touches
-    is mostly a mark for a frame, and no more than a remark.
+    Beyond that, a unit is wrong: grams, or millimetres. A shape of millimetres is mostly a mark for
+    a frame, and no more than a remark.
     """
     for link, mass, element in _masses(robot):
         density = _density(link, mass)
@@ -180,7 +180,7 @@ def implausible_density(
             continue
         impossible = density > most_possible or density < least_possible
         box = box_of(link)
-        if box is None or (max(box.size) < small and not link.collisions):
+        if box is None or max(box.size) < small:
             impossible = False
         yield Problem(
             link,

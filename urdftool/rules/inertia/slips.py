@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from ...model.elements import Inertial, Link, Robot
+from ...model.elements import Inertial, Link, Robot, Vector
 from ...model.tensor3 import Six
 from ..rule import ERROR, WARNING, Problem, rule
 from .solids import solid_moments
@@ -83,7 +83,8 @@ def reordered(six: Six) -> Six | None:
 def shifted(link: Link, six: Six) -> tuple[str, float] | None:
     """The one moment to move the decimal point of, and what it is then; None where unclear.
 
-    Where the link has one solid shape, what comes out has to be its moment, within a quarter.
+    Where the link has one solid shape, what comes out has to be its moment within a quarter, and
+    the other two within a factor of two.
     """
     if is_possible(six, 0.01) or min(six[i] for i in _DIAGONAL) <= 0:
         return None
@@ -96,10 +97,15 @@ def shifted(link: Link, six: Six) -> tuple[str, float] | None:
             changed[i] = value
             if not is_possible((*changed,)):  # type: ignore[arg-type]
                 continue
-            if solid is not None and not 0.8 <= value / solid[place] <= 1.25:
+            if solid is not None and not _is_near(changed, solid, place):
                 continue
             found.append((SIX[i], float(f"{value:.12g}")))
     return found[0] if len(found) == 1 else None
+
+
+def _is_near(six: Sequence[float], solid: Vector, place: int) -> bool:
+    ratios = [six[i] / moment for i, moment in zip(_DIAGONAL, solid, strict=True)]
+    return all(0.5 <= ratio <= 2 for ratio in ratios) and 0.8 <= ratios[place] <= 1.25
 
 
 @rule(

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.elements import Robot, Vector
+from ...model.elements import Inertial, Robot, Vector
+from ...model.tensor3 import Six
+from ...source.location import Place
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from .bodies import bodies, mass_of
 from .slips import slip_of
 from .solids import solid_text
-from .tensors import is_positive, moments_of, tensors
+from .tensors import SIX, is_positive, moments_of, tensors
 
 _REJECTED = {
     "gz, gazebo-classic": "reject the model (Error 18)",
@@ -34,7 +36,7 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
             link,
             f"inertia of link '{link.name}' has a negative principal moment ({_shown(moments)}); "
             f"all three must be positive{solid_text(link)}",
-            at=inertial.inertia,
+            at=_component(inertial, six, min(six[0], six[3], six[5])),
         )
 
 
@@ -58,7 +60,7 @@ def inertia_triangle_inequality(
             link,
             f"inertia of link '{link.name}' belongs to no rigid body: principal moment "
             f"{high:.4g} is larger than {low:.4g} + {middle:.4g}{solid_text(link)}",
-            at=inertial.inertia,
+            at=_component(inertial, six, max(six[0], six[3], six[5])),
         )
 
 
@@ -178,3 +180,12 @@ def tiny_moving_inertia(
 
 def _shown(moments: Vector) -> str:
     return ", ".join(f"{moment:.4g}" for moment in moments)
+
+
+def _component(inertial: Inertial, six: Six, moment: float) -> Place | None:
+    """Where a moment is written, if the moments are the principal ones; else the whole tensor."""
+    if inertial.inertia is None:
+        return None
+    if six[1] or six[2] or six[4]:
+        return inertial.inertia.place
+    return inertial.inertia.element.attribute_place(SIX[six.index(moment)])

@@ -1,0 +1,220 @@
+"""From where to where a joint goes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ...model.elements import Joint, Limit, Robot
+from ..rule import ERROR, INFO, WARNING, Problem, rule
+
+
+@rule(
+    ERROR,
+    effects={
+        "gz, gazebo-classic": "swap them with a warning",
+        "mujoco": "takes the joint as unlimited",
+        "pybullet, pinocchio": "keep the empty range",
+        "moveit": "finds no state in bounds",
+        "drake": "aborts",
+    },
+)
+def lower_above_upper(robot: Robot) -> Iterator[Problem]:
+    """A joint's lower limit is above its upper one.
+
+    No position lies between them. Gazebo swaps the two, MuJoCo drops them, PyBullet keeps the empty
+    range, MoveIt plans nothing.
+    """
+    for joint, limit, lower, upper in _bounded(robot):
+        if lower > upper:
+            yield Problem(
+                joint,
+                f"lower limit {lower:g} of joint '{joint.name}' is above the upper {upper:g}; "
+                "swap them",
+                at=limit.element.attribute_place("lower"),
+            )
+
+
+@rule(
+    WARNING,
+    raised={"mujoco": ERROR},
+    effects={
+        "mujoco": "ignores the limit: the joint turns freely",
+        "pybullet, gz": "hold it in place",
+    },
+)
+def locked_by_limits(robot: Robot) -> Iterator[Problem]:
+    """A joint's lower and upper limit are equal.
+
+    It is meant not to move. MuJoCo drops such a limit, so the very joint that was locked turns
+    freely; planners keep an axis that does nothing. A joint that does not move is ``fixed``.
+    """
+    for joint, limit, lower, upper in _bounded(robot):
+        if lower == upper:
+            yield Problem(
+                joint,
+                f"limits of joint '{joint.name}' are both {lower:g}, so it cannot move; "
+                "make it fixed, or write its range",
+                at=limit.element.attribute_place("upper"),
+            )
+
+
+@rule(WARNING, effects={"every reader": "takes radians: 90 is more than fourteen turns"})
+def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[Problem]:
+    """A revolute joint's limit is larger than two turns.
+
+    Angles are in radians. 90 lets the joint turn fourteen times, which winds up cables and gives
+    planners a hundred ways to one pose. A very large number mostly means that there is no limit;
+    then the joint is ``continuous``.
+    """
+    for joint in robot.joints:
+        limit = joint.limit
+        if joint.type != "revolute" or limit is None:
+            continue
+        lower, upper = limit.lower or 0.0, limit.upper or 0.0
+        if max(abs(lower), abs(upper)) <= largest:
+            continue
+        name = "upper" if abs(upper) > largest else "lower"
+        value = upper if name == "upper" else lower
+        at = limit.element.attribute_place(name)
+        what = f"{name} limit {value:g} of joint '{joint.name}'"
+        if abs(value) >= 1e3:
+            yield Problem(
+                joint, f"{what} means none; make the joint continuous", at=at, severity=INFO
+            )
+        elif _looks_like_degrees(lower) and _looks_like_degrees(upper):
+            low, high = math.radians(lower), math.radians(upper)
+            yield Problem(
+                joint,
+                f"{what} looks like degrees; in radians the range is {low:.5g} to {high:.5g}",
+                at=at,
+            )
+        else:
+            turns = abs(value) / (2 * math.pi)
+            yield Problem(
+                joint,
+                f"{what} is {turns:.3g} turns; limits are in radians",
+                at=at,
+            )
+
+
+def _looks_like_degrees(value: float) -> bool:
+    return abs(value) <= 720 and (value * 2).is_integer()
+
+
+@rule(INFO, effects={"every reader": "takes metres"})
+def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator[Problem]:
+    """A prismatic joint's limit, or the place of a joint, is more than ten metres.
+
+    Lengths are in metres. Numbers of a drawing in millimetres make a thousandfold robot.
+    """
+    for joint, limit, lower, upper in _bounded(robot):
+        if joint.type == "prismatic" and max(abs(lower), abs(upper)) > largest:
+            name = "upper" if abs(upper) > largest else "lower"
+            value = upper if name == "upper" else lower
+            yield Problem(
+                joint,
+                f"{name} limit of joint '{joint.name}' is {value:g} m; "
+                f"if that is millimetres, write {value / 1000:g}",
+                at=limit.element.attribute_place(name),
+            )
+    for joint in robot.joints:
+        if joint.origin is None:
+            continue
+        far = max(joint.origin.xyz, key=abs)
+        if abs(far) > largest:
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' is {abs(far):g} m from its parent; "
+                f"if that is millimetres, write {far / 1000:g}",
+                at=joint.origin.element.attribute_place("xyz"),
+            )
+
+
+@rule(
+    INFO,
+    raised={"moveit": WARNING},
+    effects={"moveit": "plans to positions that the drive refuses"},
+)
+def limit_rounded_outward(
+    robot: Robot, *, smallest: float = 1e-7, largest: float = 1e-3
+) -> Iterator[Problem]:
+    """A revolute joint's limit is a multiple of 90° that was rounded up.
+
+    ``3.1416`` is seven millionths of a radian beyond a half turn. Planners use them, and drives
+    trip on them. Round limits towards zero: ``3.1415``.
+    """
+    for joint, limit, lower, upper in _bounded(robot):
+        if joint.type != "revolute":
+            continue
+        for name, value in (("lower", lower), ("upper", upper)):
+            quarter = math.pi / 2
+            turns = math.floor(abs(value) / quarter)
+            beyond = abs(value) - turns * quarter
+            if turns and smallest < beyond < largest:
+                inside = math.copysign(math.floor(turns * quarter * 1e4) / 1e4, value)
+                yield Problem(
+                    joint,
+                    f"{name} limit {value:g} of joint '{joint.name}' is beyond {turns * 90}° "
+                    f"by {beyond:.1g} rad; write {inside:g}",
+                    at=limit.element.attribute_place(name),
+                )
+
+
+@rule(
+    INFO,
+    on=("moveit",),
+    effects={"moveit": "has several joint values for one pose and may take the long way"},
+)
+def range_above_full_turn(robot: Robot) -> Iterator[Problem]:
+    """A revolute joint's range is more than a full turn.
+
+    One pose of the arm then has several joint values, and a planner may go the long way round.
+    """
+    for joint, limit, lower, upper in _bounded(robot):
+        if joint.type == "revolute" and 2 * math.pi + 1e-3 < upper - lower < 1e3:
+            turns = (upper - lower) / (2 * math.pi)
+            yield Problem(
+                joint,
+                f"range of joint '{joint.name}' is {turns:.3g} turns; "
+                "one turn is enough to reach every pose",
+                at=limit,
+            )
+
+
+@rule(
+    INFO,
+    raised=dict.fromkeys(("gz", "gazebo-classic", "moveit"), WARNING),
+    effects={
+        "gz, gazebo-classic": "spawn the joint at 0, outside its limits",
+        "moveit": "has no start state within bounds",
+    },
+)
+def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Problem]:
+    """A joint's range does not contain 0.
+
+    Simulators start every joint at 0, so the first step throws it back over its stop, and planners
+    start out of bounds. ros2_control can set an ``initial_value``.
+    """
+    for joint, limit, lower, upper in _bounded(robot):
+        if joint.mimic is not None or lower > upper:
+            continue
+        if lower > tolerance or upper < -tolerance:
+            name = "lower" if lower > 0 else "upper"
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' cannot be at 0, where simulators start it: "
+                f"its range is {lower:g} to {upper:g}",
+                at=limit.element.attribute_place(name),
+            )
+
+
+def _bounded(robot: Robot) -> Iterator[tuple[Joint, Limit, float, float]]:
+    """Revolute and prismatic joints of which both bounds are written and can be read."""
+    for joint in robot.joints:
+        limit = joint.limit
+        if limit is None or not joint.is_limited:
+            continue
+        lower, upper = limit.lower, limit.upper
+        if lower is not None and upper is not None:
+            yield joint, limit, lower, upper
