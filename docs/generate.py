@@ -1,15 +1,20 @@
 """Write the parts of the documentation that the code knows: ``python docs/generate.py [--check]``.
 
 A page a rule, from its docstring, its decorator and its fixtures; an index of them; the help of each
-command, between marks in its page. With ``--check`` nothing is written, and stale pages are named.
+command, between marks in its page; and what each ``$ command`` of a ``console`` block prints, run in
+a copy of the fixtures. With ``--check`` nothing is written, and stale pages are named.
 """
 
 from __future__ import annotations
 
 import argparse
 import inspect
+import os
 import re
+import shutil
+import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -31,7 +36,9 @@ def pages() -> Iterator[tuple[Path, str]]:
         yield DOCS / "rules" / f"{rule.name}.md", rule_page(rule)
     yield DOCS / "rules" / "index.md", rule_index()
     for path in sorted((DOCS / "commands").glob("*.md")):
-        yield path, with_help(path)
+        yield path, with_output(with_help(path))
+    for path in (DOCS.parent / "README.md", DOCS / "index.md"):
+        yield path, with_output(path.read_text("utf-8"))
 
 
 def rule_page(rule: Rule) -> str:
@@ -96,6 +103,36 @@ def with_help(path: Path) -> str:
     shown = f"{BEGIN}\n```text\n{command.get_help(context)}\n```\n{END}"
     pattern = re.compile(re.escape(BEGIN) + ".*?" + re.escape(END), re.DOTALL)
     return pattern.sub(lambda _: shown, text)
+
+
+def with_output(text: str) -> str:
+    """A page with what its commands print now; the commands of a page run one after the other."""
+    block = re.compile(r"(?<=```console\n).*?(?=```)", re.DOTALL)
+    if not block.search(text):
+        return text
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(FIXTURES.parent, Path(folder) / "fixtures")
+
+        def run(match: re.Match[str]) -> str:
+            commands = [line for line in match[0].splitlines() if line.startswith("$ ")]
+            return "".join(f"{line}\n{_output(line[2:], folder)}" for line in commands)
+
+        return block.sub(run, text)
+
+
+def _output(command: str, folder: str) -> str:
+    """What a command prints on both streams."""
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+    done = subprocess.run(
+        ["bash", "-c", command],
+        cwd=folder,
+        env={**os.environ, "PATH": path, "NO_COLOR": "1", "COLUMNS": "100"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    return re.sub(r"[ \t]+$", "", done.stdout, flags=re.MULTILINE)
 
 
 def stale() -> list[Path]:
