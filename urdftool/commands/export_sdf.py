@@ -62,7 +62,7 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    """Turn the robot IN into SDF for Gazebo.
+    r"""Turn the robot IN into SDF for Gazebo.
 
     OUT is one file where it ends in .sdf or .world, with its meshes beside it; else it is a folder
     with model.config, model.sdf and meshes. What is lost or changed is said, each with its place.

@@ -20,7 +20,7 @@ def collision(node: Node, t: Translation, link: Link, part: Collision, name: str
     if isinstance(part.geometry, Capsule) and not t.options.since("1.8"):
         t.note(
             "capsule",
-            f"SDF {t.options.sdf_version} has no capsule; a cylinder and two spheres take its place",
+            f"SDF {t.options.sdf_version} has no capsule; a cylinder and two spheres stand in",
             part.geometry,
             link,
         )

@@ -20,11 +20,12 @@ def control(model: Node, t: Translation) -> None:
         joints = ", ".join(f"'{joint.name}'" for joint in transmission.joints) or "no joint"
         t.note(
             "transmission",
-            f"transmission '{transmission.name}' of {joints} has no counterpart; it stays as a comment, "
+            f"transmission '{transmission.name}' of {joints} has no counterpart; it stays as a "
+            "comment, and "
             + (
-                "and ros_control reads it from robot_description"
+                "ros_control reads it from robot_description"
                 if t.options.classic
-                else "and a <ros2_control> block in robot_description says the same for gz"
+                else "a <ros2_control> block in robot_description says the same for gz"
             ),
             transmission,
         )

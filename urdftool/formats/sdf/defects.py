@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...finding import Finding
-from ...model.elements import Joint, Link, Mesh, Robot, UnknownShape
+from ...model.elements import Collision, Joint, Link, Mesh, Robot, UnknownShape, Visual
 from ...source.document import Element
 from ..defects import defect
 from .extensions import read_value, said_of, value_of
@@ -92,7 +92,8 @@ def _inertial(link: Link) -> Iterator[Finding]:
 
 
 def _shapes(link: Link) -> Iterator[Finding]:
-    for shape in (*link.visuals, *link.collisions):
+    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+    for shape in shapes:
         kind, geometry = shape.element.tag, shape.geometry
         if geometry is None:
             text = f"a {kind} of link '{link.name}' has no geometry"
@@ -145,8 +146,8 @@ def _sensors(block: Element, reference: str) -> Iterator[Finding]:
             if element.tag in NUMBERS and read_value("number", element.text) is None:
                 yield defect(
                     "bad-extension-number",
-                    f"<{element.tag}> of sensor '{sensor.get('name')}' is '{element.text.strip()}', "
-                    "not a finite number",
+                    f"<{element.tag}> of sensor '{sensor.get('name')}' is "
+                    f"'{element.text.strip()}', not a finite number",
                     element.place,
                     "sensor",
                     reference,

@@ -107,7 +107,7 @@ def link_extensions(node: Node, t: Translation, link: Link) -> None:
                 t.lose(
                     "link-flag",
                     f"<{tag}> is said of link '{link.name}', which became a part of "
-                    f"'{t.plan.owner[link.name]}'; it would hold for all of that, so it is left out",
+                    f"'{t.plan.owner[link.name]}'; it would hold for all of it and is left out",
                     element,
                     link,
                     hint="keep the fixed joint with <preserveFixedJoint>true</preserveFixedJoint>",

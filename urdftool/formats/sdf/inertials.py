@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...finding import Severity
-from ...model.elements import Link
+from ...model.elements import Link, Part
 from ...model.pose import Pose, Rotation
 from ..numbers import number_text
 from .mass import ROUNDING, lifted, shortfall, tensor_of
@@ -28,21 +28,22 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
         return
     alone = link.name in t.plan.alone
     own = link.inertial
+    about: Part = own or link
     node = add(node, "inertial")
     if alone and own is not None:
         set_origin(node, own.origin, exact=t.options.since("1.9"))
-        tensor, about = tensor_of(own.inertia), own
+        tensor = tensor_of(own.inertia)
     else:
         set_pose(node, Pose(translation=mass.center))
-        tensor, about = mass.tensor, own or link
+        tensor = mass.tensor
     add(node, "mass", number_text(mass.mass))
     short = shortfall(tensor, mass.mass)
     if short > EXACT:
         what = "is off by rounding" if short <= ROUNDING else "no rigid body has"
         t.lose(
             "inertia",
-            f"inertia of link '{link.name}' {what}: the largest moment exceeds the sum of the others "
-            f"by {short:.2g} of itself; the nearest possible one is written",
+            f"inertia of link '{link.name}' {what}: the largest moment exceeds the sum of the "
+            f"others by {short:.2g} of itself; the nearest possible one is written",
             about,
             link,
         )
@@ -95,8 +96,8 @@ def _note_dissolved(t: Translation, link: Link) -> None:
         why = "has an inertia that no body has" if bad else "has no mass"
         t.note(
             "link",
-            f"link '{name}' {why} and is joined to '{link.name}' by a fixed joint; it is a frame of "
-            "that link, with its shapes and sensors",
+            f"link '{name}' {why} and is joined to '{link.name}' by a fixed joint; it is a "
+            "frame of that link, with its shapes and sensors",
             member,
             member,
         )

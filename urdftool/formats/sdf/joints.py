@@ -98,7 +98,7 @@ def _bounds(node: Node, t: Translation, part: Joint) -> None:
 
 
 def _most(node: Node, t: Translation, part: Joint) -> None:
-    """Effort and velocity: a negative number is no bound in SDF, and a bound by its size in URDF."""
+    """Effort and velocity: in SDF a negative number is no bound, in URDF it is one by its size."""
     limit = part.limit
     if limit is None:
         return

@@ -15,7 +15,7 @@ from ...model.elements import Inertia, Link, Vector
 from ...model.pose import UPRIGHT, Pose, Rotation, matrix_product, pose_of, transpose
 
 ROUNDING = 0.01
-"""How far moments may miss the triangle inequality, relative to the largest, and pass for rounded."""
+"""How far moments may miss the triangle inequality, relative to the largest, by rounding."""
 
 NO_TENSOR: Rotation = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 

@@ -42,7 +42,7 @@ def material(node: Node, t: Translation, link: Link, part: Visual) -> None:
 
 
 def resolved(robot: Robot, own: Material | None) -> Material | None:
-    """The material that a visual's names: its own where it says a colour, else the first so named."""
+    """The material that a visual's names: its own if it says a colour, else the first so named."""
     if own is None or own.color is not None or own.texture is not None:
         return own
     for other in (*robot.materials, *(v.material for link in robot.links for v in link.visuals)):

@@ -66,10 +66,10 @@ def _whole(node: Node, t: Translation) -> None:
                 for old in node.findall("static"):
                     node.remove(old)
                 add(node, "static", "true" if is_true(text) else "false")
-    element = t.robot.element.child("origin")
-    if element is not None:
-        xyz, rpy = (numbers(element.get(name), 3) or ZERO for name in ("xyz", "rpy"))
-        set_origin(node, Origin(element, xyz, rpy))  # type: ignore[arg-type]
+    origin = t.robot.element.child("origin")
+    if origin is not None:
+        xyz, rpy = (numbers(origin.get(name), 3) or ZERO for name in ("xyz", "rpy"))
+        set_origin(node, Origin(origin, xyz, rpy))  # type: ignore[arg-type]
 
 
 def _parts(node: Node, t: Translation) -> None:

@@ -54,7 +54,7 @@ def make_names(robot: Robot, *, anchored: bool) -> Names:
 
 
 def allowed(name: str) -> str:
-    """A name without what SDF reserves: ``::`` parts scopes, ``__x__`` and ``world`` are its own."""
+    """A name without what SDF reserves: ``::`` parts scopes, ``__x__`` and ``world`` are taken."""
     name = name.replace("::", "_")
     if name.startswith("__") and name.endswith("__"):
         name = name.strip("_") or "unnamed"

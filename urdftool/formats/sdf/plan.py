@@ -17,7 +17,7 @@ from .keywords import is_true
 from .mass import Mass, mass_of, shortfall, united
 
 EXACT = 1e-9
-"""How far moments may miss the triangle inequality, relative to the largest, and still be written."""
+"""How far moments may miss the triangle inequality, relative to the largest, and be written."""
 
 WORLD = "world"
 

@@ -15,7 +15,7 @@ from .xml import Node, add
 def planar(model: Node, t: Translation, part: Joint) -> None:
     """Three joints in a row, with two links of next to no mass between them.
 
-    ``NAME_x`` and ``NAME_y`` slide along the plane, ``NAME`` turns about its normal, which is the axis.
+    ``NAME_x`` and ``NAME_y`` slide along the plane, ``NAME`` turns about the axis, its normal.
     """
     name = t.names.joint(part.name)
     t.lose(

@@ -23,9 +23,9 @@ class System(NamedTuple):
     word: str
     name: str
     parameters: dict[str, str]
-    defaults: dict[str, str] = {}
+    defaults: dict[str, str] = {}  # noqa: RUF012 -- a named tuple's default
     halved: tuple[str, ...] = ()
-    remapped: dict[str, str] = {}
+    remapped: dict[str, str] = {}  # noqa: RUF012
     missing: tuple[str, ...] = ()
 
 

@@ -32,8 +32,8 @@ def sensor_plugin(made: Node, t: Translation, part: Link | Joint, element: Eleme
     on = f" on topic '{topic}'" if topic else ""
     t.note(
         "plugin",
-        f"plugin '{name}' is not needed in gz: sensor '{made.get('name')}' publishes{on} itself, where "
-        f"the world has gz-sim-{known.system}-system; ros_gz_bridge brings it to ROS",
+        f"plugin '{name}' is not needed in gz: sensor '{made.get('name')}' publishes{on} itself, "
+        f"where the world has gz-sim-{known.system}-system; ros_gz_bridge brings it to ROS",
         element,
         part,
     )

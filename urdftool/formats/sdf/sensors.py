@@ -54,8 +54,8 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
     if other is not None and not other.type:
         t.lose(
             "sensor",
-            f"sensor '{element.get('name')}' is of type '{kind}', which {t.options.target} does not "
-            "have; it stays as it is",
+            f"sensor '{element.get('name')}' is of type '{kind}', which {t.options.target} does "
+            "not have; it stays as it is",
             element,
             part,
         )

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from ...model.elements import Link
+from collections.abc import Sequence
+
+from ...model.elements import Collision, Link, Visual
 
 SHAPE_SUFFIX = {"visual": "_visual", "collision": "_collision"}
 
 
 def shape_names(members: list[Link]) -> dict[int, str]:
-    """The name of each visual and collision by identity: its own, or LINK_visual, LINK_visual_1, …
+    """The name of each visual and collision by identity: its own, or made of the link's.
 
-    The names are unique in a link for each kind.
+    Those are LINK_visual, LINK_visual_1 and so on; they are unique in a link for each kind.
     """
     names: dict[int, str] = {}
     for kind, suffix in SHAPE_SUFFIX.items():
         used: set[str] = set()
         for member in members:
-            for index, shape in enumerate(
+            shapes: Sequence[Visual | Collision] = (
                 member.visuals if kind == "visual" else member.collisions
-            ):
+            )
+            for index, shape in enumerate(shapes):
                 base = (shape.name or "").replace("::", "_")
                 if not base:
                     base = f"{member.name.replace('::', '_')}{suffix}" + (

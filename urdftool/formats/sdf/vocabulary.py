@@ -40,7 +40,8 @@ _CHILDREN = {
     "force_torque": "force frame measure_direction torque",
     "frame": "pose",
     "friction": "bullet ode torsional",
-    "geometry": "box capsule cone cylinder ellipsoid empty heightmap image mesh plane polyline sphere "
+    "geometry": "box capsule cone cylinder ellipsoid empty heightmap image mesh plane polyline "
+    "sphere "
     "box capsule cone cylinder ellipsoid empty heightmap image mesh plane polyline sphere",
     "gps": "position_sensing velocity_sensing",
     "grasp_check": "attach_steps detach_steps min_contact_count",
@@ -81,7 +82,8 @@ _CHILDREN = {
     "max_force max_vel min_depth mu mu2 slip slip1 slip2 soft_cfm soft_erp suspension "
     "velocity",
     "orientation_reference_frame": "custom_rpy grav_dir_x localization",
-    "particle_emitter": "color_end color_range_image color_start duration emitting lifetime material "
+    "particle_emitter": "color_end color_range_image color_start duration emitting lifetime "
+    "material "
     "max_velocity min_velocity particle_scatter_ratio particle_size pose rate scale_rate "
     "size topic",
     "pbr": "metal specular",

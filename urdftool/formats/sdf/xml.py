@@ -88,7 +88,7 @@ def _namespace(element: Element | None, prefix: str) -> str:
     return f"urn:{prefix}"  # readers of robot files know prefixes, and rarely declare them
 
 
-def _prefixes(element: Element) -> dict[str | None, str] | None:
+def _prefixes(element: Element) -> dict[str, str] | None:
     names = [element.tag, *element.attributes]
     prefixes = {name.partition(":")[0] for name in names if ":" in name} - {"xmlns"}
     return {prefix: _namespace(element, prefix) for prefix in sorted(prefixes)} or None

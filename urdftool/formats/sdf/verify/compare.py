@@ -85,7 +85,7 @@ def compare(pair: Pair) -> list[Check]:
 
 
 def _configurations(source: Mechanism, count: int) -> list[dict[str, float]]:
-    """All zeros, and some at random within the limits, half a turn or a metre where there are none."""
+    """All zeros, and some at random within the limits, or half a turn or a metre."""
     random = np.random.default_rng(0)
     result: list[dict[str, float]] = [{}]
     for _ in range(count):

@@ -95,7 +95,9 @@ def centroidal(robot: Mechanism, placed: Mapping[str, Array]) -> tuple[float, Ar
         name: placed[name][:3, :3] @ body.center + placed[name][:3, 3]
         for name, body in robot.bodies.items()
     }
-    center = sum(body.mass * centers[name] for name, body in robot.bodies.items()) / total
+    center = np.zeros(3)
+    for name, body in robot.bodies.items():
+        center += body.mass / total * centers[name]
     tensor = np.zeros((3, 3))
     for name, body in robot.bodies.items():
         turn, arm = placed[name][:3, :3], centers[name] - center

@@ -141,8 +141,9 @@ def _hinge(frames: Frames, joint: ET.Element) -> Hinge:
     parent, child = (frames.body(_text(joint, end)) for end in ("parent", "child"))
     placed = frames.pose(name)
     axis = joint.find("axis")
-    direction = np.array([float(w) for w in (_text(axis, "xyz") or "0 0 1").split()]) if axis is not None else np.zeros(3)  # fmt: skip
+    direction = np.zeros(3)
     if axis is not None:
+        direction = np.array([float(word) for word in (_text(axis, "xyz") or "0 0 1").split()])
         expressed = axis.find("xyz")
         frame = "" if expressed is None else expressed.get("expressed_in", "")
         if frame:
