@@ -122,7 +122,8 @@ def _element(structure: Structure, drive: Drive) -> etree._Element:
         gain = effort / POSITION_ERROR[kind] if effort else PLAIN_GAIN["position"][kind]
         element.set("kp", number_text(gain))
         element.set("dampratio", "1")
-        if bounds(joint) is not None:
+        limits = bounds(joint)
+        if limits is not None and limits[0] < limits[1]:
             element.set("inheritrange", "1")
     elif drive.kind == "velocity":
         velocity = abs(joint.limit.velocity or 0.0) if joint.limit is not None else 0.0

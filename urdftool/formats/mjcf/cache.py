@@ -10,7 +10,7 @@ from pathlib import Path
 
 from .convert import Converted, Piece, conversion
 
-_VERSION = 2
+_VERSION = 3
 _BIG = 400_000
 
 

@@ -48,6 +48,8 @@ class Compiled:
         import warnings
 
         self.mujoco = mujoco_module()
+        self.warnings: list[str] = []
+        self.mujoco.set_mju_user_warning(self._warn)  # without it a log is written to the folder
         try:
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")
@@ -55,19 +57,29 @@ class Compiled:
         except ValueError as error:
             reason = " ".join(str(error).split())
             raise OutputError(f"MuJoCo does not compile the export: {reason}", path=path) from None
-        self.warnings = [str(warning.message) for warning in caught]
+        for warning in caught:
+            self._warn(str(warning.message))
         self.model.opt.gravity = GRAVITY
         self.data = self.mujoco.MjData(self.model)
         self.root = max(self.id("BODY", root), 0)
 
+    def _warn(self, text: str) -> None:
+        line = " ".join(text.split())
+        if line not in self.warnings:
+            self.warnings.append(line)
+
     def id(self, kind: str, name: str) -> int:
         """Number of an object by its kind (``BODY``, ``JOINT`` …) and name; -1 if there is none."""
-        number = self.mujoco.mj_name2id(self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{kind}"), name)
+        number = self.mujoco.mj_name2id(
+            self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{kind}"), name
+        )
         return int(number)
 
     def name(self, kind: str, number: int) -> str:
         """The name of an object; empty if it has none."""
-        found = self.mujoco.mj_id2name(self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{kind}"), number)
+        found = self.mujoco.mj_id2name(
+            self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{kind}"), number
+        )
         return found or ""
 
     def pose(self, positions: Mapping[str, float]) -> None:

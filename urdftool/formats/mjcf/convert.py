@@ -78,11 +78,11 @@ def convert(path: Path, *, collides: bool) -> Converted:
         vertices = mesh.vertices
         shell = _is_shell(vertices, faces)
         data = None
-        if not (copied and len(groups) == 1):
-            used = vertices[faces]
-            data = _thick_obj(used) if _points(used) < 4 else obj_bytes(vertices, faces)
-        elif _points(vertices[faces]) < 4:
+        if _points(vertices[faces]) < 4:
+            notes.append("A part has fewer than four points, MuJoCo's least; it is thickened.")
             data = _thick_obj(vertices[faces])
+        elif not (copied and len(groups) == 1):
+            data = obj_bytes(vertices, faces)
         if data is not None and part.texture is not None:
             notes.append("Texture coordinates are not converted; the texture is lost.")
         pieces.append(Piece(data, part.rgba, part.texture if data is None else None, shell))

@@ -25,6 +25,9 @@ from .structure import Structure
 TINY = 1e-12
 """Mass [kg] and moment [kg·m²] of a moving body that has none; MuJoCo wants more than 1e-15."""
 
+LEAST = 2e-15
+"""The same where an armature keeps the mass matrix regular."""
+
 ENOUGH = 1e-14
 """What MuJoCo takes for a mass [kg] or a moment [kg·m²] above zero, with a margin."""
 
@@ -233,15 +236,17 @@ def _give_weight(
         )
         return
     group.clear()
-    group[top] = LinkInertia.about(TINY, np.zeros(3), TINY * np.eye(3), link.place)
     leaf = top in massless_leaves(structure)
+    root = top == structure.root.name
+    least = LEAST if leaf else TINY
+    group[top] = LinkInertia.about(least, np.zeros(3), least * np.eye(3), link.place)
     written.lose(
         "massless",
-        f"link '{top}' moves and has no mass; MuJoCo wants some, so it has {TINY:g} kg"
+        f"link '{top}' moves and has no mass; MuJoCo wants some, so it has {least:g} kg"
         + (f", and its joint an armature of {LEAF_ARMATURE:g}" if leaf else ""),
         link.place,
         kind="link",
         name=top,
-        severity=Severity.WARNING if leaf else Severity.INFO,
-        hint="write an <inertial> with its true mass" if leaf else "",
+        severity=Severity.WARNING if leaf or root else Severity.INFO,
+        hint="write an <inertial> with its true mass" if leaf or root else "",
     )

@@ -14,7 +14,7 @@ from .convert import Rgba
 from .gazebo_colors import gazebo_color
 from .meshes import MeshPiece
 from .names import Names, file_name
-from .texture import png_bytes
+from .texture import is_png, png_bytes
 
 
 class Materials:
@@ -134,12 +134,12 @@ class Materials:
     def _texture(self, image: Path, visual: Visual) -> str | None:
         if image in self._textures:
             return self._textures[image]
-        data = image if image.suffix.lower() == ".png" else png_bytes(image)
+        data = image if is_png(image) else png_bytes(image)
         if data is None:
             self._written.lose(
                 "texture",
-                f"texture {image.name} is no PNG and cannot be converted (pip install pillow); "
-                "it is lost",
+                f"texture {image.name} is lost: it is no PNG, and Pillow, which converts others, "
+                "is not there or cannot read it",
                 visual.place,
                 kind="material",
                 name=visual.material.name if visual.material is not None else "",

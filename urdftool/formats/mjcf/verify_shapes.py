@@ -145,9 +145,8 @@ def _half(geometry: Geometry, turn: Array) -> Array | None:
 def _round_half(capsule: bool, radius: float, half: float, turn: Array) -> Array | None:
     if radius <= 0 or half < 0 or (half == 0 and not capsule):
         return None
-    axis = turn[:, 2]
-    across = np.ones(3) if capsule else np.sqrt(np.maximum(1 - axis**2, 0.0))
-    reach: Array = abs(axis) * half + radius * across
+    across = np.ones(3) if capsule else np.hypot(turn[:, 0], turn[:, 1])
+    reach: Array = abs(turn[:, 2]) * half + radius * across
     return reach
 
 

@@ -1,0 +1,141 @@
+"""What becomes of each thing in a URDF: the table of the documentation.
+
+Where the code has a table of its own, this one is made from it.
+"""
+
+from __future__ import annotations
+
+from .gazebo import LOST
+from .sensor import AT_SITE, CAMERAS, SCANNERS
+from .structure import KINDS
+
+EXACT, CLOSE, LOST_MARK = "=", "≈", "×"
+
+Row = tuple[str, str, str]
+
+_JOINT_TEXT = {
+    "hinge": '`joint type="hinge"` (the default)',
+    "slide": '`joint type="slide"`',
+    "planar": "two slides `NAME_TX`, `NAME_TY` and a hinge `NAME_RZ`; limits are not carried",
+    "free": "`freejoint`; its body hangs on the world, at its place with every joint at zero",
+    "ball": '`joint type="ball"`',
+    "weld": "nothing: the body is nested without a joint, and never fused",
+}
+
+ROBOT: tuple[Row, ...] = (
+    ("`robot@name`", EXACT, "`mujoco@model`, the file's and the default class's name"),
+    ("`robot/origin`", EXACT, "pose of the root body"),
+    ("`link@name`", EXACT, "`body@name`: one body a link, also for fixed and massless ones"),
+    ("root link `world`", EXACT, "`worldbody`; a mass of it is said and dropped"),
+    ("root link", EXACT, "held by the world, or with `freejoint` (`--base free`)"),
+    ("`inertial`", EXACT, "`inertial` with `diaginertia` or `fullinertia`, numbers as written"),
+    ("inertia no body has, welded", EXACT, "the surplus moves to a link of the same rigid body"),
+    ("inertia no body has, moving", LOST_MARK, "an error; `--fix-inertia` changes it and says how"),
+    ("no mass, moving", CLOSE, '2e-15 kg; a last link\'s joint gets `armature="0.0001"`'),
+    ("`visual`", EXACT, '`geom class="visual"`, group 2, one for each material of a mesh'),
+    ("`collision`", EXACT, '`geom class="collision"`, group 3'),
+    ("`visual@name`, `collision@name`", EXACT, "`geom@name`, made unique by the link's name"),
+    ("`box`, `cylinder`, `sphere`, `capsule`", EXACT, "the same, half sizes"),
+    ("`drake:ellipsoid`, `drake:capsule`", EXACT, "`ellipsoid`, `capsule`"),
+    ("a shape without size", LOST_MARK, "dropped"),
+    (
+        "`mesh` STL, OBJ",
+        EXACT,
+        "copied; converted where text, of several objects or over 200,000 triangles",
+    ),
+    (
+        "`mesh` DAE, PLY, glTF",
+        EXACT,
+        "converted to OBJ, split by material, unit and axes as RViz has them",
+    ),
+    (
+        "`mesh` that collides",
+        CLOSE,
+        "MuJoCo collides the hull; said where its volume is over 1.05 times",
+    ),
+    ("`mesh` flat, that collides", CLOSE, "thickened to 0.1 % of its size"),
+    ("`mesh@scale`", EXACT, "`mesh@scale`, mirrored ones too"),
+    ("`material/color`", EXACT, "`material`, or `rgba` where it has no name"),
+    ("`material/texture`", EXACT, "`texture`, PNG copied, others converted"),
+    ("colours in a mesh file", EXACT, "come before the URDF's material, as RViz has it"),
+)
+
+JOINT: tuple[Row, ...] = (
+    ("`joint@name`, `origin`, `axis`", EXACT, "`joint@name`, pose of the body, `axis`"),
+    ("`limit@lower`, `@upper`", EXACT, "`range`; absent ones count as 0, as URDF defines"),
+    ("`limit` with lower = upper", EXACT, "`equality`, as MuJoCo takes an equal range for none"),
+    ("no `limit`", CLOSE, "no `range`"),
+    ("`limit@effort`", EXACT, "`actuatorfrcrange`; 0 cannot be written and is said"),
+    ("`limit@velocity`", CLOSE, "number `NAME_velocity_limit` in `custom`"),
+    ("`dynamics`", EXACT, "`damping`, `frictionloss`"),
+    (
+        "`mimic`",
+        EXACT,
+        '`equality/joint` with `polycoef="offset multiplier 0 0 0"` (soft, as all are)',
+    ),
+    ("`safety_controller`, `calibration`", LOST_MARK, "they belong to a controller"),
+    (
+        "`transmission`",
+        CLOSE,
+        "an actuator by its interface; `gear` is the reduction of an effort interface",
+    ),
+    (
+        "`ros2_control` joint",
+        CLOSE,
+        "`position`, `velocity` or `motor` by its first command interface",
+    ),
+    ("`ros2_control` initial value", EXACT, "key `home`"),
+    ("`ros2_control` sensor", CLOSE, "site at its `frame_id` and sensors by its interfaces"),
+)
+
+EXTENSIONS: tuple[Row, ...] = (
+    (
+        "`mujoco`",
+        EXACT,
+        "`option`, `size`, `visual`, `statistic`; `compiler` but for how to read URDF",
+    ),
+    ("gazebo `mu1`", CLOSE, "sliding `friction` of the link's collisions; another `mu2` is said"),
+    ("gazebo `turnGravityOff`, `gravity`", EXACT, '`gravcomp="1"`'),
+    ("gazebo `material`", CLOSE, "colour of visuals that have none"),
+    ("gazebo `springStiffness`, `springReference`", EXACT, "`stiffness`, `springref`"),
+    ("gazebo `static`", EXACT, "the root is held"),
+    ("gazebo `light`", CLOSE, "`light`"),
+    ("gazebo `plugin`", LOST_MARK, "belongs to Gazebo; one that drives wheels makes the base free"),
+    ("SRDF `disable_collisions`", EXACT, "`exclude`, where MuJoCo would collide the pair"),
+    ("SRDF `virtual_joint`", EXACT, "whether the base is free"),
+)
+
+
+def markdown() -> str:
+    """The tables, as they stand in the documentation."""
+    joints = [(f"`joint@type` {name}", EXACT, _JOINT_TEXT[kind]) for name, kind in KINDS.items()]
+    sensors = [(f"sensor `{name}`", CLOSE, _sensors(name)) for name in AT_SITE]
+    sensors.append((f"sensor {_names(CAMERAS)}", CLOSE, "`camera` with `fovy` and `resolution`"))
+    sensors.append(
+        (f"sensor {_names(SCANNERS)}", CLOSE, "`rangefinder`s up to 36 rays, else its site")
+    )
+    sensors.append(
+        ("sensor `contact`", CLOSE, "`touch` in a site over the link's first simple shape")
+    )
+    sensors.append(("any other sensor", LOST_MARK, "said"))
+    lost = [(f"gazebo `{tag}`", LOST_MARK, why) for tag, (why, _) in LOST.items()]
+    parts = (
+        ("Robot and links", ROBOT),
+        ("Joints", (*joints, *JOINT)),
+        ("Extensions", (*EXTENSIONS, *sensors, *lost)),
+    )
+    return "\n".join(_table(title, rows) for title, rows in parts)
+
+
+def _sensors(name: str) -> str:
+    return "site with " + ", ".join(f"`{kind}`" for kind, _ in AT_SITE[name])
+
+
+def _names(names: tuple[str, ...]) -> str:
+    return ", ".join(f"`{name}`" for name in names)
+
+
+def _table(title: str, rows: tuple[Row, ...]) -> str:
+    lines = [f"### {title}", "", "| URDF | | MJCF |", "|---|---|---|"]
+    lines += [f"| {urdf} | {mark} | {mjcf} |" for urdf, mark, mjcf in rows]
+    return "\n".join([*lines, ""])
