@@ -93,7 +93,8 @@ def with_help(path: Path) -> str:
     text = path.read_text("utf-8")
     words = path.stem.split("-")
     command: click.Command = cli.main
-    context = click.Context(cli.main, info_name="urdftool", terminal_width=88)
+    settings = {**cli.main.context_settings, "terminal_width": 88}
+    context = click.Context(cli.main, info_name="urdftool", **settings)
     for word in words:
         assert isinstance(command, click.Group)
         found = command.get_command(context, word)
