@@ -53,7 +53,7 @@ class MeshFiles:
             return None
         style = self.options.uri_style
         if style == "package":
-            return filename
+            return _package_uri(filename, path)
         if style == "file":
             return path.resolve().as_uri()
         place = self.places[path]
@@ -92,6 +92,15 @@ def _find(robot: Robot, name: str) -> Path | None:
         return path if path.is_file() else None
     except (UrdftoolError, OSError, ValueError):
         return None
+
+
+def _package_uri(filename: str, path: Path) -> str:
+    if filename.startswith("package://"):
+        return filename
+    own = own_package(Path(os.path.abspath(path)))
+    if own is None:
+        return path.resolve().as_uri()
+    return f"package://{own[0]}/{path.resolve().relative_to(own[1].resolve()).as_posix()}"
 
 
 def _give_places(meshes: MeshFiles, wanted: list[Path]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -115,12 +116,11 @@ def _tree(pair: Pair) -> Check:
             )
             (check.announced if excused else check.differences).append(f"{joint.name}: {text}")
     planar = {f"{name}{end}" for name in pair.excuses.motion for end in ("_x", "_y")}
+    closing = {e.get("name") for b in pair.robot.gazebo for e in b.element.all("joint")}
     for name, other in made.items():
         if other.moves and name not in planar:
-            closes = any(
-                name == e.get("name") for b in pair.robot.gazebo for e in b.element.all("joint")
-            )
-            (check.announced if closes else check.differences).append(f"{name}: not in the source")
+            said = name in closing or re.sub(r"_\d+$", "", name) in closing
+            (check.announced if said else check.differences).append(f"{name}: not in the source")
     return check
 
 
