@@ -22,13 +22,13 @@ BELOW = {
     "rules": ("finding", "model", "source", "meshes", "errors"),
     "lint": ("rules", "finding", "model", "source", "configuration", "errors"),
     "formats": ("finding", "model", "source", "meshes", "inertia", "output", "errors"),
-    "report": ("lint", "rules", "finding", "model", "source", "formats", "errors"),
+    "report": ("lint", "rules", "finding", "model", "source", "formats", "inertia", "errors"),
     "api": ("source",),
 }
 
 # The only files that may import a library.
 DOORS = {
-    "xacro": ("source/expand.py",),
+    "xacro": ("source/xacro_hooks.py",),
     "lxml": ("formats/",),
     "trimesh": ("meshes/",),
     "click": ("cli.py", "console.py", "commands/", "report/findings.py"),

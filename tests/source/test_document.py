@@ -3,8 +3,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdftool.errors import SourceError, XmlError
-from urdftool.source.document import MAX_DEPTH, mend, parse, read_file
+from urdftool.source.document import parse, read_file
 from urdftool.source.location import SourceFile
+from urdftool.source.well_formed import MAX_DEPTH, mend
 
 
 def document(text):

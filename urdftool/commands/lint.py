@@ -76,8 +76,8 @@ def command(
     Exit 1 if there are findings of --fail-on or above, 2 if a file cannot be read.
     """
     from ..lint.discover import find_descriptions
+    from ..lint.outcome import Options
     from ..lint.parallel import lint_files
-    from ..lint.run import Options
     from ..lint.settings import Settings, check_selectors, check_targets
 
     if explain or list_rules:
@@ -109,7 +109,7 @@ def _report(
     fail_on: str,
 ) -> int:
     from ..finding import Severity
-    from ..lint.run import in_order, merge
+    from ..lint.merge import in_order, merge
     from ..output import write_result
     from ..report import findings as text
 

@@ -6,7 +6,8 @@ import os
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from .run import Options, Report, lint_file
+from .outcome import Options, Report
+from .run import lint_file
 
 WORTH_IT = 200  # below so many files, starting workers takes longer than they save
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,53 +14,14 @@ from ..model.read import read_robot
 from ..rules import ONLY_WITH, speaks_of
 from ..rules.rule import Problem, Rule
 from ..source.description import Description, is_xacro, read_description
-from ..source.document import Document, mend, parse, read_file
+from ..source.document import Document, Element, parse, read_file
 from ..source.location import Place, SourceFile
+from ..source.well_formed import mend
+from .merge import in_order, merge
+from .outcome import Options, Report
 from .settings import Settings, check_selectors, check_targets, settings_for
 from .suppress import read_suppressions, suppress, unused
 from .targets import infer_targets
-
-
-@dataclass
-class Options:
-    """What the command line says for every file.
-
-    Attributes:
-        settings: Rules, targets, severities.
-        arguments: xacro arguments.
-        packages: Folders by package name.
-        package_paths: Folders with packages below.
-        config: A configuration file that was named.
-    """
-
-    settings: Settings = field(default_factory=Settings)
-    arguments: Mapping[str, str] = field(default_factory=dict)
-    packages: Mapping[str, str | Path] = field(default_factory=dict)
-    package_paths: Iterable[str | Path] = ()
-    config: str | None = None
-
-
-@dataclass
-class Report:
-    """What there is to say of one description.
-
-    Attributes:
-        path: The description.
-        findings: What is wrong with it.
-        targets: The targets it was checked for.
-        suppressed: How many findings comments cover.
-        skipped: Why it was not checked; empty if it was.
-        error: What kept it from being read.
-        failed_rules: Rules that broke, which is a bug of ours, with what they raised.
-    """
-
-    path: str
-    findings: list[Finding] = field(default_factory=list)
-    targets: frozenset[str] = frozenset()
-    suppressed: int = 0
-    skipped: str = ""
-    error: UrdftoolError | None = None
-    failed_rules: dict[str, str] = field(default_factory=dict)
 
 
 def check(
@@ -173,7 +133,6 @@ def _read_mended(
 
 def _unexpanded(file: SourceFile, failures: list[UrdftoolError]) -> Description:
     """A description whose robot is not known: its source alone."""
-    from ..source.document import Element
     from ..source.packages import Packages
 
     files = [file]
@@ -310,26 +269,3 @@ def _finding(rule: Rule, problem: Problem, settings: Settings, targets: frozense
         dict(rule.effects),
         problem.hint,
     )
-
-
-def merge(findings: Iterable[Finding]) -> list[Finding]:
-    """Findings with the instances of one macro as one, in the order they came."""
-    merged: dict[tuple[Any, ...], Finding] = {}
-    for finding in findings:
-        place = finding.place
-        key: tuple[Any, ...] = (finding.rule, place.file.path, place.start, place.end)
-        if not place.calls:
-            key += (finding.message,)
-        first = merged.get(key)
-        if first is None:
-            merged[key] = replace(finding, others=list(finding.others))
-        elif place.calls and place.calls != first.place.calls:
-            first.expansions += finding.expansions
-            first.severity = max(first.severity, finding.severity)
-            first.others += [(finding.name, place.calls), *finding.others]
-    return list(merged.values())
-
-
-def in_order(findings: Iterable[Finding]) -> list[Finding]:
-    """Findings by file, place and rule."""
-    return sorted(findings, key=lambda f: (f.place.file.path, f.place.start, f.rule))

@@ -9,7 +9,7 @@ from ..source.document import Element, parse, read_file
 from ..source.location import Call
 
 if TYPE_CHECKING:
-    from ..source.expand import Expansion
+    from ..source.expansion import Expansion
 
 
 def files_read(expansion: Expansion) -> list[str]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from ..finding import Finding, Severity
-from ..lint.run import Report
+from ..lint.outcome import Report
 
 
 def to_json(reports: Iterable[Report], findings: list[Finding]) -> str:

@@ -12,7 +12,7 @@ from .location import SourceFile
 from .packages import Packages
 
 if TYPE_CHECKING:
-    from .expand import Expansion
+    from .expansion import Expansion
 
 
 @dataclass

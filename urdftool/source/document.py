@@ -4,23 +4,22 @@ Expat reads the bytes and says at which byte each element starts; nothing else i
 that a file of a thousand elements is read in a few milliseconds. Names keep their prefix as it is
 written (``xacro:macro``).
 
-Refused in any description: entity declarations (which cover entity bombs and external entities),
-nesting deeper than ``MAX_DEPTH`` and files larger than ``MAX_BYTES``.
+Refused in any description: files larger than ``MAX_BYTES``, and what ``well_formed`` refuses.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple
 from xml.parsers import expat
 
 from ..errors import SourceError, XmlError
 from .location import Call, Place, SourceFile
+from .well_formed import MAX_DEPTH, run_parser
 
 MAX_BYTES = 32 * 1024 * 1024
-MAX_DEPTH = 200
 STDIN = "<stdin>"
 
 
@@ -223,149 +222,3 @@ def parse(file: SourceFile) -> Document:
     run_parser(parser, file, stack)
     assert root is not None  # expat rejects a document without one
     return Document(file, root, comments)
-
-
-class _Open(Protocol):
-    """An element whose end has not been seen: what an error says of it."""
-
-    start: int
-
-    @property
-    def tag(self) -> str: ...
-
-
-def run_parser(parser: Any, file: SourceFile, stack: Sequence[_Open]) -> None:
-    """Feed a file to an expat parser, with the refusals that hold for every description.
-
-    Args:
-        parser: The parser, its handlers set.
-        file: The file.
-        stack: The elements that are open, as the handlers keep it.
-
-    Raises:
-        XmlError: As :func:`parse`.
-    """
-
-    def entity(name: str, *_: object) -> None:
-        at = parser.CurrentByteIndex
-        raise XmlError(
-            f"declares the entity '{name}'; entities are refused in robot descriptions "
-            "(write the text itself, or use a xacro property)",
-            at=Place(file, at, at),
-        )
-
-    def declaration(_: str, encoding: str | None, __: int) -> None:
-        if encoding and encoding.lower() not in ("utf-8", "utf8", "us-ascii", "ascii"):
-            file.encoding = _codec(encoding)
-
-    parser.EntityDeclHandler = entity
-    parser.XmlDeclHandler = declaration
-    try:
-        parser.Parse(_as_expat_reads(file), True)
-    except expat.ExpatError as error:
-        offset = min(parser.ErrorByteIndex, len(file.data))
-        message, rule = _explain(file, error, offset)
-        if stack and "open" in message:
-            line = file.position(stack[-1].start)[0]
-            message += f" (<{stack[-1].tag}> of line {line} is)"
-        raise XmlError(
-            message,
-            at=Place(file, max(offset, 0), max(offset, 0)),
-            rule=rule,
-        ) from None
-    except (LookupError, UnicodeDecodeError, ValueError) as error:
-        raise XmlError(
-            f"its text cannot be decoded: {error}; save it as UTF-8", at=Place(file, 0, 0)
-        ) from None
-
-
-def _codec(encoding: str) -> str:
-    import codecs
-
-    try:
-        return codecs.lookup(encoding).name
-    except LookupError:
-        return "utf-8"
-
-
-def _as_expat_reads(file: SourceFile) -> bytes:
-    """The bytes; text in UTF-16 or UTF-32 is turned into UTF-8, so that offsets mean characters."""
-    for mark, encoding in (
-        (b"\xff\xfe\x00\x00", "utf-32"),
-        (b"\x00\x00\xfe\xff", "utf-32"),
-        (b"\xff\xfe", "utf-16"),
-        (b"\xfe\xff", "utf-16"),
-    ):
-        if file.data.startswith(mark):
-            import re
-
-            text = file.data.decode(encoding)
-            text = re.sub(r"^(<\?xml[^>]*?)\s+encoding\s*=\s*(\"[^\"]*\"|'[^']*')", r"\1", text)
-            file.data = text.encode("utf-8")
-            break
-    return file.data
-
-
-def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[str, str]:
-    """Why expat refused the text and what would be right, in a sentence; and the rule for it."""
-    data = file.data
-    reason = expat.ErrorString(error.code) or str(error)
-    closing = data[offset : data.find(b">", offset)].decode(file.encoding, "replace").strip("</ ")
-    if data.startswith(b"version https://git-lfs"):
-        return "is a git-lfs pointer, not the file itself; run 'git lfs pull'", "not-well-formed"
-    if b"<" not in data[:4096] and offset < 4096:
-        return "is not XML; a file that starts with <robot> is wanted", "not-well-formed"
-    if (at := data.find(b"<?xml")) > 0 and offset <= at + 5:
-        return (
-            "something stands before the <?xml …?> declaration, which must be the very first; "
-            "move the declaration to the start of the file",
-            "content-before-declaration",
-        )
-    if data.startswith((b"<?xml", b"\xef\xbb\xbf<?xml")) and offset <= data.find(b"?>"):
-        reason = f'the XML declaration is wrong ({reason}); <?xml version="1.0"?> is right'
-    elif _in_comment(data, offset):
-        reason = "a comment holds '--', which XML does not allow; write '- -' or '-'"
-    else:
-        reason = {
-            "mismatched tag": f"</{closing}> closes an element that is not open here",
-            "unbound prefix": "a prefix is used that is not declared; for xacro that is "
-            'xmlns:xacro="http://www.ros.org/wiki/xacro" on <robot>',
-            "no element found": "the file ends while elements are open; is it truncated?",
-            "unclosed token": "the file ends within a tag; is it truncated?",
-            "junk after document element": "something follows the end of the root element; "
-            "one root element is wanted",
-            "undefined entity": "there is no such entity; XML has &lt; &gt; &amp; &quot; &apos;",
-            "duplicate attribute": "an attribute stands twice in this tag",
-        }.get(reason, f"not well-formed XML ({reason})")
-    rule = "missing-xmlns" if error.code == _UNBOUND_PREFIX else "not-well-formed"
-    return reason, rule
-
-
-_UNBOUND_PREFIX = 27
-
-
-def _in_comment(data: bytes, offset: int) -> bool:
-    before = data.rfind(b"<!--", 0, offset + 1)
-    return before >= 0 and b"-->" not in data[before:offset] and b"--" in data[before + 4 :]
-
-
-def mend(file: SourceFile) -> SourceFile | None:
-    """A file that lax readers take, made readable without moving a byte; None if it cannot be.
-
-    What TinyXML passes over is blanked: a wrong or late ``<?xml …?>`` and ``--`` in comments. It is
-    for looking further at a file that has been found not well-formed.
-    """
-    data = bytearray(file.data)
-    at = data.find(b"<?xml")
-    end = data.find(b"?>", at)
-    if 0 <= at < end:
-        data[at : end + 2] = b" " * (end + 2 - at)
-    at = data.find(b"<!--")
-    while at >= 0:
-        end = data.find(b"-->", at + 4)
-        if end < 0:
-            return None
-        inner = bytes(data[at + 4 : end]).replace(b"--", b"  ")
-        data[at + 4 : end] = inner.removesuffix(b"-") + b" " if inner.endswith(b"-") else inner
-        at = data.find(b"<!--", end)
-    return None if data == file.data else SourceFile(file.path, bytes(data), file.encoding)

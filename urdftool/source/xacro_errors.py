@@ -12,7 +12,7 @@ from .location import Place
 from .packages import shown_path
 
 if TYPE_CHECKING:
-    from .expand import Expansion
+    from .expansion import Expansion
     from .xacro_tree import XacroElement
 
 _UNDEFINED = re.compile(r"name '([^']+)' is not defined")

@@ -12,10 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 from xml.dom import NotFoundErr
-from xml.parsers import expat
 
-from ..errors import XmlError
-from .document import MAX_DEPTH, run_parser
 from .location import Call, Place, SourceFile
 
 ELEMENT, TEXT, CDATA, INSTRUCTION, COMMENT, DOCUMENT = 1, 3, 4, 7, 8, 9
@@ -119,12 +116,13 @@ class _Value(NamedTuple):
     value: str
 
 
-class _Attributes(dict[str, str]):
+class Attributes(dict[str, str]):
     """Attributes by name; ``items`` is a list, since xacro changes them while it goes through."""
 
     __slots__ = ()
 
     def items(self) -> list[tuple[str, str]]:  # type: ignore[override]
+        """Names and values, as they are now."""
         return list(dict.items(self))
 
 
@@ -142,7 +140,7 @@ class XacroElement(Parent):
     def __init__(
         self,
         tag: str,
-        attributes: _Attributes,
+        attributes: Attributes,
         file: SourceFile,
         start: int,
         calls: tuple[Call, ...],
@@ -201,7 +199,7 @@ class XacroElement(Parent):
         """As :meth:`Node.copy`."""
         twin = XacroElement(
             self.tagName,
-            _Attributes(self.attributes),
+            Attributes(self.attributes),
             self.file,
             self.start,
             self.calls if calls is None else calls,
@@ -226,156 +224,3 @@ class XacroDocument(Parent):
     nodeType = DOCUMENT
 
     documentElement: XacroElement
-
-
-def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument:
-    """Parse a file into the tree that xacro works on.
-
-    Args:
-        file: The file.
-        calls: The includes it is read through.
-
-    Raises:
-        XmlError: It is not well-formed, uses a prefix it does not declare, declares entities, or
-            is nested too deep.
-    """
-    parser = expat.ParserCreate(namespace_separator=" ")
-    parser.namespace_prefixes = True
-    parser.buffer_text = True
-    document = XacroDocument()
-    stack: list[XacroElement] = []
-
-    def inside() -> Parent:
-        return stack[-1] if stack else document
-
-    declared: list[tuple[str, str]] = []
-    cdata = False
-
-    def namespace(prefix: str | None, uri: str | None) -> None:
-        declared.append((f"xmlns:{prefix}" if prefix else "xmlns", uri or ""))
-
-    def start(tag: str, attributes: dict[str, str]) -> None:
-        values = _Attributes(declared)
-        declared.clear()
-        for name, value in attributes.items():
-            values[_qualified(name) if " " in name else name] = value
-        element = XacroElement(
-            _qualified(tag) if " " in tag else tag, values, file, parser.CurrentByteIndex, calls
-        )
-        if not stack:
-            document.documentElement = element
-        elif len(stack) > MAX_DEPTH:
-            raise XmlError(
-                f"elements are nested more than {MAX_DEPTH} deep, which no robot description is",
-                at=element.place,
-            )
-        inside().appendChild(element)
-        stack.append(element)
-
-    def end(_: str) -> None:
-        stack.pop()
-
-    def characters(text: str) -> None:
-        last = inside().lastChild
-        kind = CDATA if cdata else TEXT
-        if isinstance(last, Characters) and last.nodeType == kind and not cdata:
-            last.data += text
-        else:
-            inside().appendChild(Characters(text, kind))
-
-    def start_cdata() -> None:
-        nonlocal cdata
-        cdata = True
-
-    def end_cdata() -> None:
-        nonlocal cdata
-        cdata = False
-
-    def comment(text: str) -> None:
-        inside().appendChild(Characters(text, COMMENT))
-
-    def instruction(target: str, text: str) -> None:
-        inside().appendChild(Characters(f"{target} {text}", INSTRUCTION))
-
-    parser.StartNamespaceDeclHandler = namespace
-    parser.StartElementHandler = start
-    parser.EndElementHandler = end
-    parser.CharacterDataHandler = characters
-    parser.StartCdataSectionHandler = start_cdata
-    parser.EndCdataSectionHandler = end_cdata
-    parser.CommentHandler = comment
-    parser.ProcessingInstructionHandler = instruction
-    run_parser(parser, file, stack)
-    return document
-
-
-def _qualified(name: str) -> str:
-    """``prefix:local`` of expat's ``uri local prefix``."""
-    parts = name.split(" ")
-    return f"{parts[2]}:{parts[1]}" if len(parts) == 3 else parts[1]
-
-
-def write_xml(document: XacroDocument, banner: list[str]) -> str:
-    """The text of an expanded tree, laid out as xacro lays it out.
-
-    Args:
-        document: The tree.
-        banner: Comments to put in front of it.
-    """
-    parts = ['<?xml version="1.0" ?>\n']
-    parts.extend(f"<!--{line}-->\n" for line in banner)
-    for node in document.childNodes:
-        _write(node, "", parts)
-    return "".join(parts)
-
-
-def _write(node: Node, indent: str, parts: list[str]) -> None:
-    if isinstance(node, Characters):
-        end = "" if node.nodeType == CDATA else "\n"
-        parts.append(_characters(node, indent) + end)
-        return
-    assert isinstance(node, XacroElement)
-    parts.append(f"{indent}<{node.tagName}")
-    parts.extend(
-        f' {name}="{_escape_attribute(value)}"' for name, value in sorted(node.attributes.items())
-    )
-    first = node.firstChild
-    if first is None:
-        parts.append("/>\n")
-        return
-    if first is node.lastChild and first.nodeType == TEXT:
-        assert isinstance(first, Characters)
-        parts.append(f">{_escape(first.data)}</{node.tagName}>\n")
-        return
-    parts.append(">\n")
-    for child in node.childNodes:
-        if child.nodeType == TEXT and isinstance(child, Characters):
-            if not child.data or child.data.isspace():
-                continue
-        _write(child, indent + "  ", parts)
-    parts.append(f"{indent}</{node.tagName}>\n")
-
-
-def _characters(node: Characters, indent: str) -> str:
-    if node.nodeType == COMMENT:
-        return f"{indent}<!--{node.data}-->"
-    if node.nodeType == CDATA:
-        return f"<![CDATA[{node.data}]]>"
-    if node.nodeType == INSTRUCTION:
-        return f"{indent}<?{node.data}?>"
-    return indent + _escape(node.data)
-
-
-def _escape(text: str) -> str:
-    if "&" in text or "<" in text or ">" in text:
-        text = text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
-    return text
-
-
-def _escape_attribute(text: str) -> str:
-    text = _escape(text)
-    if '"' in text:
-        text = text.replace('"', "&quot;")
-    if "\n" in text or "\t" in text or "\r" in text:
-        text = text.replace("\r", "&#13;").replace("\n", "&#10;").replace("\t", "&#9;")
-    return text

@@ -1,0 +1,53 @@
+"""What goes into a check of one description, and what comes out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..errors import UrdftoolError
+from ..finding import Finding
+from .settings import Settings
+
+
+@dataclass
+class Options:
+    """What the command line says for every file.
+
+    Attributes:
+        settings: Rules, targets, severities.
+        arguments: xacro arguments.
+        packages: Folders by package name.
+        package_paths: Folders with packages below.
+        config: A configuration file that was named.
+    """
+
+    settings: Settings = field(default_factory=Settings)
+    arguments: Mapping[str, str] = field(default_factory=dict)
+    packages: Mapping[str, str | Path] = field(default_factory=dict)
+    package_paths: Iterable[str | Path] = ()
+    config: str | None = None
+
+
+@dataclass
+class Report:
+    """What there is to say of one description.
+
+    Attributes:
+        path: The description.
+        findings: What is wrong with it.
+        targets: The targets it was checked for.
+        suppressed: How many findings comments cover.
+        skipped: Why it was not checked; empty if it was.
+        error: What kept it from being read.
+        failed_rules: Rules that broke, which is a bug of ours, with what they raised.
+    """
+
+    path: str
+    findings: list[Finding] = field(default_factory=list)
+    targets: frozenset[str] = frozenset()
+    suppressed: int = 0
+    skipped: str = ""
+    error: UrdftoolError | None = None
+    failed_rules: dict[str, str] = field(default_factory=dict)

@@ -1,0 +1,347 @@
+"""What xacro calls instead of its own functions, for the length of one expansion.
+
+The expansion itself is the ``xacro`` package's. Replaced are the parser (for places, limits and
+refusals), the search for packages (without ROS), the evaluation of text (the same, but each
+expression is compiled once), and what it prints. This is the only module that imports xacro, whose
+state lives in module globals: one expansion runs at a time.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import ModuleType
+from typing import Any
+
+import xacro
+
+from ..errors import SourceError, UrdftoolError, XacroError
+from .document import read_file
+from .expansion import Argument, Expansion, Warned
+from .expressions import BUILTINS, compile_expression
+from .location import Call, Place
+from .packages import Packages, shown_path
+from .xacro_parse import parse_xacro
+from .xacro_tree import Characters, Instances, XacroDocument, XacroElement
+
+MAX_CALLS = 400
+MAX_ELEMENTS = 200_000
+MAX_INCLUDES = 100
+_RECURSION_LIMIT = 6000
+
+
+def _substitution_args() -> Any:
+    """Xacro's module for ``$(…)``, imported without yaml, which it names and hardly ever uses."""
+    absent = "yaml" not in sys.modules
+    if absent:
+        sys.modules["yaml"] = ModuleType("yaml")
+    try:
+        import xacro.substitution_args as substitution
+    finally:
+        if absent:
+            del sys.modules["yaml"]
+    return substitution
+
+
+class Run:
+    """One expansion under way."""
+
+    def __init__(self, result: Expansion, packages: Packages) -> None:
+        self.result = result
+        self.packages = packages
+        self.instances = Instances()
+        self.node: XacroElement | None = None
+        self.failed_text: str | None = None
+        self.include_calls: tuple[Call, ...] = ()
+        self.elements = 0
+        self.yaml_safe_load: Callable[..., Any] | None = None
+
+    def expand(self) -> None:
+        """Parse the file, and let xacro expand it; the hooks are in place."""
+        xacro.init_stacks(self.result.file.path)
+        self.result.tree = parse_xacro(self.result.file)
+        xacro.process_doc(self.result.tree, mappings=dict(self.result.given), verbosity=1)
+
+    @contextmanager
+    def hooks(self) -> Iterator[None]:
+        """Put our functions in the place of xacro's, and take them away again."""
+        here: dict[str, Any] = {
+            "parse": self.parse,
+            "eval_text": self.eval_text,
+            "eval_all": self.eval_all(xacro.eval_all),
+            "grab_property": self.around(xacro.grab_property),
+            "grab_macro": self.grab_macro(xacro.grab_macro),
+            "process_include": self.process_include(xacro.process_include),
+            "handle_macro_call": self.handle_macro_call(xacro.handle_macro_call),
+            "check_attrs": self.check_attrs(xacro.check_attrs),
+            "abs_filename_spec": self.abs_filename_spec(xacro.abs_filename_spec),
+            "_empty_text_node": Characters("\n\n"),
+            "warning": self.warning,
+            "print_location": lambda *_: None,
+            "all_includes": [],
+            "verbosity": 1,
+            "root_dir": os.curdir,
+        }
+        saved = {name: getattr(xacro, name) for name in (*here, "filestack", "macrostack")}
+        substitution = _substitution_args()
+        find, eval_find = substitution._eval_find, substitution._eval_dict["find"]
+        limit = sys.getrecursionlimit()
+        try:
+            for name, value in here.items():
+                setattr(xacro, name, value)
+            substitution._eval_find = self.find
+            substitution._eval_dict["find"] = self.find
+            sys.setrecursionlimit(max(limit, _RECURSION_LIMIT))
+            yield
+            self.note_dependencies()
+        finally:
+            sys.setrecursionlimit(limit)
+            if self.yaml_safe_load is not None:
+                sys.modules["yaml"].safe_load = self.yaml_safe_load  # type: ignore[attr-defined]
+            for name, value in saved.items():
+                setattr(xacro, name, value)
+            substitution._eval_find = find
+            substitution._eval_dict["find"] = eval_find
+            xacro.substitution_args_context.clear()
+
+    # What xacro calls ------------------------------------------------------------------------
+
+    def parse(self, _: object, filename: str) -> XacroDocument:
+        """Read an included file; what cannot be opened is an IOError to xacro."""
+        path = shown_path(self.packages.installed(filename))
+        if len(xacro.filestack) > MAX_INCLUDES:
+            raise XacroError(
+                f"includes are nested more than {MAX_INCLUDES} deep; a file includes itself",
+                at=self.place._replace(calls=self.place.calls[:3]) if self.place else None,
+                rule="endless-expansion",
+            )
+        file = self.result.files.get(path)
+        if file is None:
+            try:
+                file = read_file(path)
+            except SourceError as error:
+                xacro.filestack.pop()
+                raise xacro.XacroException(
+                    error.message, exc=_MissingFileError(path, error)
+                ) from error
+            self.result.files[path] = file
+        return parse_xacro(file, self.include_calls)
+
+    def find(self, name: str) -> str:
+        """The folder of a package."""
+        return str(self.packages.find(name))
+
+    def abs_filename_spec(self, original: Callable[[str], str]) -> Callable[[str], str]:
+        """Paths relative to the file they stand in; install rules followed."""
+
+        def absolute(spec: str) -> str:
+            path = original(spec)
+            self.use_fast_yaml()
+            return path if os.path.exists(path) else str(self.packages.installed(path))
+
+        return absolute
+
+    def use_fast_yaml(self) -> None:
+        """Let ``load_yaml``, once it has imported yaml, read with libyaml, which is much faster."""
+        yaml: Any = sys.modules.get("yaml")
+        fast = getattr(yaml, "CSafeLoader", None)
+        if fast is None or self.yaml_safe_load is not None:
+            return
+        loader = type("Loader", (fast,), {"yaml_constructors": yaml.SafeLoader.yaml_constructors})
+        self.yaml_safe_load = yaml.safe_load
+        yaml.safe_load = lambda stream: yaml.load(stream, Loader=loader)
+
+    def warning(self, *words: object, **_: object) -> None:
+        """Keep a warning with the place it was met."""
+        self.result.warnings.append(Warned(" ".join(map(str, words)), self.place))
+
+    def around(self, original: Callable[..., Any]) -> Callable[..., Any]:
+        """Know which element is worked on while a function of xacro works on it."""
+
+        def wrapped(node: XacroElement, *rest: Any) -> Any:
+            before, self.node = self.node, node
+            result = original(node, *rest)
+            self.node = before
+            return result
+
+        return wrapped
+
+    def eval_all(self, original: Callable[..., Any]) -> Callable[..., Any]:
+        """Once for each element: where a bound on their number is kept."""
+        wrapped = self.around(original)
+
+        def evaluate(node: XacroElement, macros: Any, symbols: Any) -> None:
+            self.elements += 1
+            if self.elements > MAX_ELEMENTS:
+                raise XacroError(
+                    f"expands to more than {MAX_ELEMENTS} elements; a macro multiplies itself",
+                    at=node.place._replace(calls=node.calls[:3]),
+                    rule="endless-expansion",
+                )
+            wrapped(node, macros, symbols)
+
+        return evaluate
+
+    def check_attrs(self, original: Callable[..., Any]) -> Callable[..., Any]:
+        """See the arguments that are declared, as they pass."""
+
+        def wrapped(tag: XacroElement, required: list[str], optional: list[str]) -> Any:
+            self.node = tag
+            values = original(tag, required, optional)
+            if tag.tagName == "xacro:arg":
+                name, default = values
+                self.result.arguments.setdefault(name, Argument(name, default, tag.place))
+            return values
+
+        return wrapped
+
+    def grab_macro(self, original: Callable[..., Any]) -> Callable[..., Any]:
+        """Mark a macro's definition, so that its copies know their call."""
+        wrapped = self.around(original)
+
+        def grab(element: XacroElement, macros: Any) -> None:
+            element.definition_of = self.instances
+            wrapped(element, macros)
+
+        return grab
+
+    def process_include(self, original: Callable[..., Any]) -> Callable[..., Any]:
+        """Elements of an included file came through the include."""
+        wrapped = self.around(original)
+
+        def include(element: XacroElement, *rest: Any) -> None:
+            before = self.include_calls
+            self.include_calls = (Call(element.file, element.start, ""), *element.calls)
+            wrapped(element, *rest)
+            self.include_calls = before
+
+        return include
+
+    def handle_macro_call(self, original: Callable[..., bool]) -> Callable[..., bool]:
+        """Elements of a macro's instance came through its call."""
+
+        def call(node: XacroElement, macros: Any, symbols: Any) -> bool:
+            tag = node.tagName
+            if not tag.startswith("xacro:"):
+                return False
+            if tag == "xacro:call":  # comes back here with its macro's name
+                return bool(original(node, macros, symbols))
+            if len(node.calls) > MAX_CALLS:
+                raise XacroError(
+                    f"macro '{tag[6:]}' calls itself without end "
+                    f"(more than {MAX_CALLS} calls deep)",
+                    at=node.place._replace(calls=node.calls[:3]),
+                    rule="endless-expansion",
+                )
+            before, self.node = self.node, node
+            calls = self.instances.calls
+            arguments = tuple((k, self.shown(v, symbols)) for k, v in node.attributes.items())
+            self.instances.calls = (Call(node.file, node.start, tag[6:], arguments), *node.calls)
+            result = original(node, macros, symbols)
+            self.instances.calls = calls
+            self.node = before
+            return bool(result)
+
+        return call
+
+    def shown(self, value: str, symbols: Any) -> str:
+        """A call's argument as evaluated, for the reader; as written where that has effects."""
+        if "$" not in value or "xacro." in value or len(value) > 200:
+            return value
+        try:
+            return str(self.eval_text(value, symbols))
+        except Exception:
+            self.failed_text = None
+            return value
+
+    def eval_text(self, text: str, symbols: Any) -> Any:
+        """As ``xacro.eval_text``, with the lexing and compiling done once for each text."""
+        if "$" not in text:
+            return text
+        pieces = _pieces.get(text)
+        if pieces is None:
+            pieces = _pieces[text] = _split(text)
+        results = []
+        for kind, piece in pieces:
+            if kind == _EXPR:
+                results.append(self.evaluate(piece, symbols))
+            elif kind == _EXTENSION:
+                inner = self.eval_text(piece, symbols)
+                try:
+                    results.append(xacro.eval_extension(f"$({inner})"))
+                except Exception:
+                    self.failed_text = self.failed_text or text
+                    raise
+            else:
+                results.append(piece)
+        return results[0] if len(results) == 1 else "".join(map(str, results))
+
+    def evaluate(self, expression: str, symbols: Any) -> Any:
+        """The value of what stands between ``${`` and ``}``."""
+        try:
+            source = str(self.eval_text(expression, symbols))
+            code = compile_expression(source)
+            if not dict.__contains__(symbols, "__builtins__"):
+                symbols.update(__builtins__=BUILTINS)
+            return eval(code, symbols)
+        except Exception as error:
+            self.failed_text = self.failed_text or expression
+            raise xacro.XacroException(
+                exc=error, suffix=os.linesep + f"when evaluating expression '{expression}'"
+            ) from error
+
+    # What we tell of it ----------------------------------------------------------------------
+
+    @property
+    def place(self) -> Place | None:
+        """Where the expansion is."""
+        return None if self.node is None else self.node.place
+
+    def note_dependencies(self) -> None:
+        """Take the files xacro read, each once."""
+        seen = dict.fromkeys(
+            shown_path(self.packages.installed(path)) for path in xacro.all_includes
+        )
+        self.result.dependencies = list(seen)
+
+    def explain(self, error: Exception) -> UrdftoolError:
+        """An error of the expansion as a sentence with a place."""
+        from .xacro_errors import explain
+
+        return explain(error, self.node, self.failed_text, self.result)
+
+
+class _MissingFileError(OSError):
+    """What xacro needs to see to let an optional include pass."""
+
+    def __init__(self, path: str, error: SourceError) -> None:
+        super().__init__(error.message)
+        self.path = path
+        self.error = error
+
+    def __str__(self) -> str:
+        return self.path
+
+
+_TEXT, _EXPR, _EXTENSION = 0, 1, 2
+_pieces: dict[str, list[tuple[int, str]]] = {}
+
+
+def _split(text: str) -> list[tuple[int, str]]:
+    """The pieces of a text, as xacro's own lexer finds them."""
+    pieces = []
+    lexer = xacro.QuickLexer(xacro.LEXER)
+    lexer.lex(text)
+    while lexer.peek():
+        kind, value = lexer.next()
+        if kind == lexer.EXPR:
+            pieces.append((_EXPR, value[2:-1]))
+        elif kind == lexer.EXTENSION:
+            pieces.append((_EXTENSION, value[2:-1]))
+        elif kind == lexer.DOLLAR_DOLLAR_BRACE:
+            pieces.append((_TEXT, value[1:]))
+        else:
+            pieces.append((_TEXT, value))
+    return pieces

@@ -1,0 +1,107 @@
+"""Text to the tree that xacro works on."""
+
+from __future__ import annotations
+
+from xml.parsers import expat
+
+from ..errors import XmlError
+from .location import Call, SourceFile
+from .well_formed import MAX_DEPTH, run_parser
+from .xacro_tree import (
+    CDATA,
+    COMMENT,
+    INSTRUCTION,
+    TEXT,
+    Attributes,
+    Characters,
+    Parent,
+    XacroDocument,
+    XacroElement,
+)
+
+
+def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument:
+    """Parse a file into the tree that xacro works on.
+
+    Args:
+        file: The file.
+        calls: The includes it is read through.
+
+    Raises:
+        XmlError: It is not well-formed, uses a prefix it does not declare, declares entities, or
+            is nested too deep.
+    """
+    parser = expat.ParserCreate(namespace_separator=" ")
+    parser.namespace_prefixes = True
+    parser.buffer_text = True
+    document = XacroDocument()
+    stack: list[XacroElement] = []
+
+    def inside() -> Parent:
+        return stack[-1] if stack else document
+
+    declared: list[tuple[str, str]] = []
+    cdata = False
+
+    def namespace(prefix: str | None, uri: str | None) -> None:
+        declared.append((f"xmlns:{prefix}" if prefix else "xmlns", uri or ""))
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        values = Attributes(declared)
+        declared.clear()
+        for name, value in attributes.items():
+            values[_qualified(name) if " " in name else name] = value
+        element = XacroElement(
+            _qualified(tag) if " " in tag else tag, values, file, parser.CurrentByteIndex, calls
+        )
+        if not stack:
+            document.documentElement = element
+        elif len(stack) > MAX_DEPTH:
+            raise XmlError(
+                f"elements are nested more than {MAX_DEPTH} deep, which no robot description is",
+                at=element.place,
+            )
+        inside().appendChild(element)
+        stack.append(element)
+
+    def end(_: str) -> None:
+        stack.pop()
+
+    def characters(text: str) -> None:
+        last = inside().lastChild
+        kind = CDATA if cdata else TEXT
+        if isinstance(last, Characters) and last.nodeType == kind and not cdata:
+            last.data += text
+        else:
+            inside().appendChild(Characters(text, kind))
+
+    def start_cdata() -> None:
+        nonlocal cdata
+        cdata = True
+
+    def end_cdata() -> None:
+        nonlocal cdata
+        cdata = False
+
+    def comment(text: str) -> None:
+        inside().appendChild(Characters(text, COMMENT))
+
+    def instruction(target: str, text: str) -> None:
+        inside().appendChild(Characters(f"{target} {text}", INSTRUCTION))
+
+    parser.StartNamespaceDeclHandler = namespace
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
+    parser.CharacterDataHandler = characters
+    parser.StartCdataSectionHandler = start_cdata
+    parser.EndCdataSectionHandler = end_cdata
+    parser.CommentHandler = comment
+    parser.ProcessingInstructionHandler = instruction
+    run_parser(parser, file, stack)
+    return document
+
+
+def _qualified(name: str) -> str:
+    """``prefix:local`` of expat's ``uri local prefix``."""
+    parts = name.split(" ")
+    return f"{parts[2]}:{parts[1]}" if len(parts) == 3 else parts[1]
