@@ -76,7 +76,7 @@ def command(
     style: str,
     **choices: Any,
 ) -> int:
-    """Turn the robot IN into a MuJoCo model, and prove that it is the same robot.
+    r"""Turn the robot IN into a MuJoCo model, and prove that it is the same robot.
 
     One body a link, with its mass, names and limits as they are; meshes are copied or converted.
     What is lost is said, with its place.

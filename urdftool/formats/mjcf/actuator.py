@@ -1,7 +1,7 @@
 """Actuators: what transmissions and ros2_control say, or one kind for every joint.
 
-URDF has no gains. A position servo gets one that asks for the joint's whole effort at an error of
-``POSITION_ERROR``, and critical damping for the inertia it moves (``dampratio``).
+URDF has no gains. A servo gets one that asks for the whole effort of its joint at a small error,
+and critical damping for the inertia it moves (``dampratio``).
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from .joint import bounds, effort_of, locked_at
 from .options import Actuators
 from .structure import Structure
 
-POSITION_ERROR = {"hinge": 0.1, "slide": 0.01}
-"""Error [rad or m] at which a position servo asks for the whole effort of its joint."""
+POSITION_GAIN = {"hinge": 10.0, "slide": 100.0}
+"""Gain of a position servo over its joint's effort [1/rad or 1/m]: all of it at 0.1 rad or 1 cm."""
 
-VELOCITY_ERROR = 0.1
-"""Error relative to the greatest velocity at which a velocity servo asks for the whole effort."""
+VELOCITY_GAIN = 10.0
+"""Gain of a velocity servo over effort by velocity: all of it at a tenth of the velocity."""
 
 PLAIN_GAIN = {
     "position": {"hinge": 100.0, "slide": 1000.0},
@@ -119,7 +119,7 @@ def _element(structure: Structure, drive: Drive) -> etree._Element:
     effort = effort_of(joint)
     element = etree.Element(drive.kind, name=joint.name, joint=joint.name)
     if drive.kind == "position":
-        gain = effort / POSITION_ERROR[kind] if effort else PLAIN_GAIN["position"][kind]
+        gain = effort * POSITION_GAIN[kind] if effort else PLAIN_GAIN["position"][kind]
         element.set("kp", number_text(gain))
         element.set("dampratio", "1")
         limits = bounds(joint)
@@ -127,8 +127,9 @@ def _element(structure: Structure, drive: Drive) -> etree._Element:
             element.set("inheritrange", "1")
     elif drive.kind == "velocity":
         velocity = abs(joint.limit.velocity or 0.0) if joint.limit is not None else 0.0
-        known = effort and velocity
-        gain = effort / (VELOCITY_ERROR * velocity) if known else PLAIN_GAIN["velocity"][kind]  # type: ignore[operator]
+        gain = PLAIN_GAIN["velocity"][kind]
+        if effort and velocity:
+            gain = effort * VELOCITY_GAIN / velocity
         element.set("kv", number_text(gain))
         if velocity:
             element.set("ctrlrange", numbers_text((-velocity, velocity)))

@@ -19,7 +19,7 @@ ORDER = (
 # the order in which one would write the attributes of an element
 ATTRIBUTES = (
     "name", "class", "joint", "joint1", "joint2", "body1", "body2", "site", "objtype", "objname",
-    "type", "childclass", "mass", "pos", "quat", "axis", "dir", "mesh", "material", "rgba", "size",
+    "type", "childclass", "mass", "size", "pos", "quat", "axis", "dir", "mesh", "material", "rgba",
 )  # fmt: skip
 
 

@@ -190,7 +190,7 @@ def _dynamics(
         expected = mechanics.mass_matrix(positions)[np.ix_(present, present)]
         found = compiled.mass_matrix([dofs[index] for index in present])
         scale = np.sqrt(np.maximum(np.diag(expected), 0.0))
-        floor = 1e-6 * max(float(np.diag(expected).max()), 1e-300)
+        floor = max(1e-6 * float(np.diag(expected).max()), 1e-15)
         difference = abs(found - expected) / np.maximum(np.outer(scale, scale), floor)
         inertia.compare(float(difference.max()), "the mass matrix", known=said.inertia)
         force = mechanics.gravity(positions)[present]

@@ -1,0 +1,147 @@
+"""Masses: verbatim, moved inside a rigid body, repaired on demand, or refused."""
+
+import numpy as np
+import pytest
+
+from urdftool.formats.defects import Refused
+
+from .robots import INERTIAL, export, find, joint, link, robot, rules, tree
+
+
+def inertial(mass, moments, products=(0, 0, 0), origin=""):
+    xx, yy, zz = moments
+    xy, xz, yz = products
+    return (
+        f'<inertial>{origin}<mass value="{mass}"/><inertia ixx="{xx}" ixy="{xy}" ixz="{xz}" '
+        f'iyy="{yy}" iyz="{yz}" izz="{zz}"/></inertial>'
+    )
+
+
+def written_inertial(model, name):
+    return find(model, "body", name).find("inertial")
+
+
+def tensor_of(element):
+    """The tensor of an element along its body's axes."""
+    from urdftool.model.pose import rotation_of_quaternion
+
+    if element.get("fullinertia"):
+        xx, yy, zz, xy, xz, yz = map(float, element.get("fullinertia").split())
+        return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    quaternion = tuple(map(float, element.get("quat", "1 0 0 0").split()))
+    turn = np.array(rotation_of_quaternion(quaternion))
+    return turn @ np.diag(list(map(float, element.get("diaginertia").split()))) @ turn.T
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (inertial(2, (1, 2, 2.5)), {"mass": "2", "diaginertia": "1 2 2.5"}),
+        (inertial(2, (1, 2, 2.5), (0.1, 0, 0)), {"fullinertia": "1 2 2.5 0.1 0 0"}),
+        (
+            inertial(2, (1, 2, 2.5), origin='<origin xyz="1 2 3" rpy="1.5707963267948966 0 0"/>'),
+            {"pos": "1 2 3", "quat": "1 1 0 0", "diaginertia": "1 2 2.5"},
+        ),
+        (inertial(2, (1, 1, 1), origin='<origin rpy="0.3 0.1 0.2"/>'), {"diaginertia": "1 1 1"}),
+        (inertial("0.1", ("1e-7", "2e-7", "2.5e-7")), {"diaginertia": "1e-07 2e-07 2.5e-07"}),
+    ],
+)
+def test_numbers_stay_as_they_are(write, text, expected):
+    element = written_inertial(tree(export(write("r.urdf", robot(link("a", text))))), "a")
+    assert {name: element.get(name) for name in expected} == expected
+
+
+def test_a_turned_tensor_is_the_same(write):
+    text = inertial(1, (1, 2, 2.5), (0.1, 0.2, 0.3), '<origin rpy="0.3 -0.4 0.5"/>')
+    element = written_inertial(tree(export(write("r.urdf", robot(link("a", text))))), "a")
+    from urdftool.formats.mechanics import turn
+
+    rotation = np.eye(3)
+    for axis, angle in zip(np.eye(3), (0.3, -0.4, 0.5), strict=True):
+        rotation = turn(axis, angle) @ rotation
+    given = np.array([[1, 0.1, 0.2], [0.1, 2, 0.3], [0.2, 0.3, 2.5]])
+    assert tensor_of(element) == pytest.approx(rotation @ given @ rotation.T, abs=1e-15)
+
+
+def test_nothing_is_inferred_where_nothing_is_written(write):
+    written = export(write("r.urdf", robot(link("a", ""))))
+    assert written_inertial(tree(written), "a") is None
+    assert tree(written).find("compiler").get("inertiafromgeom") == "false"
+
+
+BAD = inertial(1, (1, 1, 3))
+
+
+def test_an_impossible_tensor_of_a_moving_body_is_refused_with_its_place(write):
+    path = write("r.urdf", robot("", link("base"), "", link("a", BAD), joint("j", "base", "a")))
+    with pytest.raises(Refused) as caught:
+        export(path)
+    assert caught.value.findings[0].rule == "inertia-triangle-inequality"
+    assert caught.value.line == 4
+
+
+@pytest.mark.parametrize(
+    ("fix", "moments"),
+    [("lift", [1.5, 1.5, 3]), ("balance", [5 / 3] * 3), ("box", [13 / 12, 10 / 12, 5 / 12])],
+)
+def test_it_is_repaired_as_asked_and_reported_in_numbers(write, fix, moments):
+    shape = '<collision><geometry><box size="1 2 3"/></geometry></collision>'
+    text = robot(link("base"), link("a", BAD + shape), joint("j", "base", "a"))
+    written = export(write("r.urdf", text), fix_inertia=fix)
+    tensor = tensor_of(written_inertial(tree(written), "a"))
+    assert np.diag(tensor) == pytest.approx(moments)
+    (loss,) = [loss for loss in written.losses if loss.rule == "lossy-inertia"]
+    assert "1, 1, 3" in loss.message
+
+
+def test_in_a_rigid_body_the_surplus_moves_and_the_whole_is_the_same(write):
+    text = robot(
+        link("base"),
+        link("a", inertial(2, (9, 9, 9))),
+        link("b", BAD),
+        joint("j", "base", "a"),
+        joint("w", "a", "b", "fixed", '<origin xyz="1 2 3" rpy="0.3 0.2 0.1"/>'),
+    )
+    written = export(write("r.urdf", text))
+    assert "lossy-inertia-moved" in rules(written)
+    model = tree(written)
+    from urdftool.model.pose import rotation_of_rpy
+
+    turn = np.array(rotation_of_rpy((0.3, 0.2, 0.1)))
+    total = tensor_of(written_inertial(model, "a"))
+    total = total + turn @ tensor_of(written_inertial(model, "b")) @ turn.T
+    assert total == pytest.approx(9 * np.eye(3) + turn @ np.diag([1, 1, 3]) @ turn.T)
+
+
+def test_a_held_link_with_an_impossible_tensor_is_lifted_and_said(write):
+    written = export(write("r.urdf", robot(link("a", BAD))))
+    assert "lossy-inertia" in rules(written)
+
+
+def test_massless_last_link(write):
+    text = robot(link("base"), link("a", ""), joint("j", "base", "a"))
+    written = export(write("r.urdf", text))
+    model = tree(written)
+    assert float(written_inertial(model, "a").get("mass")) < 1e-14
+    assert find(model, "joint", "j").get("armature") == "0.0001"
+    assert "lossy-massless" in rules(written)
+
+
+def test_massless_link_with_mass_below_has_no_armature(write):
+    text = robot(
+        link("base"), link("a", ""), link("b"), joint("j", "base", "a"), joint("k", "a", "b")
+    )
+    model = tree(export(write("r.urdf", text)))
+    assert find(model, "joint", "j").get("armature") is None
+
+
+def test_noise_in_place_of_zeros_is_a_point(write):
+    noise = inertial(0.5, ("-5e-20", "-5e-20", "0"))
+    written = export(write("r.urdf", robot(link("base"), link("a", noise), joint("j", "base", "a"))))
+    assert "lossy-point-mass" in rules(written)
+
+
+def test_negative_mass_is_refused(write):
+    text = INERTIAL.replace('value="1"', 'value="-1"')
+    with pytest.raises(Refused, match="mass of -1 kg"):
+        export(write("r.urdf", robot(link("a", text))))
