@@ -2,8 +2,8 @@
 
     python tests/benchmarks/export_sdf.py [--write docs/formats/sdf.md] [--only NAME]
 
-It wants pin, drake and example-robot-data from PyPI, and asks `ign sdf -k` or `gz sdf -k` where there
-is one. Exports are made with --force: what that passed over is announced, and counted so.
+It wants pin, drake and example-robot-data from PyPI, and asks `ign sdf -k` or `gz sdf -k` where
+there is one. Exports are made with --force: what that passed over is announced, and counted so.
 """
 
 from __future__ import annotations

@@ -137,12 +137,14 @@ def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
     """All that is said of a joint but its sensors."""
     _note_repeated(t, joint, JOINT_KEYWORDS)
     for tag, text in values(t, joint, JOINT_KEYWORDS).items():
-        path = JOINT_KEYWORDS[tag].path
+        path, also = JOINT_KEYWORDS[tag].path, JOINT_KEYWORDS[tag].also
         if path.startswith("axis/") and node.find("axis") is None:
             text = f"<{tag}> is said of joint '{joint.name}', which has no axis; it is left out"
             t.lose("extension", text, t.robot.extensions[joint.name][0], joint)
             continue
         at(node, path).text = text
+        if also:
+            at(node, also).text = text
     for element in said_of(t.robot, joint):
         tag = element.tag
         if tag == "plugin":

@@ -15,11 +15,13 @@ class Keyword(NamedTuple):
         holds: ``number``, ``count``, ``vector`` (3 numbers) or ``flag``.
         path: Where SDF has it, below the element it belongs to.
         note: What else there is to know, for the page.
+        also: A second place, which older readers look at.
     """
 
     holds: str
     path: str
     note: str = ""
+    also: str = ""
 
 
 COLLISION_KEYWORDS = {
@@ -53,8 +55,15 @@ JOINT_KEYWORDS = {
     "stopCfm": Keyword("number", "physics/ode/limit/cfm"),
     "stopErp": Keyword("number", "physics/ode/limit/erp"),
     "fudgeFactor": Keyword("number", "physics/ode/fudge_factor"),
-    "implicitSpringDamper": Keyword("flag", "physics/ode/implicit_spring_damper"),
-    "cfmDamping": Keyword("flag", "physics/ode/implicit_spring_damper", "the old name of it"),
+    "implicitSpringDamper": Keyword(
+        "flag", "physics/ode/implicit_spring_damper", "", "physics/ode/cfm_damping"
+    ),
+    "cfmDamping": Keyword(
+        "flag",
+        "physics/ode/implicit_spring_damper",
+        "the old name of it",
+        "physics/ode/cfm_damping",
+    ),
     "provideFeedback": Keyword("flag", "physics/provide_feedback"),
     "springStiffness": Keyword("number", "axis/dynamics/spring_stiffness"),
     "springReference": Keyword("number", "axis/dynamics/spring_reference"),

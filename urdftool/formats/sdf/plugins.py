@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from ...model.read import number
+from ...model.elements import ZERO
+from ...model.pose import Pose, rotation_of_rpy
+from ...model.read import number, numbers
 from ...source.document import Element
-from ..numbers import number_text
+from ..numbers import number_text, numbers_text
 from .plugin_types import (
     CONTROL_PLUGINS,
     MIMIC_PLUGINS,
@@ -14,8 +16,9 @@ from .plugin_types import (
     is_for_gz,
     library,
 )
+from .pose import angles_of
 from .translation import Translation
-from .xml import Node, add, copied
+from .xml import Node, add, at, copied
 
 _NAMES_LINK = frozenset(
     ("bodyName", "body_name", "linkName", "link_name", "gripper_link", "palm_link", "parent_link",
@@ -60,6 +63,7 @@ def system_name(t: Translation, word: str, name: str) -> dict[str, str]:
 def _kept(node: Node, t: Translation, element: Element) -> None:
     """Copy a plugin; what it calls by name is called so still."""
     made = copied(node, element)
+    _offset(made, t)
     for tag in made.iter():
         if not isinstance(tag.tag, str) or not tag.text:
             continue
@@ -69,6 +73,19 @@ def _kept(node: Node, t: Translation, element: Element) -> None:
             tag.text = t.names.link(t.plan.owner[text] if dissolved else text)
         elif "oint" in tag.tag and ("joint", text) in t.names.renamed:
             tag.text = t.names.joint(text)
+
+
+def _offset(made: Node, t: Translation) -> None:
+    """Let the offsets of a plugin be from the link that its body became a part of."""
+    body = made.find("bodyName")
+    name = (body.text or "").strip() if body is not None else ""
+    if not t.options.classic or name not in t.plan.owner or t.plan.stays(name):
+        return
+    xyz, rpy = (numbers(made.findtext(f"{w}Offset"), 3) or ZERO for w in ("xyz", "rpy"))
+    local = Pose(rotation_of_rpy(rpy), xyz)  # type: ignore[arg-type]
+    pose = t.plan.in_owner[name] @ local
+    at(made, "xyzOffset").text = numbers_text(pose.translation)
+    at(made, "rpyOffset").text = numbers_text(angles_of(pose.rotation))
 
 
 def _system(node: Node, t: Translation, element: Element, system: System) -> None:
