@@ -48,7 +48,9 @@ def table(folder: Path, only: str) -> str:
         totals["all"] += equal
         own = "<collision_checking" in path.read_text(encoding="utf-8", errors="replace")
         said = made.rules | _said(made)
-        verdict = "equal" if equal else "announced" if said else "other reading" if own else "DIFFERS"
+        verdict = (
+            "equal" if equal else "announced" if said else "other reading" if own else "DIFFERS"
+        )
         rows.append(f"| {name} | {seconds:.2f} | {' | '.join(cells)} | {verdict} |")
         if not equal:
             why = ["Pinocchio puts <collision_checking> in the place of <collision>"] if own else []
@@ -76,9 +78,7 @@ def compare(path: Path, made: Export, compiled: Compiled) -> dict[str, float]:
     model = pin.buildModelFromUrdf(str(path))
     data = model.createData()
     worst = dict.fromkeys(COLUMNS, 0.0)
-    names = [
-        name for j, name in enumerate(model.names) if j and model.joints[j].nv == 1
-    ]
+    names = [name for j, name in enumerate(model.names) if j and model.joints[j].nv == 1]
     dofs = compiled.dofs(names)
     columns = [model.joints[model.getJointId(name)].idx_v for name in names]
     if min(dofs, default=0) < 0:
@@ -98,10 +98,20 @@ def compare(path: Path, made: Export, compiled: Compiled) -> dict[str, float]:
                 apart = math.inf if found is None else abs(found - expected).max()
                 worst["frames"] = max(worst["frames"], apart)
         if present:
-            _dynamics(model, data, q, compiled, [columns[i] for i in present], [dofs[i] for i in present], worst)
+            _dynamics(
+                model,
+                data,
+                q,
+                compiled,
+                [columns[i] for i in present],
+                [dofs[i] for i in present],
+                worst,
+            )
         _centroid(model, data, q, root, compiled, worst)
         if index < 2:
-            worst["collision"] = max(worst["collision"], _collision(geometry, model, data, q, root, compiled))
+            worst["collision"] = max(
+                worst["collision"], _collision(geometry, model, data, q, root, compiled)
+            )
     worst["limits"] = max(worst["limits"], _limits(model, names, compiled))
     return worst
 
@@ -185,7 +195,11 @@ def _limits(model, names, compiled):
 
 
 def _geometry(path, model):
-    packages = [str(example_folder().parents[1]), str(example_folder().parent), str(example_folder())]
+    packages = [
+        str(example_folder().parents[1]),
+        str(example_folder().parent),
+        str(example_folder()),
+    ]
     try:
         return pin.buildGeomFromUrdf(model, str(path), pin.GeometryType.COLLISION, packages)
     except Exception:

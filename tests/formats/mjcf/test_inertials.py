@@ -137,7 +137,9 @@ def test_massless_link_with_mass_below_has_no_armature(write):
 
 def test_noise_in_place_of_zeros_is_a_point(write):
     noise = inertial(0.5, ("-5e-20", "-5e-20", "0"))
-    written = export(write("r.urdf", robot(link("base"), link("a", noise), joint("j", "base", "a"))))
+    written = export(
+        write("r.urdf", robot(link("base"), link("a", noise), joint("j", "base", "a")))
+    )
     assert "lossy-point-mass" in rules(written)
 
 

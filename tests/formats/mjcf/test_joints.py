@@ -136,7 +136,9 @@ def test_a_plane_has_a_right_handed_frame(normal):
 
 
 def test_floating_below_the_world_is_a_free_joint(write):
-    text = robot(link("world", ""), link("a"), joint("j", "world", "a", "floating", '<origin xyz="0 0 2"/>'))
+    text = robot(
+        link("world", ""), link("a"), joint("j", "world", "a", "floating", '<origin xyz="0 0 2"/>')
+    )
     model = tree(export(write("r.urdf", text)))
     body = find(model, "body", "a")
     assert body.getparent().tag == "worldbody"

@@ -112,16 +112,13 @@ def _limit_losses(joint: Joint) -> Iterator[tuple[str, str, Severity]]:
             "effort is not bounded",
             Severity.WARNING,
         )
-    if limit.velocity:
+    if limit.velocity is not None:
         yield (
             "velocity",
             f"MuJoCo bounds no velocity; that of joint '{joint.name}' ({limit.velocity:g}) is kept "
             "as a number in <custom>",
             Severity.INFO,
         )
-    elif limit.velocity == 0:
-        text = f"velocity 0 of joint '{joint.name}' is not kept; MuJoCo bounds no velocity"
-        yield "velocity", text, Severity.INFO
 
 
 def _bound_losses(joint: Joint, limit: Limit) -> Iterator[tuple[str, str, Severity]]:

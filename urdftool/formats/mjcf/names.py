@@ -37,4 +37,4 @@ class Names:
 
 def file_name(text: str) -> str:
     """A name as it may stand in a file's: letters, digits, dots, dashes and underscores."""
-    return re.sub(r"[^\w.-]+", "_", text).strip("._") or "unnamed"
+    return re.sub(r"[^\w.-]+", "_", text).strip("._-") or "unnamed"

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -17,35 +16,13 @@ from ...model.elements import Joint, Robot
 from ..check import Check
 from ..mechanics import Mechanics
 from ..written import Written
+from .announced import EFFORT, INERTIA, LIMITS, TREE, Said
 from .compiled import Compiled
 from .verify_shapes import collision_check, visual_check
 
 CONFIGURATIONS = 20
 
 POSE, MATRIX, MASS = 1e-9, 1e-8, 1e-12
-
-_INERTIA = (
-    "lossy-inertia", "lossy-massless", "lossy-point-mass", "lossy-world-mass", "negative-mass",
-    "inertia-triangle-inequality",
-)  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Said:
-    """What an export announced.
-
-    Attributes:
-        rules: The names of the losses.
-        about: The names of links, joints and materials they are about.
-    """
-
-    rules: frozenset[str]
-    about: frozenset[str]
-
-    @property
-    def inertia(self) -> bool:
-        """Whether masses or tensors were changed."""
-        return any(rule in self.rules for rule in _INERTIA)
 
 
 def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[Check]:
@@ -61,10 +38,7 @@ def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[
         MissingDependency: MuJoCo is not installed.
         OutputError: MuJoCo does not compile it.
     """
-    said = Said(
-        frozenset(loss.rule for loss in written.losses),
-        frozenset(loss.name for loss in written.losses),
-    )
+    said = Said.by(written.losses)
     mechanics = Mechanics(robot)
     compiled = Compiled(model, mechanics.root)
     repeat = Check("repeats", "a second export has the same bytes", 0)
@@ -77,13 +51,13 @@ def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[
         *_dynamics(mechanics, compiled, configurations, said),
         _centroid(mechanics, compiled, configurations, said),
         _limits(mechanics, compiled, said),
-        collision_check(robot, mechanics, compiled, configurations, said.about),
-        visual_check(robot, mechanics, compiled, configurations, said.about),
+        collision_check(robot, mechanics, compiled, configurations, said),
+        visual_check(robot, mechanics, compiled, configurations, said),
         repeat,
     ]
     clean = Check("loads", "MuJoCo compiles and poses it without a warning", 0)
     for warning in compiled.warnings:
-        clean.compare(math.inf, warning, known="lossy-massless" in said.rules)
+        clean.compare(math.inf, warning, known=said.any("lossy-massless"))
     return [clean, *checks]
 
 
@@ -117,7 +91,7 @@ def _tree(robot: Robot, compiled: Compiled, said: Said) -> Check:
     model = compiled.model
     freedom = 6 if compiled.id("JOINT", f"{robot.tree.roots[0].name}_freejoint") >= 0 else 0
     for joint in robot.joints:
-        known = joint.name in said.about
+        known = said.of(TREE, joint.name)
         body = compiled.id("BODY", joint.child)
         if body < 0:
             check.compare(math.inf, f"link '{joint.child}' is missing", known=known)
@@ -142,7 +116,7 @@ def _tree(robot: Robot, compiled: Compiled, said: Said) -> Check:
             check.compare(0 if same else math.inf, f"mimic of joint '{joint.name}'", known=known)
     if freedom != model.nv:
         text = f"{model.nv} degrees of freedom instead of {freedom}"
-        check.compare(math.inf, text, known=bool({"zero-axis", "unknown-joint-type"} & said.rules))
+        check.compare(math.inf, text, known=said.any(*TREE))
     return check
 
 
@@ -164,7 +138,7 @@ def _frames(
     mechanics: Mechanics, compiled: Compiled, configurations: list[dict[str, float]], said: Said
 ) -> Check:
     check = Check("frames", f"pose of every link, {len(configurations)} configurations", POSE)
-    torn = "lossy-floating" in said.rules
+    torn = said.any("lossy-floating")
     for positions in configurations:
         compiled.pose(positions)
         for link, expected in mechanics.frames(positions).items():
@@ -192,13 +166,15 @@ def _dynamics(
         scale = np.sqrt(np.maximum(np.diag(expected), 0.0))
         floor = max(1e-6 * float(np.diag(expected).max()), 1e-15)
         difference = abs(found - expected) / np.maximum(np.outer(scale, scale), floor)
-        inertia.compare(float(difference.max()), "the mass matrix", known=said.inertia)
+        inertia.compare(float(difference.max()), "the mass matrix", known=said.any(*INERTIA))
         force = mechanics.gravity(positions)[present]
         bias = compiled.gravity([dofs[index] for index in present])
         weight = max(
             float(abs(force).max()), 1e-6 * 9.81 * mechanics.centroid(positions)[0], 1e-300
         )
-        gravity.compare(float(abs(bias - force).max()) / weight, "gravity", known=said.inertia)
+        gravity.compare(
+            float(abs(bias - force).max()) / weight, "gravity", known=said.any(*INERTIA)
+        )
     yield inertia
     yield gravity
 
@@ -212,9 +188,9 @@ def _centroid(
         mass, com, tensor = mechanics.centroid(positions)
         found_mass, found_com, found_tensor = compiled.centroid()
         if mass == 0:
-            check.compare(found_mass, "mass where there is none", known=said.inertia)
+            check.compare(found_mass, "mass where there is none", known=said.any(*INERTIA))
             continue
-        known = said.inertia or "lossy-floating" in said.rules
+        known = said.any(*INERTIA, "lossy-floating")
         # the tolerances of the three are brought to that of the row
         check.compare(abs(found_mass - mass) / mass * MATRIX / MASS, "total mass", known=known)
         check.compare(
@@ -250,9 +226,8 @@ def _limits(mechanics: Mechanics, compiled: Compiled, said: Said) -> Check:
             both = abs(found[what]) >= 1e15 and abs(expected) >= 1e15
             scale = max(abs(expected), 1.0) if math.isfinite(expected) else 1.0
             difference = 0.0 if both else abs(found[what] - expected) / scale
-            check.compare(
-                difference, f"{what} of joint '{joint.name}'", known=joint.name in said.about
-            )
+            known = said.of(EFFORT if what == "effort" else LIMITS, joint.name)
+            check.compare(difference, f"{what} of joint '{joint.name}'", known=known)
     return check
 
 

@@ -24,6 +24,7 @@ from ...model.elements import (
 )
 from ..check import Check
 from ..mechanics import Array, Mechanics, origin_matrix
+from .announced import LOOKS, SHAPES, Said
 from .compiled import Compiled
 
 SIMPLE, MESH = 1e-9, 1e-6
@@ -36,7 +37,7 @@ def collision_check(
     mechanics: Mechanics,
     compiled: Compiled,
     configurations: list[dict[str, float]],
-    about: frozenset[str],
+    said: Said,
 ) -> Check:
     """Each collision's box in the root's frame, at zero and at one other configuration."""
     check = Check("collision", "number, kind and box of every shape", MESH)
@@ -45,7 +46,7 @@ def collision_check(
         compiled.pose(positions)
         for link in robot.links:
             geoms = list(_geoms(compiled, link, 3))
-            known = bool(_about(link) & about)
+            known = said.of(SHAPES, *_about(link))
             if len(geoms) != len(link.collisions):
                 text = f"link '{link.name}': {len(geoms)} collisions of {len(link.collisions)}"
                 check.compare(math.inf, text, known=known)
@@ -66,14 +67,14 @@ def visual_check(
     mechanics: Mechanics,
     compiled: Compiled,
     configurations: list[dict[str, float]],
-    about: frozenset[str],
+    said: Said,
 ) -> Check:
     """The box of all that is seen of a link, and its colours."""
     check = Check("visual", "box and colours of every link", MESH)
     frames = mechanics.frames(configurations[0])
     compiled.pose(configurations[0])
     for link in robot.links:
-        known = bool(_about(link) & about)
+        known = said.of(SHAPES, *_about(link))
         geoms = list(_geoms(compiled, link, 2))
         frame = frames.get(link.name, np.eye(4))
         boxes = [box for v in link.visuals if (box := _bounds(robot, v, frame)) is not None]
@@ -89,7 +90,8 @@ def visual_check(
         seen = sorted(_rgba(compiled, geom) for geom in geoms)
         if expected and len(expected) == len(seen):
             apart = float(abs(np.array(expected) - np.array(seen)).max())
-            check.compare(apart, f"colours of link '{link.name}'", known=known)
+            painted = known or said.of(LOOKS, *_about(link))
+            check.compare(apart, f"colours of link '{link.name}'", known=painted)
     return check
 
 

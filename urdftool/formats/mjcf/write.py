@@ -141,7 +141,7 @@ def _custom(structure: Structure) -> etree._Element | None:
     section = etree.Element("custom")
     for joint in structure.moving:
         velocity = joint.limit.velocity if joint.limit is not None else None
-        if velocity and structure.kind(joint) in ("hinge", "slide"):
+        if velocity is not None and structure.kind(joint) in ("hinge", "slide"):
             name = f"{joint.name}_velocity_limit"
             etree.SubElement(section, "numeric", name=name, data=number_text(abs(velocity)))
     return section if len(section) else None

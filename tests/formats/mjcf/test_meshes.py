@@ -1,0 +1,171 @@
+"""Meshes: copied or converted, named once, thickened where they are flat, refused where broken."""
+
+import shutil
+
+import numpy as np
+import pytest
+
+from tests.conftest import FIXTURES
+from urdftool.formats.defects import Refused
+from urdftool.formats.mjcf.convert import convert
+from urdftool.formats.mjcf.obj import obj_bytes
+from urdftool.meshes.load import load_mesh
+
+from .robots import export, link, robot, rules, tree
+
+MESHES = FIXTURES / "meshes"
+
+
+@pytest.fixture(autouse=True)
+def _own_cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+
+
+@pytest.fixture
+def mesh(tmp_path, monkeypatch):
+    """Put a mesh of the fixtures beside the robot; gives its name."""
+    monkeypatch.chdir(tmp_path)
+
+    def put(name, to=""):
+        place = tmp_path / (to or name)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(MESHES / name, place)
+        return str(place.relative_to(tmp_path))
+
+    return put
+
+
+def shape(kind, file, scale=""):
+    scale = f' scale="{scale}"' if scale else ""
+    return f'<{kind}><geometry><mesh filename="{file}"{scale}/></geometry></{kind}>'
+
+
+def assets(written):
+    return [dict(element.attrib) for element in tree(written).find("asset").iter("mesh")]
+
+
+@pytest.mark.parametrize("name", ["cube.stl", "cube_solid_header.stl"])
+def test_what_mujoco_reads_is_copied(write, mesh, name):
+    written = export(write("r.urdf", robot(link("a", shape("collision", mesh(name))))))
+    content = written.files[f"assets/{name}"]
+    assert content.read_bytes() == (MESHES / name).read_bytes()
+
+
+def test_an_obj_of_one_object_is_copied(write):
+    text = "o one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+    write("a.obj", text)
+    written = export(write("r.urdf", robot(link("a", shape("visual", "a.obj")))))
+    assert written.files["assets/a.obj"].read_text() == text
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "cube.obj",
+        "cube_ascii.stl",
+        "cube.ply",
+        "cube_binary.ply",
+        "cube.dae",
+        "cube.glb",
+        "trailing_bytes.stl",
+    ],
+)
+@pytest.mark.parametrize("kind", ["visual", "collision"])
+def test_the_rest_is_converted_with_its_box(write, mesh, tmp_path, name, kind):
+    written = export(write("r.urdf", robot(link("a", shape(kind, mesh(name))))))
+    (file,) = [content for path, content in written.files.items() if path.startswith("assets/")]
+    assert isinstance(file, bytes)
+    (tmp_path / "made.obj").write_bytes(file)
+    made, source = load_mesh(tmp_path / "made.obj"), load_mesh(MESHES / name)
+    assert np.ptp(made.vertices, axis=0) == pytest.approx(np.ptp(source.vertices, axis=0))
+    assert made.vertices.min(axis=0) == pytest.approx(source.vertices.min(axis=0), abs=1e-9)
+
+
+def test_one_name_for_each_path_and_scale(write, mesh):
+    shapes = [
+        shape("visual", mesh("cube.stl", "visual/part.stl")),
+        shape("visual", mesh("sphere.stl", "other/part.stl")),
+        shape("visual", "visual/part.stl", "2 2 2"),
+        shape("visual", "visual/part.stl", "2 2 2"),
+        shape("collision", mesh("cube_solid_header.stl", "collision/part.stl")),
+        shape("collision", "visual/part.stl"),
+    ]
+    written = export(write("r.urdf", robot(link("a", "".join(shapes)))))
+    assert assets(written) == [
+        {"file": "part.stl"},
+        {"file": "part_other.stl"},
+        {"name": "part_1", "file": "part.stl", "scale": "2 2 2"},
+        {"file": "part_collision.stl"},
+    ]
+    used = [geom.get("mesh") for geom in tree(written).iter("geom") if geom.get("mesh")]
+    assert used == ["part", "part_other", "part_1", "part_1", "part_collision", "part"]
+
+
+def test_parts_by_material(write, mesh):
+    mesh("cube.mtl")
+    found = load_mesh(MESHES / "cube.dae")
+    written = export(write("r.urdf", robot(link("a", shape("visual", mesh("cube.dae"))))))
+    colors = {part.rgba for part in found.parts}
+    assert len(assets(written)) == len(colors)
+
+
+def test_flat_collision_is_thickened_and_said(write, mesh, tmp_path):
+    written = export(write("r.urdf", robot(link("a", shape("collision", mesh("flat.stl"))))))
+    (tmp_path / "made.obj").write_bytes(written.files["assets/flat.obj"])
+    thickness = np.ptp(load_mesh(tmp_path / "made.obj").vertices, axis=0).min()
+    assert thickness > 0
+    assert any("thickened" in loss.message for loss in written.losses)
+
+
+def test_open_visual_is_a_shell(write, mesh):
+    written = export(write("r.urdf", robot(link("a", shape("visual", mesh("flat.stl"))))))
+    assert assets(written) == [{"file": "flat.stl", "inertia": "shell"}]
+
+
+def test_hull_is_said_where_it_is_larger(write, mesh):
+    pytest.importorskip("scipy")
+    written = export(write("r.urdf", robot(link("a", shape("collision", mesh("two_cubes.stl"))))))
+    assert "lossy-nonconvex" in rules(written)
+    written = export(write("s.urdf", robot(link("a", shape("collision", mesh("cube.stl"))))))
+    assert "lossy-nonconvex" not in rules(written)
+
+
+@pytest.mark.parametrize(
+    ("name", "word"),
+    [
+        ("lfs_pointer.stl", "git lfs pull"),
+        ("truncated.stl", "truncated"),
+        ("empty.stl", "empty"),
+        ("nan.stl", "NaN"),
+        ("broken.dae", "COLLADA"),
+        ("absent.stl", "is not there"),
+    ],
+)
+def test_a_broken_mesh_is_named(write, mesh, name, word):
+    if name != "absent.stl":
+        mesh(name)
+    path = write("r.urdf", robot("", link("a", shape("visual", name) + shape("collision", name))))
+    with pytest.raises(Refused) as caught:
+        export(path)
+    assert word in caught.value.message
+    assert caught.value.line == 2
+    written = export(path, force=True)
+    assert not [name for name in written.files if name.startswith("assets")]
+
+
+def test_the_cache_gives_the_same(write, mesh):
+    path = write("r.urdf", robot(link("a", shape("visual", mesh("cube.dae")))))
+    first, second = export(path), export(path)
+    assert first.files == second.files
+
+
+def test_obj_has_each_point_once():
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.1]])
+    text = obj_bytes(points, np.array([[0, 1, 2], [3, 5, 4]])).decode()
+    assert text.count("v ") == 4
+    assert text.splitlines()[-2:] == ["f 1 3 2", "f 3 4 2"]
+
+
+def test_colours_of_a_file_come_before_those_of_the_urdf():
+    pieces = convert(MESHES / "cube.dae", collides=False).pieces
+    assert any(piece.rgba is not None for piece in pieces)

@@ -1,0 +1,78 @@
+"""The proof: it holds for what was exported, and finds what was changed afterwards."""
+
+import re
+
+import pytest
+
+from urdftool.formats.check import Check, check_table
+from urdftool.formats.directory import write_directory
+from urdftool.formats.mjcf.options import Options
+from urdftool.formats.mjcf.write import write as write_mjcf
+from urdftool.model.load import load
+
+from .goldens import FOLDER, GOLDENS
+
+pytest.importorskip("mujoco")
+
+from urdftool.formats.mjcf.verify import verify
+
+
+def verified(name, folder, options, change=lambda text: text):
+    robot = load(FOLDER / f"{name}.urdf")
+    written = write_mjcf(robot, options)
+    written.files[written.main] = change(written.files[written.main].decode()).encode()
+    write_directory(folder / "m", written.files, main=written.main)
+    return verify(robot, written, folder / "m" / written.main, write_mjcf(robot, options))
+
+
+@pytest.mark.parametrize("name", GOLDENS)
+@pytest.mark.parametrize("base", ["auto", "free"])
+def test_small_robots_are_equal(name, base, tmp_path):
+    options = Options(srdf=GOLDENS[name].srdf, base=base, actuators="position")
+    checks = verified(name, tmp_path, options)
+    expected = {"platform": {"equal", "announced"}}.get(name, {"equal"})
+    assert {check.verdict for check in checks} <= expected, check_table(checks)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "failing"),
+    [
+        (r'pos="0 0\.02 0\.1"', 'pos="0 0.021 0.1"', "frames"),
+        (r'mass="0\.05"', 'mass="0.0500001"', "mass matrix"),
+        (r'mass="0\.6"', 'mass="0.6000001"', "centroid"),
+        (r'range="0 0\.04"', 'range="0 0.041"', "limits"),
+        (r'polycoef="0\.01 -1 ', 'polycoef="0.01 1 ', "tree"),
+        (r'"right_slide" joint2="left_slide"', '"left_slide" joint2="right_slide"', "tree"),
+        (r'damping="0\.5"', 'damping="0.4"', "limits"),
+        (r'class="collision" size="0\.04', 'class="collision" size="0.041', "collision"),
+        (r'rgba="0\.7', 'rgba="0.6', "visual"),
+        (r'<body name="grasp_point"[^>]*/>', "", "frames"),
+        (r'data="0\.1"', 'data="0.2"', "limits"),
+    ],
+)
+def test_a_change_is_found(old, new, failing, tmp_path):
+    def change(text):
+        changed, count = re.subn(old, new, text)
+        assert count
+        return changed
+
+    checks = verified("gripper", tmp_path, Options(), change)
+    assert failing in [check.name for check in checks if check.verdict == "differs"]
+
+
+def test_a_table():
+    equal, off = Check("a", "this", 1e-9, 1e-12), Check("b", "that", 1e-9)
+    off.compare(1.0, "link 'x'")
+    off.compare(float("nan"), "link 'y'", known=True)
+    assert off.verdict == "differs"
+    table = check_table([equal, off])
+    assert "b: differs: link 'x'" in table
+    assert "b: announced: link 'y'" in table
+
+
+def test_without_mujoco_it_says_what_to_install(monkeypatch, urdftool, tmp_path):
+    monkeypatch.setitem(__import__("sys").modules, "mujoco", None)
+    result = urdftool("export", "mjcf", FOLDER / "arm.urdf", "-o", tmp_path / "out", "--verify")
+    assert result.code == 2
+    assert "pip install 'urdftool[mujoco]'" in result.err
+    assert not (tmp_path / "out").exists()

@@ -1,0 +1,55 @@
+"""Which loss of an export excuses which difference."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ...finding import Finding
+
+INERTIA = (
+    "lossy-inertia", "lossy-massless", "lossy-point-mass", "lossy-world-mass", "negative-mass",
+    "inertia-triangle-inequality",
+)  # fmt: skip
+"""Masses or tensors are changed."""
+
+TREE = (
+    "lossy-mimic", "lossy-mimic-fixed", "zero-axis", "unknown-joint-type", "self-mimic",
+    "mimic-unknown-joint", "mimic-cycle",
+)  # fmt: skip
+"""A joint moves otherwise than it is written."""
+
+LIMITS = ("lossy-limit-inverted", "lower-above-upper", "not-a-number", "lossy-mimic-fixed")
+"""A joint's bounds are changed."""
+
+EFFORT = ("lossy-effort", "not-a-number")
+"""The bound of its effort is changed."""
+
+SHAPES = (
+    "lossy-collision", "lossy-visual", "lossy-mesh", "mesh-not-found", "mesh-scale-zero",
+    "corrupt-mesh", "missing-geometry", "unknown-geometry", "not-a-number",
+)  # fmt: skip
+"""A shape is dropped or changed."""
+
+LOOKS = ("lossy-material", "lossy-texture")
+"""A colour is."""
+
+
+@dataclass(frozen=True)
+class Said:
+    """The losses of an export: pairs of what was lost, and the name of what it was of."""
+
+    losses: frozenset[tuple[str, str]]
+
+    @classmethod
+    def by(cls, findings: Iterable[Finding]) -> Said:
+        """The losses among findings."""
+        return cls(frozenset((finding.rule, finding.name) for finding in findings))
+
+    def any(self, *rules: str) -> bool:
+        """Whether one of these was lost anywhere."""
+        return any(rule in rules for rule, _ in self.losses)
+
+    def of(self, rules: Iterable[str], *names: str) -> bool:
+        """Whether one of these was lost of a thing with one of these names."""
+        return any((rule, name) in self.losses for rule in rules for name in names)
