@@ -23,6 +23,7 @@ import numpy as np
 from sdf_engines import Source, State, Target
 
 from urdftool.errors import UrdftoolError
+from urdftool.formats.check import is_faithful
 from urdftool.formats.defects import Refused
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import Pair, compare, pair_of
@@ -64,16 +65,16 @@ def measure(path: Path, mode: str, folder: Path) -> dict[str, bool | str]:
     place.write_bytes(written.files["robot.sdf"])  # type: ignore[arg-type]
     pair = pair_of(robot, written, place)
     own = compare(pair)
-    row["shapes"] = all(check.equal for check in own if "shapes" in check.name)
-    row["own"] = all(check.equal for check in own)
-    row["unannounced"] = any(check.failed for check in own)
+    row["shapes"] = all(c.verdict == "equal" for c in own if c.name in ("collisions", "visuals"))
+    row["own"] = all(check.verdict == "equal" for check in own)
+    row["unannounced"] = not is_faithful(own)
     row["ign sdf -k at 1.9"] = _loads(robot, options, folder)
     _engines(path, pair, place, row)
     kinds = [name for name in COLUMNS[3:10] if not row.get(name)]
     row["all equal"] = bool(row["own"]) and not kinds
     row["why"] = ", ".join(
         dict.fromkeys(
-            [t for c in own for t in (*c.differences, *c.announced)][:2]
+            [t for c in own for t in (*c.differing, *c.announced)][:2]
             + [f"{kind} (engines)" for kind in kinds if row["own"]]
         )
     )
@@ -85,7 +86,7 @@ def _loads(robot: Robot, options: Options, folder: Path) -> bool:
     place = folder / "old.sdf"
     place.write_bytes(write(robot, old).files["robot.sdf"])  # type: ignore[arg-type]
     check = loads(robot, old, place)
-    return check.equal
+    return check is not None and check.verdict == "equal"
 
 
 def _engines(path: Path, pair: Pair, place: Path, row: dict[str, bool | str]) -> None:

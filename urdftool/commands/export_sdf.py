@@ -2,96 +2,167 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..console import Console
 from .options import package_options, robot_argument
 
+if TYPE_CHECKING:
+    from ..formats.check import Check
+    from ..formats.sdf.options import Options
+    from ..formats.written import Written
+    from ..model.elements import Robot
+
+FILES = (".sdf", ".xml", ".world")
+"""Suffixes of an output that is one file."""
+
 
 @click.command("sdf")
 @robot_argument
-@click.option("-o", "--output", metavar="OUT", required=True, help="OUT.sdf, or a folder.")
+@click.option(
+    "-o",
+    "--output",
+    metavar="OUT",
+    help="A folder, or a file that ends in .sdf, .xml or .world; '-' is standard output.",
+)
 @click.option(
     "--target",
-    type=click.Choice(["gz", "gazebo-classic"]),
+    type=click.Choice(("gz", "gazebo-classic")),
     default="gz",
     show_default=True,
     help="The Gazebo it is for.",
 )
 @click.option(
     "--sdf-version",
-    type=click.Choice(["1.6", "1.7", "1.9", "1.10", "1.11", "1.12"]),
-    help="Of SDF: 1.9 to 1.12 for gz (default 1.11), 1.6 and 1.7 for gazebo-classic (default 1.7).",
+    "version",
+    type=click.Choice(("1.6", "1.7", "1.9", "1.10", "1.11", "1.12")),
+    help="1.9 to 1.12 for gz (default 1.11), 1.6 and 1.7 for gazebo-classic (default 1.7).",
 )
 @click.option(
     "--fixed-joints",
-    type=click.Choice(["keep", "lump"]),
+    type=click.Choice(("keep", "lump")),
     help="Keep them (default for gz), or make one link of what they join (for gazebo-classic).",
 )
 @click.option(
     "--uri",
-    type=click.Choice(["relative", "model", "package", "file"]),
+    type=click.Choice(("relative", "model", "package", "file")),
     help="How meshes are named; with package and file none is copied.",
 )
-@click.option("--mesh-dir", default="meshes", show_default=True, help="Where meshes go.")
+@click.option(
+    "--mesh-dir",
+    metavar="DIR",
+    default="meshes",
+    show_default=True,
+    help="Folder of the meshes, beside the model.",
+)
 @click.option("--world", is_flag=True, help="Write a world with ground and sun around it.")
-@click.option("--overwrite", is_flag=True, help="Replace what is there and not ours.")
-@click.option("--verify", is_flag=True, help="Read it back and compare it with the source.")
-@click.option("--strict", is_flag=True, help="What can't be carried is an error.")
-@click.option("--force", is_flag=True, help="Go on past errors in the source where one can.")
-@click.option("--format", "form", type=click.Choice(["text", "json"]), default="text")
+@click.option("--overwrite", is_flag=True, help="Replace also what urdftool did not write.")
+@click.option("--strict", is_flag=True, help="What cannot be carried is an error.")
+@click.option("--force", is_flag=True, help="Go on past errors where a robot is left.")
+@click.option("--verify", "verified", is_flag=True, help="Read it back and compare.")
+@click.option("--format", "style", type=click.Choice(("text", "json")), default="text")
 @package_options
 @click.pass_obj
 def command(
     console: Console,
+    /,
     robot: tuple[str, dict[str, str]],
-    output: str,
-    target: str,
-    sdf_version: str | None,
-    fixed_joints: str | None,
-    uri: str | None,
-    mesh_dir: str,
-    world: bool,
-    overwrite: bool,
-    verify: bool,
-    strict: bool,
-    force: bool,
-    form: str,
+    output: str | None,
     package: dict[str, Path],
     package_path: tuple[str, ...],
+    overwrite: bool,
+    strict: bool,
+    verified: bool,
+    style: str,
+    **choices: Any,
 ) -> int:
-    r"""Turn the robot IN into SDF for Gazebo.
+    r"""Turn the robot IN into SDF for Gazebo, and prove that it is the same robot.
 
-    OUT is one file where it ends in .sdf or .world, with its meshes beside it; else it is a folder
-    with model.config, model.sdf and meshes. What is lost or changed is said, each with its place.
+    A folder has model.config, model.sdf and meshes; a file its meshes beside it. Links, joints and
+    what <gazebo> says of them stay under their names. What is lost is said, with its place.
 
     \b
-        urdftool export sdf arm.urdf.xacro -o arm --verify
+        urdftool export sdf arm.urdf.xacro -o arm/ --verify
         urdftool export sdf mira.urdf -o mira.sdf --target gazebo-classic
     """
+    from ..configuration import find_configuration
+    from ..formats import said
     from ..formats.defects import Refused
-    from ..formats.sdf.job import Job, options_for, run
+    from ..formats.sdf.write import write
+    from ..model.load import robot_of
+    from ..source.description import read_description
+    from .export_report import put_files, say_refused, say_written
 
+    place = output or "-"
+    options = _options(place, choices)
     path, arguments = robot
+    description = read_description(
+        path,
+        arguments,
+        packages=package,
+        package_paths=package_path,
+        configured=find_configuration(path, console.config).packages,
+    )
+    model = robot_of(description)
+    as_json = style == "json"
     try:
-        options = options_for(
-            output,
-            target=target,
-            version=sdf_version or "",
-            fixed_joints=fixed_joints or "",
-            uri=uri or "",
-            mesh_dir=mesh_dir,
-            world=world,
-            force=force,
-        )
-    except ValueError as error:
-        raise click.UsageError(str(error)) from None
-    job = Job(path, arguments, output, overwrite, verify, strict, form == "json")
-    try:
-        return run(console, job, options, package, package_path)
+        written = write(model, options)
+        if strict and (lost := said.strict(written.losses)):
+            raise Refused(lost)
     except Refused as refused:
-        for finding in refused.findings:
-            click.echo(str(finding), err=True)
-        return 2
+        return say_refused(refused.findings, as_json=as_json)
+    put_files(
+        written,
+        place,
+        single=bool(options.file),
+        overwrite=overwrite,
+        inputs=[file.path for file in description.files],
+        as_json=as_json,
+    )
+    checks = _verified(model, options, written, place) if verified else []
+    return say_written(console, written, checks, place, as_json=as_json)
+
+
+def _options(output: str, choices: dict[str, Any]) -> Options:
+    """The choices, with those that follow from where it goes."""
+    from ..formats.sdf.options import VERSIONS, Options
+
+    target, version = choices["target"], choices.pop("version") or ""
+    if version and version not in VERSIONS[target]:
+        known = ", ".join(VERSIONS[target])
+        raise click.UsageError(f"{target} reads SDF {known}; {version} is for the other Gazebo")
+    meshes = Path(os.path.normpath(choices.pop("mesh_dir")))
+    if meshes.is_absolute() or ".." in meshes.parts:
+        raise click.UsageError("--mesh-dir is a folder beside the model, such as meshes")
+    full = Path(os.path.abspath(output))
+    single = output == "-" or full.suffix.lower() in FILES
+    choices = {name: value or "" if value is None else value for name, value in choices.items()}
+    if output == "-" and not choices["uri"]:
+        choices["uri"] = "file"  # nothing can lie beside standard output
+    return Options(
+        version=version,
+        folder=(full.parent if single else full).name,
+        file=("model.sdf" if output == "-" else full.name) if single else "",
+        mesh_dir=meshes.as_posix(),
+        **choices,
+    )
+
+
+def _verified(robot: Robot, options: Options, written: Written, output: str) -> list[Check]:
+    """Compare what was written; of standard output, a copy."""
+    from ..formats.sdf.verify.compare import verify
+
+    if output != "-":
+        return verify(robot, written, options, Path(output))
+    import tempfile
+
+    with tempfile.TemporaryDirectory(prefix="urdftool-") as folder:
+        copy = Path(folder) / "model.sdf"
+        content = written.files[written.main]
+        assert isinstance(content, bytes)
+        copy.write_bytes(content)
+        return verify(robot, written, options, copy)

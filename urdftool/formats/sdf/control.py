@@ -18,7 +18,7 @@ def control(model: Node, t: Translation) -> None:
     for transmission in t.robot.transmissions:
         comment(model, _spoken(transmission))
         joints = ", ".join(f"'{joint.name}'" for joint in transmission.joints) or "no joint"
-        t.note(
+        t.lose(
             "transmission",
             f"transmission '{transmission.name}' of {joints} has no counterpart; it stays as a "
             "comment, and "

@@ -113,9 +113,7 @@ def _system(node: Node, t: Translation, element: Element, system: System) -> Non
         text += f"; it has no {', '.join(left)}"
     if system.missing:
         text += f"; fill in {', '.join(system.missing)}"
-        t.lose("plugin", text, element)
-    else:
-        t.note("plugin", text, element)
+    (t.lose if left or system.missing else t.note)("plugin", text, element)
 
 
 def _texts(t: Translation, system: System, child: Element) -> list[str]:

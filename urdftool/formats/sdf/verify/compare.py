@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from ....model.elements import Robot
+from ...check import Check
 from ...written import Written
 from ..options import Options
 from ..write import write
-from .check import Check
 from .dynamics import centroidal, mass_matrix, poses
 from .excuses import Excuses, excuses_of
 from .loader import loads
@@ -59,8 +59,8 @@ def verify(robot: Robot, written: Written, options: Options, output: str | Path)
     pair = pair_of(robot, written, place)
     checks = compare(pair)
     checks.append(_same_again(robot, written, options))
-    checks.append(loads(robot, options, place))
-    return checks
+    loaded = loads(robot, options, place)
+    return checks if loaded is None else [*checks, loaded]
 
 
 def pair_of(robot: Robot, written: Written, place: Path) -> Pair:
@@ -103,24 +103,23 @@ def _configurations(source: Mechanism, count: int) -> list[dict[str, float]]:
 
 
 def _tree(pair: Pair) -> Check:
-    check = Check("joints, their types, links and leaders")
+    check = Check("tree", f"{len(pair.source.joints)} joints, types, links, leaders", 0.0)
     made = {joint.name: joint for joint in pair.made.joints}
     expected = [joint for joint in pair.source.joints if joint.kind not in ("fixed", "free")]
     for joint in expected:
-        check.compared += 1
         other = made.pop(pair.joint(joint.name), None)
         text = _tree_difference(pair, joint, other)
         if text:
             excused = joint.name in pair.excuses.motion or (
                 text.startswith("leader") and joint.name in pair.excuses.mimic
             )
-            (check.announced if excused else check.differences).append(f"{joint.name}: {text}")
+            (check.announced if excused else check.differing).append(f"{joint.name}: {text}")
     planar = {f"{name}{end}" for name in pair.excuses.motion for end in ("_x", "_y")}
     closing = {e.get("name") for b in pair.robot.gazebo for e in b.element.all("joint")}
     for name, other in made.items():
         if other.moves and name not in planar:
             said = name in closing or re.sub(r"_\d+$", "", name) in closing
-            (check.announced if said else check.differences).append(f"{name}: not in the source")
+            (check.announced if said else check.differing).append(f"{name}: not in the source")
     return check
 
 
@@ -151,10 +150,11 @@ def _body_of(pair: Pair, link: str) -> str:
 
 
 def _motion(pair: Pair) -> list[Check]:
-    frames = Check("frames of all links", tolerance=FRAMES)
-    masses = Check("mass matrix", tolerance=MASSES)
-    weights = Check("weight on the joints", tolerance=WEIGHTS)
-    totals = Check("mass, centre and inertia of all", tolerance=TOTALS)
+    poses_seen = f"{CONFIGURATIONS + 1} configurations"
+    frames = Check("frames", f"{len(pair.source.frames)} links, {poses_seen}", FRAMES)
+    masses = Check("mass matrix", poses_seen, MASSES)
+    weights = Check("gravity", f"{poses_seen}, effort it takes", WEIGHTS)
+    totals = Check("whole", f"{poses_seen}, mass, centre, inertia", TOTALS)
     orders = pair.source.in_order(), pair.made.in_order()
     present = {joint.name for joint in orders[1] if joint.moves}
     names = [j.name for j in orders[0] if j.moves and pair.joint(j.name) in present]
@@ -169,9 +169,6 @@ def _motion(pair: Pair) -> list[Check]:
         two = mass_matrix(pair.made, there, orders[1], [pair.joint(name) for name in names])
         _compare_masses(pair, masses, weights, names, one, two)
         _compare_totals(pair, totals, here, there)
-    for check in (frames, masses, weights, totals):
-        check.differences = sorted(set(check.differences))
-        check.announced = sorted(set(check.announced))
     return [frames, masses, weights, totals]
 
 
@@ -191,11 +188,10 @@ def _compare_frames(
         found = pair.made.frames.get(pair.link(name))
         excused = name in pair.excuses.frames
         if found is None:
-            check.compared += 1
-            (check.announced if excused else check.differences).append(f"{name}: is missing")
+            (check.announced if excused else check.differing).append(f"{name} is missing")
             continue
         off = float(np.abs(here[body] - there[found[0]] @ found[1]).max())
-        check.see(off, f"{name}: is elsewhere", announced=excused)
+        check.compare(off, f"{name} is elsewhere", known=excused)
 
 
 def _compare_masses(
@@ -216,8 +212,8 @@ def _compare_masses(
     heavy = np.abs(one[1] - two[1]) / heaviest
     for row, name in enumerate(names):
         excused = name in pair.excuses.heavy
-        masses.see(float(off[row].max()), f"{name}: other inertia", announced=excused)
-        weights.see(float(heavy[row]), f"{name}: other weight", announced=excused)
+        masses.compare(float(off[row].max()), f"{name}: other inertia", known=excused)
+        weights.compare(float(heavy[row]), f"{name}: other weight", known=excused)
 
 
 def _compare_totals(
@@ -234,11 +230,11 @@ def _compare_totals(
         "inertia": float(np.abs(one[2] - two[2]).max()) / size,
     }
     for what, off in parts.items():
-        check.see(off, f"{what} of the whole", announced=pair.excuses.massy)
+        check.compare(off, f"{what} of the whole", known=pair.excuses.massy)
 
 
 def _limits(pair: Pair) -> Check:
-    check = Check("limits, damping, friction", tolerance=LIMITS)
+    check = Check("limits", "position, effort, velocity, damping, friction", LIMITS)
     made = {joint.name: joint for joint in pair.made.joints}
     for joint in pair.source.joints:
         other = made.get(pair.joint(joint.name))
@@ -249,14 +245,14 @@ def _limits(pair: Pair) -> Check:
             one, two = (np.sign(x) * np.inf if abs(x) >= 1e15 else x for x in (value, found))
             off = 0.0 if one == two else abs(one - two) / max(abs(one), 1e-30)
             text = f"{joint.name}: {name} is {found:g}, not {value:g}"
-            check.see(float(off), text, announced=joint.name in pair.excuses.limits)
+            check.compare(float(off), text, known=joint.name in pair.excuses.limits)
     return check
 
 
 def _same_again(robot: Robot, written: Written, options: Options) -> Check:
-    check = Check("the same bytes when written again", len(written.files))
+    check = Check("again", f"{len(written.files)} files, the same bytes", 0.0)
     again = write(robot, options)
     for name, content in written.files.items():
         if again.files.get(name) != content:
-            check.differences.append(f"{name}: other bytes")
+            check.differing.append(f"{name}: other bytes")
     return check

@@ -10,9 +10,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from ....model.elements import Robot
+from ...check import Check
 from ..options import VERSIONS, Options
 from ..write import write
-from .check import Check
 
 _TOO_NEW = re.compile(r"Unable to convert from SDF version \S+ to (\S+)")
 _TOOLS = ("gz", "ign")
@@ -20,8 +20,8 @@ _SECONDS = 60
 _IGNORED = ("Library error", "backtrace")
 
 
-def loads(robot: Robot, options: Options, place: Path) -> Check:
-    """Ask ``gz sdf -k`` or ``ign sdf -k``.
+def loads(robot: Robot, options: Options, place: Path) -> Check | None:
+    """Ask ``gz sdf -k`` or ``ign sdf -k``; None where there is neither, or only one too old.
 
     A reader that is older than the version written is asked about the same robot in its own.
     """
@@ -31,18 +31,16 @@ def loads(robot: Robot, options: Options, place: Path) -> Check:
         said = _ask(tool, place)
         if said is None:
             continue
-        check = Check(f"{tool} sdf -k")
+        check = Check(f"{tool} sdf", "loads without error or warning", 0.0)
         older = _TOO_NEW.search(said)
         if older and older[1] in VERSIONS[options.target]:
-            check.name += f" (at {older[1]}, the newest it reads)"
+            check.what += f", at {older[1]}, the newest it reads"
             said = _ask_older(tool, robot, replace(options, version=older[1], file="model.sdf"))
         elif older:
-            check.skipped = f"it reads SDF up to {older[1]}"
-            return check
-        check.compared = 1
-        check.differences = _complaints(said or "")
+            return None
+        check.differing = _complaints(said or "")
         return check
-    return Check("gz sdf -k", skipped="neither gz nor ign with sdf is installed")
+    return None
 
 
 def _ask(tool: str, place: Path) -> str | None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .check import Check
+from ...check import Check
 from .dynamics import poses
 from .mechanism import Array, Mechanism, Shape, inverse
 
@@ -21,8 +21,8 @@ SIZES = 1e-9
 
 def compare_shapes(pair: Pair, kind: str, configurations: Sequence[Mapping[str, float]]) -> Check:
     """Compare all visuals or collisions by what they are and where they are in the root's frame."""
-    check = Check(f"{kind}: shapes, sizes, meshes, places", tolerance=PLACES)
     source: list[Shape] = getattr(pair.source, kind)
+    check = Check(kind, f"{len(source)} shapes, sizes, meshes, places", PLACES)
     made: list[Shape] = getattr(pair.made, kind)
     here = _places(pair, pair.source, source, configurations, renamed=False)
     there = _places(pair, pair.made, made, configurations, renamed=True)
@@ -31,24 +31,24 @@ def compare_shapes(pair: Pair, kind: str, configurations: Sequence[Mapping[str, 
         nearest = _nearest(shape, here[index], made, there, left)
         excused = shape.link in pair.excuses.shapes
         if nearest is None:
-            check.compared += 1
             text = f"{shape.link}: {_said(shape)} is missing"
-            (check.announced if excused else check.differences).append(text)
+            (check.announced if excused else check.differing).append(text)
             continue
         left.remove(nearest)
         off = float(np.abs(here[index] - there[nearest]).max())
-        check.see(off, f"{shape.link}: {_said(shape)} is elsewhere", announced=excused)
+        check.compare(off, f"{shape.link}: {_said(shape)} is elsewhere", known=excused)
     for index in left:
         members = [n for n, (body, _) in pair.made.frames.items() if body == made[index].body]
         excused = any(pair.link(name) in members for name in pair.excuses.shapes)
         text = f"{made[index].body}: {_said(made[index])} is not in the source"
-        (check.announced if excused else check.differences).append(text)
+        (check.announced if excused else check.differing).append(text)
     return check
 
 
 def compare_colors(pair: Pair) -> Check:
     """Compare the colour of each visual that URDF gives one."""
-    check = Check("colours of visuals", tolerance=COLORS)
+    colored = sum(shape.rgba is not None for shape in pair.source.visuals)
+    check = Check("colours", f"{colored} visuals", COLORS)
     here = _places(pair, pair.source, pair.source.visuals, [{}], renamed=False)
     there = _places(pair, pair.made, pair.made.visuals, [{}], renamed=True)
     left = list(range(len(pair.made.visuals)))
@@ -62,7 +62,7 @@ def compare_colors(pair: Pair) -> Check:
         found = pair.made.visuals[nearest].rgba
         off = 1.0 if found is None else float(np.abs(np.subtract(found, shape.rgba)).max())
         text = f"{shape.link}: is {found}, not {shape.rgba}"
-        check.see(off, text, announced=shape.link in pair.excuses.colors)
+        check.compare(off, text, known=shape.link in pair.excuses.colors)
     return check
 
 

@@ -1,0 +1,88 @@
+"""What every export says and does at its end: losses, the comparison, the files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import click
+
+from ..console import Console
+
+if TYPE_CHECKING:
+    from ..finding import Finding
+    from ..formats.check import Check
+    from ..formats.written import Written
+
+
+def say_refused(findings: Sequence[Finding], *, as_json: bool) -> int:
+    """Every defect, one a line; nothing is written."""
+    from ..formats.said import lines
+
+    if as_json:
+        from ..report.exports import to_json
+
+        click.echo(to_json(None, (), findings, ()), nl=False)
+    said = list(lines(findings))
+    for line in said:
+        click.echo(line, err=True)
+    count = "1 error" if len(said) == 1 else f"{len(said)} errors"
+    click.echo(f"urdftool: nothing is written: {count}", err=True)
+    return 2
+
+
+def put_files(
+    written: Written,
+    output: str,
+    *,
+    single: bool,
+    overwrite: bool,
+    inputs: Sequence[str],
+    as_json: bool,
+) -> None:
+    """Write the files where they are wanted; a model without companions may go to stdout.
+
+    Raises:
+        OutputError: They cannot be written there; what was there is as it was.
+    """
+    from ..errors import OutputError
+    from ..formats.directory import write_beside, write_directory
+
+    if output == "-":
+        if len(written.files) > 1:
+            raise OutputError("other files come with the model; say where to with -o OUT")
+        content = written.files[written.main]
+        if not as_json and isinstance(content, bytes):
+            click.echo(content, nl=False)
+        return
+    write_it = write_beside if single else write_directory
+    write_it(output, written.files, main=written.main, overwrite=overwrite, inputs=inputs)
+
+
+def say_written(
+    console: Console, written: Written, checks: Sequence[Check], output: str, *, as_json: bool
+) -> int:
+    """Losses on stderr, the table or JSON on stdout; notes only for those who asked for more.
+
+    Returns:
+        The exit code: 1 where something differs that was not announced.
+    """
+    from ..finding import Severity
+    from ..formats import said
+    from ..formats.check import check_table, is_faithful
+
+    shown = [f for f in written.losses if f.severity > Severity.INFO or console.verbosity > 0]
+    hidden = len(said.merged(written.losses)) - len(said.merged(shown))
+    if as_json:
+        from ..report.exports import to_json
+
+        click.echo(to_json(output, written.files, written.losses, checks), nl=False)
+    else:
+        for line in said.lines(shown):
+            console.note(line)
+        if checks:
+            click.echo(check_table(checks), nl=False, err=output == "-")
+    if output != "-":
+        more = f", {hidden} notes (-v shows them)" if hidden else ""
+        console.note(f"{output}: {written.main}, {len(written.files)} files{more}")
+    return 0 if is_faithful(checks) else 1
