@@ -4,8 +4,9 @@
 a finding is expected ends in a comment that names the rules found there: ``<!-- zero-axis -->``,
 or ``<!-- zero-mass massless-moving-body -->``. Where a comment cannot stand (a file that is not
 well-formed, a line inside a tag), ``bad.expected`` beside it has lines such as
-``3 not-well-formed`` and the comments do not count. ``good*.urdf`` is the same robot without the
-fault, and silent. ``urdftool.toml`` beside them sets targets where the rule needs one.
+``3 not-well-formed`` (or ``bad.srdf 3 …``, of another file) and the comments do not count.
+``good*.urdf`` is the same robot without the fault, and silent. ``urdftool.toml`` beside them sets
+targets where the rule needs one.
 """
 
 import re
@@ -13,7 +14,8 @@ from pathlib import Path
 
 import pytest
 
-from urdftool.lint.run import Options, lint_file
+from urdftool.lint.outcome import Options
+from urdftool.lint.run import lint_file
 from urdftool.lint.settings import Settings
 from urdftool.rules import FAMILY_OF, RULES, get_rule
 from urdftool.rules.rule import Rule
@@ -44,8 +46,9 @@ def _is_for_any_plain_robot(finding):
 def _expected(path):
     beside = path.parent / (path.name.split(".")[0] + ".expected")
     if beside.exists():
-        lines = (line.split() for line in beside.read_text().splitlines() if line.strip())
-        return sorted((path.name, int(line[0]), rule) for line in lines for rule in line[1:])
+        lines = [line.split() for line in beside.read_text().splitlines() if line.strip()]
+        named = [line if not line[0].isdigit() else [path.name, *line] for line in lines]
+        return sorted((line[0], int(line[1]), rule) for line in named for rule in line[2:])
     marks = []
     for file in sorted(path.parent.glob("*")):
         if file != path and (file.name.startswith(("bad", "good")) or file.suffix == ".toml"):

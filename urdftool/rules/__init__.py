@@ -45,6 +45,18 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         ),
         "tags": ("unprefixed-xacro-tag", "nonstandard-xmlns"),
         "leftovers": ("unexpanded-expression",),
+        "expansion_warnings": (
+            "shadowed-builtin",
+            "unknown-xacro-attribute",
+            "deprecated-global-function",
+        ),
+        "unused": (
+            "unused-arg",
+            "unused-property",
+            "unused-macro",
+            "macro-redefined",
+            "hard-coded-name-in-macro",
+        ),
     },
     "tree": {
         "links": (
@@ -144,15 +156,60 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
     "collision": {
         "presence": ("missing-collision", "massive-link-without-collision"),
         "shapes": ("non-positive-dimension", "unsupported-shape"),
+        "likeness": (
+            "visual-mesh-as-collision",
+            "collision-mesh-too-dense",
+            "collision-much-larger-than-visual",
+            "collision-off-visual",
+        ),
+        "wheels": ("wheel-cylinder-axis", "paper-thin-collision"),
     },
     "visual": {
         "materials": ("undefined-material", "conflicting-material", "invalid-color"),
+        "looks": (
+            "missing-visual",
+            "fully-transparent",
+            "empty-material-name",
+            "unused-material",
+            "missing-texture",
+        ),
     },
     "mesh": {
         "files": ("mesh-not-found", "mesh-case-mismatch", "corrupt-mesh"),
-        "uris": ("absolute-path", "malformed-uri"),
+        "uris": (
+            "absolute-path",
+            "malformed-uri",
+            "relative-uri-in-ros",
+            "unsafe-file-name",
+            "package-uri-unresolvable",
+            "mesh-stem-collision",
+        ),
+        "formats": (
+            "unsupported-mesh-format",
+            "ascii-stl",
+            "binary-stl-starts-with-solid",
+            "dae-unit-or-axis",
+            "dae-as-collision",
+        ),
+        "scale": (
+            "mesh-in-millimetres",
+            "mesh-scaled-twice",
+            "mirrored-scale",
+            "bad-scale",
+            "non-uniform-scale",
+            "heavy-visual",
+        ),
+        "parts": ("missing-mesh-dependency",),
     },
-    "package": {"resolution": ("package-not-found",)},
+    "package": {
+        "resolution": ("package-not-found",),
+        "manifest": (
+            "undeclared-mesh-dependency",
+            "directory-not-installed",
+            "gazebo-path-not-exported",
+            "wrong-package-in-uri",
+        ),
+    },
     "gazebo": {
         "tags": ("missing-gazebo-tags", "missing-gazebo-material", "missing-friction"),
         "references": ("dangling-reference", "misplaced-extension", "conflicting-references"),
@@ -230,6 +287,26 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "sensor-name-mismatch",
         ),
     },
+    "simulation": {
+        "stability": ("mass-ratio",),
+        "readers": (
+            "pybullet-ignores-inertia",
+            "mujoco-welds-root",
+            "mujoco-missing-compiler",
+        ),
+    },
+    "moveit": {
+        "semantic": (
+            "srdf-unknown-link",
+            "srdf-unknown-joint",
+            "srdf-robot-name",
+            "chain-not-connected",
+            "group-state-out-of-bounds",
+            "missing-virtual-joint",
+            "end-effector-group",
+            "missing-acceleration-limits",
+        ),
+    },
     "name": {
         "spelling": (
             "invalid-frame-name",
@@ -261,6 +338,12 @@ ONLY_WITH: dict[str, tuple[str, ...]] = {
     "visual.materials": ("material",),
     "mesh.files": ("mesh",),
     "mesh.uris": ("mesh",),
+    "mesh.formats": ("mesh",),
+    "mesh.scale": ("mesh",),
+    "mesh.parts": ("mesh",),
+    "visual.looks": ("visual", "collision"),
+    "collision.likeness": ("collision",),
+    "collision.wheels": ("collision",),
     "inertia.slips": ("inertia",),
     "gazebo.references": ("gazebo",),
     "gazebo.vocabulary": ("gazebo",),
@@ -269,7 +352,7 @@ ONLY_WITH: dict[str, tuple[str, ...]] = {
     "gazebo.lumping": ("gazebo",),
     "gazebo.sensors": ("sensor",),
     "gazebo.plugins": ("plugin",),
-    "control.transmissions": ("transmission",),
+    "control.transmissions": ("transmission", "plugin"),
     "control.ros2_control": ("ros2_control",),
     "control.ros2_control_form": ("ros2_control",),
     "control.ros2_control_simulated": ("ros2_control", "plugin"),

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from ...model.bounds import size_of
 from ...model.elements import Link, Robot
+from ..gazebo.contact import axis_up
 from ..rule import INFO, WARNING, Problem, rule
 from ..words import quoted
 
@@ -80,7 +81,8 @@ def massive_link_without_collision(robot: Robot, *, lightest: float = 0.1) -> It
             continue
         if any(_shapes_below(robot, link)):
             continue
-        if joint.type == "continuous" or (_CONTACT.search(link.name) and not joint.is_fixed):
+        level = joint.type == "continuous" and abs(axis_up(robot, link, joint)) < 0.5
+        if level or (_CONTACT.search(link.name) and not joint.is_fixed):
             yield Problem(
                 link,
                 f"link '{link.name}' weighs {link.mass:g} kg, turns on '{joint.name}' and has "

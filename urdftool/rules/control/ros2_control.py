@@ -1,13 +1,15 @@
-"""What ``<ros2_control>`` refers to in the robot."""
+"""What ``<ros2_control>`` says of the joints of the robot."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from ...model.elements import Robot
-from ..rule import ERROR, Problem, rule
+from ...model.read import number
+from ...source.document import Element
+from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean
+from ..words import did_you_mean, quoted
 
 DIES = {"controller_manager": "stops with an exception at start"}
 
@@ -28,3 +30,220 @@ def ros2_control_unknown_joint(robot: Robot) -> Iterator[Problem]:
                     + did_you_mean(joint.name, robot.joint),
                     at=joint.element.attribute_place("name"),
                 )
+
+
+@rule(ERROR, on=("ros2",), effects=DIES)
+def ros2_control_fixed_joint(robot: Robot) -> Iterator[Problem]:
+    """A joint in ``<ros2_control>`` is fixed.
+
+    The parser throws: fixed joints make no sense to it.
+    """
+    for control in robot.ros2_controls:
+        for joint in control.joints:
+            written = robot.joint.get(joint.name)
+            if written is not None and written.is_fixed:
+                yield Problem(
+                    control.element,
+                    f"joint '{joint.name}' of ros2_control '{control.name}' is fixed; take it out",
+                    at=joint.element.attribute_place("name"),
+                )
+
+
+@rule(ERROR, on=("ros2",), effects=DIES)
+def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
+    """A joint that mimics another does not fit its ``<ros2_control>``.
+
+    What ``<mimic>`` in the URDF says holds: such a joint takes no command of its own unless it has
+    ``mimic="false"``, the joint it follows is in the same block, and ``mimic="true"`` needs a
+    ``<mimic>`` in the URDF. The parser throws otherwise.
+    """
+    for control in robot.ros2_controls:
+        names = {joint.name for joint in control.joints}
+        for joint in control.joints:
+            written = robot.joint.get(joint.name)
+            if written is None or joint.mimic == "false":
+                continue
+            at = joint.element
+            if written.mimic is None:
+                if joint.mimic == "true":
+                    yield Problem(
+                        control.element,
+                        f"joint '{joint.name}' has mimic=\"true\" and no <mimic> in the URDF",
+                        at=at.attribute_place("mimic"),
+                    )
+            elif joint.command_interfaces:
+                yield Problem(
+                    control.element,
+                    f"joint '{joint.name}' follows '{written.mimic.joint}' and has a command "
+                    'interface; take it out, or write mimic="false"',
+                    at=joint.command_interfaces[0],
+                )
+            elif written.mimic.joint and written.mimic.joint not in names:
+                yield Problem(
+                    control.element,
+                    f"joint '{joint.name}' follows '{written.mimic.joint}', which is not in "
+                    f"ros2_control '{control.name}'; add it",
+                    at=at.attribute_place("name"),
+                )
+
+
+@rule(WARNING, on=("ros2",), effects={"ros2_control": "does not look at it since Jazzy"})
+def ros2_control_legacy_mimic_param(robot: Robot) -> Iterator[Problem]:
+    """Mimicry is written as a parameter.
+
+    ``<param name="mimic">`` was how a joint in ``<ros2_control>`` followed another; since Jazzy it
+    is the ``<mimic>`` of the URDF that counts, and the parameter does nothing.
+    """
+    for control in robot.ros2_controls:
+        for joint in control.joints:
+            for param in joint.element.all("param"):
+                if param.get("name") == "mimic":
+                    yield Problem(
+                        control.element,
+                        f"joint '{joint.name}' says whom it follows in a <param>; "
+                        "write <mimic> into the joint of the URDF",
+                        at=param,
+                    )
+
+
+@rule(ERROR, on=("ros2",), effects={"controller_manager": "rejects the second"})
+def ros2_control_duplicate_interface(robot: Robot) -> Iterator[Problem]:
+    """An interface of a joint is there twice.
+
+    Each interface is a resource with a name, ``joint/position``. The same one twice in a joint, or
+    the same command in two blocks of hardware, is a conflict.
+    """
+    commands: dict[tuple[str, str], str] = {}
+    for control in robot.ros2_controls:
+        for part in control.components:
+            for kind, interfaces in (
+                ("command", part.command_interfaces),
+                ("state", part.state_interfaces),
+            ):
+                seen: set[str] = set()
+                for interface in interfaces:
+                    name = interface.name
+                    other = control.name
+                    if kind == "command":
+                        other = commands.setdefault((part.name, name), control.name)
+                    if name in seen or other != control.name:
+                        where = f" in '{other}' already" if other != control.name else " twice"
+                        yield Problem(
+                            control.element,
+                            f"{part.kind} '{part.name}' has the {kind} interface '{name}'{where}",
+                            at=interface,
+                        )
+                    seen.add(name)
+
+
+_STANDARD = ("position", "velocity", "acceleration", "effort")
+
+
+@rule(INFO, on=("ros2",), effects={"controllers": "find no interface of the name they want"})
+def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
+    """An interface of a joint is nearly called as usual.
+
+    Controllers look for ``position``, ``velocity``, ``acceleration`` and ``effort``. Other names
+    are right for hardware with more to say; a ``postion`` is found by nobody.
+    """
+    for control in robot.ros2_controls:
+        for joint in control.joints:
+            for interface in (*joint.command_interfaces, *joint.state_interfaces):
+                near = did_you_mean(interface.name, _STANDARD, 0.8)
+                if interface.name not in _STANDARD and near:
+                    yield Problem(
+                        control.element,
+                        f"joint '{joint.name}' has an interface '{interface.name}'{near}",
+                        at=interface.element.attribute_place("name"),
+                    )
+
+
+@rule(INFO, on=("ros2",), effects={"joint_trajectory_controller": "does not configure"})
+def command_without_state(robot: Robot) -> Iterator[Problem]:
+    """A joint is commanded and does not say where it is.
+
+    Most controllers want the state beside the command: the trajectory controller does not configure
+    without the position.
+    """
+    for control in robot.ros2_controls:
+        for joint in control.joints:
+            states = {interface.name for interface in joint.state_interfaces}
+            missing = [
+                interface
+                for interface in joint.command_interfaces
+                if interface.name in ("position", "velocity") and interface.name not in states
+            ]
+            if missing:
+                words = quoted(interface.name for interface in missing)
+                yield Problem(
+                    control.element,
+                    f"joint '{joint.name}' has the command {words} and not the state of that name",
+                    at=missing[0],
+                )
+
+
+@rule(WARNING, on=("ros2",), effects={"joint_state_broadcaster": "never reports it"})
+def joint_outside_ros2_control(robot: Robot) -> Iterator[Problem]:
+    """A joint moves and is in no ``<ros2_control>`` block, though others are.
+
+    Nobody reports where it is: RViz finds no transform to what hangs on it. A joint that is only to
+    be reported needs a state interface and no command.
+    """
+    known = {joint.name for control in robot.ros2_controls for joint in control.joints}
+    if not known or not known.intersection(robot.joint) or _reports_otherwise(robot):
+        return
+    for joint in robot.moving_joints:
+        if joint.mimic is None and joint.has_axis and joint.name not in known:
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' moves and is in no <ros2_control>; "
+                "add it there with a state interface",
+            )
+
+
+def _reports_otherwise(robot: Robot) -> bool:
+    """Whether a plugin of Gazebo reports joints as well."""
+    words = ("drive", "joint-state", "joint_state")
+    return any(word in plugin.filename for plugin in robot.plugins for word in words)
+
+
+@rule(ERROR, on=("ros2",), effects={"gz_ros2_control": "stops with an exception"})
+def bad_initial_value(robot: Robot) -> Iterator[Problem]:
+    """The ``initial_value`` of an interface is no number, or outside the joint's limits.
+
+    The simulated hardware starts the joint there. Text that is no number ends it; a position
+    outside the limits is corrected with a jolt.
+    """
+    for control in robot.ros2_controls:
+        for joint in control.joints:
+            for interface in joint.state_interfaces:
+                text = interface.params.get("initial_value")
+                if text is None or is_unexpanded(text):
+                    continue
+                value = number(text)
+                if value is None:
+                    wrong = "is no number"
+                elif interface.name == "position" and (
+                    limits := _outside(robot, joint.name, value)
+                ):
+                    wrong = f"is outside the limits, {limits}"
+                else:
+                    continue
+                yield Problem(
+                    control.element,
+                    f"initial_value of joint '{joint.name}' is '{text}', which {wrong}",
+                    at=_param(interface.element, "initial_value"),
+                    severity=None if value is None else WARNING,
+                )
+
+
+def _outside(robot: Robot, name: str, value: float) -> str:
+    joint = robot.joint.get(name)
+    if joint is None or not joint.is_limited or joint.limit is None:
+        return ""
+    low, high = joint.limit.lower or 0.0, joint.limit.upper or 0.0
+    return "" if low > high or low <= value <= high else f"{low:g} to {high:g}"
+
+
+def _param(element: Element, name: str) -> Element:
+    return next((p for p in element.all("param") if p.get("name") == name), element)

@@ -4,12 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.elements import Robot
-from ..rule import ERROR, WARNING, Problem, rule
+from ...model.elements import Robot, Transmission
+from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import did_you_mean
 
 JOINT_INTERFACES = ("EffortJointInterface", "PositionJointInterface", "VelocityJointInterface")
+
+
+def called(transmission: Transmission) -> str:
+    """A transmission by its name, or by its first joint."""
+    if transmission.name:
+        return f"transmission '{transmission.name}'"
+    joint = transmission.joints[0].name if transmission.joints else ""
+    return f"the transmission of joint '{joint}'" if joint else "a transmission"
 
 
 @rule(ERROR, effects={"gazebo_ros_control": "fails to start: no joint is controlled"})
@@ -24,7 +32,7 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
             if joint.name and joint.name not in robot.joint and not is_unexpanded(joint.name):
                 yield Problem(
                     transmission.element,
-                    f"transmission '{transmission.name}' names joint '{joint.name}', "
+                    f"{called(transmission)} names joint '{joint.name}', "
                     f"which is not there{did_you_mean(joint.name, robot.joint)}",
                     at=joint.element.attribute_place("name"),
                 )
@@ -49,7 +57,199 @@ def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
                 if name in JOINT_INTERFACES:
                     yield Problem(
                         transmission.element,
-                        f"'{name}' in transmission '{transmission.name}' lacks its prefix; "
+                        f"'{name}' in {called(transmission)} lacks its prefix; "
                         f"write hardware_interface/{name}",
                         at=child,
                     )
+
+
+@rule(ERROR, on=("ros1",), effects={"gazebo_ros_control": "passes over the transmission"})
+def incomplete_transmission(robot: Robot) -> Iterator[Problem]:
+    """A transmission lacks its type, joint or actuator.
+
+    The parser skips such a transmission with one line in the log, and a controller for its joint
+    then says that there is no such joint.
+    """
+    for transmission in robot.transmissions:
+        if transmission.type.startswith("pr2_"):
+            continue
+        missing = [
+            word
+            for word, there in (
+                ("type", transmission.type),
+                ("joint", transmission.joints),
+                ("actuator", transmission.actuators),
+            )
+            if not there
+        ]
+        if missing:
+            yield Problem(
+                transmission.element,
+                f"{called(transmission)} has no <{'> and no <'.join(missing)}>",
+            )
+
+
+@rule(ERROR, on=("ros1",), effects={"gazebo_ros_control": "passes over the transmission"})
+def missing_hardware_interface(robot: Robot) -> Iterator[Problem]:
+    """The joint of a transmission has no hardware interface.
+
+    Without ``<hardwareInterface>`` in the joint it is not known whether it is driven by effort,
+    velocity or position; the transmission is skipped. One inside the ``<actuator>`` is the layout
+    of before 2014 and does not count.
+    """
+    for transmission in robot.transmissions:
+        if transmission.type.startswith("pr2_"):
+            continue
+        inside = [a for a in transmission.actuators if a.hardware_interfaces]
+        for joint in transmission.joints:
+            if joint.hardware_interfaces or not joint.name:
+                continue
+            where = "only in its actuator; move it into" if inside else "in none; write it into"
+            yield Problem(
+                transmission.element,
+                f"{called(transmission)} has its <hardwareInterface> {where} "
+                f'<joint name="{joint.name}">',
+                at=inside[0] if inside else joint,
+            )
+
+
+_KNOWN = (
+    *(f"hardware_interface/{name}" for name in JOINT_INTERFACES),
+    "hardware_interface/JointStateInterface",
+    "hardware_interface/PosVelJointInterface",
+    "hardware_interface/PosVelAccJointInterface",
+    "hardware_interface/ActuatorStateInterface",
+    "hardware_interface/ImuSensorInterface",
+    "hardware_interface/ForceTorqueSensorInterface",
+)
+
+
+@rule(ERROR, on=("ros1",), effects={"gazebo_ros_control": "fails to start: no joint is controlled"})
+def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
+    """A hardware interface is none that there is.
+
+    ``gazebo_ros_control`` knows effort, position and velocity; any other name ends its start with a
+    fatal error, for all joints.
+    """
+    for transmission in robot.transmissions:
+        for joint in transmission.joints:
+            for child in joint.element.all("hardwareInterface"):
+                name = child.text.strip()
+                if name in JOINT_INTERFACES or name in _KNOWN or is_unexpanded(name):
+                    continue
+                if "/" in name and not name.startswith("hardware_interface/"):
+                    continue  # that of another package
+                near = did_you_mean(name, _KNOWN, 0.6)
+                yield Problem(
+                    transmission.element,
+                    f"'{name}' in {called(transmission)} is no hardware interface"
+                    + (near or "; write such as hardware_interface/EffortJointInterface"),
+                    at=child,
+                )
+
+
+@rule(INFO, on=("ros1",), effects={"gazebo_ros_control": "takes the first"})
+def several_hardware_interfaces(robot: Robot) -> Iterator[Problem]:
+    """A joint of a transmission has several hardware interfaces.
+
+    Real hardware may offer them all; ``gazebo_ros_control`` takes the first and says so.
+    """
+    for transmission in robot.transmissions:
+        for joint in transmission.joints:
+            if len(joint.hardware_interfaces) > 1:
+                yield Problem(
+                    transmission.element,
+                    f"joint '{joint.name}' in {called(transmission)} has "
+                    f"{len(joint.hardware_interfaces)} interfaces; Gazebo takes the first",
+                    at=list(joint.element.all("hardwareInterface"))[1],
+                )
+
+
+@rule(WARNING, effects={"ros_control": "takes two resources for one"})
+def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
+    """Two transmissions have one name, or drive one joint.
+
+    The names are those of resources, and there can be one of each. Of two simple transmissions at
+    one joint, one is left over from a copy.
+    """
+    names: set[str] = set()
+    joints: dict[str, str] = {}
+    for transmission in robot.transmissions:
+        name = transmission.name
+        if name and name in names:
+            yield Problem(
+                transmission.element,
+                f"a second transmission is called '{name}'; give it a name of its own",
+                at=transmission.element.attribute_place("name"),
+            )
+            continue
+        names.add(name)
+        if len(transmission.joints) != 1:
+            continue
+        joint = transmission.joints[0]
+        other = joints.setdefault(joint.name, name)
+        if joint.name and other != name:
+            yield Problem(
+                transmission.element,
+                f"joint '{joint.name}' is driven by transmission '{other}' already; take one away",
+                at=joint.element.attribute_place("name"),
+            )
+
+
+@rule(ERROR, effects={"gazebo_ros_control": "finds no such joint in the simulated robot"})
+def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
+    """A transmission drives a fixed joint.
+
+    There is nothing to drive, and in Gazebo the joint does not even exist: fixed joints are lumped.
+    """
+    for transmission in robot.transmissions:
+        for joint in transmission.joints:
+            driven = robot.joint.get(joint.name)
+            if driven is not None and driven.is_fixed:
+                yield Problem(
+                    transmission.element,
+                    f"{called(transmission)} drives '{joint.name}', which is fixed",
+                    at=joint.element.attribute_place("name"),
+                )
+
+
+@rule(WARNING, on=("ros1",), effects={"gazebo_ros_control": "neither reports nor drives the joint"})
+def actuated_joint_without_transmission(robot: Robot) -> Iterator[Problem]:
+    """A joint moves and has no transmission, in a robot that ros_control drives.
+
+    ``gazebo_ros_control`` knows the joints of transmissions and no others: this one swings freely,
+    and no joint state tells where it is.
+    """
+    if not any("gazebo_ros_control" in plugin.filename for plugin in robot.plugins):
+        return
+    driven = {joint.name for t in robot.transmissions for joint in t.joints}
+    others = {
+        child.text.strip()
+        for plugin in robot.plugins
+        for child in plugin.element.children
+        if "oint" in child.tag
+    }
+    for joint in robot.moving_joints:
+        if joint.mimic is None and joint.name not in driven | others and joint.has_axis:
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' moves and has no <transmission>, so nothing drives it",
+            )
+
+
+@rule(INFO, on=("ros2",), effects={"ros2_control": "does not look at it"})
+def ros1_transmission_in_ros2(robot: Robot) -> Iterator[Problem]:
+    """A transmission of ROS 1 stands in a robot for ROS 2.
+
+    ``ros2_control`` looks for transmissions inside ``<ros2_control>``, and passes over those
+    directly in the robot.
+    """
+    if robot.transmissions:
+        first = robot.transmissions[0]
+        count = len(robot.transmissions)
+        more = f" (and {count - 1} more)" if count > 1 else ""
+        yield Problem(
+            first.element,
+            f"transmission '{first.name}'{more} is not read in ROS 2; "
+            "<ros2_control> says how joints are driven",
+        )

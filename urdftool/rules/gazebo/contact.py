@@ -46,7 +46,7 @@ def _rolls(robot: Robot, link: Link, joint: Joint) -> bool:
         return True
     if not any(_is_round_about(collision, joint) for collision in link.collisions):
         return False
-    return abs(_axis_up(robot, link, joint)) < 0.5
+    return abs(axis_up(robot, link, joint)) < 0.5
 
 
 def _is_round_about(collision: Collision, joint: Joint) -> bool:
@@ -63,7 +63,7 @@ def _is_round_about(collision: Collision, joint: Joint) -> bool:
     return norm(cross(pose.translation, axis)) / length < 0.3 * shape.radius
 
 
-def _axis_up(robot: Robot, link: Link, joint: Joint) -> float:
+def axis_up(robot: Robot, link: Link, joint: Joint) -> float:
     """How far a joint's axis points up in the root's frame, where all joints are at zero."""
     pose = pose_of(joint.origin)
     for name in robot.tree.ancestors(link.name):

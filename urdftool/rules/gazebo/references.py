@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from ...model.elements import GazeboExtension, Robot
 from ...source.document import Element
-from ..rule import ERROR, Problem, rule
+from ..rule import ERROR, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import did_you_mean, quoted
-from .keywords import JOINT_KEYWORDS, LINK_KEYWORDS
+from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS
 
 
 @rule(ERROR, effects={"gazebo": "passes over the whole block silently"})
@@ -76,3 +76,28 @@ def _misplaced(
         f"{tags} {verb} nothing {belongs}; write it at {right}",
         at=children[0],
     )
+
+
+@rule(WARNING, effects={"gazebo": "warns; the last one holds"})
+def conflicting_references(robot: Robot) -> Iterator[Problem]:
+    """Two blocks of one link or joint say different things.
+
+    Usually two included files each have a block for it. The one that is read last wins, and the
+    order of includes decides how the wheel grips.
+    """
+    for name, blocks in robot.extensions.items():
+        said: dict[str, str] = {}
+        for block in blocks:
+            for child in block.element.children:
+                if child.tag not in KEYWORDS or child.tag in ("collision", "visual"):
+                    continue
+                value = (child.get("value") or child.text).strip()
+                other = said.setdefault(child.tag, value)
+                if other != value:
+                    said[child.tag] = value
+                    of = f" of '{name}'" if name else ""
+                    yield Problem(
+                        block.element,
+                        f"{child.tag}{of} is {other} further up and {value} here; keep one",
+                        at=child,
+                    )

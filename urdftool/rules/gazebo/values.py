@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Robot
-from ..rule import ERROR, WARNING, Problem, rule
+from ...model.read import number
+from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from .keywords import NUMBERS
 
@@ -50,3 +51,57 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
                     at=at or child,
                     severity=WARNING,
                 )
+
+
+@rule(INFO, effects={"gazebo": "takes 1 for the other"})
+def half_friction(robot: Robot) -> Iterator[Problem]:
+    """One of ``mu1`` and ``mu2`` is written.
+
+    They are the friction in two directions across the surface. The one that is not written is 1:
+    the link grips in one direction and slides in the other.
+    """
+    for name, blocks in robot.extensions.items():
+        if not name or name not in robot.link or not robot.link[name].collisions:
+            continue
+        if any(child.tag in ("mu", "Mu1", "Mu2") for b in blocks for child in b.element.children):
+            continue  # a misspelt one
+        found = {word: block for block in blocks for word in _MU if block.element.child(word)}
+        if len(found) == 1:
+            word, block = next(iter(found.items()))
+            other = "mu2" if word == "mu1" else "mu1"
+            yield Problem(
+                block.element,
+                f"link '{name}' has {word} and no {other}, which is 1 then; write both",
+                at=block.element.child(word),
+            )
+
+
+_MU = ("mu1", "mu2")
+
+
+@rule(INFO, effects={"gazebo": "takes it as it is"})
+def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Problem]:
+    """A friction or a stiffness is not of this world.
+
+    Rubber on concrete has a coefficient of 1. Below zero there is none (an error), above
+    ``highest`` it is a slip in the number more often than meant, and a contact with a stiffness
+    ``kp`` of 0 does not hold anything.
+    """
+    told: set[tuple[str, float]] = set()
+    for block in robot.gazebo:
+        for child in block.element.children:
+            if child.tag not in ("mu1", "mu2", "kp"):
+                continue
+            value = number((child.get("value") or child.text).strip())
+            if value is None or (child.tag, value) in told:
+                continue
+            told.add((child.tag, value))
+            if value < 0:
+                wrong = f"{child.tag} is {value:g}; it cannot be below 0"
+            elif child.tag == "kp" and value == 0:
+                wrong = "kp is 0, so that nothing carries the link; Gazebo's own is 1e12"
+            elif child.tag != "kp" and value > highest:
+                wrong = f"{child.tag} is {value:g}; rubber on concrete has about 1"
+            else:
+                continue
+            yield Problem(block.element, wrong, at=child, severity=ERROR if value < 0 else None)

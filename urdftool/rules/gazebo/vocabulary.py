@@ -42,6 +42,7 @@ def unknown_extension(robot: Robot) -> Iterator[Problem]:
     In sensors, and in plugins whose parameters are known, only words that are nearly right are
     told of: plugins read what they like.
     """
+    strange: dict[str, list[Problem]] = {}
     for block in robot.gazebo:
         known, parent = _known(robot, block)
         for child in block.element.children:
@@ -50,8 +51,18 @@ def unknown_extension(robot: Robot) -> Iterator[Problem]:
                 yield from _in_sdf(child)
             elif tag == "plugin":
                 yield from _in_plugin(child)
+            elif tag == "ros2_control":
+                continue  # a rule of its own says where it belongs
             elif parent and tag not in known and tag not in KEYWORDS and ":" not in tag:
-                yield _unknown(block, child, known, parent)
+                problem = _unknown(block, child, known, parent)
+                if problem.severity is not None:
+                    yield problem
+                else:
+                    strange.setdefault(tag, []).append(problem)
+    for problems in strange.values():
+        more = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
+        problems[0].message += more
+        yield problems[0]
 
 
 def _known(robot: Robot, block: GazeboExtension) -> tuple[frozenset[str], str]:

@@ -42,7 +42,7 @@ def mesh_not_found(
     for use in mesh_uses(robot, description):
         if use.path is None or use.exists or use.is_absolute:
             continue
-        if malformation(use) or actual_case(use.path):
+        if malformation(use) or actual_case(use.path) or _is_in_own_package(use, description):
             continue
         wanted.setdefault(Path(os.path.normpath(use.path)), []).append(use)
     folders: dict[Path, list[Path]] = {}
@@ -66,6 +66,12 @@ def mesh_not_found(
                 f"no file '{shown_path(path)}'{_elsewhere(path)}",
                 at=first.mesh.element.attribute_place("filename"),
             )
+
+
+def _is_in_own_package(use: MeshUse, description: Description) -> bool:
+    from ..package.resolution import is_in_own_package
+
+    return is_in_own_package(use, description)
 
 
 def _missing_folder(path: Path) -> Path:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.description import Description
-from ..rule import ERROR, WARNING, Problem, rule
+from ...source.packages import own_package
+from ..rule import ERROR, INFO, WARNING, Problem, rule
 from .uses import MeshUse, mesh_uses
 
 
@@ -82,3 +84,118 @@ def malformation(use: MeshUse) -> str:
     if separator and (" " in uri or "%20" in uri):
         return f"mesh '{uri}' has a blank in it, which no URI may have; rename the file"
     return ""
+
+
+@rule(
+    WARNING,
+    on=("ros1", "ros2", "gz"),
+    effects={
+        "rviz": "cannot find it, for the robot comes over a topic without its folder",
+        "gz": "cannot find it when the robot is given as text",
+    },
+)
+def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A mesh is named by a relative path, in a ROS package.
+
+    Relative to what? A robot that comes over a topic or a parameter has no folder.
+    ``package://NAME/…`` is found wherever the package is. One finding names the meshes.
+    """
+    own = own_package(description.packages.file)
+    if own is None:
+        return
+    relative = [
+        use
+        for use in mesh_uses(robot, description)
+        if use.uri.strip()
+        and "://" not in use.uri
+        and not use.is_absolute
+        and not malformation(use)
+    ]
+    if relative:
+        first = relative[0]
+        count = len({use.uri for use in relative})
+        more = f" (and {count - 1} more)" if count > 1 else ""
+        right = f"package://{own[0]}/…"
+        if first.path is not None and first.exists:
+            inside = os.path.relpath(os.path.normpath(first.path), own[1]).replace(os.sep, "/")
+            right = right if inside.startswith("..") else f"package://{own[0]}/{inside}"
+        yield Problem(
+            first.link,
+            f"mesh '{first.uri}'{more} is a relative path; write {right}",
+            at=first.mesh.element.attribute_place("filename"),
+        )
+
+
+@rule(WARNING, effects={"some loaders": "stop at it, or do not know the ending"})
+def unsafe_file_name(robot: Robot, description: Description) -> Iterator[Problem]:
+    """The name of a mesh file has a character that is special somewhere.
+
+    ``#``, ``?`` and ``%`` mean something in a URI, letters beyond ASCII are encoded in several
+    ways, and a blank ends a word.
+    """
+    told: set[str] = set()
+    for use in mesh_uses(robot, description):
+        if use.uri in told or malformation(use) or "${" in use.uri or "$(" in use.uri:
+            continue
+        told.add(use.uri)
+        odd = sorted({c for c in use.uri if c in '#?%<>|*"' or c == " " or not c.isascii()})
+        if odd:
+            what = "a blank" if odd == [" "] else " ".join(f"'{c}'" for c in odd)
+            yield Problem(
+                use.link,
+                f"mesh '{use.uri}' has {what} in its name; use letters, digits, _ and -",
+                at=use.mesh.element.attribute_place("filename"),
+            )
+
+
+@rule(
+    INFO,
+    on=("mujoco",),
+    effects={"mujoco": "cannot open package:// paths"},
+)
+def package_uri_unresolvable(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A robot for MuJoCo names meshes by package.
+
+    MuJoCo does not know ROS packages. Its ``<mujoco><compiler meshdir="…" strippath="true"/>`` in
+    the URDF drops the folders and looks for the files in one place; before 3.7 it drops them
+    anyway.
+    """
+    for mujoco in robot.element.all("mujoco"):
+        compiler = mujoco.child("compiler")
+        if compiler is not None and {"meshdir", "strippath"} & compiler.attributes.keys():
+            return
+    for use in mesh_uses(robot, description):
+        if use.uri.startswith("package://") and use.collides:
+            yield Problem(
+                use.link,
+                f"MuJoCo cannot open '{use.uri}'; "
+                'write <mujoco><compiler meshdir="…" strippath="true"/> into the robot',
+                at=use.mesh.element.attribute_place("filename"),
+            )
+            return
+
+
+@rule(
+    WARNING,
+    raised={"mujoco": ERROR},
+    on=("mujoco",),
+    effects={"mujoco": "takes one file for both"},
+)
+def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Problem]:
+    """Two mesh files have one name, but for their folders or endings.
+
+    MuJoCo calls a mesh by the name of its file alone: ``visual/arm.stl`` and ``collision/arm.stl``
+    are both ``arm``.
+    """
+    first: dict[str, str] = {}
+    told: set[str] = set()
+    for use in mesh_uses(robot, description):
+        stem = use.uri.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
+        other = first.setdefault(stem, use.uri)
+        if stem and other != use.uri and stem not in told:
+            told.add(stem)
+            yield Problem(
+                use.link,
+                f"meshes '{other}' and '{use.uri}' are both '{stem}' to MuJoCo; rename one",
+                at=use.mesh.element.attribute_place("filename"),
+            )

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.description import Description
+from ...source.packages import own_package
 from ..mesh.uses import MeshUse, mesh_uses
 from ..rule import WARNING, Problem, rule
 
@@ -27,7 +28,7 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
     """
     lost: dict[str, list[MeshUse]] = {}
     for use in mesh_uses(robot, description):
-        if use.missing_package:
+        if use.missing_package and not is_in_own_package(use, description):
             lost.setdefault(use.missing_package, []).append(use)
     for name, uses in lost.items():
         count = len({use.uri for use in uses})
@@ -39,6 +40,16 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
             at=uses[0].mesh.element.attribute_place("filename"),
             hint="; ".join(f"searched {place}" for place in _brief(uses[0].searched)),
         )
+
+
+def is_in_own_package(use: MeshUse, description: Description) -> bool:
+    """Whether a mesh that another package should have is in the description's own."""
+    own = own_package(description.packages.file)
+    scheme, _, rest = use.uri.partition("://")
+    name, _, inside = rest.partition("/")
+    if own is None or scheme != "package" or use.exists or not inside or name == own[0]:
+        return False
+    return (own[1] / inside).is_file()
 
 
 def _brief(searched: list[str]) -> list[str]:

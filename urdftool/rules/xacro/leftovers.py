@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ...source.description import Description
 from ...source.document import Element
 from ...source.location import Place
-from ..rule import ERROR, Problem, rule
+from ..rule import ERROR, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from .definitions import definitions
 
@@ -35,12 +35,15 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
     if description.expansion is None:
         if found:
             element, text, place = found[0]
+            # such a file is put through xacro by its launch file, more often than not
+            meant = ".xacro" in description.path
             more = f" (and in {len(found) - 1} other places)" if len(found) > 1 else ""
             yield Problem(
                 element,
                 f"'{_short(text)}' is not expanded{more}; if this is xacro, declare its namespace "
                 "on <robot> and name the file .urdf.xacro",
                 at=place,
+                severity=WARNING if meant else None,
             )
         return
     known = definitions(description)

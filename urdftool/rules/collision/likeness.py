@@ -1,0 +1,174 @@
+"""Collisions beside visuals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from ...meshes.facts import stl_facts
+from ...model.bounds import Bounds, bounds_of
+from ...model.elements import Collision, Robot, Visual
+from ...model.pose import norm
+from ...source.description import Description
+from ..mesh.uses import mesh_uses
+from ..rule import ERROR, INFO, WARNING, Problem, rule
+
+_faces: dict[Path, int] = {}
+
+
+def faces_of(path: Path | None) -> int:
+    """Triangles of a binary STL file; 0 where that cannot be told cheaply."""
+    if path is None or path.suffix.lower() != ".stl":
+        return 0
+    if path not in _faces:
+        try:
+            facts = stl_facts(path)
+            _faces[path] = (facts.triangles or 0) if facts.size_agrees else 0
+        except OSError:
+            _faces[path] = 0
+    return _faces[path]
+
+
+@rule(
+    INFO,
+    effects={
+        "moveit, pybullet": "check each triangle; planning is slow",
+        "mujoco": "takes the convex hull",
+    },
+)
+def visual_mesh_as_collision(
+    robot: Robot, description: Description, *, dense: float = 5000
+) -> Iterator[Problem]:
+    """A link collides with the mesh it is seen as.
+
+    What is drawn has every screw; what touches needs the outline. Planning scenes have become sixty
+    times faster with simpler shapes. Where the mesh is known to have more than ``dense`` triangles
+    it is a warning. One finding for the robot names the links; dense ones have one each.
+    """
+    seen: dict[str, set[str]] = {}
+    plain = []
+    for use in mesh_uses(robot, description):
+        if not use.collides:
+            seen.setdefault(use.link.name, set()).add(use.uri)
+            continue
+        if use.uri not in seen.get(use.link.name, ()):
+            continue
+        faces = faces_of(use.path) if use.exists else 0
+        if faces > dense:
+            yield Problem(
+                use.link,
+                f"link '{use.link.name}' collides with its visual mesh of {faces} triangles; "
+                "use a primitive or a simpler mesh",
+                at=use.mesh.element.attribute_place("filename"),
+                severity=WARNING,
+            )
+        elif faces == 0 or faces > dense / 10:
+            plain.append(use)
+    if plain:
+        more = f" (and {len(plain) - 1} more links theirs)" if len(plain) > 1 else ""
+        yield Problem(
+            plain[0].link,
+            f"link '{plain[0].link.name}' collides with its visual mesh{more}; "
+            "primitives or simpler meshes are faster",
+            at=plain[0].mesh.element.attribute_place("filename"),
+        )
+
+
+@rule(
+    WARNING,
+    effects={
+        "mujoco": "refuses more than 200 000 triangles",
+        "moveit, gazebo": "spend their time on contacts",
+    },
+)
+def collision_mesh_too_dense(
+    robot: Robot, description: Description, *, most: float = 20000, mujoco: float = 200000
+) -> Iterator[Problem]:
+    """A collision mesh has very many triangles.
+
+    Nineteen of twenty collision meshes have fewer than ``most``. Each triangle is a candidate for a
+    contact in every step; a tenth of them gives the same contacts. MuJoCo refuses more than
+    ``mujoco``.
+    """
+    told: set[str] = set()
+    for use in mesh_uses(robot, description):
+        if not use.collides or not use.exists or use.uri in told:
+            continue
+        told.add(use.uri)
+        faces = faces_of(use.path)
+        shared = any(
+            other.uri == use.uri and not other.collides and other.link is use.link
+            for other in mesh_uses(robot, description)
+        )
+        if faces > mujoco or (faces > most and not shared):
+            yield Problem(
+                use.link,
+                f"collision mesh '{use.uri}' has {faces} triangles; simplify it to some thousand",
+                at=use.mesh.element.attribute_place("filename"),
+                severity=ERROR if faces > mujoco else None,
+            )
+
+
+def _box(shapes: Sequence[Visual | Collision]) -> Bounds | None:
+    """The box around primitives; None where there is a shape whose box is not known."""
+    box: Bounds | None = None
+    for shape in shapes:
+        other = bounds_of(shape)
+        if other is None:
+            return None
+        box = other if box is None else box.joined(other)
+    return box
+
+
+@rule(WARNING, effects={"moveit": "finds the arm in collision, or goals out of reach"})
+def collision_much_larger_than_visual(
+    robot: Robot, *, ratio: float = 2.0, least: float = 0.1
+) -> Iterator[Problem]:
+    """A link collides far outside of what is seen of it.
+
+    Usually the diameter was written for the radius, or a unit is wrong. The robot touches things
+    that look far away. It is told where the box around the collisions is more than ``ratio`` times
+    as long as that around the visuals, and by more than ``least`` [m]; shapes other than primitives
+    are not looked at.
+    """
+    for link in robot.links:
+        seen, touches = _box(link.visuals), _box(link.collisions)
+        if seen is None or touches is None:
+            continue
+        for axis, a, b in zip("xyz", touches.size, seen.size, strict=True):
+            if a > ratio * b and a - b > least:
+                yield Problem(
+                    link,
+                    f"link '{link.name}' collides over {a:.3g} m along {axis} and is seen over "
+                    f"{b:.3g} m; is a diameter written for a radius?",
+                    at=link.collisions[0].geometry or link.collisions[0],
+                )
+                break
+
+
+@rule(WARNING, effects={"every reader": "touches where nothing is seen"})
+def collision_off_visual(robot: Robot, *, apart: float = 0.5) -> Iterator[Problem]:
+    """A link collides elsewhere than it is seen.
+
+    One of the two lacks the ``<origin>`` that the other has. It is told where the boxes around
+    visuals and collisions do not meet, or their middles are further apart than ``apart`` of the
+    visual's diagonal; shapes other than primitives are not looked at.
+    """
+    for link in robot.links:
+        seen, touches = _box(link.visuals), _box(link.collisions)
+        if seen is None or touches is None:
+            continue
+        x, y, z = (a - b for a, b in zip(seen.centre, touches.centre, strict=True))
+        distance, diagonal = norm((x, y, z)), norm(seen.size)
+        larger = all(a > 2 * b for a, b in zip(touches.size, seen.size, strict=True))
+        if (
+            diagonal > 0.05
+            and not larger
+            and (not seen.meets(touches) or distance > apart * diagonal)
+        ):
+            yield Problem(
+                link,
+                f"the collision of link '{link.name}' is {distance:.3g} m off its visual; "
+                "give both the same <origin>",
+                at=link.collisions[0].origin or link.collisions[0],
+            )

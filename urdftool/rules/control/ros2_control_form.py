@@ -1,0 +1,119 @@
+"""The form of ``<ros2_control>``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ...model.read import number
+from ..rule import ERROR, Problem, rule
+from ..words import did_you_mean
+from .ros2_control import DIES
+
+_TYPES = ("system", "sensor", "actuator")
+_CHILDREN = ("hardware", "properties", "joint", "sensor", "gpio", "transmission")
+
+
+@rule(ERROR, on=("ros2",), effects=DIES)
+def ros2_control_missing_attribute(robot: Robot) -> Iterator[Problem]:
+    """A ``<ros2_control>`` lacks its name or type, or is of a type that there is not.
+
+    There are ``system``, ``sensor`` and ``actuator``.
+    """
+    for control in robot.ros2_controls:
+        for name in ("name", "type"):
+            if not control.element.get(name):
+                yield Problem(control.element, f"<ros2_control> has no {name}")
+        if control.type and control.type not in _TYPES:
+            yield Problem(
+                control.element,
+                f"ros2_control '{control.name}' is of type '{control.type}'; "
+                f"there are {', '.join(_TYPES)}" + did_you_mean(control.type, _TYPES),
+                at=control.element.attribute_place("type"),
+            )
+
+
+@rule(ERROR, on=("ros2",), effects=DIES)
+def ros2_control_missing_plugin(robot: Robot) -> Iterator[Problem]:
+    """The hardware or a transmission of a ``<ros2_control>`` names no plugin.
+
+    ``<plugin>`` says which class speaks to the hardware; without it the parser throws.
+    """
+    for control in robot.ros2_controls:
+        hardware = control.element.child("hardware")
+        if hardware is None:
+            yield Problem(
+                control.element,
+                f"ros2_control '{control.name}' has no <hardware> with a <plugin>",
+            )
+        for child in control.element.children:
+            plugin = child.child("plugin")
+            if child.tag in ("hardware", "transmission") and (
+                plugin is None or not plugin.text.strip()
+            ):
+                yield Problem(
+                    control.element,
+                    f"<{child.tag}> of ros2_control '{control.name}' names no <plugin>",
+                    at=child,
+                )
+
+
+@rule(ERROR, on=("ros2",), effects=DIES)
+def ros2_control_invalid_tag(robot: Robot) -> Iterator[Problem]:
+    """A ``<ros2_control>`` holds an element that it does not know.
+
+    There are hardware, joint, sensor, gpio and transmission; at any other the parser throws.
+    """
+    for control in robot.ros2_controls:
+        for child in control.element.children:
+            if child.tag not in _CHILDREN and ":" not in child.tag:
+                yield Problem(
+                    control.element,
+                    f"ros2_control '{control.name}' has a <{child.tag}>; there are "
+                    f"{', '.join(_CHILDREN)}{did_you_mean(child.tag, _CHILDREN)}",
+                    at=child,
+                )
+
+
+@rule(ERROR, on=("ros2",), effects={"controller_manager": "finds no ros2_control in the robot"})
+def ros2_control_nested(robot: Robot) -> Iterator[Problem]:
+    """A ``<ros2_control>`` does not stand directly in the robot.
+
+    It is looked for among the children of ``<robot>`` only. Inside ``<gazebo>``, where one might
+    expect it, it is not seen.
+    """
+    for child in robot.element.children:
+        if child.tag == "ros2_control":
+            continue
+        for element in child.walk():
+            if element.tag == "ros2_control":
+                yield Problem(
+                    element,
+                    f"<ros2_control> stands inside <{child.tag}>; move it up into <robot>",
+                )
+
+
+@rule(ERROR, on=("ros2",), effects=DIES)
+def ros2_control_bad_param(robot: Robot) -> Iterator[Problem]:
+    """A ``<param>`` has no name, or an interface a size that is none.
+
+    Every parameter is found by its name; ``size`` is a whole number above 0.
+    """
+    for control in robot.ros2_controls:
+        for element in control.element.walk():
+            if element.tag == "param" and not element.get("name"):
+                yield Problem(
+                    control.element,
+                    f"a <param> of ros2_control '{control.name}' has no name",
+                    at=element,
+                )
+            size = element.get("size")
+            if element.tag.endswith("_interface") and size is not None:
+                value = number(size)
+                if value is None or value < 1 or value != int(value):
+                    yield Problem(
+                        control.element,
+                        f"size of interface '{element.get('name') or ''}' is '{size}'; "
+                        "write a whole number above 0",
+                        at=element.attribute_place("size"),
+                    )

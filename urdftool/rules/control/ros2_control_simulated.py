@@ -1,0 +1,161 @@
+"""ros2_control in Gazebo."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...errors import PackageNotFound
+from ...model.elements import Robot
+from ...source.description import Description
+from ..rule import ERROR, GAZEBO, WARNING, Problem, rule
+from ..words import did_you_mean
+
+_GZ = ("gz_ros2_control/", "ign_ros2_control/")
+_CLASSIC = ("gazebo_ros2_control/",)
+_GZ_PLUGINS = ("gz_ros2_control", "ign_ros2_control")
+_ANY_PLUGINS = ("gazebo_ros2_control", *_GZ_PLUGINS)
+
+
+@rule(ERROR, on=GAZEBO, effects={"gazebo": "waits for a controller_manager that never comes"})
+def ros2_control_wrong_sim_plugin(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+    """The simulated hardware is that of the other Gazebo.
+
+    ``gazebo_ros2_control/GazeboSystem`` is for Gazebo Classic, ``gz_ros2_control/GazeboSimSystem``
+    for new Gazebo. The class of the one is not found by the other.
+    """
+    if {"gz", "gazebo-classic"} <= targets:
+        return
+    for control in robot.ros2_controls:
+        plugin = control.plugin or ""
+        wrong, right = (
+            (_CLASSIC, "gz_ros2_control/GazeboSimSystem")
+            if "gz" in targets
+            else (_GZ, "gazebo_ros2_control/GazeboSystem")
+        )
+        hardware = control.element.child("hardware")
+        if plugin.startswith(wrong) and hardware is not None:
+            yield Problem(
+                control.element,
+                f"'{plugin}' is for the other Gazebo; write {right}",
+                at=hardware.child("plugin"),
+            )
+
+
+@rule(ERROR, on=GAZEBO, effects={"gazebo": "no controller_manager starts, or one without hardware"})
+def ros2_control_sim_plugin_pair(robot: Robot) -> Iterator[Problem]:
+    """Of simulated hardware and the plugin that runs it, one is missing.
+
+    The hardware in ``<ros2_control>`` and the plugin in ``<gazebo>`` belong together: the plugin
+    starts the controller_manager inside Gazebo, the hardware moves the joints there.
+    """
+    simulated = [
+        control
+        for control in robot.ros2_controls
+        if (control.plugin or "").startswith(_GZ + _CLASSIC)
+    ]
+    plugins = [
+        plugin
+        for plugin in robot.plugins
+        if any(word in plugin.filename for word in (*_ANY_PLUGINS, "_ros2_control"))
+    ]
+    if simulated and not plugins:
+        first = simulated[0]
+        classic = (first.plugin or "").startswith(_CLASSIC)
+        wanted = "libgazebo_ros2_control.so" if classic else "gz_ros2_control-system"
+        yield Problem(
+            first.element,
+            f"ros2_control '{first.name}' is simulated, and no <gazebo><plugin> runs it; "
+            f'add one with filename="{wanted}"',
+        )
+    elif plugins and not any(control.plugin for control in robot.ros2_controls):
+        yield Problem(
+            plugins[0].element,
+            f"plugin '{plugins[0].name}' runs ros2_control, and there is no <ros2_control> block",
+        )
+
+
+@rule(ERROR, on=GAZEBO, effects={"gz_ros2_control": "fails to initialise"})
+def ros2_control_empty_parameters(robot: Robot, description: Description) -> Iterator[Problem]:
+    """The plugin that runs ros2_control names no file of controllers, or one that is not there.
+
+    ``<parameters>`` is the path of the YAML file with the controllers. Empty, it ends the plugin;
+    where the file is missing no controller can be loaded.
+    """
+    for plugin in robot.plugins:
+        if not any(word in plugin.filename for word in _ANY_PLUGINS):
+            continue
+        for child in plugin.element.all("parameters"):
+            text = child.text.strip()
+            if "$(" in text or "${" in text:
+                continue
+            if not text:
+                wrong = "is empty; name the YAML file of the controllers"
+            elif text.startswith(("/", "package://")) and not _is_there(text, description):
+                wrong = f"names '{text}', which is not there"
+            else:
+                continue
+            yield Problem(
+                plugin.element, f"<parameters> of plugin '{plugin.name}' {wrong}", at=child
+            )
+
+
+def _is_there(path: str, description: Description) -> bool:
+    try:
+        return description.resolve(path).exists()
+    except PackageNotFound:
+        return True  # it cannot be said
+
+
+_IMU = tuple(
+    f"{what}.{axis}"
+    for what, axes in (
+        ("orientation", "xyzw"),
+        ("angular_velocity", "xyz"),
+        ("linear_acceleration", "xyz"),
+    )
+    for axis in axes
+)
+
+
+@rule(ERROR, on=("gz",), effects={"gz_ros2_control": "ends the simulator with an exception"})
+def ros2_control_unknown_imu_interface(robot: Robot) -> Iterator[Problem]:
+    """A state interface of an IMU is none that there is.
+
+    The simulated hardware looks the name up in a table without asking whether it is there.
+    """
+    imus = {s.name for block in robot.gazebo for s in block.sensors if s.type == "imu"}
+    for control in robot.ros2_controls:
+        if not (control.plugin or "").startswith(_GZ):
+            continue
+        for part in control.components:
+            if part.kind != "sensor" or part.name not in imus:
+                continue
+            for interface in part.state_interfaces:
+                if interface.name not in _IMU:
+                    yield Problem(
+                        control.element,
+                        f"sensor '{part.name}' has no state '{interface.name}'"
+                        + (did_you_mean(interface.name, _IMU) or f"; there are {', '.join(_IMU)}"),
+                        at=interface.element.attribute_place("name"),
+                    )
+
+
+@rule(WARNING, on=("gz",), effects={"gz_ros2_control": "the sensor reports nothing"})
+def sensor_name_mismatch(robot: Robot) -> Iterator[Problem]:
+    """A sensor of ``<ros2_control>`` is no sensor in Gazebo.
+
+    The simulated hardware finds sensors by their name; the ``<sensor>`` in the ``<gazebo>`` block
+    must have the same.
+    """
+    known = [sensor.name for block in robot.gazebo for sensor in block.sensors]
+    for control in robot.ros2_controls:
+        if not (control.plugin or "").startswith(_GZ):
+            continue
+        for part in control.components:
+            if part.kind == "sensor" and part.name not in known:
+                yield Problem(
+                    control.element,
+                    f"no <sensor> of a <gazebo> block is called '{part.name}'"
+                    + did_you_mean(part.name, known),
+                    at=part.element.attribute_place("name"),
+                )

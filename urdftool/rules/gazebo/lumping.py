@@ -1,0 +1,229 @@
+"""What is lost when Gazebo joins fixed links into one body."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import GazeboExtension, Joint, Robot
+from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
+from ..words import quoted
+from .keywords import JOINT_KEYWORDS, SURFACE, is_true
+
+_KEEPERS = ("preserveFixedJoint", "disableFixedJointLumping")
+
+
+def is_kept(robot: Robot, joint: Joint) -> bool:
+    """Whether a fixed joint stays a joint in Gazebo."""
+    blocks = robot.extensions.get(joint.name, [])
+    return any(is_true(block.value(word)) for block in blocks for word in _KEEPERS)
+
+
+def is_lumped(robot: Robot, link: str) -> bool:
+    """Whether Gazebo makes a link part of the body above it."""
+    joint = robot.tree.parent_joint(link)
+    return (
+        joint is not None
+        and joint.is_fixed
+        and joint.parent in robot.link
+        and joint.parent != "world"
+        and not is_kept(robot, joint)
+    )
+
+
+def body_of(robot: Robot, link: str) -> str:
+    """The link whose body a link becomes part of; itself where it stays."""
+    seen = set()
+    while is_lumped(robot, link) and link not in seen:
+        seen.add(link)
+        joint = robot.tree.parent_joint(link)
+        assert joint is not None
+        link = joint.parent
+    return link
+
+
+def _blocks_of_links(robot: Robot) -> Iterator[tuple[str, GazeboExtension]]:
+    for block in robot.gazebo:
+        if block.reference and block.reference in robot.link:
+            yield block.reference, block
+
+
+@rule(
+    ERROR,
+    on=GAZEBO,
+    effects={"gazebo": "lumps the joint and drops what the block holds, silently"},
+)
+def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
+    """A fixed joint has something in Gazebo and is not kept.
+
+    Fixed joints do not exist in the simulated robot: their links are joined into one body. A force
+    sensor at one, or a plugin, goes with it and nothing is said. ``preserveFixedJoint`` keeps it.
+    """
+    for block in robot.gazebo:
+        joint = robot.joint.get(block.reference or "")
+        if joint is None or not joint.is_fixed or block.reference in robot.link:
+            continue
+        if joint.parent == "world" or is_kept(robot, joint):
+            continue
+        lost = [child for child in block.element.children if child.tag not in _KEEPERS]
+        if not lost or all(
+            child.tag not in JOINT_KEYWORDS and not child.children for child in lost
+        ):
+            continue
+        what = quoted(dict.fromkeys(f"<{child.tag}>" for child in lost)).replace("'", "")
+        yield Problem(
+            block.element,
+            f"joint '{joint.name}' is fixed, so Gazebo lumps it and drops {what}; "
+            "add <preserveFixedJoint>true</preserveFixedJoint>",
+            at=block.element.attribute_place("reference"),
+        )
+
+
+@rule(
+    WARNING,
+    on=GAZEBO,
+    effects={"gazebo": "the flag holds for the whole body"},
+)
+def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
+    """A flag of a link that is joined to another holds for both.
+
+    ``turnGravityOff`` and ``selfCollide`` at a link on a fixed joint are written on the body it
+    becomes part of. A camera frame without weight makes the whole robot float. At the
+    heaviest link of the body it is taken to be meant.
+    """
+    for name, block in _blocks_of_links(robot):
+        if not is_lumped(robot, name):
+            continue
+        for word, what in (("turnGravityOff", "gravity is off"), ("selfCollide", "it collides")):
+            child = block.element.child(word)
+            body = body_of(robot, name)
+            if child is None or not is_true(block.value(word)):
+                continue
+            if any(is_true(other.value(word)) for other in robot.extensions.get(body, [])):
+                continue
+            links = (robot.link[other] for other in robot.link if other != name)
+            others = [other for other in links if body_of(robot, other.name) == body]
+            if sum(other.mass for other in others) <= robot.link[name].mass:
+                continue
+            means = "with itself" if word == "selfCollide" else ""
+            yield Problem(
+                block.element,
+                f"<{word}> of '{name}' holds for all of '{body}', which it is fixed to: "
+                f"{what} {means}".rstrip()
+                + f"; write it at '{body}' if that is meant",
+                at=child,
+            )
+
+
+@rule(
+    ERROR,
+    on=GAZEBO,
+    effects={"gazebo": "lumps the joint all the same, or drops the link"},
+)
+def preserved_joint_massless(robot: Robot) -> Iterator[Problem]:
+    """A fixed joint is kept, and on one side of it nothing has mass.
+
+    A link that stays a link of its own needs mass to be simulated. sdformat then takes the
+    ``preserveFixedJoint`` away, or does not model the link. A small inertial will do.
+    """
+    for joint in robot.joints:
+        if not joint.is_fixed or not is_kept(robot, joint) or joint.child not in robot.link:
+            continue
+        for side in (joint.child, joint.parent):
+            if side not in robot.link or side == "world":
+                continue
+            body = body_of(robot, side)
+            links = [name for name in robot.link if body_of(robot, name) == body]
+            if all(robot.link[name].mass <= 0 for name in links):
+                yield Problem(
+                    joint,
+                    f"fixed joint '{joint.name}' is kept, and link '{side}' has no mass; "
+                    f"give '{side}' a small <inertial>",
+                )
+                break
+
+
+@rule(
+    ERROR,
+    on=GAZEBO,
+    effects={"gazebo": "renames the shape and applies none of the settings, silently"},
+)
+def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
+    """A named collision or visual loses what Gazebo is told of its link.
+
+    sdformat knows the shapes of a link by names that begin with the link's. A ``<collision
+    name="hull">`` is taken for one that came from another link: it is renamed, and friction,
+    contact or material of the link are not applied to it. Leave the name out, or begin it with the
+    link's.
+    """
+    for link in robot.links:
+        words = {
+            child.tag
+            for block in robot.extensions.get(link.name, [])
+            for child in block.element.children
+        }
+        for what, shapes, told in (
+            ("collision", link.collisions, words & (SURFACE | {"collision"})),
+            ("visual", link.visuals, words & {"material", "visual"}),
+        ):
+            for shape in shapes:
+                if told and shape.name and not shape.name.startswith(link.name):
+                    lost = " or ".join(sorted(told))
+                    yield Problem(
+                        link,
+                        f"{what} '{shape.name}' does not begin with '{link.name}', so Gazebo "
+                        f"applies no {lost} to it; name it '{link.name}_{shape.name}'",
+                        at=shape.element.attribute_place("name"),
+                    )
+
+
+@rule(
+    WARNING,
+    on=GAZEBO,
+    effects={"gazebo": "the sensor never reports a contact, and nothing is said"},
+)
+def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
+    """A contact sensor names a collision that will have another name.
+
+    The collision of a link on a fixed joint moves to the body it is joined to, and gets a name with
+    ``fixed_joint_lump`` in it. In the ``<contact>`` of a sensor the old name stays, and means
+    nothing.
+    """
+    for name, block in _blocks_of_links(robot):
+        for sensor in block.sensors:
+            contact = sensor.element.child("contact")
+            collision = contact.child("collision") if contact is not None else None
+            if collision is None:
+                continue
+            for link in robot.links:
+                text = collision.text.strip()
+                if text == f"{link.name}_collision" and is_lumped(robot, link.name):
+                    body = body_of(robot, link.name)
+                    new = f"{body}_fixed_joint_lump__{link.name}_collision"
+                    yield Problem(
+                        block.element,
+                        f"'{text}' will be called '{new}' (or '{new}_1' …), as '{link.name}' is "
+                        f"fixed to '{body}'; write that, or keep the joint",
+                        at=collision,
+                    )
+        del name
+
+
+@rule(INFO, effects={"gazebo": "drops it"})
+def surface_without_collision(robot: Robot) -> Iterator[Problem]:
+    """A link is told how it grips and has nothing to grip with.
+
+    Friction and contact are written into the collisions of a link. Where there is none they are
+    dropped; often the collision is what is missing.
+    """
+    for name, block in _blocks_of_links(robot):
+        if robot.link[name].collisions:
+            continue
+        children = [child for child in block.element.children if child.tag in SURFACE]
+        if children:
+            words = quoted(dict.fromkeys(c.tag for c in children)).replace("'", "")
+            do = "does" if len(children) == 1 else "do"
+            yield Problem(
+                block.element,
+                f"{words} {do} nothing, as link '{name}' has no collision",
+                at=children[0],
+            )

@@ -1,0 +1,142 @@
+"""The model as a whole."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ...model.elements import Joint, Link, Robot
+from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
+from ..words import quoted
+from .keywords import is_true
+
+
+@rule(INFO, on=GAZEBO, effects={"gazebo": "no joint moves"})
+def robot_level_static(robot: Robot) -> Iterator[Problem]:
+    """A robot with joints is static.
+
+    ``<gazebo><static>true`` freezes the whole model: nothing falls, and no joint moves whatever
+    drives it. To hold the base alone, fix it to a link called ``world``.
+    """
+    for block in robot.gazebo:
+        child = block.element.child("static")
+        if not block.reference and child is not None and is_true(block.value("static")):
+            if robot.moving_joints:
+                yield Problem(
+                    block.element,
+                    f"the model is static, so none of its {len(robot.moving_joints)} joints moves; "
+                    "fix the base to a link 'world' instead",
+                    at=child,
+                )
+
+
+@rule(INFO, on=GAZEBO, effects={"gazebo": "the robot floats"})
+def gravity_off_everywhere(robot: Robot) -> Iterator[Problem]:
+    """No link with mass feels gravity.
+
+    ``turnGravityOff`` at every link holds a robot up that would sag or fall, and is left behind
+    more often than meant. What it weighs no longer counts in the simulation.
+    """
+    heavy = [link.name for link in robot.links if link.mass > 0]
+    off = [
+        name
+        for name in heavy
+        if any(is_true(block.value("turnGravityOff")) for block in robot.extensions.get(name, []))
+    ]
+    if heavy and len(heavy) == len(off):
+        block = robot.extensions[off[0]][0]
+        yield Problem(
+            robot,
+            f"gravity is off for all {len(heavy)} links with mass, so the robot floats",
+            at=block.element.child("turnGravityOff") or block,
+        )
+
+
+@rule(ERROR, on=GAZEBO, effects={"gazebo": "rejects the model (reserved name)"})
+def reserved_name(robot: Robot) -> Iterator[Problem]:
+    """A link or joint has a name that SDF keeps for itself.
+
+    ``world`` means the fixed world and may only be the root; names with two underscores at both
+    ends, such as ``__model__``, are SDF's own. The model is not loaded.
+    """
+    parts: list[Link | Joint] = [*robot.links, *robot.joints]
+    for part in parts:
+        name = part.name
+        if len(name) > 4 and name.startswith("__") and name.endswith("__"):
+            yield Problem(
+                part,
+                f"'{name}' is a name that SDF keeps for itself; leave out the underscores",
+                at=part.element.attribute_place("name"),
+            )
+    if "world" in robot.link and robot.tree.parent_joint("world") is not None:
+        link = robot.link["world"]
+        yield Problem(
+            link,
+            "link 'world' is not the root; Gazebo keeps that name for the fixed world",
+            at=link.element.attribute_place("name"),
+        )
+
+
+_DRIVES = re.compile(
+    r"control|drive|joint|steer|trajectory|planar|velocity|wheel|thruster|rotor|motor|gripper",
+    re.IGNORECASE,
+)
+
+
+@rule(WARNING, on=GAZEBO, effects={"gazebo": "the joints hang limp; /joint_states is silent"})
+def missing_control_plugin(robot: Robot) -> Iterator[Problem]:
+    """Joints move, and no plugin drives or reports them.
+
+    In Gazebo a joint without a plugin swings freely: the arm collapses as soon as it is spawned.
+    And nobody publishes joint states, so that RViz has no transforms past the first joint.
+    """
+    joints = [
+        joint
+        for joint in robot.moving_joints
+        if joint.mimic is None and joint.type in ("revolute", "prismatic", "continuous")
+    ]
+    if not joints:
+        return
+    for block in robot.gazebo:
+        for plugin in block.plugins:
+            if _DRIVES.search(plugin.filename) or _DRIVES.search(plugin.name):
+                return
+    names = quoted(joint.name for joint in joints)
+    verb = "move" if len(joints) > 1 else "moves"
+    yield Problem(
+        robot,
+        f"{names} {verb} and no Gazebo plugin drives or reports any joint; add one, such as "
+        "ros2_control's or a joint state publisher",
+    )
+
+
+@rule(INFO, on=GAZEBO, effects={"gazebo": "the arm topples when it is spawned"})
+def root_not_anchored(robot: Robot) -> Iterator[Problem]:
+    """An arm is not fixed to the world.
+
+    The root of a robot lies loose in Gazebo. An arm without wheels or legs falls over with its
+    first movement; a link called ``world`` and a fixed joint hold it.
+    """
+    root = robot.tree.root
+    if root is None or root.name == "world" or any(j.type == "floating" for j in robot.joints):
+        return
+    if any(joint.type == "continuous" and _wheel(joint.child) for joint in robot.joints):
+        return
+    if any(is_true(block.value("static")) for block in robot.gazebo if not block.reference):
+        return
+    arms = [joint for joint in robot.joints if joint.type in ("revolute", "continuous")]
+    roots = {name for name, body in robot.tree.bodies.items() if body == root.name}
+    starts = [joint for joint in robot.moving_joints if joint.parent in roots]
+    weight = sum(robot.link[name].mass for name in roots)
+    moved = sum(link.mass for link in robot.links) - weight
+    if len(starts) == 1 and len(arms) >= 4 and weight < 2 * moved:
+        yield Problem(
+            robot,
+            f"arm '{robot.name}' stands loose on '{root.name}'; add a link 'world' and a fixed "
+            "joint to it",
+            at=root,
+        )
+
+
+def _wheel(name: str) -> bool:
+    return "wheel" in name.lower()

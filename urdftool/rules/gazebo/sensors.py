@@ -1,0 +1,143 @@
+"""Sensors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import GazeboExtension, Robot, Sensor
+from ..rule import ERROR, GAZEBO, WARNING, Problem, rule
+from ..words import did_you_mean, words
+from .lumping import body_of
+
+TYPES = words(
+    "air_pressure air_speed altimeter boundingbox_camera camera contact depth depth_camera "
+    "force_torque gps gpu_lidar gpu_ray imu lidar logical_camera magnetometer multicamera navsat "
+    "ray rfid rfidtag rgbd rgbd_camera segmentation segmentation_camera boundingbox sonar thermal "
+    "thermal_camera wireless_receiver wireless_transmitter wideanglecamera wide_angle_camera custom"
+)
+
+_WITH_FRAME = words(
+    "camera depth depth_camera rgbd rgbd_camera gpu_lidar gpu_ray lidar ray imu thermal "
+    "thermal_camera segmentation segmentation_camera boundingbox boundingbox_camera"
+)
+
+
+def _sensors(robot: Robot) -> Iterator[tuple[GazeboExtension, Sensor]]:
+    for block in robot.gazebo:
+        for sensor in block.sensors:
+            yield block, sensor
+
+
+@rule(ERROR, effects={"gazebo": "rejects the sensor"})
+def unknown_sensor_type(robot: Robot) -> Iterator[Problem]:
+    """A sensor is of a type that SDF does not have.
+
+    The type is missing or invalid, says sdformat, and there is no sensor.
+    """
+    for _, sensor in _sensors(robot):
+        if sensor.type not in TYPES:
+            what = f"'{sensor.type}' is no type of sensor" if sensor.type else "it has no type"
+            near = did_you_mean(sensor.type, TYPES) if sensor.type else ""
+            name = f"sensor '{sensor.name}': " if sensor.name else ""
+            yield Problem(
+                sensor.element,
+                f"{name}{what}{near or '; write such as camera, imu, gpu_lidar'}",
+                at=sensor.element.attribute_place("type"),
+            )
+
+
+@rule(
+    ERROR,
+    on=("gz",),
+    effects={"gz": "does not support it and makes no sensor", "gazebo-classic": "takes it"},
+)
+def cpu_ray_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+    """A laser scans with the processor, which new Gazebo cannot.
+
+    Types ``ray`` and ``lidar`` are Gazebo Classic's; the releases of new Gazebo up to 10 say to use
+    the one of the graphics card. Write ``type="gpu_lidar"`` and ``<lidar>`` for ``<ray>``.
+    """
+    if "gazebo-classic" in targets:
+        return
+    for _, sensor in _sensors(robot):
+        if sensor.type in ("ray", "lidar"):
+            yield Problem(
+                sensor.element,
+                f"sensor '{sensor.name}' is of type '{sensor.type}', which new Gazebo lacks; "
+                "write gpu_lidar",
+                at=sensor.element.attribute_place("type"),
+            )
+
+
+@rule(
+    ERROR,
+    on=("gz",),
+    effects={"gz": "cannot load it; the sensor says nothing to ROS"},
+)
+def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+    """A sensor carries a ROS plugin of Gazebo Classic.
+
+    New Gazebo has no such plugins: its sensors publish by themselves. Give the sensor a ``<topic>``
+    and a ``<gz_frame_id>``, and bridge the topic with ros_gz_bridge.
+    """
+    if "gazebo-classic" in targets:
+        return
+    for _, sensor in _sensors(robot):
+        for plugin in sensor.plugins:
+            if plugin.filename.rpartition("/")[2].startswith("libgazebo_ros_"):
+                yield Problem(
+                    sensor.element,
+                    f"sensor '{sensor.name}' has '{plugin.filename}', which new Gazebo lacks; "
+                    "write <topic> and bridge it with ros_gz_bridge",
+                    at=plugin.element.attribute_place("filename"),
+                )
+
+
+@rule(
+    WARNING,
+    on=("gz",),
+    effects={"gz": "stamps the data with model/link/sensor, which TF does not know"},
+)
+def missing_gz_frame_id(robot: Robot) -> Iterator[Problem]:
+    """A sensor does not say in which frame it measures.
+
+    New Gazebo makes up a frame of the names of model, link and sensor; there is none such in TF,
+    and RViz shows nothing. ``<gz_frame_id>`` with the name of the link mends it
+    (``ignition_frame_id`` in Fortress).
+    """
+    for block, sensor in _sensors(robot):
+        if sensor.type not in _WITH_FRAME or any(
+            child.tag in ("gz_frame_id", "ignition_frame_id", "optical_frame_id")
+            for child in sensor.element.walk()
+        ):
+            continue
+        if block.reference in robot.link:
+            yield Problem(
+                sensor.element,
+                f"sensor '{sensor.name}' names no frame; "
+                f"write <gz_frame_id>{block.reference}</gz_frame_id>",
+            )
+
+
+@rule(ERROR, on=GAZEBO, effects={"gazebo": "rejects the model: names are not unique"})
+def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
+    """Two sensors of one body have one name.
+
+    Names of siblings must differ. Two cameras on two links are siblings when fixed joints join the
+    links into one body, which is not seen in the file.
+    """
+    seen: dict[tuple[str, str], str] = {}
+    for block, sensor in _sensors(robot):
+        if block.reference not in robot.link or not sensor.name:
+            continue
+        body = body_of(robot, block.reference)
+        other = seen.get((body, sensor.name))
+        seen.setdefault((body, sensor.name), block.reference)
+        if other is not None:
+            where = "the same link" if other == block.reference else f"'{other}', fixed to it"
+            yield Problem(
+                sensor.element,
+                f"a second sensor '{sensor.name}' on body '{body}' (the first is on {where}); "
+                "give it a name of its own",
+                at=sensor.element.attribute_place("name"),
+            )

@@ -1,0 +1,66 @@
+"""Libraries of Gazebo: the classes in those of new Gazebo, and what took the place of the old."""
+
+from __future__ import annotations
+
+CLASSIC = ("libgazebo_ros", "libhector_gazebo", "libhector_", "libroboticsgroup_", "libgazebo_")
+"""How the libraries of Gazebo Classic begin."""
+
+_PARTS = {
+    "ackermann-steering": "AckermannSteering",
+    "air-pressure": "AirPressure",
+    "altimeter": "Altimeter",
+    "apply-joint-force": "ApplyJointForce",
+    "apply-link-wrench": "ApplyLinkWrench",
+    "buoyancy": "Buoyancy",
+    "contact": "Contact",
+    "detachable-joint": "DetachableJoint",
+    "diff-drive": "DiffDrive",
+    "dvl": "DopplerVelocityLogSystem",
+    "forcetorque": "ForceTorque",
+    "hydrodynamics": "Hydrodynamics",
+    "imu": "Imu",
+    "joint-controller": "JointController",
+    "joint-position-controller": "JointPositionController",
+    "joint-state-publisher": "JointStatePublisher",
+    "joint-trajectory-controller": "JointTrajectoryController",
+    "lift-drag": "LiftDrag",
+    "linearbatteryplugin": "LinearBatteryPlugin",
+    "magnetometer": "Magnetometer",
+    "mecanum-drive": "MecanumDrive",
+    "multicopter-control": "MulticopterVelocityControl",
+    "multicopter-motor-model": "MulticopterMotorModel",
+    "navsat": "NavSat",
+    "odometry-publisher": "OdometryPublisher",
+    "pose-publisher": "PosePublisher",
+    "sensors": "Sensors",
+    "thruster": "Thruster",
+    "touchplugin": "TouchPlugin",
+    "track-controller": "TrackController",
+    "tracked-vehicle": "TrackedVehicle",
+    "velocity-control": "VelocityControl",
+    "wheel-slip": "WheelSlip",
+}
+
+SYSTEMS = {
+    **{f"gz-sim-{part}-system": f"gz::sim::systems::{name}" for part, name in _PARTS.items()},
+    "gz_ros2_control-system": "gz_ros2_control::GazeboSimROS2ControlPlugin",
+}
+"""The class by its library, for libraries that hold one class."""
+
+REPLACEMENTS = {
+    "gazebo_ros_diff_drive": "gz-sim-diff-drive-system",
+    "gazebo_ros_skid_steer_drive": "gz-sim-diff-drive-system",
+    "gazebo_ros_ackermann_drive": "gz-sim-ackermann-steering-system",
+    "gazebo_ros_tricycle_drive": "gz-sim-ackermann-steering-system",
+    "gazebo_ros_planar_move": "gz-sim-velocity-control-system",
+    "gazebo_ros_joint_state_publisher": "gz-sim-joint-state-publisher-system",
+    "gazebo_ros_joint_pose_trajectory": "gz-sim-joint-trajectory-controller-system",
+    "gazebo_ros_p3d": "gz-sim-odometry-publisher-system",
+    "gazebo_ros_wheel_slip": "gz-sim-wheel-slip-system",
+    "gazebo_ros_elevator": "gz-sim-elevator-system",
+    "gazebo_ros_force": "gz-sim-apply-link-wrench-system",
+    "gazebo_ros_vacuum_gripper": "gz-sim-detachable-joint-system",
+    "gazebo_ros2_control": "gz_ros2_control-system",
+    "gazebo_ros_control": "gz_ros2_control-system",
+}
+"""What to load in new Gazebo instead of a plugin of Gazebo Classic."""

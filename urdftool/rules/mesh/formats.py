@@ -1,0 +1,191 @@
+"""Formats of mesh files, and who reads them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from ...meshes.facts import StlFacts, stl_facts
+from ...model.elements import Robot
+from ...source.description import Description
+from ..rule import ERROR, INFO, WARNING, Problem, rule
+from .uses import MeshUse, mesh_uses
+
+_READ = {
+    "mujoco": ("stl", "obj", "msh"),
+    "pybullet": ("obj", "stl", "dae", "cdf", "vtk"),
+    "gazebo-classic": ("dae", "stl", "obj"),
+    "gz": ("dae", "stl", "obj", "gltf", "glb", "fbx"),
+    "ros1": ("dae", "stl", "mesh", "obj", "ply", "3ds", "fbx", "gltf", "glb", "stlb"),
+    "ros2": ("dae", "stl", "mesh", "obj", "ply", "3ds", "fbx", "gltf", "glb", "stlb"),
+}
+_facts: dict[Path, StlFacts] = {}
+
+
+def _first_uses(robot: Robot, description: Description) -> Iterator[MeshUse]:
+    """The first use of each file that is named, collisions before visuals."""
+    uses = mesh_uses(robot, description)
+    told: set[str] = set()
+    for use in (*(u for u in uses if u.collides), *(u for u in uses if not u.collides)):
+        if use.uri and use.uri not in told:
+            told.add(use.uri)
+            yield use
+
+
+def _ending(use: MeshUse) -> str:
+    return use.uri.rpartition("/")[2].rpartition(".")[2].lower() if "." in use.uri else ""
+
+
+@rule(ERROR, effects={"the reader named": "refuses the file, or shows nothing"})
+def unsupported_mesh_format(
+    robot: Robot, description: Description, targets: frozenset[str]
+) -> Iterator[Problem]:
+    """A mesh is in a format that a reader does not have.
+
+    MuJoCo reads STL, OBJ and its own MSH, and of a URDF the collisions only, unless told otherwise;
+    PyBullet OBJ, STL and part of COLLADA; Gazebo COLLADA, STL and OBJ, and new Gazebo glTF and FBX.
+    """
+    told: set[tuple[str, str]] = set()
+    for use in _first_uses(robot, description):
+        ending = _ending(use)
+        if not ending or is_odd(ending) or (use.path is not None and not use.exists):
+            continue
+        who = [
+            target
+            for target, known in _READ.items()
+            if target in targets and ending not in known and (target != "mujoco" or use.collides)
+        ]
+        key = ending, " and ".join(who)
+        if who and key not in told:
+            told.add(key)
+            same = [u for u in _first_uses(robot, description) if _ending(u) == ending]
+            more = f" (and {len(same) - 1} more)" if len(same) > 1 else ""
+            yield Problem(
+                use.link,
+                f"mesh '{use.uri}'{more} is a format that {' and '.join(who)} cannot read; "
+                f"convert it, for instance to {_READ[who[0]][0]}",
+                at=use.mesh.element.attribute_place("filename"),
+            )
+
+
+def is_odd(ending: str) -> bool:
+    """Whether an ending is none of a file: too long, or not of letters and digits."""
+    return len(ending) > 5 or not ending.isalnum()
+
+
+def _stl(use: MeshUse) -> StlFacts | None:
+    if use.path is None or not use.exists or _ending(use) != "stl":
+        return None
+    if use.path not in _facts:
+        try:
+            _facts[use.path] = stl_facts(use.path)
+        except OSError:
+            return None
+    return _facts[use.path]
+
+
+@rule(INFO, raised={"mujoco": ERROR}, effects={"mujoco": "rejects the file", "others": "read it"})
+def ascii_stl(robot: Robot, description: Description) -> Iterator[Problem]:
+    """An STL file is written as text.
+
+    It is five times as large as the binary form and slow to read, and MuJoCo does not take it.
+    """
+    for use in _first_uses(robot, description):
+        facts = _stl(use)
+        if facts is not None and facts.kind == "ascii":
+            yield Problem(
+                use.link,
+                f"mesh '{use.uri}' is STL as text; write it as binary STL",
+                at=use.mesh.element.attribute_place("filename"),
+            )
+
+
+@rule(WARNING, effects={"some loaders": "take it for text, and fail"})
+def binary_stl_starts_with_solid(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A binary STL file begins with the word ``solid``.
+
+    That word is the mark of the text form. The 80 bytes before the triangles may hold anything, and
+    one exporter in fifteen writes it there; loaders that look no further read the file as text and
+    fail.
+    """
+    found = []
+    for use in _first_uses(robot, description):
+        facts = _stl(use)
+        if facts is not None and facts.kind == "binary" and facts.begins_with_solid:
+            found.append(use)
+    if found:
+        more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+        yield Problem(
+            found[0].link,
+            f"mesh '{found[0].uri}'{more} is binary STL that begins with 'solid', as text does; "
+            "overwrite the first 80 bytes",
+            at=found[0].mesh.element.attribute_place("filename"),
+        )
+
+
+_UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']([^\"']+)[\"']")
+_UP = re.compile(rb"<up_axis\s*>\s*(\w+)\s*<")
+
+
+@rule(
+    WARNING,
+    effects={
+        "gazebo": "heeds both",
+        "rviz": "heeds the unit and not the axis",
+        "moveit": "heeds neither",
+    },
+)
+def dae_unit_or_axis(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A COLLADA file is not in metres with z up.
+
+    It may say its unit and which way is up, and readers differ in what they do with it: the same
+    mesh is lying in one and standing in the next, or larger by a thousand. Export it in metres,
+    with z up.
+    """
+    for use in _first_uses(robot, description):
+        if use.path is None or not use.exists or _ending(use) != "dae":
+            continue
+        try:
+            with open(use.path, "rb") as file:
+                head = file.read(16384)
+        except OSError:
+            continue
+        unit, up = _UNIT.search(head), _UP.search(head)
+        said = []
+        if unit and not _is_one(unit[1]):
+            said.append(f"its unit is {unit[1].decode('ascii', 'replace')} m")
+        if up and up[1].upper() != b"Z_UP":
+            said.append(f"it says {up[1].decode('ascii', 'replace')}")
+        if said:
+            yield Problem(
+                use.link,
+                f"mesh '{use.uri}': {' and '.join(said)}, which readers take differently; "
+                "export it in metres with z up",
+                at=use.mesh.element.attribute_place("filename"),
+            )
+
+
+def _is_one(text: bytes) -> bool:
+    try:
+        return abs(float(text) - 1) < 1e-6
+    except ValueError:
+        return True
+
+
+@rule(INFO, raised={"mujoco": ERROR}, effects={"mujoco": "rejects it", "others": "read it"})
+def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A collision is a COLLADA file.
+
+    Materials, lights and a tree of scenes are of no use to a contact, and units and axes may go
+    wrong on the way. STL says what is needed; MuJoCo reads that alone.
+    """
+    uses = [u for u in mesh_uses(robot, description) if u.collides and _ending(u) == "dae"]
+    if uses:
+        count = len({use.uri for use in uses})
+        more = f" (and {count - 1} more)" if count > 1 else ""
+        yield Problem(
+            uses[0].link,
+            f"collision mesh '{uses[0].uri}'{more} is COLLADA; STL is enough for a collision",
+            at=uses[0].mesh.element.attribute_place("filename"),
+        )

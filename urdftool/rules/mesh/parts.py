@@ -1,0 +1,63 @@
+"""What a mesh file refers to itself."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from urllib.parse import unquote
+
+from ...model.elements import Robot
+from ...source.description import Description
+from ..rule import WARNING, Problem, rule
+from ..words import quoted
+from .uses import mesh_uses
+
+_OBJ = re.compile(rb"^mtllib[ \t]+(.+?)[ \t\r]*$", re.MULTILINE)
+_DAE = re.compile(rb"<init_from\s*>(?:\s*<ref\s*>)?\s*([^<]+?)\s*<")
+_GLTF = re.compile(rb'"uri"\s*:\s*"([^"]+)"')
+_MOST = 4_000_000  # bytes that are looked at
+
+_missing: dict[Path, list[str]] = {}
+
+
+@rule(WARNING, effects={"rviz, gazebo": "show it in grey; glTF without its buffer is not loaded"})
+def missing_mesh_dependency(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A file that a mesh refers to is not beside it.
+
+    The colours of an OBJ file are in an MTL file, the pictures of a COLLADA file and the buffers of
+    a glTF file in files of their own. They are left behind when a mesh is copied.
+    """
+    told: set[str] = set()
+    for use in mesh_uses(robot, description):
+        if use.path is None or not use.exists or use.uri in told or use.collides:
+            continue
+        told.add(use.uri)
+        if use.path not in _missing:
+            _missing[use.path] = list(_look(use.path))
+        if _missing[use.path]:
+            yield Problem(
+                use.link,
+                f"mesh '{use.uri}' refers to {quoted(_missing[use.path])}, which is not beside it",
+                at=use.mesh.element.attribute_place("filename"),
+            )
+
+
+def _look(path: Path) -> Iterator[str]:
+    ending = path.suffix.lower()
+    pattern = {".obj": _OBJ, ".dae": _DAE, ".gltf": _GLTF}.get(ending)
+    if pattern is None:
+        return
+    try:
+        with open(path, "rb") as file:
+            data = file.read(_MOST if ending != ".obj" else 65536)
+    except OSError:
+        return
+    for name in dict.fromkeys(match[1] for match in pattern.finditer(data)):
+        text = unquote(name.decode("utf-8", "replace")).removeprefix("file://")
+        if text.startswith(("data:", "http:", "https:", "#")) or (
+            ending == ".dae" and "." not in text
+        ):
+            continue  # inside the file, elsewhere, or the name of an image in it
+        if not (path.parent / text.replace("\\", "/")).exists():
+            yield text

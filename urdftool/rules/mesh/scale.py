@@ -1,0 +1,201 @@
+"""How large a mesh is."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+
+from ...meshes.facts import HEADER_BYTES, TRIANGLE_BYTES, stl_bounds, stl_facts
+from ...model.elements import Robot
+from ...model.read import numbers
+from ...source.description import Description
+from ..rule import ERROR, INFO, WARNING, Problem, rule
+from .uses import MeshUse, mesh_uses
+
+_SAMPLE = 300  # triangles, from the beginning, the middle and the end
+_extents: dict[Path, tuple[float, float, float] | None] = {}
+
+
+def sampled_extent(path: Path) -> tuple[float, float, float] | None:
+    """Lengths of the box around some triangles of a binary STL file: it is at least so large."""
+    if path not in _extents:
+        try:
+            _extents[path] = _sample(path)
+        except (OSError, struct.error):
+            _extents[path] = None
+    return _extents[path]
+
+
+def _sample(path: Path) -> tuple[float, float, float] | None:
+    facts = stl_facts(path)
+    if facts.kind != "binary" or not facts.triangles or not facts.size_agrees:
+        return None
+    points: list[tuple[float, ...]] = []
+    with open(path, "rb") as file:
+        last = max(0, facts.triangles - _SAMPLE)
+        for first in sorted({0, last // 2, last}):
+            file.seek(HEADER_BYTES + TRIANGLE_BYTES * first)
+            data = file.read(TRIANGLE_BYTES * min(_SAMPLE, facts.triangles))
+            points += struct.iter_unpack("<12x9f2x", data)
+    columns = list(zip(*points, strict=True))
+    spans = []
+    for axis in range(3):
+        values = [v for column in columns[axis::3] for v in column]
+        spans.append(max(values) - min(values))
+    if not all(span - span == 0 for span in spans):
+        return None
+    return spans[0], spans[1], spans[2]
+
+
+def _largest(use: MeshUse, whole: bool = False) -> float | None:
+    """The largest length of a mesh as scaled [m], or of a sample of it."""
+    if use.path is None or not use.exists or use.path.suffix.lower() != ".stl":
+        return None
+    extent = sampled_extent(use.path)
+    if extent is not None and whole:
+        bounds = stl_bounds(use.path)
+        if bounds is None:
+            return None
+        (a, b, c), (d, e, f) = bounds
+        extent = d - a, e - b, f - c
+    if extent is None:
+        return None
+    return max(abs(s) * length for s, length in zip(use.mesh.scale, extent, strict=True))
+
+
+@rule(ERROR, effects={"every reader": "shows a link as large as a house"})
+def mesh_in_millimetres(
+    robot: Robot, description: Description, *, largest: float = 10.0
+) -> Iterator[Problem]:
+    """A mesh is larger than ``largest`` [m].
+
+    STL has no unit, and CAD programs write millimetres. Of thousands of meshes in real robots none
+    is between two and a hundred metres large: it is one or the other. ``scale="0.001 0.001 0.001"``
+    mends it.
+    """
+    told: set[str] = set()
+    for use in mesh_uses(robot, description):
+        length = _largest(use) if use.uri not in told else None
+        if length is not None and length > largest:
+            told.add(use.uri)
+            right = "" if use.mesh.element.get("scale") else '; write scale="0.001 0.001 0.001"'
+            yield Problem(
+                use.link,
+                f"mesh '{use.uri}' is {length:.3g} m large, as if in millimetres{right}",
+                at=use.mesh.element.attribute_place("filename"),
+            )
+
+
+@rule(WARNING, effects={"every reader": "shows a grain of sand"})
+def mesh_scaled_twice(
+    robot: Robot, description: Description, *, smallest: float = 0.001
+) -> Iterator[Problem]:
+    """A mesh is smaller than ``smallest`` [m].
+
+    The file is in metres already, and ``scale`` makes a thousandth of it. No real link is smaller
+    than a millimetre.
+    """
+    told: set[str] = set()
+    for use in mesh_uses(robot, description):
+        if use.uri in told or min(map(abs, use.mesh.scale)) == 0:
+            continue
+        length = _largest(use)
+        if length is None or length >= smallest:
+            continue
+        length = _largest(use, whole=True)
+        if length is not None and 0 < length < smallest:
+            told.add(use.uri)
+            right = "; take the scale away" if use.mesh.element.get("scale") else ""
+            yield Problem(
+                use.link,
+                f"mesh '{use.uri}' is {length * 1000:.3g} mm large{right}",
+                at=use.mesh.element.attribute_place("scale"),
+            )
+
+
+@rule(
+    WARNING,
+    raised={"gz": ERROR},
+    effects={"gz": "collides wrongly with it", "rviz": "lights it from the inside"},
+)
+def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A mesh is mirrored by its scale.
+
+    A negative factor turns the triangles inside out: light falls on the wrong side, the volume is
+    negative, contacts push inwards. A left hand wants a mesh of its own. One finding names the
+    meshes.
+    """
+    found = []
+    for use in mesh_uses(robot, description):
+        x, y, z = use.mesh.scale
+        if x * y * z < 0:
+            found.append(use)
+    if found:
+        count = len({use.uri for use in found})
+        more = f" (and {count - 1} more)" if count > 1 else ""
+        yield Problem(
+            found[0].link,
+            f"mesh '{found[0].uri}'{more} is mirrored by its scale; "
+            "mirror the file itself, with its triangles turned",
+            at=found[0].mesh.element.attribute_place("scale"),
+        )
+
+
+@rule(ERROR, effects={"urdfdom, mujoco": "reject it, or drop the shape"})
+def bad_scale(robot: Robot) -> Iterator[Problem]:
+    """A mesh is scaled by zero.
+
+    Nothing is left of it: the mesh is flat, or a point.
+    """
+    for link, shape in robot.shapes:
+        mesh = shape.geometry
+        if mesh is None or mesh.element.tag != "mesh":
+            continue
+        text = mesh.element.get("scale")
+        values = numbers(text, 3)
+        if values is not None and 0 in values:
+            yield Problem(
+                link,
+                f"a mesh of link '{link.name}' is scaled by '{text}'; no factor may be 0",
+                at=mesh.element.attribute_place("scale"),
+            )
+
+
+@rule(INFO, default=False, effects={"some renderers": "light it wrongly"})
+def non_uniform_scale(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A mesh is scaled by different factors.
+
+    Light and inertia computed from the file itself no longer fit its shape.
+    """
+    for use in mesh_uses(robot, description):
+        factors = [abs(factor) for factor in use.mesh.scale]
+        if max(factors) - min(factors) > 0.01 * max(factors):
+            yield Problem(
+                use.link,
+                f"mesh '{use.uri}' is scaled by {use.mesh.element.get('scale')}; "
+                "scale the file itself",
+                at=use.mesh.element.attribute_place("scale"),
+            )
+
+
+@rule(INFO, default=False, effects={"rviz": "is slow"})
+def heavy_visual(
+    robot: Robot, description: Description, *, most: float = 100000, megabytes: float = 10
+) -> Iterator[Problem]:
+    """A visual mesh is very large.
+
+    More than ``most`` triangles or ``megabytes`` make RViz slow and the repository heavy.
+    """
+    told: set[str] = set()
+    for use in mesh_uses(robot, description):
+        if use.collides or use.uri in told or not use.exists or use.path is None:
+            continue
+        told.add(use.uri)
+        size = use.path.stat().st_size
+        if size > megabytes * 1e6 or size > HEADER_BYTES + TRIANGLE_BYTES * most:
+            yield Problem(
+                use.link,
+                f"visual mesh '{use.uri}' has {size / 1e6:.0f} MB; simplify it",
+                at=use.mesh.element.attribute_place("filename"),
+            )

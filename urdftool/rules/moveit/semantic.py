@@ -1,0 +1,246 @@
+"""The SRDF beside a description, against its links and joints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from ...errors import SourceError
+from ...model.elements import Robot
+from ...model.read import number
+from ...source.description import Description
+from ...source.document import Document, Element, parse, read_file
+from ...source.packages import shown_path
+from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..words import did_you_mean
+
+_ON = ("moveit",)
+_last: tuple[Robot, list[Document]] | None = None
+
+
+def semantics(robot: Robot, description: Description) -> list[Document]:
+    """The SRDF files beside a description that are for it, by the name of file or robot."""
+    global _last
+    if _last is None or _last[0] is not robot:
+        _last = robot, list(_read(robot, description))
+    return _last[1]
+
+
+def _read(robot: Robot, description: Description) -> Iterator[Document]:
+    if description.path == "-":
+        return
+    path = Path(description.path)
+    stem = path.name.split(".")[0]
+    files = sorted(path.parent.glob("*.srdf"))
+    named = [file for file in files if file.name.split(".")[0] == stem]
+    for file in named or files:
+        try:
+            document = parse(read_file(shown_path(file)))
+        except SourceError:
+            continue
+        if document.root.tag == "robot" and (named or document.root.get("name") == robot.name):
+            yield document
+
+
+def _references(root: Element, kind: str) -> Iterator[tuple[Element, str, bool]]:
+    """Where a link or joint is named: the element, the attribute, and whether it is essential."""
+    links = {
+        "chain": ("base_link", "tip_link"),
+        "end_effector": ("parent_link",),
+        "virtual_joint": ("child_link",),
+        "disable_collisions": ("link1", "link2"),
+        "enable_collisions": ("link1", "link2"),
+        "link_sphere_approximation": ("link",),
+    }
+    for element in root.walk():
+        inside = element.parent.tag if element.parent is not None else ""
+        if kind == "link":
+            for name in links.get(element.tag, ()):
+                yield element, name, "collisions" not in element.tag
+            if element.tag == "link" and inside == "group":
+                yield element, "name", True
+        elif element.tag in ("joint", "passive_joint") and inside in (
+            "group",
+            "group_state",
+            "robot",
+        ):
+            yield element, "name", True
+
+
+@rule(ERROR, on=_ON, effects={"moveit": "says so, and leaves that part out"})
+def srdf_unknown_link(robot: Robot, description: Description) -> Iterator[Problem]:
+    """The SRDF names a link that the robot does not have.
+
+    A group, a chain or an end effector with such a link is empty or missing. Of a pair whose
+    collision is disabled nothing is left; that is a warning.
+    """
+    told: set[str] = set()
+    for document in semantics(robot, description):
+        for element, attribute, essential in _references(document.root, "link"):
+            name = element.get(attribute)
+            if name and name not in robot.link and (essential or name not in told):
+                told.add(name)
+                yield Problem(
+                    element,
+                    f"<{element.tag}> names link '{name}', which the robot does not have"
+                    + did_you_mean(name, robot.link),
+                    at=element.attribute_place(attribute),
+                    severity=None if essential else WARNING,
+                )
+
+
+@rule(ERROR, on=_ON, effects={"moveit": "says so, and leaves that part out"})
+def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Problem]:
+    """The SRDF names a joint that the robot does not have.
+
+    The group lacks it, and a named pose with it cannot be reached.
+    """
+    for document in semantics(robot, description):
+        virtual = {joint.get("name") for joint in document.root.all("virtual_joint")}
+        for element, attribute, _ in _references(document.root, "joint"):
+            name = element.get(attribute)
+            if name and name not in robot.joint and name not in virtual:
+                yield Problem(
+                    element,
+                    f"<{element.tag}> names joint '{name}', which the robot does not have"
+                    + did_you_mean(name, robot.joint),
+                    at=element.attribute_place(attribute),
+                )
+
+
+@rule(ERROR, on=_ON, effects={"moveit": "rejects the SRDF"})
+def srdf_robot_name(robot: Robot, description: Description) -> Iterator[Problem]:
+    """The SRDF is for a robot of another name.
+
+    MoveIt takes it for that of another robot and does not load it.
+    """
+    for document in semantics(robot, description):
+        name = document.root.get("name") or ""
+        if name != robot.name:
+            yield Problem(
+                document.root,
+                f"the SRDF is for robot '{name}' and the URDF is '{robot.name}'; "
+                "give both one name",
+                at=document.root.attribute_place("name"),
+            )
+
+
+@rule(ERROR, on=_ON, effects={"moveit": "says that they form no chain; the group is empty"})
+def chain_not_connected(robot: Robot, description: Description) -> Iterator[Problem]:
+    """The tip of a chain does not hang on its base.
+
+    A chain goes down the tree, from the base to the tip. Here the one is not above the other.
+    """
+    for document in semantics(robot, description):
+        for element in document.root.walk():
+            base, tip = element.get("base_link"), element.get("tip_link")
+            if element.tag != "chain" or base not in robot.link or tip not in robot.link:
+                continue
+            if base != tip and base not in set(robot.tree.ancestors(tip or "")):
+                yield Problem(
+                    element,
+                    f"link '{tip}' does not hang on '{base}', so the two form no chain",
+                )
+
+
+@rule(WARNING, on=_ON, effects={"moveit": "warns; planning to the pose fails"})
+def group_state_out_of_bounds(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A named pose puts a joint outside its limits.
+
+    MoveIt moves nowhere that the limits forbid.
+    """
+    for document in semantics(robot, description):
+        for state in document.root.all("group_state"):
+            for element in state.all("joint"):
+                joint = robot.joint.get(element.get("name") or "")
+                value = number(element.get("value"))
+                if joint is None or value is None or not joint.is_limited or joint.limit is None:
+                    continue
+                low, high = joint.limit.lower or 0.0, joint.limit.upper or 0.0
+                if low <= high and not low - 1e-4 <= value <= high + 1e-4:
+                    yield Problem(
+                        element,
+                        f"'{joint.name}' is {value:g} in pose '{state.get('name') or ''}', and its "
+                        f"limits are {low:g} to {high:g}",
+                        at=element.attribute_place("value"),
+                    )
+
+
+@rule(INFO, on=_ON, effects={"moveit": "assumes a fixed joint to the world"})
+def missing_virtual_joint(robot: Robot, description: Description) -> Iterator[Problem]:
+    """The SRDF does not say how the robot stands in the world.
+
+    A ``<virtual_joint>`` of type ``fixed``, ``planar`` or ``floating`` joins the root to the frame
+    of the world; MoveIt assumes a fixed one.
+    """
+    for document in semantics(robot, description):
+        root = robot.tree.root
+        if (
+            root is not None
+            and root.name != "world"
+            and document.root.child("virtual_joint") is None
+        ):
+            yield Problem(
+                document.root,
+                "the SRDF has no <virtual_joint>; write one of type fixed, planar or floating for "
+                f"'{root.name}'",
+            )
+
+
+@rule(ERROR, on=_ON, effects={"moveit": "drops the end effector"})
+def end_effector_group(robot: Robot, description: Description) -> Iterator[Problem]:
+    """An end effector is of a group that there is not, or is its own parent.
+
+    The group of the hand and that of the arm are two; the hand hangs on a link that is not its own.
+    """
+    for document in semantics(robot, description):
+        groups = {group.get("name"): group for group in document.root.all("group")}
+        for element in document.root.all("end_effector"):
+            name, parent = element.get("group"), element.get("parent_link")
+            if name not in groups:
+                known = [group for group in groups if group]
+                yield Problem(
+                    element,
+                    f"end effector '{element.get('name') or ''}' is of group '{name or ''}', which "
+                    f"is not there{did_you_mean(name or '', known)}",
+                    at=element.attribute_place("group"),
+                )
+            elif any(link.get("name") == parent for link in groups[name].all("link")):
+                yield Problem(
+                    element,
+                    f"end effector '{element.get('name') or ''}' hangs on '{parent}', which is a "
+                    "link of its own group",
+                    at=element.attribute_place("parent_link"),
+                )
+
+
+@rule(WARNING, on=_ON, effects={"moveit": "cannot time a trajectory"})
+def missing_acceleration_limits(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A joint has no limit of acceleration.
+
+    URDF cannot say it, so it stands in ``joint_limits.yaml`` beside the SRDF; without it MoveIt's
+    timing of trajectories fails. Nothing is said where that file is not there.
+    """
+    documents = semantics(robot, description)
+    path = Path(description.path).parent / "joint_limits.yaml"
+    if not documents or not path.is_file():
+        return
+    import yaml
+
+    try:
+        table = yaml.safe_load(path.read_text("utf-8", "replace"))
+    except (OSError, yaml.YAMLError):
+        return
+    limits = table.get("joint_limits") if isinstance(table, dict) else None
+    if not isinstance(limits, dict):
+        return
+    for joint in robot.moving_joints:
+        said = limits.get(joint.name)
+        if joint.mimic is not None or not joint.has_axis:
+            continue
+        if not isinstance(said, dict) or not said.get("has_acceleration_limits"):
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' has no acceleration limit in {shown_path(path)}; "
+                "MoveIt cannot time its motion",
+            )

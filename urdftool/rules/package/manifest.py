@@ -1,0 +1,186 @@
+"""The package.xml and CMakeLists.txt of the package that a description belongs to."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from ...model.elements import Robot
+from ...source.description import Description
+from ...source.document import Element
+from ...source.location import Place
+from ...source.packages import own_package
+from ..mesh.uses import MeshUse, mesh_uses
+from ..rule import ERROR, INFO, ROS, WARNING, Problem, rule
+from ..words import quoted
+from .resolution import is_in_own_package
+
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_DEPEND = re.compile(r"<(?:\w+_)?depend\b[^>]*>\s*([\w-]+)\s*</")
+_FIND = re.compile(rb"\$\(find\s+([\w-]+)\s*\)")
+
+
+def _manifest(folder: Path) -> str:
+    try:
+        return _COMMENT.sub("", (folder / "package.xml").read_text("utf-8", "replace"))
+    except OSError:
+        return ""
+
+
+@rule(
+    WARNING,
+    on=ROS,
+    effects={"rosdep, the build farm": "do not install it: the meshes are missing"},
+)
+def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A package that is used is not a dependency of this one.
+
+    ``package://NAME/`` and ``$(find NAME)`` want that package to be installed, and ``package.xml``
+    does not say so. It works where the package happens to be.
+    """
+    own = own_package(description.packages.file)
+    if own is None:
+        return
+    declared = set(_DEPEND.findall(_manifest(own[1])))
+    told = {own[0], *declared}
+    for use in mesh_uses(robot, description):
+        name = _package_of(use)
+        if name and name not in told and not is_in_own_package(use, description):
+            told.add(name)
+            yield Problem(
+                use.link,
+                f"package '{name}' is used and is no dependency of '{own[0]}'; "
+                f"write <exec_depend>{name}</exec_depend> into its package.xml",
+                at=use.mesh.element.attribute_place("filename"),
+            )
+    first = description.files[0]
+    for match in _FIND.finditer(first.data):
+        name = match[1].decode("ascii")
+        line = first.data[: match.start()].rpartition(b"<!--")[2]
+        if name in told or (b"-->" not in line and b"<!--" in first.data[: match.start()]):
+            continue
+        told.add(name)
+        yield Problem(
+            robot,
+            f"package '{name}' is used and is no dependency of '{own[0]}'; "
+            f"write <exec_depend>{name}</exec_depend> into its package.xml",
+            at=Place(first, match.start(), match.end()),
+        )
+
+
+def _package_of(use: MeshUse) -> str:
+    return use.uri[10:].partition("/")[0] if use.uri.startswith("package://") else ""
+
+
+_INSTALL = re.compile(r"\binstall\s*\(([^)]*)\)", re.IGNORECASE | re.DOTALL)
+
+
+@rule(
+    ERROR,
+    on=ROS,
+    effects={"the installed package": "has no such folder: the meshes are missing"},
+)
+def directory_not_installed(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A folder that the description uses is not installed.
+
+    It is there in the source and works from there; the built and packaged robot lacks it. In CMake
+    it wants ``install(DIRECTORY meshes DESTINATION share/${PROJECT_NAME})``.
+    """
+    own = own_package(description.packages.file)
+    if own is None:
+        return
+    try:
+        text = (own[1] / "CMakeLists.txt").read_text("utf-8", "replace")
+    except OSError:
+        return
+    text = re.sub(r"#[^\n]*", "", text)
+    installs = " ".join(_INSTALL.findall(text))
+    if re.search(r"foreach|ament_auto_package|GLOB|INSTALL_TO_SHARE|macro|function", text, re.I):
+        return
+    words = {word.strip("\"'").strip("/").removeprefix("./") for word in installs.split()}
+    if "." in words or "" in words or "${CMAKE_CURRENT_SOURCE_DIR}" in words:
+        return
+    places = {word.replace("${CMAKE_CURRENT_SOURCE_DIR}/", "") for word in words}
+    wanted: dict[str, Element] = {}
+    for use in mesh_uses(robot, description):
+        if use.exists and use.path is not None and use.uri.startswith(f"package://{own[0]}/"):
+            relative = os.path.relpath(os.path.realpath(use.path), os.path.realpath(own[1]))
+            top = relative.replace(os.sep, "/").partition("/")[0]
+            if top != ".." and "/" in relative:
+                wanted.setdefault(top, use.mesh.element)
+    for folder, element in wanted.items():
+        if not any(place == folder or place.startswith(folder + "/") for place in places):
+            yield Problem(
+                robot,
+                f"folder '{folder}' of package '{own[0]}' is used and not installed; "
+                f"write install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}}) "
+                "into CMakeLists.txt",
+                at=element.attribute_place("filename"),
+            )
+
+
+@rule(
+    INFO,
+    on=("gazebo-classic", "gz"),
+    effects={"gazebo": "looks for model://NAME/… and does not know where"},
+)
+def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator[Problem]:
+    """Gazebo is not told where the package is.
+
+    In Gazebo ``package://NAME/`` becomes ``model://NAME/``, and models are looked for where
+    ``GAZEBO_MODEL_PATH`` or ``GZ_SIM_RESOURCE_PATH`` say. A line in the ``<export>`` of
+    ``package.xml``, or one in the launch file, sets it.
+    """
+    own = own_package(description.packages.file)
+    if own is None or "model_path" in _manifest(own[1]):
+        return
+    if _launch_sets_path(own[1]):
+        return
+    for use in mesh_uses(robot, description):
+        if _package_of(use) == own[0]:
+            yield Problem(
+                use.link,
+                f"package.xml of '{own[0]}' does not tell Gazebo where its meshes are; write "
+                '<export><gazebo_ros gazebo_model_path="${prefix}/.."/></export>',
+                at=use.mesh.element.attribute_place("filename"),
+            )
+            return
+
+
+def _launch_sets_path(package: Path) -> bool:
+    """Whether a launch file or hook of the package sets the path where Gazebo looks."""
+    for folder in ("launch", "hooks", "env-hooks"):
+        for path in sorted((package / folder).glob("*"))[:50]:
+            try:
+                text = path.read_text("utf-8", "replace") if path.is_file() else ""
+            except OSError:
+                continue
+            if "RESOURCE_PATH" in text or "MODEL_PATH" in text:
+                return True
+    return False
+
+
+@rule(ERROR, effects={"every reader": "finds the meshes of another package, or none"})
+def wrong_package_in_uri(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A mesh is looked for in another package, and is in this one.
+
+    The description was copied and renamed, and its meshes still name the package it came from.
+    Where that is installed too, its meshes are shown.
+    """
+    own = own_package(description.packages.file)
+    if own is None:
+        return
+    wrong: dict[str, list[MeshUse]] = {}
+    for use in mesh_uses(robot, description):
+        if is_in_own_package(use, description):
+            wrong.setdefault(_package_of(use), []).append(use)
+    for name, uses in wrong.items():
+        files = quoted(dict.fromkeys(use.uri[10:].partition("/")[2] for use in uses), 3)
+        yield Problem(
+            uses[0].link,
+            f"package '{name}' does not have {files}, and this one does; "
+            f"write package://{own[0]}/…",
+            at=uses[0].mesh.element.attribute_place("filename"),
+        )

@@ -1,0 +1,55 @@
+"""What is hard to simulate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ..rule import INFO, WARNING, Problem, rule
+
+
+@rule(
+    INFO,
+    on=("gazebo-classic", "gz", "mujoco", "pybullet"),
+    effects={"physics engines": "converge slowly: the heavy body pulls the joint apart"},
+)
+def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) -> Iterator[Problem]:
+    """A joint carries a body that is very much heavier than what carries it.
+
+    Engines solve joints step by step, and a light body between heavy ones makes each step count for
+    little: the joint stretches, shakes or breaks. From ``high`` on it is said, from ``extreme`` it
+    is a warning. What counts is the mass below the joint over that of the body just above it;
+    bodies joined by fixed joints count as one.
+    """
+    bodies = robot.tree.body_links
+    mass = {
+        name: sum(robot.link[link].mass for link in links if link in robot.link)
+        for name, links in bodies.items()
+    }
+    below = _masses_below(robot, mass)
+    for joint in robot.moving_joints:
+        above, under = robot.tree.bodies.get(joint.parent), robot.tree.bodies.get(joint.child)
+        if above is None or under is None or robot.tree.parent_joint(above) is None:
+            continue
+        light, heavy = mass[above], below[under]
+        if light > 0 and heavy / light > high:
+            ratio = heavy / light
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' carries {heavy:.3g} kg on a body of {light:.3g} kg, "
+                f"{ratio:.0f} times as heavy; make the light one heavier",
+                severity=WARNING if ratio > extreme else None,
+            )
+
+
+def _masses_below(robot: Robot, mass: dict[str, float]) -> dict[str, float]:
+    """The mass of each body with all that hangs on it."""
+    total = dict(mass)
+    for name in reversed(robot.tree.order):
+        if name not in mass:
+            continue
+        joint = robot.tree.parent_joint(name)
+        above = robot.tree.bodies.get(joint.parent) if joint is not None else None
+        if above is not None and above != name:
+            total[above] += total[name]
+    return total

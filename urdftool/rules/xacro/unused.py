@@ -1,0 +1,179 @@
+"""Definitions that do nothing, or are not what they seem."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ...source.description import Description
+from ...source.document import Element
+from ..rule import INFO, WARNING, Problem, rule
+from .definitions import definitions
+
+_CONDITIONS = ("xacro:if", "xacro:unless")
+
+
+def _is_conditional(element: Element) -> bool:
+    """Whether an element is inside a condition or macro: not always there, or many times."""
+    parent = element.parent
+    while parent is not None:
+        if parent.tag in (*_CONDITIONS, "xacro:macro"):
+            return True
+        parent = parent.parent
+    return False
+
+
+def _includes_may_vary(description: Description) -> bool:
+    """Whether other arguments would include other files."""
+    return any(
+        element.tag == "xacro:include"
+        and (_is_conditional(element) or "$(arg" in (element.get("filename") or ""))
+        for document in definitions(description).documents
+        for element in document.root.walk()
+    )
+
+
+def _text(description: Description) -> str:
+    """All files, without their comments."""
+    text = "\n".join(file.data.decode(file.encoding, "replace") for file in description.files)
+    return re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
+
+
+@rule(WARNING, effects={"xacro": "takes the argument and does nothing with it"})
+def unused_arg(description: Description) -> Iterator[Problem]:
+    """An argument is declared and never read.
+
+    Whoever gives ``name:=value`` is not told that nothing comes of it. The ``$(arg NAME)`` that
+    should read it is misspelt or was taken away.
+    """
+    if description.expansion is None or _includes_may_vary(description):
+        return
+    entry = description.files[0].path
+    text = None
+    for name, elements in definitions(description).arguments.items():
+        element = elements[0]
+        if element.file.path != entry or "$" in name:
+            continue
+        text = text or _text(description)
+        word = re.escape(name)
+        if re.search(
+            rf"\$\(arg\s+{word}\s*\)|arg\(\s*['\"]{word}['\"]|\$\(eval[^)]*\b{word}\b", text
+        ):
+            continue
+        yield Problem(
+            element,
+            f"the argument '{name}' is declared and never read; read it with $(arg {name})",
+            at=element.attribute_place("name"),
+        )
+
+
+@rule(INFO, default=False, effects={"xacro": "keeps it for nothing"})
+def unused_property(description: Description) -> Iterator[Problem]:
+    """A property is defined and never used.
+
+    Left over, or misspelt where it is used.
+    """
+    if description.expansion is None or _includes_may_vary(description):
+        return
+    entry = description.files[0].path
+    expressions = " ".join(re.findall(r"\$\{[^}]*\}|macro=\"[^\"]*\"|\^\|?\w*", _text(description)))
+    for name, elements in definitions(description).properties.items():
+        element = elements[0]
+        if element.file.path != entry or "$" in name or element.children:
+            continue
+        if not re.search(rf"\b{re.escape(name)}\b", expressions):
+            yield Problem(
+                element,
+                f"the property '{name}' is used nowhere",
+                at=element.attribute_place("name"),
+            )
+
+
+@rule(INFO, default=False, effects={"xacro": "keeps it for nothing"})
+def unused_macro(description: Description) -> Iterator[Problem]:
+    """A macro is defined beside the robot and never called.
+
+    Macros of included files are not looked at: nobody needs all of a library.
+    """
+    if description.expansion is None or _includes_may_vary(description):
+        return
+    entry = description.files[0].path
+    text = None
+    for name, elements in definitions(description).macros.items():
+        element = elements[0]
+        if element.file.path != entry:
+            continue
+        text = text or _text(description)
+        if not re.search(rf"<xacro:{re.escape(name)}[\s/>]|macro\s*=\s*[\"'][^\"']*{name}", text):
+            yield Problem(
+                element,
+                f"the macro '{name}' is called nowhere",
+                at=element.attribute_place("name"),
+            )
+
+
+@rule(WARNING, effects={"xacro": "takes the last one silently"})
+def macro_redefined(description: Description) -> Iterator[Problem]:
+    """Two macros have one name.
+
+    The second takes the place of the first for every call that follows. When two packages both have
+    a ``cylinder_inertia``, with other parameters or other formulas, the robot depends on the order
+    of its includes. One in a condition, or in a file that is included with ``ns``, is not told of.
+    """
+    found = definitions(description)
+    if any(
+        element.tag == "xacro:include" and "ns" in element.attributes
+        for document in found.documents
+        for element in document.root.walk()
+    ):
+        return
+    for name, elements in found.macros.items():
+        certain = [element for element in elements if not _is_conditional(element)]
+        for element in certain[1:]:
+            if _same(element, certain[0]):
+                continue
+            other = certain[0].place
+            where = f"line {other.line}"
+            if other.path != element.file.path:
+                where += f" of {other.path}"
+            yield Problem(
+                element,
+                f"the macro '{name}' is defined for a second time (first in {where}), "
+                "and otherwise; give it a name of its own",
+                at=element.attribute_place("name"),
+            )
+
+
+def _same(a: Element, b: Element) -> bool:
+    """Whether two elements say the same."""
+    return (
+        a.tag == b.tag
+        and a.attributes == b.attributes
+        and a.text.split() == b.text.split()
+        and len(a.children) == len(b.children)
+        and all(_same(c, d) for c, d in zip(a.children, b.children, strict=True))
+    )
+
+
+@rule(INFO, default=False, effects={"xacro": "makes two links of one name at the second call"})
+def hard_coded_name_in_macro(description: Description) -> Iterator[Problem]:
+    """A macro with a prefix makes a link or joint without it.
+
+    Called twice, it makes two of that name, and the robot is rejected.
+    """
+    for macros in definitions(description).macros.values():
+        for macro in macros:
+            parameters = re.findall(
+                r"(\w*prefix\w*|\bside\b|\bnamespace\b)", macro.get("params") or ""
+            )
+            if not parameters:
+                continue
+            for element in macro.walk():
+                name = element.get("name")
+                if element.tag in ("link", "joint") and name and "${" not in name:
+                    yield Problem(
+                        element,
+                        f"<{element.tag} name=\"{name}\"> in macro '{macro.get('name')}' lacks its "
+                        f"'{parameters[0]}'; write ${{{parameters[0]}}}{name}",
+                        at=element.attribute_place("name"),
+                    )
