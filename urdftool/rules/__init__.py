@@ -215,7 +215,12 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "references": ("dangling-reference", "misplaced-extension", "conflicting-references"),
         "vocabulary": ("unknown-extension",),
         "values": ("bad-extension-number", "half-friction", "implausible-friction"),
-        "settings": ("deprecated-cfm-damping", "no-effect-in-gz"),
+        "settings": (
+            "deprecated-cfm-damping",
+            "no-effect-in-gz",
+            "ogre-material-script",
+            "missing-contact-parameters",
+        ),
         "lumping": (
             "lumped-joint-loses-content",
             "lumped-flag-leaks",
@@ -237,6 +242,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "ros-plugin-inside-sensor",
             "missing-gz-frame-id",
             "duplicate-sensor-name",
+            "missing-sensor-tag",
         ),
         "plugins": (
             "plugin-without-filename",
@@ -324,7 +330,10 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "base-footprint-placement",
         ),
     },
-    "lint": {"suppressions": ("unused-suppression", "unknown-rule")},
+    "lint": {
+        "suppressions": ("unused-suppression", "unknown-rule"),
+        "comments": ("suppression-without-reason", "blanket-suppression"),
+    },
 }
 
 # A file of rules that speak of certain elements alone is not imported for a robot without them;
@@ -348,9 +357,8 @@ ONLY_WITH: dict[str, tuple[str, ...]] = {
     "gazebo.references": ("gazebo",),
     "gazebo.vocabulary": ("gazebo",),
     "gazebo.values": ("gazebo",),
-    "gazebo.settings": ("gazebo",),
     "gazebo.lumping": ("gazebo",),
-    "gazebo.sensors": ("sensor",),
+    "gazebo.sensors": ("gazebo",),
     "gazebo.plugins": ("plugin",),
     "control.transmissions": ("transmission", "plugin"),
     "control.ros2_control": ("ros2_control",),

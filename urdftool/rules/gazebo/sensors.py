@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from ...model.elements import GazeboExtension, Robot, Sensor
-from ..rule import ERROR, GAZEBO, WARNING, Problem, rule
+from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
 from ..words import did_you_mean, words
 from .lumping import body_of
 
@@ -140,4 +141,26 @@ def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
                 f"a second sensor '{sensor.name}' on body '{body}' (the first is on {where}); "
                 "give it a name of its own",
                 at=sensor.element.attribute_place("name"),
+            )
+
+
+_SENSOR_LINK = re.compile(r"camera|lidar|laser|(^|_)(scan|imu|gps)(_|$)", re.IGNORECASE)
+
+
+@rule(INFO, on=GAZEBO, default=False, effects={"gazebo": "simulates no data there"})
+def missing_sensor_tag(robot: Robot) -> Iterator[Problem]:
+    """A link is called like a sensor, and there is none at it.
+
+    A frame alone measures nothing. The sensor may be at a link that is fixed to it; then it is not
+    told.
+    """
+    sensing = {body_of(robot, block.reference or "") for block, _ in _sensors(robot)}
+    for link in robot.links:
+        if not _SENSOR_LINK.search(link.name) or "optical" in link.name:
+            continue
+        if (link.visuals or link.collisions) and body_of(robot, link.name) not in sensing:
+            yield Problem(
+                link,
+                f"link '{link.name}' has no <sensor>; write one into a "
+                f'<gazebo reference="{link.name}">',
             )

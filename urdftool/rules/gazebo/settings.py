@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.document import Element
-from ..rule import GAZEBO, WARNING, Problem, rule
+from ..rule import GAZEBO, INFO, WARNING, Problem, rule
 from ..words import quoted
+from .contact import contact_role
 from .keywords import NOT_IN_GZ
 
 
@@ -50,3 +51,67 @@ def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         times = f" ({count} times)" if count > 1 else ""
         do = "do" if len(found) > 1 else "does"
         yield Problem(block_, f"{words} {do} nothing in new Gazebo{times}; take it away", at=first)
+
+
+@rule(
+    WARNING,
+    on=("gz",),
+    effects={"gz": "has no Ogre scripts; the link gets the default colour"},
+)
+def ogre_material_script(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+    """A material of Gazebo Classic's is not known to new Gazebo.
+
+    New Gazebo knows the names ``Gazebo/…`` and cannot read the scripts of Ogre, in which other
+    names are defined. It takes the colours of the URDF, or those in
+    ``<visual><material><diffuse>``.
+    """
+    if "gazebo-classic" in targets:
+        return
+    found: dict[str, list[Element]] = {}
+    for block in robot.gazebo:
+        if not block.reference:
+            continue
+        for element in block.element.children:
+            if element.tag == "material":
+                name = (element.get("value") or element.text).strip()
+                if name and not name.startswith("Gazebo/") and not element.children:
+                    found.setdefault(name, []).append(element)
+            elif element.tag == "visual":
+                for script in element.walk():
+                    uri = script.child("uri") if script.tag == "script" else None
+                    if uri is not None and "gazebo.material" not in uri.text:
+                        found.setdefault(uri.text.strip(), []).append(script)
+    for name, elements in found.items():
+        more = f" ({len(elements)} times)" if len(elements) > 1 else ""
+        yield Problem(
+            elements[0],
+            f"material '{name}'{more} is an Ogre script, which new Gazebo cannot read; "
+            "leave it out where the URDF has a colour",
+        )
+
+
+@rule(
+    INFO,
+    on=("gazebo-classic",),
+    default=False,
+    effects={"gazebo-classic": "contacts are as hard as can be, and jitter"},
+)
+def missing_contact_parameters(robot: Robot) -> Iterator[Problem]:
+    """A foot, finger or wheel has no contact parameters.
+
+    ODE's own stiffness is 1e12: what stands or grips trembles. ``kp`` of a million, ``kd`` of a
+    hundred and a ``minDepth`` of a millimetre calm it.
+    """
+    for link in robot.links:
+        role = contact_role(robot, link)
+        if not role:
+            continue
+        words = {
+            child.tag
+            for block in robot.extensions.get(link.name, [])
+            for child in block.element.children
+        }
+        if not words & {"kp", "kd", "minDepth", "collision"}:
+            yield Problem(
+                link, f"{role} '{link.name}' has no contact parameters; write kp, kd and minDepth"
+            )

@@ -1,0 +1,52 @@
+"""How rules are silenced."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ...source.document import Document
+from ...source.location import Place
+from ..rule import INFO, Problem, rule
+
+_COMMENT = re.compile(r"\s*urdftool-ignore(-file)?\b\s*\[([^\]]*)\](.*)", re.DOTALL)
+
+
+def _comments(document: Document) -> Iterator[tuple[re.Match[str], Place]]:
+    for comment in document.comments:
+        match = _COMMENT.match(comment.text) if "urdftool-ignore" in comment.text else None
+        if match is not None:
+            yield match, Place(document.file, comment.start, comment.end)
+
+
+@rule(INFO, default=False)
+def suppression_without_reason(document: Document) -> Iterator[Problem]:
+    """A comment silences a rule and does not say why.
+
+    What follows the bracket is the reason. Without one nobody dares to take the comment away.
+    """
+    for match, place in _comments(document):
+        if not match[3].strip():
+            yield Problem(
+                document.root,
+                f"urdftool-ignore[{match[2].strip()}] gives no reason; write it after the bracket",
+                at=place,
+            )
+
+
+@rule(INFO, default=False)
+def blanket_suppression(document: Document) -> Iterator[Problem]:
+    """A comment silences whole families of rules.
+
+    It silences the rules that are yet to come as well. Naming the rule keeps the others.
+    """
+    from .. import FAMILIES
+
+    for match, place in _comments(document):
+        for name in (word.strip() for word in match[2].split(",")):
+            if name in ("all", "ALL", "*") or name in FAMILIES or name.endswith("*"):
+                yield Problem(
+                    document.root,
+                    f"urdftool-ignore[{name}] silences more than one rule; name the rule",
+                    at=place,
+                )
