@@ -10,23 +10,24 @@ from ...model.bounds import Bounds, bounds_of
 from ...model.elements import Collision, Robot, Visual
 from ...model.pose import norm
 from ...source.description import Description
-from ..mesh.uses import mesh_uses
+from ..mesh.uses import Stamp, mesh_uses, stamp
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 
-_faces: dict[Path, int] = {}
+_faces: dict[Stamp, int] = {}
 
 
 def faces_of(path: Path | None) -> int:
     """Triangles of a binary STL file; 0 where that cannot be told cheaply."""
     if path is None or path.suffix.lower() != ".stl":
         return 0
-    if path not in _faces:
-        try:
+    try:
+        key = stamp(path)
+        if key not in _faces:
             facts = stl_facts(path)
-            _faces[path] = (facts.triangles or 0) if facts.size_agrees else 0
-        except OSError:
-            _faces[path] = 0
-    return _faces[path]
+            _faces[key] = (facts.triangles or 0) if facts.size_agrees else 0
+    except OSError:
+        return 0
+    return _faces[key]
 
 
 @rule(

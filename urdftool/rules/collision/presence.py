@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from ...model.bounds import size_of
-from ...model.elements import Link, Robot
+from ...model.elements import Link, Mesh, Robot
 from ..gazebo.contact import axis_up
 from ..rule import INFO, WARNING, Problem, rule
 from ..words import quoted
@@ -40,9 +40,10 @@ def missing_collision(
     ``small`` [m] are no more than info. Where more than ``together`` links are seen and not one
     collides, that is one finding, at the robot.
     """
-    sizes = {link.name: _seen_size(link) for link in robot.links}
-    seen = [link for link in robot.links if sizes[link.name] >= smallest]
+    seen = [link for link in robot.links if _seen_size(link) >= smallest]
     ghosts = [link for link in seen if not link.collisions]
+    sizes = _sizes(robot, ghosts)
+    ghosts = [link for link in ghosts if sizes[link.name] >= smallest]
     if len(ghosts) > together and not any(link.collisions for link in robot.links):
         names = quoted(link.name for link in ghosts)
         yield Problem(
@@ -98,6 +99,25 @@ def _seen_size(link: Link) -> float:
             size = size_of(visual.geometry)
             largest = max(largest, 1.0 if size is None else max(size))
     return 0.0 if _FRAME.search(link.name) and largest <= _MARKER else largest
+
+
+def _sizes(robot: Robot, links: list[Link]) -> dict[str, float]:
+    """What links show, by their names, with meshes measured as far as that is cheap [m]."""
+    sizes = {link.name: _seen_size(link) for link in links}
+    with_mesh = {
+        link.name
+        for link in links
+        if len(link.visuals) == 1 and isinstance(link.visuals[0].geometry, Mesh)
+    }
+    if with_mesh and robot.source is not None:
+        from ..mesh.scale import rough_size
+        from ..mesh.uses import mesh_uses
+
+        for use in mesh_uses(robot, robot.source):
+            if use.link.name in with_mesh:
+                size = rough_size(use)
+                sizes[use.link.name] = 1.0 if size is None else size
+    return sizes
 
 
 def _shapes_below(robot: Robot, link: Link) -> Iterator[bool]:

@@ -14,10 +14,10 @@ from ...source.packages import own_package, shown_path
 from ..rule import ERROR, Problem, rule
 from ..words import nearest
 from .uris import malformation
-from .uses import MeshUse, actual_case, mesh_uses
+from .uses import MeshUse, Stamp, actual_case, mesh_uses, stamp
 
 _MAX_FILES = 5000
-_files_below: dict[str, dict[str, str]] = {}
+_files_below: dict[Stamp, dict[str, str]] = {}
 
 
 @rule(
@@ -93,11 +93,12 @@ def _elsewhere(path: Path) -> str:
     own = own_package(path)
     if own is None:
         return ""
-    key = str(own[1])
+    folder = str(own[1])
+    key = stamp(own[1])
     if key not in _files_below:
-        _files_below[key] = dict(_files(key))
+        _files_below[key] = dict(_files(folder))
     other = _files_below[key].get(path.name)
-    return f"; there is '{os.path.relpath(other, key)}' in its package" if other else ""
+    return f"; there is '{os.path.relpath(other, folder)}' in its package" if other else ""
 
 
 def _files(folder: str) -> Iterator[tuple[str, str]]:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from pathlib import Path
 
 from ...meshes.facts import StlFacts, stl_facts
 from ...model.elements import Robot
 from ...source.description import Description
 from ..rule import ERROR, INFO, WARNING, Problem, rule
-from .uses import MeshUse, mesh_uses
+from .uses import MeshUse, Stamp, mesh_uses, stamp
 
 _READ = {
     "mujoco": ("stl", "obj", "msh"),
@@ -20,7 +19,7 @@ _READ = {
     "ros1": ("dae", "stl", "mesh", "obj", "ply", "3ds", "fbx", "gltf", "glb", "stlb"),
     "ros2": ("dae", "stl", "mesh", "obj", "ply", "3ds", "fbx", "gltf", "glb", "stlb"),
 }
-_facts: dict[Path, StlFacts] = {}
+_facts: dict[Stamp, StlFacts] = {}
 
 
 def _first_uses(robot: Robot, description: Description) -> Iterator[MeshUse]:
@@ -77,12 +76,13 @@ def is_odd(ending: str) -> bool:
 def _stl(use: MeshUse) -> StlFacts | None:
     if use.path is None or not use.exists or _ending(use) != "stl":
         return None
-    if use.path not in _facts:
-        try:
-            _facts[use.path] = stl_facts(use.path)
-        except OSError:
-            return None
-    return _facts[use.path]
+    try:
+        key = stamp(use.path)
+        if key not in _facts:
+            _facts[key] = stl_facts(use.path)
+    except OSError:
+        return None
+    return _facts[key]
 
 
 @rule(INFO, raised={"mujoco": ERROR}, effects={"mujoco": "rejects the file", "others": "read it"})

@@ -18,8 +18,6 @@ _DAE = re.compile(rb"<init_from\s*>(?:\s*<ref\s*>)?\s*([^<]+?)\s*<")
 _GLTF = re.compile(rb'"uri"\s*:\s*"([^"]+)"')
 _MOST = 4_000_000  # bytes that are looked at
 
-_missing: dict[Path, list[str]] = {}
-
 
 @rule(WARNING, effects={"rviz, gazebo": "show it in grey; glTF without its buffer is not loaded"})
 def missing_mesh_dependency(robot: Robot, description: Description) -> Iterator[Problem]:
@@ -33,12 +31,11 @@ def missing_mesh_dependency(robot: Robot, description: Description) -> Iterator[
         if use.path is None or not use.exists or use.uri in told or use.collides:
             continue
         told.add(use.uri)
-        if use.path not in _missing:
-            _missing[use.path] = list(_look(use.path))
-        if _missing[use.path]:
+        missing = list(_look(use.path))
+        if missing:
             yield Problem(
                 use.link,
-                f"mesh '{use.uri}' refers to {quoted(_missing[use.path])}, which is not beside it",
+                f"mesh '{use.uri}' refers to {quoted(missing)}, which is not beside it",
                 at=use.mesh.element.attribute_place("filename"),
             )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import struct
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,20 +12,21 @@ from ...model.elements import Robot
 from ...model.read import numbers
 from ...source.description import Description
 from ..rule import ERROR, INFO, WARNING, Problem, rule
-from .uses import MeshUse, mesh_uses
+from .uses import MeshUse, Stamp, mesh_uses, stamp
 
 _SAMPLE = 300  # triangles, from the beginning, the middle and the end
-_extents: dict[Path, tuple[float, float, float] | None] = {}
+_extents: dict[Stamp, tuple[float, float, float] | None] = {}
 
 
 def sampled_extent(path: Path) -> tuple[float, float, float] | None:
     """Lengths of the box around some triangles of a binary STL file: it is at least so large."""
-    if path not in _extents:
-        try:
-            _extents[path] = _sample(path)
-        except (OSError, struct.error):
-            _extents[path] = None
-    return _extents[path]
+    try:
+        key = stamp(path)
+        if key not in _extents:
+            _extents[key] = _sample(path)
+    except (OSError, struct.error):
+        return None
+    return _extents[key]
 
 
 def _sample(path: Path) -> tuple[float, float, float] | None:
@@ -46,6 +48,36 @@ def _sample(path: Path) -> tuple[float, float, float] | None:
     if not all(span - span == 0 for span in spans):
         return None
     return spans[0], spans[1], spans[2]
+
+
+_POSITIONS = re.compile(
+    rb"<float_array\b[^>]*?id\s*=\s*[\"'][^\"']*pos[^\"']*[\"'][^>]*>([^<]*)", re.IGNORECASE
+)
+_METER = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']([^\"']+)[\"']")
+_LOOKED_AT = 400_000  # bytes
+
+
+def rough_size(use: MeshUse) -> float | None:
+    """About the largest length of a mesh as scaled [m]; None where that cannot be told cheaply."""
+    if use.path is None or not use.exists:
+        return None
+    ending = use.path.suffix.lower()
+    if ending == ".stl":
+        return _largest(use)
+    if ending != ".dae":
+        return None
+    try:
+        if use.path.stat().st_size > _LOOKED_AT:
+            return None
+        data = use.path.read_bytes()
+        unit = float(match[1]) if (match := _METER.search(data)) else 1.0
+        values = [float(word) for part in _POSITIONS.findall(data) for word in part.split()]
+    except (OSError, ValueError):
+        return None
+    if not values:
+        return None
+    spans = (max(values[axis::3]) - min(values[axis::3]) for axis in range(3))
+    return max(abs(s) * unit * length for s, length in zip(use.mesh.scale, spans, strict=True))
 
 
 def _largest(use: MeshUse, whole: bool = False) -> float | None:

@@ -108,6 +108,19 @@ def _locate(use: MeshUse, description: Description, lost: dict[str, list[str]]) 
     use.exists = os.path.isfile(use.path)
 
 
+Stamp = tuple[str, int, int]
+
+
+def stamp(path: Path) -> Stamp:
+    """What stands for a file as it is now, where what was read of it is kept.
+
+    Raises:
+        OSError: It is not there.
+    """
+    status = path.stat()
+    return str(path), status.st_mtime_ns, status.st_size
+
+
 def actual_case(path: Path) -> Path | None:
     """The file that differs from a path only in the case of its letters; None if there is none."""
     known = path

@@ -12,7 +12,7 @@ from ...source.description import Description
 from ...source.document import Element
 from ...source.location import Place
 from ...source.packages import own_package
-from ..mesh.uses import MeshUse, mesh_uses
+from ..mesh.uses import MeshUse, Stamp, mesh_uses, stamp
 from ..rule import ERROR, INFO, ROS, WARNING, Problem, rule
 from ..words import quoted
 from .resolution import is_in_own_package
@@ -23,10 +23,21 @@ _FIND = re.compile(rb"\$\(find\s+([\w-]+)\s*\)")
 
 
 def _manifest(folder: Path) -> str:
+    return _COMMENT.sub("", _text_of(folder / "package.xml"))
+
+
+_texts: dict[Stamp, str] = {}
+
+
+def _text_of(path: Path) -> str:
+    """The text of a file of the package; empty where it cannot be read."""
     try:
-        return _COMMENT.sub("", (folder / "package.xml").read_text("utf-8", "replace"))
+        key = stamp(path)
+        if key not in _texts:
+            _texts[key] = path.read_text("utf-8", "replace")
     except OSError:
         return ""
+    return _texts[key]
 
 
 @rule(
@@ -91,9 +102,8 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
     own = own_package(description.packages.file)
     if own is None:
         return
-    try:
-        text = (own[1] / "CMakeLists.txt").read_text("utf-8", "replace")
-    except OSError:
+    text = _text_of(own[1] / "CMakeLists.txt")
+    if not text:
         return
     text = re.sub(r"#[^\n]*", "", text)
     installs = " ".join(_INSTALL.findall(text))

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from ...errors import SourceError
 from ...source.description import Description
 from ...source.document import Document, Element, parse
+from ...source.location import SourceFile
 
 
 @dataclass
@@ -58,11 +60,26 @@ def _documents(description: Description) -> Iterator[Document]:
             continue
 
 
+_NAME = re.compile(rb"<xacro:(macro|arg)\b[^>]*?\bname\s*=\s*[\"']([^\"']+)[\"']")
+_names: dict[int, tuple[SourceFile, list[tuple[str, str]]]] = {}
+
+
+def names_in(file: SourceFile) -> list[tuple[str, str]]:
+    """Kind and name of each macro and argument in a file, found without parsing it."""
+    known = _names.get(id(file))
+    if known is None or known[0] is not file:
+        if len(_names) > 200:
+            _names.clear()
+        found = [
+            (match[1].decode("ascii"), match[2].decode(file.encoding, "replace"))
+            for match in _NAME.finditer(file.data)
+        ]
+        known = _names[id(file)] = file, found
+    return known[1]
+
+
 def macro_names(description: Description) -> frozenset[str]:
     """Names of the macros that a description's files define."""
-    return frozenset(definitions(description).macros)
-
-
-def is_expanded(description: Description) -> bool:
-    """Whether it is xacro and its expansion came to its end."""
-    return description.expansion is not None
+    return frozenset(
+        name for file in description.files for kind, name in names_in(file) if kind == "macro"
+    )

@@ -46,6 +46,8 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
                 severity=WARNING if meant else None,
             )
         return
+    if not found:
+        return
     known = definitions(description)
     names = {*known.properties, *known.arguments}
     for macros in known.macros.values():

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ...source.description import Description
 from ...source.document import Element
 from ..rule import INFO, WARNING, Problem, rule
-from .definitions import definitions
+from .definitions import definitions, names_in
 
 _CONDITIONS = ("xacro:if", "xacro:unless")
 
@@ -46,25 +46,31 @@ def unused_arg(description: Description) -> Iterator[Problem]:
     Whoever gives ``name:=value`` is not told that nothing comes of it. The ``$(arg NAME)`` that
     should read it is misspelt or was taken away.
     """
-    if description.expansion is None or _includes_may_vary(description):
+    if description.expansion is None:
         return
-    entry = description.files[0].path
-    text = None
-    for name, elements in definitions(description).arguments.items():
-        element = elements[0]
-        if element.file.path != entry or "$" in name:
-            continue
-        text = text or _text(description)
-        word = re.escape(name)
-        if re.search(
-            rf"\$\(arg\s+{word}\s*\)|arg\(\s*['\"]{word}['\"]|\$\(eval[^)]*\b{word}\b", text
-        ):
+    entry = description.files[0]
+    declared = [name for kind, name in names_in(entry) if kind == "arg" and "$" not in name]
+    text = _text(description) if declared else ""
+    unread = [name for name in dict.fromkeys(declared) if not _is_read(name, text)]
+    if not unread or _includes_may_vary(description):
+        return
+    arguments = definitions(description).arguments
+    for name in unread:
+        element = next((e for e in arguments.get(name, ()) if e.file.path == entry.path), None)
+        if element is None:
             continue
         yield Problem(
             element,
             f"the argument '{name}' is declared and never read; read it with $(arg {name})",
             at=element.attribute_place("name"),
         )
+
+
+def _is_read(name: str, text: str) -> bool:
+    """Whether an argument is read somewhere."""
+    word = re.escape(name)
+    pattern = rf"\$\(arg\s+{word}\s*\)|arg\(\s*['\"]{word}['\"]|\$\(eval[^)]*\b{word}\b"
+    return re.search(pattern, text) is not None
 
 
 @rule(INFO, default=False, effects={"xacro": "keeps it for nothing"})
@@ -120,6 +126,9 @@ def macro_redefined(description: Description) -> Iterator[Problem]:
     a ``cylinder_inertia``, with other parameters or other formulas, the robot depends on the order
     of its includes. One in a condition, or in a file that is included with ``ns``, is not told of.
     """
+    names = [name for file in description.files for kind, name in names_in(file) if kind == "macro"]
+    if len(names) == len(set(names)):
+        return
     found = definitions(description)
     if any(
         element.tag == "xacro:include" and "ns" in element.attributes
