@@ -20,6 +20,7 @@ _HOMES = {
     "Severity": "finding",
     "UrdftoolError": "errors",
     "check": "lint.run",
+    "compute_inertia": "inertia.compute",
     "expand": "api",
     "load": "model.load",
 }
@@ -31,6 +32,7 @@ __all__ = [
     "UrdftoolError",
     "__version__",
     "check",
+    "compute_inertia",
     "expand",
     "load",
 ]
@@ -39,6 +41,7 @@ if TYPE_CHECKING:
     from .api import expand
     from .errors import UrdftoolError
     from .finding import Finding, Severity
+    from .inertia.compute import compute_inertia
     from .lint.run import check
     from .model.elements import Robot
     from .model.load import load

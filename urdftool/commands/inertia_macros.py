@@ -1,0 +1,24 @@
+"""``urdftool inertia macros``: inertia as xacro macros."""
+
+from __future__ import annotations
+
+import click
+
+from .options import output_option
+
+
+@click.command("macros")
+@output_option("Write the file there; without it, to standard output.")
+def command(output: str | None) -> int:
+    r"""A xacro file with an inertia macro for each shape, solid and hollow.
+
+    \b
+        urdftool inertia macros -o inertia.xacro
+        <xacro:include filename="inertia.xacro"/>
+        <xacro:cylinder_inertia mass="0.18" radius="0.06" length="0.09"/>
+    """
+    from ..inertia.macros import macro_file
+    from ..output import write_result
+
+    write_result(macro_file(), output)
+    return 0

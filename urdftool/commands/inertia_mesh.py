@@ -1,0 +1,158 @@
+"""``urdftool inertia mesh``: mass properties of a mesh file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..console import Console
+from .inertia_options import amount_options, check_amount, check_pose, result_options
+
+if TYPE_CHECKING:
+    from ..inertia.bodies import MeshBody
+
+
+class _Scaled(click.Command):
+    """``--scale`` takes one factor or three."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Make one word of the numbers behind ``--scale``."""
+        words: list[str] = []
+        rest = list(args)
+        while rest:
+            words.append(rest.pop(0))
+            if words[-1] == "--scale":
+                factors: list[str] = []
+                while rest and len(factors) < 3 and _is_number(rest[0]):
+                    factors.append(rest.pop(0))
+                words += [" ".join(factors)] if factors else []
+        return super().parse_args(ctx, words)
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def _factors(
+    ctx: click.Context, parameter: click.Parameter, value: str
+) -> tuple[float, float, float]:
+    words = value.split()
+    if len(words) not in (1, 3) or not all(map(_is_number, words)):
+        raise click.BadParameter(f"'{value}' is neither one factor nor three", ctx, parameter)
+    factors = [float(word) for word in words]
+    x, y, z = factors * 3 if len(factors) == 1 else factors
+    return x, y, z
+
+
+@click.command("mesh", cls=_Scaled)
+@click.argument("file", metavar="FILE")
+@amount_options
+@click.option(
+    "--scale",
+    default="1",
+    callback=_factors,
+    metavar="S | SX SY SZ",
+    help="Factors, as URDF's <mesh scale>; negative ones mirror.",
+)
+@click.option("--surface", is_flag=True, help="Weigh the surface as a shell; --density in kg/m².")
+@result_options
+@click.pass_obj
+def command(
+    console: Console,
+    file: str,
+    mass: float | None,
+    density: float | None,
+    scale: tuple[float, float, float],
+    surface: bool,
+    origin_xyz: tuple[float, float, float],
+    origin_rpy: tuple[float, float, float],
+    style: str,
+    output: str | None,
+) -> int:
+    r"""Mass properties of the mesh FILE: STL, OBJ, DAE, PLY, glTF or GLB.
+
+    A closed mesh is integrated exactly. What is not closed is repaired or estimated, and the
+    method, its error and whether to rely on it are said.
+
+    \b
+        urdftool inertia mesh link3.stl --mass 1.2 --scale 0.001
+        urdftool inertia mesh link3.dae --density 2700 --format json
+    """
+    check_amount(mass, density)
+    check_pose(origin_xyz, origin_rpy)
+    if mass is None and density is None:
+        raise click.UsageError("a mesh wants --mass M [kg] or --density D [kg/m³]")
+    from ..inertia.bodies import mesh_body, weighed
+    from ..inertia.rounding import round_properties
+    from ..inertia.tensor import move
+    from ..output import write_result
+
+    body = mesh_body(Path(file), surface=surface).scaled(scale)
+    alone = weighed(body.unit, "mesh", mass=mass, density=density)
+    result = round_properties(move(alone, xyz=origin_xyz, rpy=origin_rpy), "the mesh")
+    text = _text(style, file, result, body, alone.mass / body.measure, scale)
+    write_result(text, output, inputs=[file])
+    _say(console, file, body, result, style)
+    return 0
+
+
+def _text(
+    style: str, file: str, result: Any, body: MeshBody, density: float, scale: tuple[float, ...]
+) -> str:
+    from ..inertia.rounding import round_number
+    from ..report import inertia as report
+
+    if style == "json":
+        facts = {
+            "mesh": file,
+            "scale": list(scale),
+            **body.as_dict(),
+            "density": round_number(density),
+        }
+        return report.as_json(result, facts)
+    if style == "table":
+        unit = "m²" if body.surface else "m³"
+        rows = {
+            "area" if body.surface else "volume": f"{body.measure:.6g} {unit}",
+            "density": f"{density:.6g} kg/{unit}",
+            "method": _method(body),
+        }
+        return report.table(file, result, rows)
+    if style == "xacro":
+        from ..inertia.macros import mass_macro
+
+        name = "".join(c if c.isalnum() and c.isascii() else "_" for c in Path(file).stem)
+        return mass_macro(name if name[:1].isalpha() else f"mesh_{name}", result)
+    text: str = {"urdf": report.urdf, "sdf": report.sdf, "mjcf": report.mjcf}[style](result)
+    return text
+
+
+def _method(body: MeshBody) -> str:
+    if body.method == "exact":
+        return "exact"
+    if body.surface:
+        return "surface"
+    sure = "" if body.reliable else ", not reliable"
+    error = f", error about {body.error:.1%}" if body.error < 1 else ""
+    hull = f", hull {body.hull_measure:.4g} m³" if body.hull_measure else ""
+    return f"{body.method}{error}{hull}{sure}"
+
+
+def _say(console: Console, file: str, body: MeshBody, result: Any, style: str) -> None:
+    from ..report.inertia import summary
+
+    if style != "table":
+        console.note(summary(file, result))
+        console.note(f"  method: {_method(body)}")
+    for note in body.notes:
+        console.note(f"  {note}")
+    if not body.reliable:
+        console.say(
+            f"{file}: these numbers are not reliable; close the mesh, or weigh it otherwise"
+        )

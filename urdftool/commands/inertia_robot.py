@@ -1,0 +1,263 @@
+"""``urdftool inertia robot``: a whole robot looked over, filled in, recomputed or lumped."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..console import Console
+from .options import package_options, robot_argument
+
+if TYPE_CHECKING:
+    from ..inertia.masses import Masses
+    from ..inertia.review import LinkReview
+    from ..model.elements import Robot
+
+
+_PATIENCE = 1.0  # seconds
+
+
+def _pairs(
+    ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
+) -> dict[str, float]:
+    """``NAME=NUMBER``, repeated."""
+    found: dict[str, float] = {}
+    for value in values:
+        name, equals, number = value.rpartition("=")
+        if not (equals and name):
+            raise click.BadParameter(f"'{value}' is not {parameter.metavar}", ctx, parameter)
+        try:
+            found[name] = float(number)
+        except ValueError:
+            raise click.BadParameter(
+                f"'{number}' in '{value}' is no number", ctx, parameter
+            ) from None
+    return found
+
+
+@click.command("robot")
+@robot_argument
+@click.option("-o", "--output", metavar="OUT", help="Write the result there, not to the source.")
+@click.option(
+    "--from",
+    "source",
+    type=click.Choice(["collision", "visual"]),
+    help="The geometry that counts. Without it collisions, and visuals where there are none.",
+)
+@click.option(
+    "--mass",
+    "masses",
+    multiple=True,
+    callback=_pairs,
+    metavar="LINK=KG",
+    help="What a link weighs. Repeatable.",
+)
+@click.option("--masses", "mass_file", metavar="FILE", help="A CSV or YAML file of link and mass.")
+@click.option("--density", type=float, metavar="D", help="Density of the other links [kg/m³].")
+@click.option(
+    "--total-mass",
+    "total",
+    type=float,
+    metavar="KG",
+    help="Mass of the robot; the other links share what is left of it by volume.",
+)
+@click.option("--link", "only", multiple=True, metavar="NAME", help="This link only. Repeatable.")
+@click.option("--write", is_flag=True, help="Fill in what is missing, in the source or in OUT.")
+@click.option("--all", "anew", is_flag=True, help="With --write: recompute what is written, too.")
+@click.option("--lump", is_flag=True, help="Links joined by fixed joints as one; the whole robot.")
+@click.option(
+    "--pose",
+    multiple=True,
+    callback=_pairs,
+    metavar="JOINT=VALUE",
+    help="With --lump: where a joint is [rad or m]. Repeatable.",
+)
+@click.option("--format", "style", type=click.Choice(["table", "json"]), default="table")
+@click.option("-j", "--jobs", type=click.IntRange(1), metavar="N", help="Processes to use.")
+@package_options
+@click.pass_obj
+def command(
+    console: Console,
+    robot: tuple[str, dict[str, str]],
+    output: str | None,
+    source: str | None,
+    masses: dict[str, float],
+    mass_file: str | None,
+    density: float | None,
+    total: float | None,
+    only: tuple[str, ...],
+    write: bool,
+    anew: bool,
+    lump: bool,
+    pose: dict[str, float],
+    style: str,
+    jobs: int | None,
+    package: dict[str, Path],
+    package_path: tuple[str, ...],
+) -> int:
+    r"""Look over the inertia of every link of IN, fill in what is missing, or recompute it.
+
+    A table shows what is written and what the geometry implies at uniform density, and marks what
+    no body can have. With --write the source is edited: only the bytes that are added or changed
+    differ, and numbers that xacro computes are left alone and said.
+
+    \b
+        urdftool inertia robot arm.urdf.xacro
+        urdftool inertia robot arm.urdf --write --total-mass 18.4
+        urdftool inertia robot arm.urdf --write --mass base_link=4.5 --density 2700 -o filled.urdf
+        urdftool inertia robot arm.urdf --lump --pose elbow=1.57
+
+    Exit 1 if something written cannot be.
+    """
+    _check_options(density, total, write, anew, lump, pose, output)
+    from ..configuration import find_configuration
+    from ..inertia.mass_file import read_masses
+    from ..inertia.masses import Masses, check_masses
+    from ..inertia.review import review
+    from ..model.load import robot_of
+    from ..source.description import read_description
+
+    path, arguments = robot
+    if write and path == "-" and output is None:
+        raise click.UsageError("standard input cannot be edited in place; --write wants -o OUT")
+    by_link = {**(read_masses(mass_file) if mass_file else {}), **masses}
+    description = read_description(
+        path,
+        arguments,
+        packages=package,
+        package_paths=package_path,
+        configured=find_configuration(path, console.config).packages,
+    )
+    model = robot_of(description)
+    names = [link.name for link in model.links]
+    check_masses(Masses(dict.fromkeys(only, 1.0)), names)
+    wanted = Masses(by_link, density, total, anew)
+    with _Progress(console) as progress:
+        found = review(
+            model, _reader(description, jobs, progress), masses=wanted, source=source, only=only
+        )
+    if lump:
+        return _lump(console, model, found, pose, style, output)
+    if write:
+        return _write(console, model, found, wanted, style, output)
+    return _show(console, model, found, style, output)
+
+
+def _check_options(
+    density: float | None,
+    total: float | None,
+    write: bool,
+    anew: bool,
+    lump: bool,
+    pose: dict[str, float],
+    output: str | None,
+) -> None:
+    if density is not None and total is not None:
+        raise click.UsageError(
+            "--density and --total-mass exclude each other; one follows from the other"
+        )
+    if anew and not write:
+        raise click.UsageError("--all says what --write does; add --write")
+    if write and lump:
+        raise click.UsageError("--lump and --write exclude each other")
+    if pose and not lump:
+        raise click.UsageError("--pose says where the joints are for --lump; add --lump")
+    if output and output.endswith((".urdf", ".xacro")) and not write:
+        raise click.UsageError(f"{output} would be a table; to write the robot there, add --write")
+
+
+class _Progress:
+    """A line on stderr while meshes are read, once that takes a while and at a terminal."""
+
+    def __init__(self, console: Console) -> None:
+        self.begin = monotonic()
+        self.wanted = click.get_text_stream("stderr").isatty() and not console.quiet
+        self.shown = False
+
+    def __enter__(self) -> _Progress:
+        return self
+
+    def __call__(self, done: int, count: int, name: str) -> None:
+        if self.wanted and monotonic() - self.begin > _PATIENCE:
+            self.shown = True
+            click.echo(f"\r\033[Kmeshes {done}/{count}  {name[:50]}", err=True, nl=False)
+
+    def __exit__(self, *_: object) -> None:
+        if self.shown:
+            click.echo("\r\033[K", err=True, nl=False)
+
+
+def _reader(description: Any, jobs: int | None, progress: _Progress) -> Any:
+    from ..inertia.mesh_files import read_meshes
+
+    return lambda names: read_meshes(description, names, jobs=jobs, progress=progress)
+
+
+def _show(
+    console: Console, model: Robot, found: list[LinkReview], style: str, output: str | None
+) -> int:
+    from ..output import write_result
+    from ..report import inertia_robot as report
+
+    assert model.source is not None
+    colors = console.colors(to_file=output not in (None, "-"))
+    if style == "json":
+        text = report.as_json(report.as_dict(found, model.name, model.source.path))
+    else:
+        text = report.table(found, colors=colors)
+        remarks = [f"{line}\n" for line in report.remarks(found, colors=colors)]
+        text += "".join(["\n", *remarks] if remarks else [])
+    write_result(text, output, inputs=[file.path for file in model.source.files])
+    console.note(report.summary(found))
+    return int(any(item.status == "wrong" for item in found))
+
+
+def _lump(
+    console: Console,
+    model: Robot,
+    found: list[LinkReview],
+    pose: dict[str, float],
+    style: str,
+    output: str | None,
+) -> int:
+    from ..inertia.lump import lump
+    from ..output import write_result
+    from ..report import inertia_lump as report
+
+    assert model.source is not None
+    lumped = lump(model, found, pose)
+    text = report.as_json(lumped, model) if style == "json" else report.table(lumped)
+    write_result(text, output, inputs=[file.path for file in model.source.files])
+    for line in lumped.notes:
+        console.note(line)
+    return int(any(item.status == "wrong" for item in found))
+
+
+def _write(
+    console: Console,
+    model: Robot,
+    found: list[LinkReview],
+    wanted: Masses,
+    style: str,
+    output: str | None,
+) -> int:
+    from ..inertia.fill import fill
+    from ..output import write_result
+    from ..report import inertia_fill as report
+    from .inertia_write import write_files
+
+    assert model.source is not None
+    filling = fill(model, found, wanted, single=output is not None)
+    data = write_files(model, filling, output)
+    text = report.as_json(filling, model) if style == "json" else report.text(filling)
+    if output == "-":
+        click.echo(text, err=True, nl=False)
+    else:
+        write_result(text, None)
+    for line in report.remarks(filling):
+        console.say(line)
+    console.note(report.summary(filling, data))
+    return int(bool(filling.refused) or filling.still_wrong)

@@ -1,0 +1,131 @@
+"""``urdftool inertia SHAPE``: a command for each shape that has a closed form."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from ..console import Console
+from ..inertia.shapes import THICKNESS, Shape, Size
+from .inertia_options import amount_options, check_amount, check_pose, result_options
+
+
+def shape_command(shape: Shape) -> click.Command:
+    """The command of one shape."""
+
+    @click.pass_obj
+    def callback(console: Console, /, **given: Any) -> int:
+        return _run(console, shape, given)
+
+    callback.__doc__ = _help(shape)
+    function: Any = result_options(callback)
+    if shape.ends:
+        function = click.option(
+            "--closed", is_flag=True, help="A hollow one has end plates, as thick as its wall."
+        )(function)
+    if shape.hollow:
+        function = _size_option(THICKNESS, "Hollow: thickness ")(function)
+    for size in reversed(shape.sizes):
+        function = _size_option(size, f"{size.name.capitalize()} ")(function)
+    made: click.Command = click.command(shape.name)(amount_options(function))
+    return made
+
+
+def _help(shape: Shape) -> str:
+    return (
+        f"{shape.name.capitalize()}: {shape.what}.\n\n"
+        "Numbers have twelve significant digits at most. At a terminal, what is missing is asked "
+        "for."
+    )
+
+
+def _size_option(size: Size, label: str) -> Any:
+    return click.option(
+        f"--{size.name}",
+        type=float,
+        nargs=size.numbers,
+        default=None,
+        metavar=size.metavar,
+        help=label + size.what + ".",
+    )
+
+
+def _run(console: Console, shape: Shape, given: dict[str, Any]) -> int:
+    mass, density = given["mass"], given["density"]
+    thickness, closed = given.get("thickness"), bool(given.get("closed"))
+    check_amount(mass, density)
+    check_pose(given["origin_xyz"], given["origin_rpy"])
+    if closed and thickness is None:
+        raise click.UsageError("--closed wants --thickness; a solid cylinder has no end plates")
+    mass = _asked_mass(shape, mass, density)
+    sizes = {size.name: _asked_size(shape, size, given[size.name]) for size in shape.sizes}
+
+    from ..inertia.rounding import round_properties
+    from ..inertia.shapes import shape_properties
+    from ..inertia.tensor import move
+    from ..output import write_result
+
+    def properties(**amount: float | None) -> Any:
+        return shape_properties(shape, sizes, thickness=thickness, closed=closed, **amount)
+
+    alone = properties(mass=mass, density=density)
+    what = shape.name if thickness is None else f"hollow {shape.name}"
+    moved = move(alone, xyz=given["origin_xyz"], rpy=given["origin_rpy"])
+    result = round_properties(moved, f"the {what}")
+    facts: dict[str, Any] = {"shape": shape.name, **sizes}
+    if thickness is not None:
+        facts |= {"thickness": thickness} | ({"closed": closed} if shape.ends else {})
+    volume = properties(density=1.0).mass
+    facts |= {"volume": volume, "density": alone.mass / volume}
+    facts |= {"origin": {"xyz": given["origin_xyz"], "rpy": given["origin_rpy"]}}
+    text = _text(given["style"], what, result, facts)
+    if text is None:
+        from ..inertia.macros import shape_call, shape_macro
+
+        place = {"xyz": given["origin_xyz"], "rpy": given["origin_rpy"]}
+        text = shape_macro(shape, hollow=thickness is not None)
+        text += shape_call(shape, sizes, alone.mass, thickness=thickness, closed=closed, **place)
+    write_result(text, given["output"])
+    if given["style"] != "table":
+        from ..report.inertia import summary
+
+        console.note(summary(what, result))
+    return 0
+
+
+def _text(style: str, what: str, result: Any, facts: dict[str, Any]) -> str | None:
+    """The result in one of the forms; None for xacro."""
+    from ..inertia.rounding import round_number
+    from ..report import inertia as report
+
+    volume, density = round_number(facts["volume"]), round_number(facts["density"])
+    if style == "json":
+        return report.as_json(result, {**facts, "volume": volume, "density": density})
+    if style == "table":
+        shown = {"volume": f"{volume:.6g} m³", "density": f"{density:.6g} kg/m³"}
+        return report.table(what, result, shown)
+    if style == "xacro":
+        return None
+    text: str = {"urdf": report.urdf, "sdf": report.sdf, "mjcf": report.mjcf}[style](result)
+    return text
+
+
+def _asked_mass(shape: Shape, mass: float | None, density: float | None) -> float | None:
+    from .inertia_ask import ask_mass, at_terminal
+
+    if mass is not None or density is not None:
+        return mass
+    if at_terminal():
+        return ask_mass()
+    raise click.UsageError(f"{shape.title} wants --mass M [kg] or --density D [kg/m³]")
+
+
+def _asked_size(shape: Shape, size: Size, value: Any) -> Any:
+    from .inertia_ask import ask_size, at_terminal
+
+    if value is not None:
+        return value
+    if at_terminal():
+        return ask_size(size)
+    raise click.UsageError(f"{shape.title} wants --{size.name} {size.metavar}: {size.what}")

@@ -1,0 +1,65 @@
+"""The edited source of a robot on its way to disk: checked, then written whole."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..inertia.fill import Filling
+    from ..model.elements import Robot
+
+
+def write_files(robot: Robot, filling: Filling, output: str | None) -> list[str]:
+    """Write the edited files; the names of those that changed.
+
+    Raises:
+        OutputError: A file cannot be written, or was changed since it was read.
+        SourceError: The edits would do more than they should.
+    """
+    from ..errors import OutputError, SourceError
+    from ..inertia.fill_check import check_filling
+    from ..output import write_file
+    from ..source.edit import apply
+
+    assert robot.source is not None
+    files = {file.path: file for file in robot.source.files}
+    edited = {path: apply(files[path], edits) for path, edits in filling.edits.items()}
+    problem = check_filling(robot, filling, edited)
+    if problem:
+        raise SourceError(f"is not written: {problem}", path=robot.source.path)
+    if output is not None:
+        main = robot.source.files[0]
+        _write_out(edited.get(main.path, main.data), output, list(files))
+        return [output]
+    for path in edited:
+        try:
+            with open(path, "rb") as stream:
+                same = stream.read() == files[path].data
+        except OSError as error:
+            raise OutputError(f"cannot be read again: {error.strerror}", path=path) from None
+        if not same:
+            raise OutputError("was changed while its inertia was computed; run again", path=path)
+    for path, data in edited.items():
+        write_file(path, data)
+    return list(edited)
+
+
+def _write_out(data: bytes, output: str, inputs: list[str]) -> None:
+    """The bytes as they are, to a file that is no input or to standard output."""
+    from ..errors import OutputError
+    from ..output import write_file, write_result
+
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError:
+        if output == "-":
+            raise OutputError(
+                "is not in UTF-8 and is written to a file only; give -o a name", path=inputs[0]
+            ) from None
+        for name in inputs:
+            if os.path.exists(output) and os.path.exists(name) and os.path.samefile(name, output):
+                raise OutputError("is read as an input; write to another file", path=name) from None
+        write_file(output, data)
+    else:
+        write_result(text, output, inputs=inputs)

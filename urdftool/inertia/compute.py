@@ -1,0 +1,82 @@
+"""Mass properties of one link from its geometry: the Python side of ``urdftool inertia robot``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from ..errors import UrdftoolError
+from ..model.elements import Link
+from ..source.description import Description
+from ..source.document import STDIN, Document
+from ..source.packages import Packages
+from .bodies import weighed
+from .inertia_error import InertiaError
+from .mesh_files import read_meshes
+from .pieces import SOURCES, LinkBody, link_body, mesh_names, shapes_of
+from .tensor import MassProperties, require_possible
+
+
+def compute_inertia(
+    link: Link,
+    *,
+    density: float | None = None,
+    mass: float | None = None,
+    source: str | None = None,
+    packages: Mapping[str, str | Path] | None = None,
+    package_paths: Iterable[str | Path] = (),
+) -> MassProperties:
+    """Mass [kg], centre of mass [m] and inertia [kg·m²] that the geometry of a link implies.
+
+    All pieces are solid and of one density; a closed mesh is integrated exactly, any other is
+    repaired or estimated. The result is in the link frame, the inertia about the centre of mass.
+
+    Args:
+        link: A link of a robot that was loaded.
+        density: Density [kg/m³]; give this or ``mass``. With neither, the mass that is written.
+        mass: Mass of the link [kg].
+        source: ``"collision"`` or ``"visual"``; None takes the collisions, or the visuals where
+            there are no collisions or they cannot be weighed.
+        packages: Folders of ROS packages by name; others are found as on the command line.
+        package_paths: Folders with ROS packages below.
+
+    Raises:
+        InertiaError: The link has no geometry, or mass or density are not above zero, or both or
+            neither are there.
+        MeshError: A mesh cannot be read or encloses nothing.
+        PackageNotFound: A mesh is in a package that is nowhere.
+    """
+    if density is None and mass is None:
+        mass = link.mass or None
+        if mass is None:
+            raise InertiaError(
+                f"link '{link.name}' has no mass of its own; give a mass [kg] or a density [kg/m³]"
+            )
+    if source is not None and source not in SOURCES:
+        raise InertiaError(f"'{source}' is no geometry of a link; there are collision and visual")
+    root = link.element
+    while root.parent is not None:
+        root = root.parent
+    path = root.file.path
+    finder = Packages(None if path == STDIN else path, named=packages, paths=package_paths)
+    description = Description(path, Document(root.file, root, []), [root.file], finder)
+    body = _body(link, description, source)
+    properties = weighed(body.unit, f"link '{link.name}'", mass=mass, density=density)
+    return require_possible(properties, f"link '{link.name}'")
+
+
+def _body(link: Link, description: Description, source: str | None) -> LinkBody:
+    reason: UrdftoolError | None = None
+    for name in (source,) if source else SOURCES:
+        shapes = shapes_of(link, name)
+        meshes = read_meshes(description, mesh_names(shapes), jobs=1)
+        body = link_body(link, name, meshes)
+        if body is not None and body.complete:
+            return body
+        if body is not None:
+            lack = body.lacks[0]
+            failed = next((m for m in meshes.values() if isinstance(m, UrdftoolError)), None)
+            reason = reason or failed or InertiaError(lack.reason, at=lack.shape.place)
+    raise reason or InertiaError(
+        f"link '{link.name}' has no {source or 'geometry'} to compute from", at=link.place
+    )

@@ -1,0 +1,280 @@
+"""Inertia written into the source of a robot: what is added or changed, and what cannot be.
+
+A robot's source may be several files, and one place of it may be many links: what a macro writes
+appears once for each of its calls. A place is edited only if every element that comes from it is
+to change in the same way, and a number only where it is written as a number: in the tag itself, or
+as the argument of the macro call that passes it on. Everything else is refused, with what to change
+and where. A link is edited whole or not at all.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from ..errors import SourceError
+from ..model.elements import Robot
+from ..source import edit
+from ..source.document import STDIN, Element
+from ..source.location import Place, SourceFile
+from ..source.packages import own_package, shown_path
+from .inertia_error import InertiaError
+from .masses import Masses
+from .review import LinkReview
+from .wanted import Want, Wanted, wanted_for
+
+_PARAMETER = re.compile(r"\$\{\s*(\w+)\s*\}")
+
+
+class Site(NamedTuple):
+    """A place of the source: a file, the byte a tag starts at, and an attribute or new child."""
+
+    path: str
+    start: int
+    what: str
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """A link that is not edited: why, and what to change where."""
+
+    link: str
+    reason: str
+    place: Place
+    advice: tuple[tuple[Place, str], ...] = ()
+
+
+@dataclass
+class Filling:
+    """What becomes of a robot's source.
+
+    Attributes:
+        written: Links whose inertia is added or changed.
+        unchanged: Links that are right already, or that are not asked for.
+        refused: Links that should be edited and cannot be.
+        left: Links without what is needed to compute their inertia, with the reason.
+        edits: Edits by the path of the file.
+        still_wrong: Something that cannot be stays as it is.
+    """
+
+    written: list[Wanted] = field(default_factory=list)
+    unchanged: list[str] = field(default_factory=list)
+    refused: list[Refusal] = field(default_factory=list)
+    left: list[Refusal] = field(default_factory=list)
+    edits: dict[str, list[edit.Edit]] = field(default_factory=dict)
+    still_wrong: bool = False
+
+
+def fill(
+    robot: Robot, found: Sequence[LinkReview], masses: Masses, *, single: bool = False
+) -> Filling:
+    """The edits that give each reviewed link the inertia that its geometry implies.
+
+    Args:
+        robot: The robot, read from a description.
+        found: Its links, looked over.
+        masses: How they were weighed; ``anew`` replaces what is written, too.
+        single: Only the description itself may be edited, not what it includes.
+    """
+    filling = Filling()
+    todo = [
+        wanted
+        for item in found
+        if (wanted := _wanted(item, filling, masses, robot)) is not None and wanted.wants
+    ]
+    _Editor(robot, single).settle(todo, filling)
+    touched = {wanted.link.name for wanted in filling.written}
+    filling.still_wrong = any(
+        item.status == "wrong" and item.link.name not in touched for item in found
+    )
+    return filling
+
+
+def _wanted(item: LinkReview, filling: Filling, masses: Masses, robot: Robot) -> Wanted | None:
+    name = item.link.name
+
+    def left(reason: str) -> None:
+        filling.left.append(Refusal(name, reason, item.link.place))
+
+    if not masses.anew and not item.missing:
+        filling.unchanged.append(name)
+        if item.faults:
+            left("what is written cannot be; --all recomputes it")
+        elif name in masses.by_link and item.link.mass != masses.by_link[name]:
+            left(f"its mass is written, {item.link.mass:g} kg; --all replaces it")
+        return None
+    if item.body is None:
+        if item.link.inertial is not None:
+            left("it has no geometry to compute from")
+        else:
+            filling.unchanged.append(name)
+        return None
+    if item.body.lacks:
+        left(f"its {item.body.source} is not all there: {item.body.lacks[0].reason}")
+        return None
+    if item.mass is None or item.implied is None:
+        left(f"nothing says what it weighs; --mass {name}=KG, --density or --total-mass does")
+        return None
+    if any(fault.kind == "unreadable" for fault in item.faults) and not masses.anew:
+        left("a number of it cannot be read; --all replaces it")
+        return None
+    try:
+        wanted = wanted_for(item, anew=masses.anew)
+    except InertiaError as error:
+        left(error.message)
+        return None
+    if not wanted.wants:
+        filling.unchanged.append(name)
+    return wanted
+
+
+class _RefusedError(Exception):
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
+
+
+class _Editor:
+    """Decides which places may be edited."""
+
+    def __init__(self, robot: Robot, single: bool) -> None:
+        assert robot.source is not None
+        self.description = robot.source
+        self.single = single
+        self.main = self.description.files[0].path
+        self.sources: dict[str, edit.Source] = {}
+        self.users: dict[tuple[str, int], list[Element]] = {}
+        for element in self.description.document.root.walk():
+            self.users.setdefault((element.file.path, element.start), []).append(element)
+
+    def settle(self, todo: list[Wanted], filling: Filling) -> None:
+        """Sort the links into written and refused, and make the edits of the former."""
+        refused: dict[int, str] = {}
+        sites: dict[int, list[tuple[Site, Want]]] = {}
+        for wanted in todo:
+            try:
+                sites[id(wanted)] = [(self.site(want), want) for want in wanted.wants]
+            except (_RefusedError, SourceError) as error:
+                refused[id(wanted)] = str(error)
+        while True:
+            before = len(refused)
+            alive = [wanted for wanted in todo if id(wanted) not in refused]
+            changes = self._by_site(alive, sites)
+            for wanted in alive:
+                for site, want in sites[id(wanted)]:
+                    reason = self._conflict(site, want, changes)
+                    if reason:
+                        refused[id(wanted)] = reason
+            if len(refused) == before:
+                break
+        for wanted in todo:
+            if id(wanted) in refused:
+                advice = tuple((self._place(want), want.said) for want in wanted.wants)
+                filling.refused.append(
+                    Refusal(wanted.link.name, refused[id(wanted)], wanted.link.place, advice)
+                )
+            else:
+                filling.written.append(wanted)
+        for site, wants in self._by_site(filling.written, sites).items():
+            filling.edits.setdefault(site.path, []).append(self._edit(site, wants[0]))
+
+    def _by_site(
+        self, alive: Sequence[Wanted], sites: dict[int, list[tuple[Site, Want]]]
+    ) -> dict[Site, list[Want]]:
+        changes: dict[Site, list[Want]] = {}
+        for wanted in alive:
+            for site, want in sites[id(wanted)]:
+                changes.setdefault(site, []).append(want)
+        return changes
+
+    def _conflict(self, site: Site, want: Want, changes: dict[Site, list[Want]]) -> str:
+        """Why a place cannot be edited, or nothing."""
+        wants = changes[site]
+        if any((other.value, other.lines) != (want.value, want.lines) for other in wants):
+            return "it comes from a macro whose other expansions need other numbers"
+        having = {id(other.element) for other in wants}
+        for user in self.users[want.element.file.path, want.element.start]:
+            if id(user) not in having and self._same_site(user, want, site):
+                return (
+                    "what it is written in appears elsewhere, too, where this is not to change "
+                    f"({_named(user)})"
+                )
+        return ""
+
+    def _same_site(self, user: Element, want: Want, site: Site) -> bool:
+        if want.attribute is None:
+            return True
+        try:
+            return self.site(Want(user, want.attribute, want.value)) == site
+        except _RefusedError:
+            return False
+
+    def site(self, want: Want) -> Site:
+        """Where a change is to be made in the source."""
+        element = want.element
+        source = self._source(element.file)
+        if element.start not in source.elements:
+            raise _RefusedError("it is not written as an element of its own")
+        if want.attribute is None:
+            return Site(element.file.path, element.start, f"<{want.child}>")
+        raw = edit.literal(source.elements[element.start], want.attribute)
+        if raw is None:
+            return Site(element.file.path, element.start, want.attribute)
+        calls = [call for call in element.calls if call.macro]
+        at, name = Site(element.file.path, element.start, want.attribute), want.attribute
+        while "$" in raw:
+            passed = _PARAMETER.fullmatch(raw.strip())
+            call = calls.pop(0) if calls else None
+            tag = None
+            if passed and call is not None:
+                tag = self._source(call.file).elements.get(call.start)
+            if passed is None or call is None or tag is None or passed[1] not in tag.attributes:
+                raise _RefusedError(f'{name}="{raw}" is computed')
+            name = passed[1]
+            raw = edit.literal(tag, name) or ""
+            at = Site(call.file.path, call.start, name)
+        return at
+
+    def _source(self, file: SourceFile) -> edit.Source:
+        if file.path not in self.sources:
+            self._check_file(file)
+            self.sources[file.path] = edit.Source(file)
+        return self.sources[file.path]
+
+    def _check_file(self, file: SourceFile) -> None:
+        """Refuse files that are not the user's to edit."""
+        if file.path == self.main:
+            return
+        if self.single:
+            raise _RefusedError(f"it is written in {file.path}, which goes into no -o OUT")
+        path = self.description.packages.file
+        own = own_package(path)
+        root = str(own[1] if own else path.parent)
+        real = os.path.abspath(file.path)
+        if self.main == STDIN or not real.startswith(root + os.sep):
+            raise _RefusedError(f"it is written in {file.path}, outside of {shown_path(root)}")
+
+    def _place(self, want: Want) -> Place:
+        if want.attribute is None:
+            return want.element.place
+        return want.element.attribute_place(want.attribute)
+
+    def _edit(self, site: Site, want: Want) -> edit.Edit:
+        source = self.sources[site.path]
+        element = source.elements[site.start]
+        if want.attribute is not None:
+            return edit.set_attribute(source, element, site.what, want.value)
+        after = element.child(want.after) if want.after else None
+        if want.after == "mass" and after is None:
+            after = element.child("origin")
+        return edit.insert_child(source, element, want.lines, after=after)
+
+
+def _named(element: Element) -> str:
+    parent: Element | None = element
+    while parent is not None and "name" not in parent.attributes:
+        parent = parent.parent
+    return f"{parent.tag} '{parent.get('name')}'" if parent is not None else element.tag

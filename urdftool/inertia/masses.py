@@ -1,0 +1,98 @@
+"""What each link of a robot weighs: said for it, shared out, or as it is written."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+from .inertia_error import InertiaError
+
+
+@dataclass(frozen=True)
+class Masses:
+    """How links are to be weighed.
+
+    Attributes:
+        by_link: Masses [kg] of single links, which come before all else.
+        density: Density [kg/m³] of the others.
+        total: Mass [kg] of the whole robot; what the weighed links leave of it is shared by volume.
+        anew: Masses that are written give way to ``density`` and ``total``.
+    """
+
+    by_link: Mapping[str, float] = field(default_factory=dict)
+    density: float | None = None
+    total: float | None = None
+    anew: bool = False
+
+
+def check_masses(masses: Masses, names: Sequence[str]) -> None:
+    """Refuse what cannot be done with the links there are.
+
+    Raises:
+        InertiaError: A link is not in the robot, or a number is not above zero.
+    """
+    for name, mass in masses.by_link.items():
+        if name not in names:
+            near = get_close_matches(name, names, 1, 0.5)
+            hint = f"did you mean '{near[0]}'?" if near else f"there are {_listed(names)}"
+            raise InertiaError(f"the robot has no link '{name}'; {hint}")
+        _check(f"the mass of link '{name}'", mass, "kg")
+    if masses.density is not None:
+        _check("the density", masses.density, "kg/m³")
+    if masses.total is not None:
+        _check("the total mass", masses.total, "kg")
+    if masses.density is not None and masses.total is not None:
+        raise InertiaError(
+            "a density and a total mass exclude each other; one follows from the other"
+        )
+
+
+def _check(what: str, value: float, unit: str) -> None:
+    if not (math.isfinite(value) and value > 0):
+        raise InertiaError(f"{what} is {value:g} {unit}; a number above zero is needed")
+
+
+def _listed(names: Sequence[str]) -> str:
+    shown = ", ".join(names[:8])
+    return f"{shown}, …" if len(names) > 8 else shown
+
+
+def weigh(
+    masses: Masses, written: Mapping[str, float | None], volumes: Mapping[str, float | None]
+) -> dict[str, float | None]:
+    """What each link weighs [kg]; None where nothing says.
+
+    Args:
+        masses: What is wanted.
+        written: The mass of each link as it is written; None where it is not, or is not above 0.
+        volumes: The volume [m³] of each link's geometry; None where it is not known.
+
+    Raises:
+        InertiaError: The links that are weighed already leave nothing of the total mass.
+    """
+    found: dict[str, float | None] = {}
+    shared: list[str] = []
+    spread = masses.density is not None or masses.total is not None
+    for name, mass in written.items():
+        volume = volumes.get(name)
+        if name in masses.by_link:
+            found[name] = masses.by_link[name]
+        elif spread and volume and (masses.anew or mass is None):
+            found[name] = None if masses.density is None else masses.density * volume
+            shared.append(name)
+        else:
+            found[name] = mass
+    if masses.total is not None and shared:
+        weighed = math.fsum(mass for mass in found.values() if mass)
+        rest = masses.total - weighed
+        if rest <= 1e-12 * masses.total:
+            raise InertiaError(
+                f"the total mass of {masses.total:g} kg leaves nothing for {_listed(shared)}: the "
+                f"other links weigh {weighed:g} kg"
+            )
+        whole = math.fsum(volumes[name] or 0.0 for name in shared)
+        for name in shared:
+            found[name] = rest * (volumes[name] or 0.0) / whole
+    return found

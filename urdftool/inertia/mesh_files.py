@@ -1,0 +1,103 @@
+"""The meshes of a robot, each read and integrated once, several at a time where that is faster."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+
+from ..errors import UrdftoolError
+from ..source.description import Description
+from .bodies import MeshBody, mesh_body
+
+WORTH_IT = 4_000_000
+"""Bytes of meshes from which on starting further processes takes less time than it saves."""
+
+Progress = Callable[[int, int, str], None]
+
+
+def read_meshes(
+    description: Description,
+    names: Iterable[str],
+    *,
+    jobs: int | None = None,
+    progress: Progress | None = None,
+) -> dict[str, MeshBody | UrdftoolError]:
+    """What each mesh encloses, or why that is not known, by its name as it is written.
+
+    Args:
+        description: The robot's, which knows where packages are.
+        names: Mesh files as the robot names them.
+        jobs: Processes to use; None is one per core where it is worth it.
+        progress: Called with how many are done, of how many, and which comes next.
+    """
+    found: dict[str, MeshBody | UrdftoolError] = {}
+    paths: dict[str, Path] = {}
+    for name in dict.fromkeys(names):
+        try:
+            if not name:
+                raise UrdftoolError("the mesh has no file name")
+            paths[name] = description.resolve(name)
+        except UrdftoolError as error:
+            found[name] = error
+    unique = list(dict.fromkeys(paths.values()))
+    bodies: dict[Path, MeshBody | UrdftoolError] = {}
+    for path, body in _bodies(unique, jobs):
+        bodies[path] = body
+        if progress is not None:
+            progress(len(bodies), len(unique), path.name)
+    return found | {name: bodies[path] for name, path in paths.items()}
+
+
+def _bodies(paths: list[Path], jobs: int | None) -> Iterator[tuple[Path, MeshBody | UrdftoolError]]:
+    workers = min(jobs or _worthwhile(paths), len(paths))
+    if workers <= 1:
+        for path in paths:
+            yield path, _body(path)
+        return
+    import multiprocessing
+
+    methods = multiprocessing.get_all_start_methods()
+    context = multiprocessing.get_context("fork" if "fork" in methods else None)
+    # the slowest first, so that none is left alone at the end
+    ordered = sorted(paths, key=_size, reverse=True)
+    with context.Pool(workers, _ignore_interrupts) as pool:
+        yield from pool.imap_unordered(_named_body, ordered)
+
+
+def _named_body(path: Path) -> tuple[Path, MeshBody | UrdftoolError]:
+    return path, _body(path)
+
+
+def _body(path: Path) -> MeshBody | UrdftoolError:
+    try:
+        return mesh_body(path)
+    except UrdftoolError as error:
+        # without the chain of causes it goes from one process to another
+        return UrdftoolError(error.message, path=error.path)
+    except (MemoryError, RecursionError) as error:
+        return UrdftoolError(
+            f"the mesh is too large to be read ({type(error).__name__})", path=path
+        )
+
+
+def _worthwhile(paths: list[Path]) -> int:
+    if len(paths) < 2 or sum(map(_size, paths)) < WORTH_IT:
+        return 1
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def _size(path: Path) -> int:
+    try:
+        return path.stat().st_size
+    except OSError:
+        return 0
+
+
+def _ignore_interrupts() -> None:
+    """Ctrl-C ends the parent, which ends its workers."""
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -1,0 +1,101 @@
+"""The shapes that have a closed form, and the numbers each needs: data, without numpy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from .tensor import MassProperties
+
+Sizes = Mapping[str, "float | tuple[float, ...]"]
+
+
+class Size(NamedTuple):
+    """One number, or three, that a shape is described by."""
+
+    name: str
+    numbers: int
+    metavar: str
+    what: str
+
+
+class Shape(NamedTuple):
+    """A shape: its sizes, and whether there is a hollow one."""
+
+    name: str
+    what: str
+    sizes: tuple[Size, ...]
+    hollow: bool = False
+    ends: bool = False
+
+    @property
+    def title(self) -> str:
+        """With its article, as a sentence has it."""
+        return f"an {self.name}" if self.name[0] in "aeiou" else f"a {self.name}"
+
+
+_LENGTH = Size("length", 1, "L", "along Z [m]")
+_RADIUS = Size("radius", 1, "R", "[m]")
+
+SHAPES = (
+    Shape("box", "a cuboid", (Size("size", 3, "X Y Z", "edges along X, Y and Z [m]"),), True),
+    Shape("cylinder", "about Z, centred", (_RADIUS, _LENGTH), True, True),
+    Shape("sphere", "centred", (_RADIUS,), True),
+    Shape(
+        "capsule",
+        "a cylinder along Z between two half spheres",
+        (_RADIUS, Size("length", 1, "L", "of the cylinder between the half spheres [m]")),
+    ),
+    Shape(
+        "ellipsoid",
+        "centred",
+        (Size("radii", 3, "A B C", "half axes along X, Y and Z [m]"),),
+    ),
+    Shape(
+        "cone",
+        "along Z, its tip up and its origin half way up",
+        (Size("radius", 1, "R", "of the base [m]"), _LENGTH),
+    ),
+)
+
+THICKNESS = Size("thickness", 1, "T", "of the wall, inwards from the outer sizes [m]")
+
+
+def find_shape(name: str) -> Shape | None:
+    """The shape of that name, if there is one."""
+    return next((shape for shape in SHAPES if shape.name == name), None)
+
+
+def shape_properties(
+    shape: Shape,
+    sizes: Sizes,
+    *,
+    thickness: float | None = None,
+    closed: bool = False,
+    mass: float | None = None,
+    density: float | None = None,
+) -> MassProperties:
+    """Mass properties of a shape in its own frame; the formulas are in ``solids``.
+
+    Args:
+        shape: Which.
+        sizes: Its sizes [m] by name.
+        thickness: Wall of a hollow one [m]; None for a solid one.
+        closed: A hollow cylinder has end plates.
+        mass: Mass [kg]; give this or ``density``.
+        density: Density [kg/m³].
+
+    Raises:
+        InertiaError: A size, mass or density is not above zero, or the wall does not fit.
+    """
+    from . import solids
+
+    amount = {"mass": mass, "density": density}
+    given = {**sizes, **amount}
+    name = shape.name
+    if thickness is not None:
+        name = f"hollow_{name}"
+        given |= {"thickness": thickness} | ({"closed": closed} if shape.ends else {})
+    result: MassProperties = getattr(solids, name)(**given)
+    return result

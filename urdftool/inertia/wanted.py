@@ -1,0 +1,136 @@
+"""What is to be written for one link: elements to add and attributes to set.
+
+What is there is kept as far as it can be: an inertial's own ``rpy`` stays, and the tensor is
+written along its axes; attributes whose number is right already are left alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..model.elements import Link
+from ..model.read import number, numbers
+from ..source.document import Element
+from .review import NAMES, LinkReview, inertial_rotation
+from .rounding import number_text, numbers_text, round_properties
+from .tensor import MassProperties, require_possible, rotate, six_numbers, tensor_from_six
+
+_SAME = 1e-11
+
+
+@dataclass
+class Want:
+    """A change to one expanded element: lines of a child to add, or an attribute to set."""
+
+    element: Element
+    attribute: str | None = None
+    value: str = ""
+    child: str = ""
+    lines: tuple[str, ...] = ()
+    after: str | None = None
+
+    @property
+    def said(self) -> str:
+        """What to do, for who does it by hand."""
+        if self.attribute is not None:
+            return f'set {self.attribute}="{self.value}"'
+        return "add " + " ".join(line.strip() for line in self.lines)
+
+
+@dataclass
+class Wanted:
+    """All that is wanted for one link, and what it then weighs."""
+
+    item: LinkReview
+    result: MassProperties
+    wants: list[Want] = field(default_factory=list)
+
+    @property
+    def link(self) -> Link:
+        """The link."""
+        return self.item.link
+
+
+def wanted_for(item: LinkReview, *, anew: bool) -> Wanted:
+    """What is to be written for a link whose implied mass properties are known.
+
+    Args:
+        item: The link, with ``implied``.
+        anew: Replace what is written; otherwise only what is missing is added.
+
+    Raises:
+        InertiaError: What would be written, no rigid body can have.
+    """
+    assert item.implied is not None
+    result = round_properties(item.implied, f"link '{item.link.name}'")
+    inertial = item.link.inertial
+    if inertial is None:
+        lines = ("<inertial>", *(f"\t{line}" for line in _children(result)), "</inertial>")
+        want = Want(item.link.element, child="inertial", lines=lines)
+        return Wanted(item, result, [want])
+    element = inertial.element
+    origin, mass, inertia = (element.child(tag) for tag in ("origin", "mass", "inertia"))
+    turn = inertial_rotation(inertial)
+    along = round_properties(
+        MassProperties(result.mass, result.com, rotate(result.inertia, turn.T)),
+        f"link '{item.link.name}'",
+    )
+    found = Wanted(item, result)
+    texts = dict(zip(("origin", "mass", "inertia"), _children(along), strict=True))
+    if origin is None:
+        if np.any(along.com):
+            found.wants.append(Want(element, child="origin", lines=(texts["origin"],)))
+    elif anew and not _same(origin.get("xyz") or "0 0 0", along.com.tolist()):
+        found.wants.append(Want(origin, "xyz", numbers_text(along.com)))
+    if mass is None or "value" not in mass.attributes:
+        if mass is None:
+            found.wants.append(Want(element, child="mass", lines=(texts["mass"],), after="origin"))
+        else:
+            found.wants.append(Want(mass, "value", number_text(along.mass)))
+    elif anew and not _same(mass.get("value"), [along.mass]):
+        found.wants.append(Want(mass, "value", number_text(along.mass)))
+    if inertia is None:
+        found.wants.append(Want(element, child="inertia", lines=(texts["inertia"],), after="mass"))
+    else:
+        found.wants += _numbers(inertia, along, anew=anew)
+    return found
+
+
+def _numbers(inertia: Element, along: MassProperties, *, anew: bool) -> list[Want]:
+    """The six numbers that differ, or that are missing: a missing product beside moments is 0."""
+    meant = six_numbers(along.inertia)
+    missing = [name for name in NAMES if name not in inertia.attributes]
+    if not anew:
+        if not any(name in missing for name in ("ixx", "iyy", "izz")):
+            meant |= dict.fromkeys(missing, 0.0)
+        kept = {name: number(inertia.get(name)) or 0.0 for name in NAMES if name not in missing}
+        tensor = tensor_from_six(**{**meant, **kept})
+        require_possible(
+            MassProperties(along.mass, along.com, tensor), "what is written, filled in,"
+        )
+        return [Want(inertia, name, number_text(meant[name])) for name in missing]
+    return [
+        Want(inertia, name, number_text(meant[name]))
+        for name in NAMES
+        if not _same(inertia.get(name), [meant[name]], scale=float(np.abs(along.inertia).max()))
+    ]
+
+
+def _children(properties: MassProperties) -> tuple[str, str, str]:
+    six = six_numbers(properties.inertia)
+    numbers_written = " ".join(f'{name}="{number_text(six[name])}"' for name in NAMES)
+    return (
+        f'<origin xyz="{numbers_text(properties.com)}" rpy="0 0 0"/>',
+        f'<mass value="{number_text(properties.mass)}"/>',
+        f"<inertia {numbers_written}/>",
+    )
+
+
+def _same(text: str | None, values: list[float], scale: float = 0.0) -> bool:
+    written = numbers(text, len(values))
+    if written is None:
+        return False
+    size = max(scale, *(abs(value) for value in values))
+    return all(abs(a - b) <= _SAME * size for a, b in zip(written, values, strict=True))

@@ -1,0 +1,110 @@
+"""Mass properties said aloud: URDF, SDF, MJCF, JSON and a table."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from ..inertia.rounding import number_text, numbers_text, round_number
+from ..inertia.tensor import MassProperties, principal, shift_from_com, six_numbers
+
+SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+def urdf(properties: MassProperties) -> str:
+    """``<inertial>`` of a URDF link, its axes those of the link."""
+    six = six_numbers(properties.inertia)
+    return (
+        "<inertial>\n"
+        f'  <origin xyz="{numbers_text(properties.com)}" rpy="0 0 0"/>\n'
+        f'  <mass value="{number_text(properties.mass)}"/>\n'
+        f"  <inertia {_attributes(six)}/>\n"
+        "</inertial>\n"
+    )
+
+
+def sdf(properties: MassProperties) -> str:
+    """``<inertial>`` of an SDF link."""
+    six = six_numbers(properties.inertia)
+    rows = "".join(f"    <{name}>{number_text(six[name])}</{name}>\n" for name in SIX)
+    return (
+        "<inertial>\n"
+        f"  <pose>{numbers_text(properties.com)} 0 0 0</pose>\n"
+        f"  <mass>{number_text(properties.mass)}</mass>\n"
+        f"  <inertia>\n{rows}  </inertia>\n"
+        "</inertial>\n"
+    )
+
+
+def mjcf(properties: MassProperties) -> str:
+    """``<inertial>`` of an MJCF body; MuJoCo's order puts the diagonal first."""
+    six = six_numbers(properties.inertia)
+    diagonal = [six[name] for name in ("ixx", "iyy", "izz")]
+    products = [six[name] for name in ("ixy", "ixz", "iyz")]
+    if any(products):
+        tensor = f'fullinertia="{numbers_text((*diagonal, *products))}"'
+    else:
+        tensor = f'diaginertia="{numbers_text(diagonal)}"'
+    return (
+        f'<inertial pos="{numbers_text(properties.com)}" mass="{number_text(properties.mass)}" '
+        f"{tensor}/>\n"
+    )
+
+
+def as_json(properties: MassProperties, facts: Mapping[str, Any]) -> str:
+    """One object: mass, com and inertia, the same about the origin, principal moments, facts."""
+    return json.dumps({"version": 1, **numbers(properties), **facts}, indent=2) + "\n"
+
+
+def numbers(properties: MassProperties) -> dict[str, Any]:
+    """The JSON form of mass properties, with what follows from them."""
+    moments, axes = principal(properties.inertia)
+    about_origin = shift_from_com(properties.inertia, properties.mass, properties.com)
+    return {
+        **properties.as_dict(),
+        "inertia_about_origin": _rounded_six(about_origin),
+        "principal_moments": [round_number(float(moment)) for moment in moments],
+        "principal_axes": [[float(value) for value in axis] for axis in axes.T],
+    }
+
+
+def table(title: str, properties: MassProperties, facts: Mapping[str, str]) -> str:
+    """What there is to know, a line each, to six digits."""
+    found = numbers(properties)
+    rows = {
+        "mass": f"{found['mass']:.6g} kg",
+        **facts,
+        "centre of mass": f"{_shown(found['com'])} m",
+    }
+    for label, six in (
+        ("about the centre of mass", found["inertia"]),
+        ("about the origin", found["inertia_about_origin"]),
+    ):
+        rows[label] = "ixx, iyy, izz  " + _shown(six[name] for name in ("ixx", "iyy", "izz"))
+        rows[label] += "  kg m²"
+        if any(six[name] for name in ("ixy", "ixz", "iyz")):
+            products = _shown(six[name] for name in ("ixy", "ixz", "iyz"))
+            rows[f"{label}, products"] = f"ixy, ixz, iyz  {products}  kg m²"
+    rows["principal moments"] = f"{_shown(found['principal_moments'])}  kg m²"
+    width = max(map(len, rows))
+    return "".join([f"{title}\n", *(f"  {key:<{width}}  {value}\n" for key, value in rows.items())])
+
+
+def summary(what: str, properties: MassProperties) -> str:
+    """Mass and moments in one line, to six digits."""
+    six = six_numbers(properties.inertia)
+    moments = ", ".join(f"{name} {six[name]:.6g}" for name in ("ixx", "iyy", "izz"))
+    return f"{what}: {properties.mass:.6g} kg; {moments} kg m² about the centre of mass"
+
+
+def _rounded_six(inertia: Any) -> dict[str, float]:
+    return {name: round_number(value) for name, value in six_numbers(inertia).items()}
+
+
+def _attributes(six: Mapping[str, float]) -> str:
+    return " ".join(f'{name}="{number_text(six[name])}"' for name in SIX)
+
+
+def _shown(values: Any) -> str:
+    return " ".join(f"{value:.6g}" for value in values)

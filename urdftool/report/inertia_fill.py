@@ -1,0 +1,96 @@
+"""What was written into a robot's source, and what was not."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from ..inertia.fill import Filling, Refusal
+from ..inertia.tensor import six_numbers
+from ..model.elements import Robot
+from .findings import clean
+from .inertia_robot import place_dict
+
+
+def text(filling: Filling) -> str:
+    """A row for each link that was written."""
+    rows: list[tuple[str, ...]] = [("link", "mass [kg]", "ixx", "iyy", "izz", "from")]
+    for wanted in filling.written:
+        six = six_numbers(wanted.result.inertia)
+        body = wanted.item.body
+        rows.append(
+            (
+                clean(wanted.link.name),
+                f"{wanted.result.mass:.6g}",
+                *(f"{six[name]:.6g}" for name in ("ixx", "iyy", "izz")),
+                "" if body is None else body.source + ("" if body.reliable else " (unsure)"),
+            )
+        )
+    if len(rows) == 1:
+        return ""
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    return "".join(
+        "  ".join(
+            cell.ljust(width) if i in (0, 5) else cell.rjust(width)
+            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        + "\n"
+        for row in rows
+    )
+
+
+def remarks(filling: Filling) -> Iterator[str]:
+    """What was not written and why, and what to change where."""
+    for refusal in filling.left:
+        yield f"{refusal.place}: link '{clean(refusal.link)}' is left as it is: {refusal.reason}"
+    for refusal in filling.refused:
+        yield f"{refusal.place}: link '{clean(refusal.link)}' is not edited: {refusal.reason}"
+        for place, advice in refusal.advice:
+            yield f"  {place}: {advice}"
+
+
+def summary(filling: Filling, files: Sequence[str]) -> str:
+    """Counts, and the files that changed."""
+    parts = [f"{len(filling.written)} links written"]
+    if filling.unchanged:
+        parts.append(f"{len(filling.unchanged)} as they were")
+    if filling.left:
+        parts.append(f"{len(filling.left)} left")
+    if filling.refused:
+        parts.append(f"{len(filling.refused)} to be edited by hand")
+    where = f" ({', '.join(files)})" if files else ""
+    return ", ".join(parts) + where
+
+
+def as_json(filling: Filling, robot: Robot) -> str:
+    """One object: written, unchanged, left, refused."""
+    assert robot.source is not None
+    found = {
+        "version": 1,
+        "robot": robot.name,
+        "path": robot.source.path,
+        "written": [
+            {
+                "name": wanted.link.name,
+                **place_dict(wanted.link.place),
+                **wanted.result.as_dict(),
+                "source": None if wanted.item.body is None else wanted.item.body.source,
+                "reliable": wanted.item.body is not None and wanted.item.body.reliable,
+            }
+            for wanted in filling.written
+        ],
+        "unchanged": filling.unchanged,
+        "left": [_refusal(refusal) for refusal in filling.left],
+        "refused": [_refusal(refusal) for refusal in filling.refused],
+    }
+    return json.dumps(found, indent=1, ensure_ascii=False) + "\n"
+
+
+def _refusal(refusal: Refusal) -> dict[str, Any]:
+    return {
+        "name": refusal.link,
+        **place_dict(refusal.place),
+        "reason": refusal.reason,
+        "changes": [{**place_dict(place), "do": advice} for place, advice in refusal.advice],
+    }

@@ -1,0 +1,70 @@
+"""Rigid bodies and the whole robot: a table and JSON."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from ..inertia.lump import Lumped
+from ..inertia.rounding import round_properties
+from ..inertia.tensor import MassProperties, six_numbers
+from ..model.elements import Robot
+from .findings import clean
+from .inertia import SIX, numbers
+
+_HEADS = ("body", "links", "mass [kg]", "com x", "y", "z [m]", *SIX[:5], "izz [kg m²]")
+
+
+def table(lumped: Lumped) -> str:
+    """A row for each rigid body in the frame of its first link, and one for the whole."""
+    rows: list[tuple[str, ...]] = [_HEADS]
+    rows += [
+        (clean(body.link), str(len(body.members)), *_cells(body.properties))
+        for body in lumped.lumps
+    ]
+    count = str(sum(len(body.members) for body in lumped.lumps))
+    rows.append((f"whole, in {clean(lumped.root)}", count, *_cells(lumped.whole)))
+    widths = [max(len(row[i]) for row in rows) for i in range(len(_HEADS))]
+    return "".join(
+        "  ".join(
+            cell.rjust(width) if i else cell.ljust(width)
+            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        + "\n"
+        for row in rows
+    )
+
+
+def _cells(properties: MassProperties | None) -> tuple[str, ...]:
+    if properties is None:
+        return ("–",) * (len(_HEADS) - 2)
+    six = six_numbers(properties.inertia)
+    values = (properties.mass, *properties.com, *(six[name] for name in SIX))
+    return tuple(f"{float(value):.4g}" for value in values)
+
+
+def as_json(lumped: Lumped, robot: Robot) -> str:
+    """One object: the bodies, the whole, the joint positions."""
+    assert robot.source is not None
+    found = {
+        "version": 1,
+        "robot": robot.name,
+        "path": robot.source.path,
+        "positions": lumped.positions,
+        "bodies": [
+            {"link": body.link, "links": list(body.members), "properties": _dict(body.properties)}
+            for body in lumped.lumps
+        ],
+        "whole": {"frame": lumped.root, "properties": _dict(lumped.whole)},
+        "notes": list(lumped.notes),
+    }
+    return json.dumps(found, indent=1, ensure_ascii=False) + "\n"
+
+
+def _dict(properties: MassProperties | None) -> dict[str, Any] | None:
+    if properties is None:
+        return None
+    try:
+        return numbers(round_properties(properties))
+    except ValueError:  # what is written cannot be, which the notes say
+        return numbers(properties)

@@ -1,0 +1,233 @@
+"""The links of a robot: what is written of their inertia and what the geometry implies."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from ..inertia.comparison import Comparison
+from ..inertia.review import LinkReview
+from ..inertia.rounding import number_text, round_properties
+from ..inertia.tensor import MassProperties, six_numbers
+from ..source.location import Place
+from .findings import Painter, clean
+from .inertia import numbers
+
+HEADS = (
+    "link",
+    "mass",
+    "implied",
+    "moments, written/implied",
+    "axes",
+    "com off",
+    "density",
+    "from",
+)
+UNITS = ("", "kg", "kg", "", "deg", "mm", "kg/m³", "")
+_COLORS = {"wrong": "red", "doubtful": "yellow", "incomplete": "yellow", "missing": "yellow"}
+_LONGEST_NAME = 40
+
+
+def table(reviews: Sequence[LinkReview], *, colors: bool = False) -> str:
+    """A row for each link, to four digits."""
+    paint = Painter(colors)
+    rows = [(*_cells(item), _verdict(item)) for item in reviews]
+    lines = [(*HEADS, ""), (*UNITS, ""), *rows]
+    widths = [max(len(line[i]) for line in lines) for i in range(len(HEADS))]
+    text = []
+    for number, line in enumerate(lines):
+        cells = [
+            cell.ljust(width) if i in (0, 7) else cell.rjust(width)
+            for i, (cell, width) in enumerate(zip(line, widths, strict=False))
+        ]
+        verdict = line[-1]
+        if number >= 2:
+            verdict = paint(verdict, _COLORS.get(reviews[number - 2].status))
+        text.append(f"{'  '.join(cells)}  {verdict}".rstrip())
+    return "".join(f"{line}\n" for line in text)
+
+
+def _cells(item: LinkReview) -> tuple[str, ...]:
+    name = clean(item.link.name)
+    name = name if len(name) <= _LONGEST_NAME else name[: _LONGEST_NAME - 1] + "…"
+    inertial = item.link.inertial
+    written = "–" if inertial is None or inertial.mass is None else f"{inertial.mass:.4g}"
+    implied = f"{item.implied.mass:.4g}" if item.implied is not None else "–"
+    source = "–"
+    if item.body is not None:
+        source = item.body.source
+        if not item.body.complete:
+            source += " (lacks)"
+        elif not item.body.reliable:
+            source += " (unsure)"
+    return (name, written, implied, *_compared(item.comparison, item), source)
+
+
+def _compared(comparison: Comparison | None, item: LinkReview) -> tuple[str, str, str, str]:
+    if comparison is None:
+        density = ""
+        if item.implied is not None and item.body is not None:
+            density = f"{item.implied.mass / item.body.volume:.4g}"
+        return "–", "–", "–", density or "–"
+    return (
+        " ".join(f"{ratio:.3g}" for ratio in comparison.ratio),
+        "–" if comparison.angle is None else f"{math.degrees(comparison.angle):.1f}",
+        f"{comparison.distance * 1000:.3g}",
+        f"{comparison.density:.4g}",
+    )
+
+
+def _verdict(item: LinkReview) -> str:
+    status = item.status
+    if status == "wrong":
+        return "CANNOT BE: " + ", ".join(dict.fromkeys(fault.kind for fault in item.faults))
+    if status == "doubtful":
+        return "doubtful"
+    if status == "missing":
+        return "no inertial"
+    if status == "incomplete":
+        return "lacks " + ", ".join(item.missing)
+    return "" if status == "ok" else status
+
+
+def remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[str]:
+    """What the table has no room for: faults with their proposals, and what cannot be read."""
+    paint = Painter(colors)
+    for item in reviews:
+        name = clean(item.link.name)
+        for fault in item.faults:
+            yield f"{fault.place}: link '{name}': {paint('cannot be', 'red')}: {fault.message}"
+        if item.proposal is not None:
+            at = item.link.inertial.inertia if item.link.inertial else None
+            if not item.faults and at is not None:
+                yield f"{at.place}: link '{name}': {paint('doubtful', 'yellow')}: " + _far(item)
+            yield f"  probably meant: {item.proposal.sentence}"
+            rounded = MassProperties(1.0, 0 * item.proposal.inertia[0], item.proposal.inertia)
+            six = six_numbers(_tidied(rounded).inertia)
+            written = " ".join(f'{key}="{number_text(value)}"' for key, value in six.items())
+            yield f"  <inertia {written}/>"
+        elif item.faults and item.implied is not None and item.faults[-1].kind != "unreadable":
+            yield f"  its geometry implies, at {item.implied.mass:.6g} kg: {_short(item.implied)}"
+        for note in item.notes:
+            yield f"{item.link.place}: link '{name}': {note}"
+        if item.body is not None:
+            kind = item.body.source
+            for lack in item.body.lacks:
+                yield f"{lack.shape.place}: link '{name}': {kind} left out: {lack.reason}"
+            for piece in item.body.pieces:
+                if not piece.reliable:
+                    yield (
+                        f"{piece.shape.place}: link '{name}': {piece.what} is not closed; "
+                        f"estimated by {piece.method}, not reliable"
+                    )
+                for note in piece.notes:
+                    if "millimetre" in note or "scaled to metres twice" in note:
+                        yield f"{piece.shape.place}: link '{name}': {note}"
+
+
+def _far(item: LinkReview) -> str:
+    ratio = " ".join(f"{value:.3g}" for value in item.comparison.ratio) if item.comparison else ""
+    return f"a body may have this inertia, but it is {ratio} times what the geometry implies"
+
+
+def _tidied(properties: MassProperties) -> MassProperties:
+    try:
+        return round_properties(properties)
+    except ValueError:
+        return properties
+
+
+def _short(properties: MassProperties) -> str:
+    six = six_numbers(properties.inertia)
+    return ", ".join(f"{name} {value:.6g}" for name, value in six.items())
+
+
+def summary(reviews: Sequence[LinkReview]) -> str:
+    """Counts, and the mass of the whole, in one line."""
+    counts = {
+        label: sum(item.status == status for item in reviews)
+        for status, label in (
+            ("wrong", "cannot be"),
+            ("doubtful", "doubtful"),
+            ("missing", "without inertial"),
+            ("incomplete", "incomplete"),
+            ("frame", "mere frames"),
+        )
+    }
+    written = math.fsum(item.link.mass for item in reviews)
+    parts = [f"{len(reviews)} links", f"{written:.6g} kg written"]
+    planned = math.fsum(item.mass or 0.0 for item in reviews)
+    if not math.isclose(planned, written, rel_tol=1e-9, abs_tol=1e-12):
+        parts.append(f"{planned:.6g} kg wanted")
+    parts += [f"{count} {label}" for label, count in counts.items() if count]
+    return ", ".join(parts)
+
+
+def as_dict(reviews: Sequence[LinkReview], name: str, path: str) -> dict[str, Any]:
+    """The JSON form of a review."""
+    return {
+        "version": 1,
+        "robot": name,
+        "path": path,
+        "links": [_link(item) for item in reviews],
+        "summary": {
+            "links": len(reviews),
+            "mass": math.fsum(item.link.mass for item in reviews),
+            "wanted_mass": math.fsum(item.mass or 0.0 for item in reviews),
+            **{
+                status: sum(item.status == status for item in reviews)
+                for status in ("ok", "wrong", "doubtful", "missing", "incomplete", "frame")
+            },
+        },
+    }
+
+
+def as_json(found: dict[str, Any]) -> str:
+    """A JSON form as text."""
+    return json.dumps(found, indent=1, ensure_ascii=False) + "\n"
+
+
+def place_dict(place: Place) -> dict[str, Any]:
+    """Where something is written."""
+    return {"path": place.path, "line": place.line, "column": place.column}
+
+
+def _link(item: LinkReview) -> dict[str, Any]:
+    body = item.body
+    return {
+        "name": item.link.name,
+        **place_dict(item.link.place),
+        "status": item.status,
+        "source": body.source if body is not None else None,
+        "volume": body.volume if body is not None and body.complete else None,
+        "reliable": body.reliable if body is not None else None,
+        "mass": item.mass,
+        "written": item.written.as_dict() if item.written is not None else None,
+        "implied": numbers(_tidied(item.implied)) if item.implied is not None else None,
+        "comparison": item.comparison.as_dict() if item.comparison is not None else None,
+        "missing": list(item.missing),
+        "faults": [
+            {"kind": fault.kind, "message": fault.message, **place_dict(fault.place)}
+            for fault in item.faults
+        ],
+        "proposal": item.proposal.as_dict() if item.proposal is not None else None,
+        "pieces": [
+            {
+                "what": piece.what,
+                "volume": piece.unit.mass,
+                "method": piece.method,
+                "reliable": piece.reliable,
+                "error": piece.error,
+                "notes": list(piece.notes),
+                **place_dict(piece.shape.place),
+            }
+            for piece in (body.pieces if body is not None else ())
+        ],
+        "lacks": [
+            {"reason": lack.reason, **place_dict(lack.shape.place)}
+            for lack in (body.lacks if body is not None else ())
+        ],
+        "notes": list(item.notes),
+    }

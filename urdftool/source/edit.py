@@ -1,0 +1,179 @@
+"""Byte-exact edits of a source text.
+
+An edit replaces a span of bytes by others. Everything outside the spans stays as it is: comments,
+order, blanks, line ends and a byte order mark. What is inserted takes the indentation and the line
+ends of its surroundings.
+
+The elements that edits are made from must come from :func:`parsed`: only there is known where an
+element ends, which an element that xacro has moved does not know.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+from xml.sax.saxutils import escape, unescape
+
+from ..errors import SourceError
+from .document import Document, Element, parse
+from .location import SourceFile
+from .tags import value_span
+
+_BLANK = re.compile(rb"[ \t]*")
+_REST_OF_LINE = re.compile(rb"(?:[ \t]|<!--[^\n]*?-->)*(?=\r?\n)")
+_QUOTES = {"&quot;": '"', "&apos;": "'"}
+
+
+class Edit(NamedTuple):
+    """Bytes from ``start`` to ``end`` become ``text``; an insertion where the two are equal."""
+
+    start: int
+    end: int
+    text: bytes
+
+
+class Source:
+    """A file that can be edited: its bytes, and its elements by the byte they start at."""
+
+    def __init__(self, file: SourceFile) -> None:
+        """Parse the file as it is written, macros and all.
+
+        Raises:
+            SourceError: Its text was turned into another encoding to be read, so that places in it
+                are not places in the file.
+        """
+        self.file = file
+        data = file.data
+        self.document: Document = parse(file)
+        if file.data != data or file.encoding.startswith(("utf-16", "utf-32")):
+            raise SourceError("is not edited in this encoding; save it as UTF-8", path=file.path)
+        self.elements: dict[int, Element] = {e.start: e for e in self.document.root.walk()}
+        self.line_end = b"\r\n" if b"\r\n" in data else b"\n"
+
+    def indentation(self, element: Element) -> bytes | None:
+        """The blanks in front of an element; None where something else stands on its line."""
+        start = self.file.data.rfind(b"\n", 0, element.start) + 1
+        before = self.file.data[start : element.start]
+        return before if not before.strip(b" \t") else None
+
+    def inner_indentation(self, element: Element) -> bytes | None:
+        """The blanks in front of what stands inside an element; None where it is all one line."""
+        own = self.indentation(element)
+        for child in element.children:
+            inner = self.indentation(child)
+            if inner is not None:
+                return inner
+        if own is None or element.children:
+            return None
+        return own + self.step
+
+    @property
+    def step(self) -> bytes:
+        """By how much one element is indented within another in this file."""
+        for element in self.elements.values():
+            inner, outer = self.indentation(element), None
+            if element.parent is not None:
+                outer = self.indentation(element.parent)
+            if inner is not None and outer is not None and len(inner) > len(outer):
+                return inner[len(outer) :] if inner.startswith(outer) else inner
+        return b"  "
+
+
+def literal(element: Element, name: str) -> str | None:
+    """The value of an attribute as it is written in the source, its references resolved."""
+    span = element.file.attribute_spans(element.start).get(name)
+    if span is None:
+        return None
+    start, end = value_span(element.file.data, span)
+    return unescape(element.file.data[start:end].decode(element.file.encoding), _QUOTES)
+
+
+def set_attribute(source: Source, element: Element, name: str, value: str) -> Edit:
+    """The edit that gives an attribute a value, adding it as the last where it is not written."""
+    data = source.file.data
+    spans = source.file.attribute_spans(element.start)
+    if name in spans:
+        start, end = value_span(data, spans[name])
+        return Edit(start, end, _attribute_text(value, data[start - 1 : start]))
+    at = max((end for _, end in spans.values()), default=element.start + 1 + len(element.tag))
+    return Edit(at, at, f' {name}="'.encode() + _attribute_text(value, b'"') + b'"')
+
+
+def _attribute_text(value: str, quote: bytes) -> bytes:
+    entities = {'"': "&quot;"} if quote == b'"' else {"'": "&apos;"}
+    return escape(value, entities).encode("ascii", "xmlcharrefreplace")
+
+
+def insert_child(
+    source: Source, parent: Element, lines: Sequence[str], *, after: Element | None = None
+) -> Edit:
+    """The edit that puts an element into another: first, or after one of its children.
+
+    Where the parent's children stand on lines of their own the new one does too, and only whole
+    lines are added; in a parent written on one line it is put on that line.
+
+    Args:
+        source: The file.
+        parent: The element to put it into.
+        lines: The new element's lines, each level of it indented by one tab.
+        after: The child it follows; None puts it in front of all.
+    """
+    data = source.file.data
+    inner = source.inner_indentation(parent)
+    tag_end = source.file.tag_end(parent.start)
+    closed = data[tag_end - 2 : tag_end] == b"/>"
+    if inner is None:
+        text = "".join(line.strip("\t") for line in lines).encode("ascii")
+    else:
+        shown = [line.encode("ascii") for line in lines]
+        step = _step_within(source, parent, inner)
+        text = b"".join(
+            source.line_end + inner + step * (len(line) - len(line.lstrip(b"\t"))) + line.lstrip()
+            for line in shown
+        )
+    if closed:
+        own = source.indentation(parent) or b""
+        tail = b"" if inner is None else source.line_end + own
+        begin = len(data[: tag_end - 2].rstrip())
+        return Edit(begin, tag_end, b">" + text + tail + f"</{parent.tag}>".encode())
+    at = tag_end if after is None else after.end
+    if inner is not None:
+        rest = _REST_OF_LINE.match(data, at)
+        if rest is None and after is None and not parent.children:
+            own = source.indentation(parent) or b""
+            blank = _BLANK.match(data, at)
+            end = blank.end() if blank else at
+            if data.startswith(b"</", end):
+                return Edit(at, end, text + source.line_end + own)
+        # a comment that ends the line speaks of what stands in front of it
+        at = rest.end() if rest else at
+    return Edit(at, at, text)
+
+
+def _step_within(source: Source, parent: Element, inner: bytes) -> bytes:
+    own = source.indentation(parent)
+    if own is not None and inner.startswith(own) and len(inner) > len(own):
+        return inner[len(own) :]
+    return source.step
+
+
+def apply(file: SourceFile, edits: Iterable[Edit]) -> bytes:
+    """The bytes of a file with edits made; those at one place in the order they are given.
+
+    Raises:
+        ValueError: Two edits overlap.
+    """
+    parts: list[bytes] = []
+    position = 0
+    for edit in sorted(edits, key=lambda e: (e.start, e.end)):
+        if edit.start < position:
+            raise ValueError(f"edits overlap at byte {edit.start} of {file.path}")
+        parts += [file.data[position : edit.start], edit.text]
+        position = edit.end
+    return b"".join([*parts, file.data[position:]])
+
+
+def parsed(file: SourceFile) -> Source:
+    """A file ready for edits; as :class:`Source`."""
+    return Source(file)
