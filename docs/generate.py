@@ -1,8 +1,8 @@
 """Write the parts of the documentation that the code knows: ``python docs/generate.py [--check]``.
 
-A page a rule, from its docstring, its decorator and its fixtures; an index of them; the help of each
-command, between marks in its page; and what each ``$ command`` of a ``console`` block prints, run in
-a copy of the fixtures. With ``--check`` nothing is written, and stale pages are named.
+A page a rule, from its docstring, its decorator and its fixtures; an index of them; the help of
+each command, between marks in its page; and what each ``$ command`` of a ``console`` block prints,
+run in a copy of the fixtures. With ``--check`` nothing is written, and stale pages are named.
 """
 
 from __future__ import annotations
@@ -137,7 +137,7 @@ def _output(command: str, folder: str) -> str:
 
 
 def stale() -> list[Path]:
-    """Generated pages that are not as they would be written now, and pages of rules that are gone."""
+    """Generated pages that are not as they would be written now, or whose rule is gone."""
     fresh = dict(pages())
     wrong = [p for p, text in fresh.items() if not p.exists() or p.read_text("utf-8") != text]
     return wrong + [path for path in (DOCS / "rules").glob("*.md") if path not in fresh]
