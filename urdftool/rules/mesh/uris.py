@@ -185,17 +185,24 @@ def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Prob
     """Two mesh files have one name, but for their folders or endings.
 
     MuJoCo calls a mesh by the name of its file alone: ``visual/arm.stl`` and ``collision/arm.stl``
-    are both ``arm``.
+    are both ``arm``. Visuals count where the robot's ``<compiler>`` keeps them.
     """
+    compilers = [m.child("compiler") for m in robot.element.all("mujoco")]
+    all_of_them = any(c is not None and c.get("discardvisual") == "false" for c in compilers)
     first: dict[str, str] = {}
-    told: set[str] = set()
+    found: dict[str, MeshUse] = {}
     for use in mesh_uses(robot, description):
+        if not (use.collides or all_of_them):
+            continue  # MuJoCo drops visuals
         stem = use.uri.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
         other = first.setdefault(stem, use.uri)
-        if stem and other != use.uri and stem not in told:
-            told.add(stem)
-            yield Problem(
-                use.link,
-                f"meshes '{other}' and '{use.uri}' are both '{stem}' to MuJoCo; rename one",
-                at=use.mesh.element.attribute_place("filename"),
-            )
+        if stem and other != use.uri:
+            found.setdefault(stem, use)
+    if found:
+        stem, use = next(iter(found.items()))
+        more = f" (and {len(found) - 1} more pairs)" if len(found) > 1 else ""
+        yield Problem(
+            use.link,
+            f"meshes '{first[stem]}' and '{use.uri}' are both '{stem}' to MuJoCo{more}; rename one",
+            at=use.mesh.element.attribute_place("filename"),
+        )
