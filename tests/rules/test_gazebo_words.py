@@ -46,7 +46,8 @@ def test_right_words_and_those_of_strange_plugins_pass(tmp_path, inside):
         ("<turnGravityoff>1</turnGravityoff>", "<turnGravityOff>"),
         ("<sensor name='s' type='imu'><updateRate>1</updateRate></sensor>", "<update_rate>"),
         (
-            "<sensor name='s' type='camera'><camera><horizontal_fow>1</horizontal_fow></camera></sensor>",
+            "<sensor name='s' type='camera'><camera><horizontal_fow>1</horizontal_fow></camera>"
+            "</sensor>",
             "<horizontal_fov>",
         ),
     ],

@@ -41,10 +41,12 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "macro-arguments-mismatch",
             "circular-property",
             "endless-expansion",
+            "non-boolean-conditional",
             "expansion-failed",
         ),
         "tags": ("unprefixed-xacro-tag", "nonstandard-xmlns"),
         "leftovers": ("unexpanded-expression",),
+        "unreached": ("bad-substitution-command", "unclosed-expression"),
         "expansion_warnings": (
             "shadowed-builtin",
             "unknown-xacro-attribute",

@@ -95,10 +95,21 @@ def endless_expansion() -> tuple[Problem, ...]:
 
 
 @rule(ERROR, effects=_STOPS)
+def non_boolean_conditional() -> tuple[Problem, ...]:
+    """A condition is neither true nor false.
+
+    ``<xacro:if>`` and ``<xacro:unless>`` take ``true``, ``false``, ``1`` and ``0``, or an
+    expression that gives one. A comparison is such an expression only inside ``${…}``: ``$(arg
+    kind) == arm`` is text.
+    """
+    return _NOTHING
+
+
+@rule(ERROR, effects=_STOPS)
 def expansion_failed() -> tuple[Problem, ...]:
     """The expansion stopped for another reason.
 
-    An expression that Python refuses, a condition that is neither true nor false, a YAML file that
-    is not YAML, a tag without an attribute it needs. The message is xacro's, with the place.
+    An expression that Python refuses, a YAML file that is not YAML, a tag without an attribute it
+    needs, a substitution that there is not. The message is xacro's, with the place.
     """
     return _NOTHING

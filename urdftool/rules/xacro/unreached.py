@@ -1,0 +1,72 @@
+"""What would stop the expansion, if it came there: in macros nobody calls and branches not taken.
+
+Where the expansion does come there it stops, and says so itself.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ...source.description import Description
+from ...source.document import Document, Element
+from ...source.location import Place
+from ..rule import ERROR, Problem, rule
+from ..words import did_you_mean
+
+_LATER = {"xacro": "stops as soon as it comes there"}
+_COMMANDS = ("find", "env", "optenv", "dirname", "arg", "cwd", "eval")
+_BAD = re.compile(
+    r"(?<!\$)\$\(\s*(?!(?:find|env|optenv|dirname|arg|cwd|eval)(?![\w-]))([\w-]+)[^)]*\)"
+)
+_OPEN = re.compile(r"(?<!\$)\$(?:\{[^}]*|\([^)]*)$")
+_FOR_LAUNCH = {
+    "find-pkg-share": "find",
+    "find-pkg-prefix": "find",
+    "var": "arg",
+}
+
+
+def _matches(
+    document: Document, description: Description, pattern: re.Pattern[str], quick: bytes
+) -> Iterator[tuple[Element, re.Match[str], Place | Element]]:
+    """What a pattern finds in the values and texts of a file that was expanded."""
+    if description.expansion is None or not re.search(quick, document.file.data):
+        return
+    for element in document.root.walk():
+        for name, value in element.attributes.items():
+            match = pattern.search(value) if "$" in value else None
+            if match is not None:
+                yield element, match, element.attribute_place(name)
+        match = pattern.search(element.text) if "$" in element.text else None
+        if match is not None and not element.children:
+            yield element, match, element
+
+
+@rule(ERROR, effects=_LATER)
+def bad_substitution_command(document: Document, description: Description) -> Iterator[Problem]:
+    """A substitution is none that xacro has.
+
+    xacro has ``$(find …)``, ``$(arg …)``, ``$(env …)``, ``$(optenv …)``, ``$(dirname)``, ``$(cwd)``
+    and ``$(eval …)``. Others, such as ``$(find-pkg-share …)`` and ``$(var …)``, are those of launch
+    files.
+    """
+    quick = rb"\$\(\s*(?!(?:find|env|optenv|dirname|arg|cwd|eval)[\s)])\w"
+    for element, match, at in _matches(document, description, _BAD, quick):
+        name = match[1]
+        instead = _FOR_LAUNCH.get(name)
+        right = f"; write $({instead} …)" if instead else did_you_mean(name, _COMMANDS)
+        yield Problem(element, f"xacro has no $({name} …){right}", at=at)
+
+
+@rule(ERROR, effects=_LATER)
+def unclosed_expression(document: Document, description: Description) -> Iterator[Problem]:
+    """An expression is not closed.
+
+    ``${`` wants its ``}`` and ``$(`` its ``)`` in the same value. What xacro says of it is that the
+    expression is invalid.
+    """
+    quick = rb"\$(?:\{[^}\"'<]*|\([^)\"'<]*)[\"'<]"
+    for element, match, at in _matches(document, description, _OPEN, quick):
+        close = "}" if match[0].startswith("${") else ")"
+        yield Problem(element, f"'{match[0][:40]}' is not closed; write its '{close}'", at=at)
