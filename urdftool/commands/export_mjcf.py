@@ -76,7 +76,7 @@ def command(
     style: str,
     **choices: Any,
 ) -> int:
-    r"""Turn the robot IN into a MuJoCo model, and prove that it is the same robot.
+    """Turn the robot IN into a MuJoCo model, and prove that it is the same robot.
 
     One body a link, with its mass, names and limits as they are; meshes are copied or converted.
     What is lost is said, with its place.
@@ -84,7 +84,7 @@ def command(
     \b
         urdftool export mjcf panda.urdf -o panda/ --scene --verify
         urdftool export mjcf quadruped.urdf.xacro -o q/ --base free --actuators position
-    """
+    """  # noqa: D301 -- click's mark for lines it must not wrap
     from ..configuration import find_configuration
     from ..formats import said
     from ..formats.defects import Refused

@@ -125,9 +125,10 @@ def _ends(robot: Robot) -> Iterator[Finding]:
                     joint.name,
                 )
             elif name not in robot.link and element is not None:
+                hint = '; write <link name="world"/> first' if name == "world" else ""
                 yield defect(
                     f"unknown-{end}-link",
-                    f"{end} link '{name}' of joint '{joint.name}' does not exist",
+                    f"{end} link '{name}' of joint '{joint.name}' does not exist{hint}",
                     element.attribute_place("link"),
                     "joint",
                     joint.name,

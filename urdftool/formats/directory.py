@@ -30,7 +30,7 @@ def mark(xml: bytes, source: str) -> bytes:
     """
     start = xml.find(b"?>") + 2 if xml.startswith(b"<?xml") else 0
     head, rest = xml[:start], xml[start:].lstrip(b"\n")
-    name = re.sub(r"-{2,}|[;<>]", "-", source)
+    name = re.sub(r"[-;<>]*[;<>][-;<>]*|-{2,}", "-", source)
     comment = f"<!-- Exported by urdftool {__version__} from {name}; {_digest(rest)} -->\n"
     return (head + b"\n" if head else b"") + comment.encode() + rest
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from io import BytesIO
 from pathlib import Path
 
@@ -9,12 +10,23 @@ SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 def is_png(image: Path) -> bool:
-    """Whether a file is a PNG by its first bytes, whatever its name says."""
+    """Whether a file is a PNG by its bytes, whatever its name says, with sums that are right."""
     try:
-        with open(image, "rb") as stream:
-            return stream.read(8) == SIGNATURE and len(stream.read(64)) == 64
+        data = image.read_bytes()
     except OSError:
         return False
+    if not data.startswith(SIGNATURE):
+        return False
+    start, kind = len(SIGNATURE), b""
+    while kind != b"IEND":
+        length = int.from_bytes(data[start : start + 4], "big")
+        kind = data[start + 4 : start + 8]
+        end = start + 8 + length
+        checksum = zlib.crc32(data[start + 4 : end]).to_bytes(4, "big")
+        if len(kind) < 4 or checksum != data[end : end + 4]:
+            return False
+        start = end + 4
+    return True
 
 
 def png_bytes(image: Path) -> bytes | None:
