@@ -19,7 +19,7 @@ SDF_TYPES = {
     "continuous": "revolute",
     "prismatic": "prismatic",
     "fixed": "fixed",
-    **dict.fromkeys(BALL_TYPES, "ball"),
+    **dict.fromkeys(sorted(BALL_TYPES), "ball"),
 }
 """URDF's types of joints and SDF's; ``floating`` is no joint there, ``planar`` is three."""
 

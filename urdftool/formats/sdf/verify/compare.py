@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -56,7 +57,10 @@ def verify(robot: Robot, written: Written, options: Options, output: str | Path)
         output: Where it was written: the file or the folder.
     """
     place = Path(output) if options.file else Path(output) / written.main
-    pair = pair_of(robot, written, place)
+    try:
+        pair = pair_of(robot, written, place)
+    except (ElementTree.ParseError, OSError, LookupError, StopIteration, ValueError) as error:
+        return [Check("file", "can be read back", 0.0, differing=[f"{place}: {error!r}"])]
     checks = compare(pair)
     checks.append(_same_again(robot, written, options))
     loaded = loads(robot, options, place)

@@ -1,0 +1,159 @@
+"""The command: files, streams, exit codes."""
+
+import json
+import os
+
+import pytest
+
+from tests.conftest import FIXTURES
+
+from .robots import TWO, gazebo, inertial, link
+
+ROBOT = '<robot name="r">' + "".join(TWO) + "</robot>\n"
+ARM = FIXTURES / "formats" / "sdf" / "gripper_arm.urdf"
+MIRA = FIXTURES / "robots" / "mira_description" / "urdf" / "mira.urdf"
+
+
+def test_a_folder(urdftool, write, tmp_path):
+    result = urdftool("export", "sdf", write("r.urdf", ROBOT), "-o", "out")
+    assert (result.code, result.out) == (0, "")
+    assert sorted(os.listdir(tmp_path / "out")) == ["model.config", "model.sdf"]
+    assert '<sdf version="1.11">model.sdf</sdf>' in (tmp_path / "out/model.config").read_text()
+
+
+def test_one_file(urdftool, write, tmp_path):
+    assert urdftool("export", "sdf", write("r.urdf", ROBOT), "-o", "r.sdf").code == 0
+    assert sorted(os.listdir(tmp_path)) == ["r.sdf", "r.urdf"]
+
+
+def test_standard_output(urdftool, write):
+    result = urdftool("export", "sdf", write("r.urdf", ROBOT))
+    assert result.out.startswith('<?xml version="1.0"?>')
+    assert result.err == ""
+
+
+def test_twice_is_the_same(urdftool, write, tmp_path):
+    path = write("r.urdf", ROBOT)
+    urdftool("export", "sdf", path, "-o", "out")
+    first = (tmp_path / "out/model.sdf").read_bytes()
+    assert urdftool("export", "sdf", path, "-o", "out").code == 0
+    assert (tmp_path / "out/model.sdf").read_bytes() == first
+
+
+def test_what_is_not_ours_is_left_alone(urdftool, write, tmp_path):
+    path = write("r.urdf", ROBOT)
+    write("out/model.sdf", "<sdf/>")
+    result = urdftool("export", "sdf", path, "-o", "out")
+    assert result.code == 2
+    assert "--overwrite" in result.err
+    assert (tmp_path / "out/model.sdf").read_text() == "<sdf/>"
+    assert urdftool("export", "sdf", path, "-o", "out", "--overwrite").code == 0
+    model = tmp_path / "out/model.sdf"
+    model.write_text(model.read_text().replace('name="r"', 'name="mine"'))
+    assert urdftool("export", "sdf", path, "-o", "out").code == 2
+
+
+def test_an_input_is_never_overwritten(urdftool, write):
+    path = write("r.sdf", ROBOT)
+    result = urdftool("export", "sdf", path, "-o", path, "--overwrite")
+    assert result.code == 2
+    assert "input" in result.err
+
+
+def test_a_defect_writes_nothing(urdftool, write, tmp_path):
+    bad = '<robot name="r">' + link("a", inertial(1, (1, 1, 9))) + link("b") + "</robot>"
+    result = urdftool("export", "sdf", write("r.urdf", bad), "-o", "out")
+    assert result.code == 2
+    assert result.err.startswith("r.urdf:1:")
+    assert "multiple-roots" in result.err
+    assert not (tmp_path / "out").exists()
+
+
+def test_strict(urdftool, write, tmp_path):
+    lossy = '<robot name="r">' + link("a") + gazebo("nothing", "<mu1>1</mu1>") + "</robot>"
+    path = write("r.urdf", lossy)
+    assert urdftool("export", "sdf", path, "-o", "out", "--strict").code == 2
+    assert not (tmp_path / "out").exists()
+    result = urdftool("export", "sdf", path, "-o", "out")
+    assert result.code == 0
+    assert "warning" in result.err
+    assert "[lossy-reference]" in result.err
+
+
+def test_json(urdftool, tmp_path):
+    result = urdftool("export", "sdf", ARM, "-o", tmp_path / "arm", "--format", "json", "--verify")
+    report = json.loads(result.out)
+    assert report["version"] == 1
+    assert report["faithful"] is True
+    assert {f["rule"] for f in report["findings"]} >= {"lossy-safety", "lossy-calibration"}
+    assert all(f["line"] for f in report["findings"])
+    assert "frames" in [check["check"] for check in report["checks"]]
+
+
+def test_verify_prints_a_table(urdftool, tmp_path):
+    result = urdftool("export", "sdf", MIRA, "-o", tmp_path / "mira", "--verify")
+    assert result.code == 0
+    assert "mass matrix" in result.out
+    assert "differs" not in result.out
+
+
+@pytest.mark.parametrize(
+    ("options", "uri"),
+    [
+        ((), "meshes/mira_body.dae"),
+        (("--target", "gazebo-classic"), "model://mira/meshes/mira_body.dae"),
+        (("--uri", "package"), "package://mira_description/meshes/mira_body.dae"),
+        (("--uri", "file"), f"file://{MIRA.parents[1]}/meshes/mira_body.dae"),
+        (("--uri", "model"), "model://mira/meshes/mira_body.dae"),
+    ],
+)
+def test_names_of_meshes(urdftool, tmp_path, options, uri):
+    result = urdftool("export", "sdf", MIRA, "-o", tmp_path / "mira", "--verify", *options)
+    assert result.code == 0, result.out + result.err
+    assert f"<uri>{uri}</uri>" in (tmp_path / "mira/model.sdf").read_text()
+    copied = (tmp_path / "mira/meshes/mira_body.dae").exists()
+    assert copied == (uri.startswith(("meshes", "model")))
+
+
+def test_meshes_beside_a_file(urdftool, tmp_path):
+    result = urdftool("export", "sdf", MIRA, "-o", tmp_path / "m.sdf", "--mesh-dir", "stuff")
+    assert result.code == 0
+    assert (tmp_path / "stuff" / "mira_body.dae").exists()
+    assert "<uri>stuff/mira_body.dae</uri>" in (tmp_path / "m.sdf").read_text()
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--sdf-version", "1.7"),
+        ("--target", "gazebo-classic", "--sdf-version", "1.9"),
+        ("--mesh-dir", "/tmp"),
+        ("--mesh-dir", "../x"),
+        ("--target", "unreal"),
+    ],
+)
+def test_wrong_usage(urdftool, write, options):
+    result = urdftool("export", "sdf", write("r.urdf", ROBOT), "-o", "out", *options)
+    assert result.code == 2
+    assert "Traceback" not in result.err
+
+
+@pytest.mark.parametrize("text", ["", "<robot", "<sdf/>", "<robot/>", "\x00", "<robot name='r'/>"])
+def test_what_is_no_robot(urdftool, write, tmp_path, text):
+    result = urdftool("export", "sdf", write("r.urdf", text), "-o", "out", "--force")
+    assert result.code == 2
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_place_that_is_not_there(urdftool, write):
+    result = urdftool("export", "sdf", write("r.urdf", ROBOT), "-o", "no/such/out")
+    assert result.code == 2
+    assert "does not exist" in result.err
+
+
+def test_a_world(urdftool, write, tmp_path):
+    path = write("r.urdf", ROBOT)
+    assert urdftool("export", "sdf", path, "-o", "out", "--world", "--verify").code == 0
+    assert "<world " in (tmp_path / "out/world.sdf").read_text()
+    assert urdftool("export", "sdf", path, "-o", "w.sdf", "--world", "--verify").code == 0
+    assert "<world " in (tmp_path / "w.sdf").read_text()

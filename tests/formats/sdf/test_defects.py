@@ -1,0 +1,128 @@
+"""What forbids an export: one finding a defect, and what --force makes of it."""
+
+import pytest
+
+from urdftool.formats.defects import Refused
+from urdftool.formats.sdf.options import Options
+from urdftool.formats.sdf.write import write
+
+from .robots import BOX, TWO, export, gazebo, inertial, joint, link, robot, rules, tree
+
+LIMIT = '<limit lower="0" upper="1" effort="1" velocity="1"/>'
+IMPOSSIBLE = inertial(1, (0.1, 0.1, 0.5))
+
+FORCED = {
+    "zero-axis": (link("a"), joint("j", "a", "b", inside=f'<axis xyz="0 0 0"/>{LIMIT}'), link("b")),
+    "missing-limit": (link("a"), joint("j", "a", "b", inside=""), link("b")),
+    "lower-above-upper": (
+        link("a"), joint("j", "a", "b", inside='<limit lower="1" upper="0"/>'), link("b"),
+    ),
+    "triangle-inequality": (link("a", IMPOSSIBLE),),
+    "negative-mass": (link("a", inertial(-1)),),
+    "incomplete-inertial": (link("a", '<inertial><mass value="1"/></inertial>'),),
+    "not-a-number": (link("a", inertial(mass="heavy")),),
+    "mesh-not-found": (
+        link("a", f'{inertial()}<visual><geometry><mesh filename="package://no/x.stl"/></geometry>'
+             "</visual>"),
+    ),
+    "missing-geometry": (link("a", f"{inertial()}<collision/>"),),
+    "unsupported-shape": (
+        link("a", f"{inertial()}<collision><geometry><cone/></geometry></collision>"),
+    ),
+    "non-positive-dimension": (
+        link("a", f'{inertial()}<visual><geometry><sphere radius="0"/></geometry></visual>'),
+    ),
+    "bad-extension-number": (link("a"), gazebo("a", "<mu1>${mu}</mu1>")),
+    "unknown-joint-type": (link("a"), joint("j", "a", "b", "hinge"), link("b")),
+    "self-mimic": (
+        link("a"), joint("j", "a", "b", inside=f'{LIMIT}<mimic joint="j"/>'), link("b"),
+    ),
+    "mimic-unknown-joint": (
+        link("a"), joint("j", "a", "b", inside=f'{LIMIT}<mimic joint="x"/>'), link("b"),
+    ),
+    "mimic-dof-mismatch": (
+        link("a"), joint("j", "a", "b", inside=f'{LIMIT}<mimic joint="k"/>'), link("b"),
+        joint("k", "b", "c", "fixed"), link("c"),
+    ),
+}  # fmt: skip
+
+FATAL = {
+    "no-links": (),
+    "multiple-roots": (link("a"), link("b")),
+    "no-root": (link("a"), link("b"), joint("j", "a", "b"), joint("k", "b", "a")),
+    "detached-cycle": (*TWO, link("c"), link("d"), joint("k", "c", "d"), joint("l", "d", "c")),
+    "multiple-parents": (*TWO, link("c"), joint("k", "a", "c"), joint("l", "b", "c")),
+    "unknown-parent-link": (link("a"), joint("j", "x", "a")),
+    "duplicate-link-name": (link("a"), link("a")),
+    "missing-name": (link(""),),
+}
+
+
+def refused(*parts, **choices):
+    with pytest.raises(Refused) as caught:
+        write(robot(*parts), Options(**choices))
+    return caught.value
+
+
+@pytest.mark.parametrize("rule", [*FORCED, *FATAL])
+def test_a_defect_is_one_finding_at_its_place(rule):
+    error = refused(*{**FORCED, **FATAL}[rule])
+    found = [finding for finding in error.findings if finding.rule == rule]
+    assert len(found) == 1, [str(f) for f in error.findings]
+    assert str(found[0]).startswith("r.urdf:")
+    assert error.line is not None
+
+
+@pytest.mark.parametrize("rule", FORCED)
+@pytest.mark.parametrize("choices", [{}, {"fixed_joints": "lump"}, {"target": "gazebo-classic"}])
+def test_force_goes_past_it_and_says_so(rule, choices):
+    written = export(*FORCED[rule], force=True, **choices)
+    assert f"lossy-{rule}" in rules(written)
+    assert tree(written).find("link") is not None
+
+
+@pytest.mark.parametrize("rule", FATAL)
+def test_force_does_not_invent_a_robot(rule):
+    assert rule in [finding.rule for finding in refused(*FATAL[rule], force=True).findings]
+
+
+def test_all_defects_are_said_at_once():
+    parts = (
+        link("a", IMPOSSIBLE),
+        gazebo("a", "<mu1>x</mu1><kp>y</kp><maxContacts>1.5</maxContacts>"),
+    )
+    found = [finding.rule for finding in refused(*parts).findings]
+    assert found == ["bad-extension-number"] * 3 + ["triangle-inequality"]
+
+
+@pytest.mark.parametrize("text", ["", "nan", "1e400", "0x10", "1,5", "1_000", "${mu}"])
+def test_numbers_of_extensions(text):
+    error = refused(link("a"), gazebo("a", f"<mu1>{text}</mu1>"))
+    assert f"'{text}', not a finite number" in error.message
+
+
+def test_numbers_of_sensors():
+    said = '<sensor name="s" type="imu"><update_rate>fast</update_rate></sensor>'
+    assert "fast" in refused(link("a"), gazebo("a", said)).message
+
+
+def test_an_impossible_inertia_that_a_fixed_neighbour_mends_is_no_defect():
+    parts = (
+        link("a", inertial(5, (1, 1, 1))),
+        joint("j", "a", "b", "fixed"),
+        link("b", IMPOSSIBLE),
+    )
+    assert rules(export(*parts)) == ["lossy-link"]
+
+
+def test_forced_inertia_is_possible_and_as_near_as_can_be():
+    written = export(link("a", IMPOSSIBLE), force=True)
+    moments = [float(next(tree(written).iter(n)).text) for n in ("ixx", "iyy", "izz")]
+    assert moments[2] <= moments[0] + moments[1]
+    assert moments == pytest.approx([0.25, 0.25, 0.5], rel=0.3)
+
+
+def test_a_shape_that_cannot_be_written_is_left_out_alone():
+    inside = f"{inertial()}<collision/><collision>{BOX}</collision>"
+    written = export(link("a", inside), force=True)
+    assert len(list(tree(written).iter("collision"))) == 1

@@ -1,0 +1,33 @@
+"""The page of the mapping says what the code does."""
+
+import re
+
+from tests.conftest import ROOT
+from urdftool.formats.sdf.losses import LOSSES
+from urdftool.formats.sdf.page import with_mapping
+
+PAGE = ROOT / "docs" / "formats" / "sdf.md"
+SOURCES = sorted((ROOT / "urdftool" / "formats" / "sdf").glob("*.py"))
+
+
+def test_the_page_is_fresh():
+    text = PAGE.read_text("utf-8")
+    assert with_mapping(text) == text, "run python -m urdftool.formats.sdf.page docs/formats/sdf.md"
+
+
+def test_every_loss_is_on_the_page():
+    code = "".join(path.read_text("utf-8") for path in SOURCES)
+    used = set(re.findall(r't\.(?:lose|note)\(\s*"([a-z0-9-]+)"', code))
+    used |= set(re.findall(r't\.lose if [^"]*"([a-z0-9-]+)"', code))
+    used |= {"safety", "calibration"}  # by a variable
+    used |= set(re.findall(r'else t\.(?:lose|note)\)\("([a-z0-9-]+)"', code))
+    assert used == set(LOSSES)
+
+
+def test_the_numbers_of_the_page_are_good_enough():
+    rows = re.findall(r"^\| 68 \| (keep|lump) \| (.*) \|$", PAGE.read_text("utf-8"), re.MULTILINE)
+    assert [mode for mode, _ in rows] == ["keep", "lump"]
+    for _, cells in rows:
+        *_, equal, unannounced = (int(cell) for cell in cells.split(" | "))
+        assert equal >= 64
+        assert unannounced == 0

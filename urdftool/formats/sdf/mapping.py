@@ -1,0 +1,131 @@
+"""The page of the mapping, from the tables that the export goes by."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from .colors import COLORS
+from .joints import SDF_TYPES
+from .keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS, LINK_KEYWORDS, LUMPING_KEYWORDS, Keyword
+from .losses import LOSSES
+from .options import DEFAULT_VERSION, RELEASES, VERSIONS
+from .plugin_types import CONTROL_PLUGINS, MIMIC_PLUGINS, SENSOR_PLUGINS, SYSTEM_PLUGINS
+from .sensor_types import SYSTEMS, TO_CLASSIC, TO_GZ, SensorType
+
+ELEMENTS = (
+    ("robot name", "model name", ""),
+    ("link", "link", "or a frame, where it cannot stand alone or is lumped"),
+    ("root link `world`", "the world", "its joints have the parent `world`"),
+    ("inertial origin, mass, inertia", "inertial pose, mass, inertia", "number by number"),
+    ("no inertial, on a fixed joint", "frame", "its shapes and sensors are in the neighbour"),
+    ("no inertial, moving", "inertial of 1e-12 kg", "lossy-mass"),
+    ("visual, collision origin", "pose", "in the frame of the lumped link where there are frames"),
+    (
+        "visual, collision name",
+        "name",
+        "made unique in the link; LINK_visual where none is written",
+    ),
+    ("box, cylinder, sphere, capsule", "the same", "capsule from SDF 1.8 on"),
+    ("mesh filename, scale", "mesh uri, scale", "copied with the textures it names"),
+    ("color rgba", "ambient and diffuse", "and transparency; not made brighter"),
+    ("texture filename", "pbr metal albedo_map", "gz only"),
+    ("joint origin", "pose relative_to the parent link", "from the model's frame in SDF 1.6"),
+    ("axis xyz", "axis xyz", "of unit length"),
+    ("limit lower, upper", "limit lower, upper", "0 where only the limit is written, as in URDF"),
+    (
+        "limit effort, velocity",
+        "limit effort, velocity",
+        "by their size; SDF's negative is no limit",
+    ),
+    ("dynamics damping, friction", "dynamics damping, friction", ""),
+    ("mimic", "axis mimic", "from SDF 1.11 on"),
+    ("safety_controller, calibration, transmission", "a comment", "lossy"),
+    ("ros2_control", "a comment", "its plugin reads robot_description"),
+    ("gazebo without reference", "model", "static, plugins, and what is SDF already"),
+)
+"""URDF's elements, what they are in SDF, and what else there is to say."""
+
+
+def mapping() -> str:
+    """The tables of the page."""
+    return "\n\n".join(_sections())
+
+
+def _sections() -> Iterator[str]:
+    yield "### Versions\n\n" + _table(
+        ("target", "SDF", "what reads it"),
+        (
+            (target, version + (" (default)" if DEFAULT_VERSION[target] == version else ""),
+             RELEASES[version])
+            for target, versions in VERSIONS.items()
+            for version in versions
+        ),
+    )  # fmt: skip
+    yield "### Elements\n\n" + _table(("URDF", "SDF", ""), ELEMENTS)
+    yield "### Types of joints\n\n" + _table(
+        ("URDF", "SDF"),
+        (
+            *((urdf, sdf) for urdf, sdf in SDF_TYPES.items()),
+            ("floating", "no joint: a free link"),
+            ("planar", "two prismatic and a revolute"),
+        ),
+    )
+    yield '### `<gazebo reference="LINK">`\n\n' + _keywords(
+        {**_below("collision", COLLISION_KEYWORDS), **_below("link", LINK_KEYWORDS)}
+    )
+    yield (
+        '### `<gazebo reference="JOINT">`\n\n'
+        + _keywords(_below("joint", JOINT_KEYWORDS))
+        + f"\n\n{' and '.join(f'`{tag}`' for tag in LUMPING_KEYWORDS)} keep a fixed joint when "
+        "lumping; so does a force_torque sensor on it."
+    )
+    yield "### Sensors\n\n" + _table(
+        ("for", "type", "becomes", ""),
+        (*_types("gz", TO_GZ), *_types("gazebo-classic", TO_CLASSIC)),
+    )
+    yield "Systems that a world for gz has then (`--world` writes them):\n\n" + _table(
+        ("sensor", "system"),
+        ((kind, f"gz-sim-{word}-system") for kind, (word, _) in SYSTEMS.items()),
+    )
+    yield "### Plugins of Gazebo Classic in gz\n\n" + _table(("library", "becomes"), _plugins())
+    yield (
+        f"### Materials\n\n{len(COLORS)} materials of Gazebo Classic are colours for gz: "
+        + ", ".join(name.removeprefix("Gazebo/") for name in COLORS)
+        + "."
+    )
+    yield "### Losses\n\n" + _table(
+        ("name", "what it means"), ((f"`lossy-{name}`", text) for name, text in LOSSES.items())
+    )
+
+
+def _table(head: tuple[str, ...], rows: Iterable[Iterable[str]]) -> str:
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join(f"| {' | '.join(row)} |".replace("|  |", "| |") for row in lines)
+
+
+def _below(where: str, keywords: dict[str, Keyword]) -> dict[str, Keyword]:
+    return {tag: word._replace(path=f"{where}/{word.path}") for tag, word in keywords.items()}
+
+
+def _keywords(keywords: dict[str, Keyword]) -> str:
+    return _table(
+        ("tag", "holds", "SDF", ""),
+        ((f"`{tag}`", word.holds, f"`{word.path}`", word.note) for tag, word in keywords.items()),
+    )
+
+
+def _types(target: str, types: dict[str, SensorType]) -> Iterator[tuple[str, str, str, str]]:
+    for kind, other in types.items():
+        yield target, kind, other.type or "stays as it is", other.note if other.type else "lossy"
+
+
+def _plugins() -> Iterator[tuple[str, str]]:
+    for name, systems in SYSTEM_PLUGINS.items():
+        yield f"`lib{name}.so`", ", ".join(f"gz-sim-{system.word}-system" for system in systems)
+    for name in sorted(CONTROL_PLUGINS):
+        yield f"`lib{name}.so`", "gz_ros2_control-system"
+    for name in sorted(MIMIC_PLUGINS):
+        yield f"`lib{name}.so`", "`<mimic>` of the axis"
+    for name, plugin in SENSOR_PLUGINS.items():
+        kind = f" of type {plugin.type}" if plugin.type else ""
+        yield f"`lib{name}.so`", f"the sensor itself{kind}, by gz-sim-{plugin.system}-system"

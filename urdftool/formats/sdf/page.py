@@ -1,0 +1,22 @@
+"""``python -m urdftool.formats.sdf.page PAGE``: put the mapping into its page."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from .mapping import mapping
+
+BEGIN, END = "<!-- mapping: begin -->", "<!-- mapping: end -->"
+
+
+def with_mapping(page: str) -> str:
+    """A page with the mapping between its marks as it is now."""
+    head, _, rest = page.partition(BEGIN)
+    _, _, tail = rest.partition(END)
+    return f"{head}{BEGIN}\n\n{mapping()}\n\n{END}{tail}"
+
+
+if __name__ == "__main__":
+    place = Path(sys.argv[1])
+    place.write_text(with_mapping(place.read_text("utf-8")), "utf-8")
