@@ -12,9 +12,8 @@ from .options import package_options, robot_argument
 
 if TYPE_CHECKING:
     from ..formats.check import Check
-    from ..formats.mjcf.options import Options
+    from ..formats.defects import Refused
     from ..formats.written import Written
-    from ..model.elements import Robot
 
 FILES = (".xml", ".mjcf")
 """Suffixes of an output that is one file."""
@@ -88,16 +87,15 @@ def command(
     from ..configuration import find_configuration
     from ..formats import said
     from ..formats.defects import Refused
+    from ..formats.directory import write_export
     from ..formats.mjcf.options import Options
+    from ..formats.mjcf.verify import verify_copy
     from ..formats.mjcf.write import write
     from ..model.load import robot_of
     from ..source.description import read_description
 
     if Path(mesh_dir).is_absolute() or ".." in Path(mesh_dir).parts:
         raise click.UsageError("--mesh-dir is a folder beside the model, such as assets")
-    file = Path(output).name if output and Path(output).suffix.lower() in FILES else ""
-    folder = Path(mesh_dir).as_posix()
-    options = Options(mesh_dir="" if folder == "." else folder, file=file, **choices)
     path, arguments = robot
     description = read_description(
         path,
@@ -106,24 +104,30 @@ def command(
         package_paths=package_path,
         configured=find_configuration(path, console.config).packages,
     )
-    model = robot_of(description)
-    as_json = style == "json"
+    file = Path(output).name if output and Path(output).suffix.lower() in FILES else ""
+    folder = Path(mesh_dir).as_posix()
+    options = Options(mesh_dir="" if folder == "." else folder, file=file, **choices)
     try:
-        written = write(model, options)
+        written = write(robot_of(description), options)
         if strict and (lost := said.strict(written.losses)):
             raise Refused(lost)
     except Refused as refused:
-        return _refused(refused, as_json)
-    checks = _verified(model, options, written) if verified else []
-    _put(model, options, written, output, overwrite, as_json)
-    return _report(console, written, checks, output, as_json)
+        return _refused(refused, style)
+    checks = verify_copy(robot_of(description), options, written) if verified else []
+    if output is None or output == "-":
+        _print(written, style)
+    else:
+        inputs: list[str | Path] = [source.path for source in description.files]
+        inputs += [options.srdf] if options.srdf is not None else []
+        write_export(output, written, single=bool(file), overwrite=overwrite, inputs=inputs)
+    return _report(console, written, checks, output, style)
 
 
-def _refused(refused: Any, as_json: bool) -> int:
+def _refused(refused: Refused, style: str) -> int:
     """Every defect, one a line; nothing is written."""
     from ..formats import said
 
-    if as_json:
+    if style == "json":
         from ..report.exports import to_json
 
         click.echo(to_json(None, (), refused.findings, ()), nl=False)
@@ -135,56 +139,28 @@ def _refused(refused: Any, as_json: bool) -> int:
     return 2
 
 
-def _verified(robot: Robot, options: Options, written: Written) -> list[Check]:
-    """Compile and compare a copy, before anything of the user's is touched."""
-    import tempfile
-
-    from ..formats.directory import write_directory
-    from ..formats.mjcf.verify import verify
-    from ..formats.mjcf.write import write
-
-    with tempfile.TemporaryDirectory(prefix="urdftool-") as folder:
-        copy = Path(folder) / "model"
-        write_directory(copy, written.files, main=written.main)
-        return verify(robot, written, copy / written.main, write(robot, options))
-
-
-def _put(
-    robot: Robot,
-    options: Options,
-    written: Written,
-    output: str | None,
-    overwrite: bool,
-    as_json: bool,
-) -> None:
-    """Write the files where they are wanted; a model without companions may go to stdout."""
+def _print(written: Written, style: str) -> None:
+    """A model without companions on standard output."""
     from ..errors import OutputError
-    from ..formats.directory import write_beside, write_directory
 
-    if output is None or output == "-":
-        if len(written.files) > 1:
-            raise OutputError("meshes or a scene come with the model; say where to with -o OUT")
-        content = written.files[written.main]
-        if not as_json and isinstance(content, bytes):
-            click.echo(content, nl=False)
-        return
-    inputs = [file.path for file in robot.source.files] if robot.source is not None else []
-    inputs += [str(options.srdf)] if options.srdf is not None else []
-    write_it = write_beside if options.file else write_directory
-    write_it(output, written.files, main=written.main, overwrite=overwrite, inputs=inputs)
+    content = written.files[written.main]
+    if len(written.files) > 1 or not isinstance(content, bytes):
+        raise OutputError("meshes or a scene come with the model; say where to with -o OUT")
+    if style != "json":
+        click.echo(content, nl=False)
 
 
 def _report(
-    console: Console, written: Written, checks: list[Check], output: str | None, as_json: bool
+    console: Console, written: Written, checks: list[Check], output: str | None, style: str
 ) -> int:
-    """Losses on stderr, the table or JSON on stdout."""
+    """Losses on stderr, the table or JSON on stdout; the exit code."""
     from ..finding import Severity
     from ..formats import said
     from ..formats.check import check_table, is_faithful
 
     shown = [f for f in written.losses if f.severity > Severity.INFO or console.verbosity > 0]
     hidden = len(said.merged(written.losses)) - len(said.merged(shown))
-    if as_json:
+    if style == "json":
         from ..report.exports import to_json
 
         click.echo(to_json(output, written.files, written.losses, checks), nl=False)

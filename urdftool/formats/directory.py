@@ -16,6 +16,7 @@ from pathlib import Path
 
 from .. import __version__
 from ..errors import OutputError
+from .written import Written
 
 _MARK = re.compile(rb"<!-- Exported by urdftool [^;]*; ([0-9a-f]{12}) -->\n?")
 _HEAD = 4096
@@ -121,6 +122,30 @@ def write_beside(
         raise OutputError(f"cannot be written: {_reason(error)}", path=target) from None
     finally:
         shutil.rmtree(staged, ignore_errors=True)
+
+
+def write_export(
+    target: str | Path,
+    written: Written,
+    *,
+    single: bool,
+    overwrite: bool = False,
+    inputs: Iterable[str | Path] = (),
+) -> None:
+    """Write what an exporter gave back.
+
+    Args:
+        target: The file or the folder.
+        written: The export.
+        single: Whether the target is a file with its companions beside it.
+        overwrite: Replace also what is not ours, or was edited.
+        inputs: Files that were read, which must not be replaced.
+
+    Raises:
+        OutputError: Something there is not ours, or cannot be written.
+    """
+    write = write_beside if single else write_directory
+    write(target, written.files, main=written.main, overwrite=overwrite, inputs=inputs)
 
 
 def _check_place(path: Path, shown: str | Path) -> None:

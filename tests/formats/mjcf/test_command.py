@@ -4,6 +4,8 @@ import json
 
 import pytest
 
+from tests.conftest import ROOT
+
 from .goldens import FOLDER
 from .robots import BOX, INERTIAL, joint, link, robot
 
@@ -70,13 +72,9 @@ def test_an_input_is_not_overwritten(urdftool, write):
 
 
 def test_defects_one_line_each(urdftool, write, tmp_path):
-    path = write(
-        "r.urdf",
-        robot(
-            "", link("a"), "", link("b", '<visual><geometry><mesh filename="x.stl"/></geometry></visual>'),
-            joint("j", "a", "b", inside='<axis xyz="0 0 0"/><limit lower="0" upper="1"/>'),
-        ),
-    )  # fmt: skip
+    mesh = '<visual><geometry><mesh filename="x.stl"/></geometry></visual>'
+    bad = joint("j", "a", "b", inside='<axis xyz="0 0 0"/><limit lower="0" upper="1"/>')
+    path = write("r.urdf", robot("", link("a"), "", link("b", mesh), bad))
     result = urdftool("export", "mjcf", path, "-o", tmp_path / "out")
     assert result.code == 2
     lines = result.err.splitlines()
@@ -103,6 +101,8 @@ def test_strict(urdftool, tmp_path):
 def test_json(urdftool, tmp_path):
     result = urdftool("export", "mjcf", ARM, "-o", tmp_path / "out", "--format", "json")
     report = json.loads(result.out)
+    jsonschema = pytest.importorskip("jsonschema")
+    jsonschema.validate(report, json.loads((ROOT / "docs" / "schemas" / "export.json").read_text()))
     assert report["version"] == 1
     assert report["files"] == ["arm.xml"]
     moved = next(f for f in report["findings"] if f["rule"] == "lossy-inertia-moved")
@@ -121,6 +121,15 @@ def test_verify_prints_a_table(urdftool, tmp_path):
 def test_mesh_dir_is_beside_the_model(urdftool, tmp_path, folder):
     result = urdftool("export", "mjcf", ARM, "-o", tmp_path / "out", "--mesh-dir", folder)
     assert result.code == 2
+
+
+def test_a_chain_too_deep_for_mujoco(urdftool, write, tmp_path):
+    links = [link(f"l{i}") for i in range(600)]
+    joints = [joint(f"j{i}", f"l{i}", f"l{i + 1}", "continuous", "") for i in range(599)]
+    path = write("r.urdf", robot(*links, *joints))
+    result = urdftool("export", "mjcf", path, "-o", tmp_path / "out")
+    assert result.code == 2
+    assert "[too-deep]" in result.err
 
 
 def test_hostile_names(urdftool, write, tmp_path):

@@ -1,4 +1,4 @@
-"""The test cases of MuJoCo's and Drake's readers of URDF: the same meaning, or a known difference."""
+"""The test cases of MuJoCo's and Drake's readers of URDF: one meaning, or a known difference."""
 
 import pytest
 

@@ -113,6 +113,13 @@ def test_a_root_called_world_is_the_world(write):
     assert find(model, "exclude", None).get("body1") == "world"
 
 
+def test_a_link_called_world_that_is_not_the_root(write):
+    text = robot(link("base"), link("world"), joint("j", "base", "world"))
+    written = export(write("r.urdf", text))
+    assert find(tree(written), "body", "world_link") is not None
+    assert written.renamed == {("link", "world"): "world_link"}
+
+
 def visual(material):
     return f"<visual>{BOX}{material}</visual>"
 

@@ -40,7 +40,7 @@ def body_tree(structure: Structure, model: str, written: Written) -> tuple[etree
         bodies[structure.root.name] = etree.SubElement(world, "body", name=structure.root.name)
         set_origin(bodies[structure.root.name], start)
     for joint in structure.joints:
-        body = etree.Element("body", name=joint.child)
+        body = etree.Element("body", name=structure.body_name(joint.child))
         parent = bodies[joint.parent]
         if structure.kind(joint) == "free" and parent is not world:
             set_pose(body, pose_of(start) @ structure.pose_at_zero(joint.child))

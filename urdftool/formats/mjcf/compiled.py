@@ -38,8 +38,15 @@ class Compiled:
         warnings: What the compiler said, which should be nothing.
     """
 
-    def __init__(self, path: Path, root: str) -> None:
+    def __init__(
+        self, path: Path, root: str, renamed: Mapping[tuple[str, str], str] | None = None
+    ) -> None:
         """Compile a file.
+
+        Args:
+            path: The file.
+            root: The name of the root link.
+            renamed: New names by kind and old name.
 
         Raises:
             MissingDependency: MuJoCo is not installed.
@@ -48,6 +55,7 @@ class Compiled:
         import warnings
 
         self.mujoco = mujoco_module()
+        self._renamed = dict(renamed or {})
         self.warnings: list[str] = []
         self.mujoco.set_mju_user_warning(self._warn)  # without it a log is written to the folder
         try:
@@ -61,7 +69,7 @@ class Compiled:
             self._warn(str(warning.message))
         self.model.opt.gravity = GRAVITY
         self.data = self.mujoco.MjData(self.model)
-        self.root = max(self.id("BODY", root), 0)
+        self.root = max(self.body(root), 0)
 
     def _warn(self, text: str) -> None:
         line = " ".join(text.split())
@@ -74,6 +82,10 @@ class Compiled:
             self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{kind}"), name
         )
         return int(number)
+
+    def body(self, link: str) -> int:
+        """Number of a link's body; -1 if there is none. The world is 0."""
+        return self.id("BODY", self._renamed.get(("link", link), link))
 
     def name(self, kind: str, number: int) -> str:
         """The name of an object; empty if it has none."""
@@ -94,7 +106,7 @@ class Compiled:
 
     def frame(self, link: str) -> Array | None:
         """The pose of a link in the root's frame, 4 × 4; None if it is no body."""
-        body = 0 if link == "world" else self.id("BODY", link)
+        body = self.body(link)
         return None if body < 0 else self._in_root(self.data.xpos[body], self.data.xmat[body])
 
     def geom_frame(self, geom: int) -> Array:

@@ -23,17 +23,14 @@ ATTRIBUTES = (
 )  # fmt: skip
 
 
-def assemble(model: str, sections: dict[str, etree._Element], head: Iterable[str]) -> bytes:
+def assemble(model: str, sections: dict[str, etree._Element]) -> bytes:
     """The file of a model.
 
     Args:
         model: Its name.
         sections: By the name of their element.
-        head: Comments at the top.
     """
     root = etree.Element("mujoco", model=model)
-    for text in head:
-        root.append(comment(text))
     for name in ORDER:
         section = sections.get(name)
         if section is not None and (len(section) or len(section.attrib)):

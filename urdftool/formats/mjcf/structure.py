@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -114,9 +113,17 @@ class Structure:
             joint = self.robot.tree.parent_joint(joint.parent)
         return pose
 
-    def children(self, link: str) -> Iterator[Joint]:
-        """The joints below a link, in the order of the file."""
-        yield from self.robot.tree.child_joints(link)
+    def body_name(self, link: str) -> str:
+        """The name of a link's body: MuJoCo keeps that of its world to itself."""
+        return f"{WORLD}_link" if link == WORLD and link != self.root.name else link
+
+    @cached_property
+    def depth(self) -> dict[str, int]:
+        """How many bodies each link is below the world."""
+        found = {self.root.name: 1}
+        for joint in self.joints:
+            found[joint.child] = found[joint.parent] + 1
+        return found
 
 
 def structure_of(robot: Robot, base: Base, virtual_joint: str | None = None) -> Structure:

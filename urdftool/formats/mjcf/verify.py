@@ -7,6 +7,7 @@ differs is allowed only where the export said so, of that very link or joint.
 from __future__ import annotations
 
 import math
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,15 +15,26 @@ import numpy as np
 
 from ...model.elements import Joint, Robot
 from ..check import Check
+from ..directory import write_directory
 from ..mechanics import Mechanics
 from ..written import Written
 from .announced import EFFORT, INERTIA, LIMITS, TREE, Said
 from .compiled import Compiled
+from .options import Options
 from .verify_shapes import collision_check, visual_check
+from .write import write
 
 CONFIGURATIONS = 20
 
 POSE, MATRIX, MASS = 1e-9, 1e-8, 1e-12
+
+
+def verify_copy(robot: Robot, options: Options, written: Written) -> list[Check]:
+    """Compile and compare a copy of an export, before anything of the user's is touched."""
+    with tempfile.TemporaryDirectory(prefix="urdftool-") as folder:
+        copy = Path(folder) / "model"
+        write_directory(copy, written.files, main=written.main)
+        return verify(robot, written, copy / written.main, write(robot, options))
 
 
 def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[Check]:
@@ -40,7 +52,7 @@ def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[
     """
     said = Said.by(written.losses)
     mechanics = Mechanics(robot)
-    compiled = Compiled(model, mechanics.root)
+    compiled = Compiled(model, mechanics.root, written.renamed)
     repeat = Check("repeats", "a second export has the same bytes", 0)
     for name in sorted(written.files.keys() | again.files.keys()):
         repeat.compare(0 if written.files.get(name) == again.files.get(name) else math.inf, name)
@@ -92,12 +104,12 @@ def _tree(robot: Robot, compiled: Compiled, said: Said) -> Check:
     freedom = 6 if compiled.id("JOINT", f"{robot.tree.roots[0].name}_freejoint") >= 0 else 0
     for joint in robot.joints:
         known = said.of(TREE, joint.name)
-        body = compiled.id("BODY", joint.child)
+        body = compiled.body(joint.child)
         if body < 0:
             check.compare(math.inf, f"link '{joint.child}' is missing", known=known)
             continue
-        parent = "world" if joint.parent == "world" else joint.parent
-        if joint.type != "floating" and compiled.name("BODY", model.body_parentid[body]) != parent:
+        parent = compiled.body(joint.parent)
+        if joint.type != "floating" and model.body_parentid[body] != parent:
             check.compare(math.inf, f"link '{joint.child}' hangs elsewhere", known=known)
         if joint.type == "planar":
             found = [compiled.id("JOINT", joint.name + end) for end in ("_TX", "_TY", "_RZ")]

@@ -97,7 +97,7 @@ def visual_check(
 
 def _geoms(compiled: Compiled, link: Link, group: int) -> Iterator[int]:
     """The geoms of a link in a group, in the order of the file."""
-    body = 0 if link.name == "world" else compiled.id("BODY", link.name)
+    body = compiled.body(link.name)
     for geom in range(compiled.model.ngeom):
         if compiled.model.geom_bodyid[geom] == body and compiled.model.geom_group[geom] == group:
             yield geom

@@ -1,0 +1,148 @@
+"""The file of the model: every section of it, in the order in which they are made."""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from ...finding import Severity
+from ...model.elements import Robot
+from ..numbers import number_text
+from ..written import Written
+from .actuator import actuator_section
+from .body import body_tree, fill_bodies
+from .colors import share_colors
+from .contact import contact_section
+from .defaults import default_section
+from .document import assemble, note_losses
+from .equality import equality_section
+from .extension import apply_extension
+from .gazebo import gazebo_losses
+from .keyframe import keyframe_section
+from .light import put_lights
+from .link_inertia import LinkInertia
+from .material import Materials
+from .meshes import Assets
+from .options import Options
+from .sensor import sensor_section
+from .srdf import Srdf
+from .structure import WORLD, Structure
+
+
+def model_text(
+    structure: Structure,
+    name: str,
+    options: Options,
+    masses: dict[str, LinkInertia],
+    assets: Assets,
+    srdf: Srdf | None,
+    written: Written,
+) -> bytes:
+    """The model as XML.
+
+    Args:
+        structure: The tree.
+        name: The model's name.
+        options: The choices.
+        masses: What each link weighs.
+        assets: The meshes.
+        srdf: What an SRDF says, if there is one.
+        written: Takes textures, new names and what is lost.
+    """
+    robot = structure.robot
+    _rename_world(structure, written)
+    materials = Materials(robot, written, options.mesh_dir)
+    world, bodies = body_tree(structure, name, written)
+    fill_bodies(structure, bodies, masses, assets, materials, written)
+    put_lights(robot, bodies, written)
+    sections: dict[str, etree._Element] = {
+        "compiler": _compiler(options, assets, materials),
+        "option": etree.Element("option", integrator="implicitfast"),
+        "worldbody": world,
+    }
+    actuators, drives = actuator_section(structure, options.actuators, written)
+    _put(
+        sections,
+        contact_section(structure, bodies, srdf),
+        equality_section(structure, written),
+        actuators,
+        sensor_section(robot, bodies, written),
+        keyframe_section(structure, drives),
+        _custom(structure),
+    )
+    gazebo_losses(robot, written)
+    _controller_losses(robot, written)
+    apply_extension(robot, sections, written)
+    share_colors(world, materials.elements)
+    sections["default"] = default_section(name, world)
+    sections["asset"] = _asset(assets, materials)
+    note_losses(written.losses, bodies)
+    return assemble(name, sections)
+
+
+def _rename_world(structure: Structure, written: Written) -> None:
+    new = structure.body_name(WORLD)
+    if new == WORLD or WORLD not in structure.robot.link:
+        return
+    written.renamed["link", WORLD] = new
+    written.lose(
+        "name",
+        f"link '{WORLD}' is not the root, and MuJoCo keeps its name to itself; its body is called "
+        f"'{new}'",
+        structure.robot.link[WORLD].place,
+        kind="link",
+        name=WORLD,
+    )
+
+
+def _put(sections: dict[str, etree._Element], *made: etree._Element | None) -> None:
+    for section in made:
+        if section is not None:
+            sections[section.tag] = section
+
+
+def _compiler(options: Options, assets: Assets, materials: Materials) -> etree._Element:
+    compiler = etree.Element("compiler", angle="radian")
+    if assets.elements and options.mesh_dir:
+        compiler.set("meshdir", options.mesh_dir)
+    if materials.has_textures and options.mesh_dir:
+        compiler.set("texturedir", options.mesh_dir)
+    compiler.set("autolimits", "true")
+    compiler.set("inertiafromgeom", "false")
+    return compiler
+
+
+def _asset(assets: Assets, materials: Materials) -> etree._Element:
+    section = etree.Element("asset")
+    textures = [element for element in materials.elements if element.tag == "texture"]
+    section.extend(textures)
+    section.extend(element for element in materials.elements if element.tag == "material")
+    section.extend(assets.elements)
+    return section
+
+
+def _custom(structure: Structure) -> etree._Element | None:
+    """The velocity limits [rad/s or m/s], which MuJoCo has no place for."""
+    section = etree.Element("custom")
+    for joint in structure.moving:
+        velocity = joint.limit.velocity if joint.limit is not None else None
+        if velocity is not None and structure.kind(joint) in ("hinge", "slide"):
+            name = f"{joint.name}_velocity_limit"
+            etree.SubElement(section, "numeric", name=name, data=number_text(abs(velocity)))
+    return section if len(section) else None
+
+
+def _controller_losses(robot: Robot, written: Written) -> None:
+    for joint in robot.joints:
+        for part, what in (
+            (joint.safety_controller, "safety_controller"),
+            (joint.calibration, "calibration"),
+        ):
+            if part is not None:
+                written.lose(
+                    what.replace("_", "-"),
+                    f"<{what}> of joint '{joint.name}' belongs to a controller and is not carried",
+                    part.place,
+                    kind="joint",
+                    name=joint.name,
+                    severity=Severity.INFO,
+                )
