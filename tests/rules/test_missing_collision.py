@@ -1,4 +1,4 @@
-"""Links that are without collision on purpose, and robots that have none at all."""
+"""Links that are without collision: which are named, and which are there on purpose."""
 
 from urdftool.lint.run import check
 
@@ -66,9 +66,13 @@ def test_what_is_tiny_or_marks_a_frame_needs_none(tmp_path):
     assert _lines(tmp_path, marker) == []
 
 
-def test_robot_without_any_collision_is_one_finding(tmp_path):
+def test_each_link_is_named_where_none_collides(tmp_path):
     link = '<link name="l{}"><visual><geometry><sphere radius="1"/></geometry></visual></link>'
     links = "\n".join(link.format(number) for number in range(5))
-    assert _lines(tmp_path, f'<robot name="ghost">\n{links}\n</robot>') == [
-        ("missing-collision", 1)
-    ]
+    found = _lines(tmp_path, f'<robot name="ghost">\n{links}\n</robot>')
+    assert found == [("missing-collision", line) for line in range(2, 7)]
+
+
+def test_a_misspelt_collision_is_not_also_missing(tmp_path):
+    text = HEAD.format(comment="<colision/>")
+    assert _lines(tmp_path, text) == []

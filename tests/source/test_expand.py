@@ -230,7 +230,7 @@ def test_an_attribute_of_an_expanded_element_is_found_in_the_source(xacro_file):
         ('<a b="${1 +}"/>', 2, 4, "invalid syntax"),
         ('<a b="${10**10**9}"/>', 2, 4, "larger than any robot"),
         ('<a b="${__import__}"/>', 2, 4, "invalid name"),
-        ('<a b="${unclosed"/>', 2, 1, "invalid expression"),
+        ('<a b="${unclosed"/>', 2, 1, "lacks its closing bracket"),
         ('<xacro:property value="1"/>', 2, 1, "lacks the attribute 'name'"),
         ('<xacro:macro name="m"><xacro:m/></xacro:macro>\n<xacro:m/>', 2, 23, "without end"),
     ],

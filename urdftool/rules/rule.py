@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from types import FunctionType
 from typing import Any
 
 from ..finding import Severity
@@ -137,14 +138,14 @@ def rule(
     raised: Mapping[str, Severity] | None = None,
     effects: Mapping[str, str] | None = None,
     default: bool = True,
-) -> Callable[[Check], Rule]:
+) -> Callable[[Any], Rule]:
     """Make a rule of a function; the arguments are those of :class:`Rule`."""
 
-    def make(check: Check) -> Rule:
-        code = check.__code__  # type: ignore[attr-defined]
+    def make(check: FunctionType) -> Rule:
+        code = check.__code__
         family = check.__module__.split(".")[-2]
         return Rule(
-            name=check.__name__.replace("_", "-"),  # type: ignore[attr-defined]
+            name=check.__name__.replace("_", "-"),
             family=family,
             check=check,
             severity=severity,
@@ -153,7 +154,7 @@ def rule(
             effects=effects or {},
             default=default,
             needs=code.co_varnames[: code.co_argcount],
-            thresholds=check.__kwdefaults__ or {},  # type: ignore[attr-defined]
+            thresholds=check.__kwdefaults__ or {},
         )
 
     return make

@@ -131,6 +131,14 @@ def _sentence(
         )
     if isinstance(getattr(error, "exc", None), MemoryError):
         return "endless-expansion", f"needs more memory than there is{_in_expression(failed_text)}"
+    if match := re.search(r"invalid expression: (\$[{(].*)", text):
+        return "unclosed-expression", f"{match[1]} lacks its closing bracket"
+    if match := re.search(r"Unknown substitution command \[(.*?)\]", text):
+        return (
+            "bad-substitution-command",
+            f"$({match[1]}) is no substitution of xacro; "
+            "there are find, arg, env, optenv, dirname, cwd and eval",
+        )
     if "circular variable definition" in text:
         return "circular-property", text.split(" Consider ")[0]
     if "no attribute '_setitem'" in text:

@@ -9,7 +9,7 @@ from ...model.bounds import size_of
 from ...model.elements import Link, Mesh, Robot
 from ..gazebo.contact import axis_up
 from ..rule import INFO, WARNING, Problem, rule
-from ..words import quoted
+from ..xml.vocabulary_table import misspelt_children
 
 _FRAME = re.compile(r"optical|(^|_)frame$")
 _CONTACT = re.compile(r"wheel|caster|(^|_)(foot|feet)(_|\d|$)", re.IGNORECASE)
@@ -26,7 +26,7 @@ _MARKER = 0.1  # [m] a marker of a frame is no larger
     },
 )
 def missing_collision(
-    robot: Robot, *, smallest: float = 0.01, small: float = 0.03, together: float = 3
+    robot: Robot, *, smallest: float = 0.01, small: float = 0.03
 ) -> Iterator[Problem]:
     """A link is seen but has no collision.
 
@@ -37,22 +37,14 @@ def missing_collision(
     ``urdftool-ignore[missing-collision]``.
 
     Links smaller than ``smallest`` [m] and markers of frames are left out, and those smaller than
-    ``small`` [m] are no more than info. Where more than ``together`` links are seen and not one
-    collides, that is one finding, at the robot.
+    ``small`` [m] are no more than info.
     """
     seen = [link for link in robot.links if _seen_size(link) >= smallest]
     ghosts = [link for link in seen if not link.collisions]
     sizes = _sizes(robot, ghosts)
-    ghosts = [link for link in ghosts if sizes[link.name] >= smallest]
-    if len(ghosts) > together and not any(link.collisions for link in robot.links):
-        names = quoted(link.name for link in ghosts)
-        yield Problem(
-            robot,
-            f"no link has a collision, though {names} are seen; "
-            "add to each a <collision> with a primitive shape",
-        )
-        return
     for link in ghosts:
+        if sizes[link.name] < smallest or "collision" in misspelt_children(link.element).values():
+            continue
         yield Problem(
             link,
             f"link '{link.name}' has a visual and no collision; "

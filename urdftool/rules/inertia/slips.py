@@ -104,6 +104,8 @@ def shifted(link: Link, six: Six) -> tuple[str, float] | None:
 
 
 def _is_near(six: Sequence[float], solid: Vector, place: int) -> bool:
+    if 0.0 in solid:
+        return False
     ratios = [six[i] / moment for i, moment in zip(_DIAGONAL, solid, strict=True)]
     return all(0.5 <= ratio <= 2 for ratio in ratios) and 0.8 <= ratios[place] <= 1.25
 

@@ -11,7 +11,7 @@ from ..rule import ERROR, INFO, WARNING, Problem, rule
 from .bodies import bodies, mass_of
 from .slips import slip_of
 from .solids import solid_text
-from .tensors import SIX, is_positive, moments_of, tensors
+from .tensors import SIX, is_positive, is_zero, moments_of, tensors
 
 _REJECTED = {
     "gz, gazebo-classic": "reject the model (Error 18)",
@@ -30,7 +30,7 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
     """
     for link, inertial, six in tensors(robot):
         moments = moments_of(six)
-        if is_positive(moments, tolerance) or slip_of(link, inertial, six):
+        if is_zero(six) or is_positive(moments, tolerance) or slip_of(link, inertial, six):
             continue
         yield Problem(
             link,
@@ -109,7 +109,7 @@ def zero_inertia(robot: Robot) -> Iterator[Problem]:
     or blows up.
     """
     for link, inertial, six in tensors(robot):
-        if not any(six):
+        if is_zero(six):
             yield Problem(
                 link,
                 f"inertia of link '{link.name}' is zero, though it weighs {link.mass:g} kg"
@@ -127,7 +127,7 @@ def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Proble
     """
     for link, inertial, six in tensors(robot):
         moments = low, middle, high = moments_of(six)
-        if high <= 0 or low > smallest * high or not is_positive(moments):
+        if is_zero(six) or high <= 0 or low > smallest * high or not is_positive(moments):
             continue
         if low + middle < high * 0.99:
             continue

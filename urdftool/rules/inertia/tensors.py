@@ -40,6 +40,11 @@ def moments_of(six: Six) -> Vector:
     return eigenvalues(six)
 
 
+def is_zero(six: Six) -> bool:
+    """Whether all six are 0, but for the noise of whatever computed them [kg·m²]."""
+    return max(map(abs, six)) < 1e-18
+
+
 def is_positive(moments: Vector, tolerance: float = 1e-6) -> bool:
     """Whether no principal moment is negative, but for rounding."""
     low, _, high = moments
