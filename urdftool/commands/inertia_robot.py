@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
@@ -66,7 +67,7 @@ def _pairs(
 )
 @click.option("--link", "only", multiple=True, metavar="NAME", help="This link only. Repeatable.")
 @click.option("--write", is_flag=True, help="Fill in what is missing, in the source or in OUT.")
-@click.option("--all", "anew", is_flag=True, help="With --write: recompute what is written, too.")
+@click.option("--all", "anew", is_flag=True, help="Weigh and write anew what is written, too.")
 @click.option("--lump", is_flag=True, help="Links joined by fixed joints as one; the whole robot.")
 @click.option(
     "--pose",
@@ -112,7 +113,7 @@ def command(
 
     Exit 1 if something written cannot be.
     """
-    _check_options(density, total, write, anew, lump, pose, output)
+    _check_options(density, total, write, lump, pose, output)
     from ..configuration import find_configuration
     from ..inertia.mass_file import read_masses
     from ..inertia.masses import Masses, check_masses
@@ -150,7 +151,6 @@ def _check_options(
     density: float | None,
     total: float | None,
     write: bool,
-    anew: bool,
     lump: bool,
     pose: dict[str, float],
     output: str | None,
@@ -159,8 +159,6 @@ def _check_options(
         raise click.UsageError(
             "--density and --total-mass exclude each other; one follows from the other"
         )
-    if anew and not write:
-        raise click.UsageError("--all says what --write does; add --write")
     if write and lump:
         raise click.UsageError("--lump and --write exclude each other")
     if pose and not lump:
@@ -174,7 +172,7 @@ class _Progress:
 
     def __init__(self, console: Console) -> None:
         self.begin = monotonic()
-        self.wanted = click.get_text_stream("stderr").isatty() and not console.quiet
+        self.wanted = sys.stderr.isatty() and not console.quiet
         self.shown = False
 
     def __enter__(self) -> _Progress:

@@ -17,9 +17,10 @@ def write_files(robot: Robot, filling: Filling, output: str | None) -> list[str]
         OutputError: A file cannot be written, or was changed since it was read.
         SourceError: The edits would do more than they should.
     """
-    from ..errors import OutputError, SourceError
+    from ..errors import SourceError
     from ..inertia.fill_check import check_filling
     from ..output import write_file
+    from ..source.document import STDIN
     from ..source.edit import apply
 
     assert robot.source is not None
@@ -28,21 +29,31 @@ def write_files(robot: Robot, filling: Filling, output: str | None) -> list[str]
     problem = check_filling(robot, filling, edited)
     if problem:
         raise SourceError(f"is not written: {problem}", path=robot.source.path)
+    for path in edited:
+        if path != STDIN:
+            _check_unchanged(path, files[path].data)
     if output is not None:
         main = robot.source.files[0]
         _write_out(edited.get(main.path, main.data), output, list(files))
         return [output]
-    for path in edited:
-        try:
-            with open(path, "rb") as stream:
-                same = stream.read() == files[path].data
-        except OSError as error:
-            raise OutputError(f"cannot be read again: {error.strerror}", path=path) from None
-        if not same:
-            raise OutputError("was changed while its inertia was computed; run again", path=path)
     for path, data in edited.items():
         write_file(path, data)
     return list(edited)
+
+
+def _check_unchanged(path: str, data: bytes) -> None:
+    """Refuse a file that is not, byte for byte, what was read."""
+    from ..errors import OutputError
+
+    try:
+        with open(path, "rb") as stream:
+            now = stream.read()
+    except OSError as error:
+        raise OutputError(f"cannot be read again: {error.strerror}", path=path) from None
+    if now.startswith((b"\xff\xfe", b"\xfe\xff", b"\x00\x00\xfe\xff")):
+        raise OutputError("is in UTF-16 or UTF-32; save it as UTF-8 to have it edited", path=path)
+    if now != data:
+        raise OutputError("was changed while its inertia was computed; run again", path=path)
 
 
 def _write_out(data: bytes, output: str, inputs: list[str]) -> None:

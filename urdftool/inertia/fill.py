@@ -172,7 +172,7 @@ class _Editor:
                 break
         for wanted in todo:
             if id(wanted) in refused:
-                advice = tuple((self._place(want), want.said) for want in wanted.wants)
+                advice = tuple((_place(want), _said(want)) for want in wanted.wants)
                 filling.refused.append(
                     Refusal(wanted.link.name, refused[id(wanted)], wanted.link.place, advice)
                 )
@@ -257,11 +257,6 @@ class _Editor:
         if self.main == STDIN or not real.startswith(root + os.sep):
             raise _RefusedError(f"it is written in {file.path}, outside of {shown_path(root)}")
 
-    def _place(self, want: Want) -> Place:
-        if want.attribute is None:
-            return want.element.place
-        return want.element.attribute_place(want.attribute)
-
     def _edit(self, site: Site, want: Want) -> edit.Edit:
         source = self.sources[site.path]
         element = source.elements[site.start]
@@ -271,6 +266,20 @@ class _Editor:
         if want.after == "mass" and after is None:
             after = element.child("origin")
         return edit.insert_child(source, element, want.lines, after=after)
+
+
+def _place(want: Want) -> Place:
+    if want.attribute is None:
+        return want.element.place
+    return want.element.attribute_place(want.attribute)
+
+
+def _said(want: Want) -> str:
+    """What to do, and in which expansion of a macro."""
+    call = next((call for call in want.element.calls if call.macro), None)
+    if call is None:
+        return want.said
+    return f"{want.said} for {call.file.path}:{call.line}:{call.column} ({call.what})"
 
 
 def _named(element: Element) -> str:

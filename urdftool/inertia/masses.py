@@ -60,7 +60,10 @@ def _listed(names: Sequence[str]) -> str:
 
 
 def weigh(
-    masses: Masses, written: Mapping[str, float | None], volumes: Mapping[str, float | None]
+    masses: Masses,
+    written: Mapping[str, float | None],
+    volumes: Mapping[str, float | None],
+    unknown: Sequence[str] = (),
 ) -> dict[str, float | None]:
     """What each link weighs [kg]; None where nothing says.
 
@@ -68,9 +71,11 @@ def weigh(
         masses: What is wanted.
         written: The mass of each link as it is written; None where it is not, or is not above 0.
         volumes: The volume [m³] of each link's geometry; None where it is not known.
+        unknown: Links that have a geometry whose volume is not known.
 
     Raises:
-        InertiaError: The links that are weighed already leave nothing of the total mass.
+        InertiaError: A total mass cannot be shared: the links that are weighed already leave
+            nothing of it, or the volume of one that is to share is not known.
     """
     found: dict[str, float | None] = {}
     shared: list[str] = []
@@ -84,7 +89,18 @@ def weigh(
             shared.append(name)
         else:
             found[name] = mass
-    if masses.total is not None and shared:
+    lost = [name for name in unknown if not found[name]]
+    if masses.total is not None and lost:
+        raise InertiaError(
+            f"the total mass cannot be shared, since the volume of {_listed(lost)} is not known; "
+            f"give its mass with --mass {lost[0]}=KG, or its meshes"
+        )
+    if masses.total is not None and not shared:
+        raise InertiaError(
+            f"the total mass of {masses.total:g} kg is shared by nobody: every link with a "
+            "geometry that can be weighed has a mass; --all shares it anew"
+        )
+    if masses.total is not None:
         weighed = math.fsum(mass for mass in found.values() if mass)
         rest = masses.total - weighed
         if rest <= 1e-12 * masses.total:

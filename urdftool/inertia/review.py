@@ -19,7 +19,7 @@ from .bound import spread_ratio
 from .comparison import Comparison, compare
 from .masses import Masses, check_masses, weigh
 from .pieces import SOURCES, LinkBody, link_body, mesh_names, shapes_of
-from .proposal import ROUNDING, Proposal, propose
+from .proposal import ROUNDING, SPREAD, Proposal, propose
 from .tensor import (
     Array,
     MassProperties,
@@ -126,6 +126,7 @@ def review(
         masses,
         {item.link.name: _written_mass(item.link) for item in found},
         {item.link.name: _volume(item) for item in found},
+        [item.link.name for item in found if item.body is not None and not item.body.complete],
     )
     for item in found:
         item.mass = plan[item.link.name]
@@ -241,14 +242,10 @@ def _judge(item: LinkReview, meshes: _Meshes) -> None:
         _judge_box(item, written, inertial.place, meshes)
     if complete:
         item.proposal = _proposal(item, inertial, written)
-    if item.proposal is not None and item.proposal.kind == "copied" and not item.faults:
-        item.faults.append(
-            Fault(
-                "copied",
-                "the inertia is the same about every axis, which that of its geometry is not",
-                inertial.inertia.place,
-            )
-        )
+    if item.proposal is not None and item.proposal.kind == "copied":
+        moment = f"{inertial.inertia.ixx:.6g}"
+        message = f"the inertia is {moment} about every axis, that of its geometry is not"
+        item.faults = [Fault("copied", message, inertial.inertia.place)]
 
 
 def _judge_tensor(item: LinkReview, written: MassProperties, at: Place) -> None:
@@ -282,7 +279,7 @@ def _judge_box(item: LinkReview, written: MassProperties, at: Place, meshes: _Me
     if item.body is None or not item.body.complete:
         return
     low, high = item.body.box
-    if _worst_spread(written, low, high) <= 1:
+    if _worst_spread(written, low, high) <= SPREAD:
         return
     other = "visual" if item.body.source == "collision" else "collision"
     meshes.want(mesh_names(shapes_of(item.link, other)))
@@ -293,7 +290,7 @@ def _judge_box(item: LinkReview, written: MassProperties, at: Place, meshes: _Me
             return
         low, high = np.minimum(low, body.box[0]), np.maximum(high, body.box[1])
     worst = _worst_spread(written, low, high)
-    if worst <= 1:
+    if worst <= SPREAD:
         return
     corners = " to ".join(" ".join(f"{value:.4g}" for value in corner) for corner in (low, high))
     if math.isinf(worst):

@@ -62,6 +62,9 @@ SHAPES = (
 THICKNESS = Size("thickness", 1, "T", "of the wall, inwards from the outer sizes [m]")
 
 
+_MIN, _MAX = 1e-200, 1e200
+
+
 def find_shape(name: str) -> Shape | None:
     """The shape of that name, if there is one."""
     return next((shape for shape in SHAPES if shape.name == name), None)
@@ -90,6 +93,7 @@ def shape_properties(
         InertiaError: A size, mass or density is not above zero, or the wall does not fit.
     """
     from . import solids
+    from .inertia_error import InertiaError
 
     amount = {"mass": mass, "density": density}
     given = {**sizes, **amount}
@@ -97,5 +101,10 @@ def shape_properties(
     if thickness is not None:
         name = f"hollow_{name}"
         given |= {"thickness": thickness} | ({"closed": closed} if shape.ends else {})
-    result: MassProperties = getattr(solids, name)(**given)
+    try:
+        result: MassProperties = getattr(solids, name)(**given)
+    except ArithmeticError:
+        result = None  # type: ignore[assignment]
+    if result is None or not (_MIN < result.mass < _MAX and _MIN < result.inertia.max() < _MAX):
+        raise InertiaError(f"{shape.title} of this size and mass is beyond what numbers can hold")
     return result

@@ -77,6 +77,8 @@ def wanted_for(item: LinkReview, *, anew: bool) -> Wanted:
         MassProperties(result.mass, result.com, rotate(result.inertia, turn.T)),
         f"link '{item.link.name}'",
     )
+    if not element.children:
+        return Wanted(item, result, [Want(element, child="mass", lines=_children(along))])
     found = Wanted(item, result)
     texts = dict(zip(("origin", "mass", "inertia"), _children(along), strict=True))
     if origin is None:

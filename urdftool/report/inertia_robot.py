@@ -95,10 +95,17 @@ def _verdict(item: LinkReview) -> str:
 def remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[str]:
     """What the table has no room for: faults with their proposals, and what cannot be read."""
     paint = Painter(colors)
+    said: dict[tuple[str, str], list[str]] = {}
+    for item in reviews:
+        for fault in item.faults:
+            said.setdefault((str(fault.place), fault.message), []).append(clean(item.link.name))
     for item in reviews:
         name = clean(item.link.name)
         for fault in item.faults:
-            yield f"{fault.place}: link '{name}': {paint('cannot be', 'red')}: {fault.message}"
+            names = said.pop((str(fault.place), fault.message), [])
+            if names:
+                who = f"link '{names[0]}'" + f" and {len(names) - 1} more" * (len(names) > 1)
+                yield f"{fault.place}: {who}: {paint('cannot be', 'red')}: {fault.message}"
         if item.proposal is not None:
             at = item.link.inertial.inertia if item.link.inertial else None
             if not item.faults and at is not None:

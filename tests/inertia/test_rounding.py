@@ -1,0 +1,40 @@
+"""Numbers as they are written."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from urdftool.inertia import solids
+from urdftool.inertia.inertia_error import InertiaError
+from urdftool.inertia.rounding import number_text, round_number, round_properties
+from urdftool.inertia.tensor import MassProperties, is_possible, move, triangle_excess
+
+
+def test_noise_goes_and_digits_stay():
+    turned = move(solids.box((1, 2, 3), mass=12), rpy=(np.pi / 2, 0, 0))
+    assert np.count_nonzero(round_properties(turned).inertia) == 3
+    assert round_number(0.00028350000000000003) == 0.0002835
+    assert [number_text(v) for v in (1024.0, -0.0 + 0, 0.5, 1e-7, 1e20)] == [
+        *("1024", "0", "0.5", "1e-07", "1e+20")
+    ]
+
+
+@settings(max_examples=200, deadline=None)
+@given(
+    st.tuples(*[st.floats(1e-4, 10)] * 3),
+    st.tuples(*[st.floats(-3, 3)] * 3),
+    st.floats(1e-12, 1),
+)
+def test_a_thin_plate_stays_possible(size, rpy, thin):
+    plate = solids.box((size[0], size[1], size[2] * thin), mass=3.0)
+    found = round_properties(move(plate, rpy=rpy))
+    assert is_possible(found.inertia)
+    assert triangle_excess(found.inertia) <= max(
+        2e-15, triangle_excess(move(plate, rpy=rpy).inertia)
+    )
+
+
+def test_what_no_body_has_is_not_rounded():
+    with pytest.raises(InertiaError):
+        round_properties(MassProperties(1.0, np.zeros(3), np.diag([1.0, 1.0, 3.0])))
