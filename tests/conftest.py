@@ -30,7 +30,8 @@ def _fresh(monkeypatch):
         monkeypatch.delenv(name, raising=False)
     packages._below.clear()
     packages._names.clear()
-    configuration._read.clear()
+    packages._owners.clear()
+    configuration._found.clear()
 
 
 @dataclass

@@ -17,7 +17,7 @@ from .errors import ConfigError
 NAMES = (".urdftool.toml", "urdftool.toml", "pyproject.toml")
 TABLES = ("packages", "lint")
 
-_read: dict[str, Configuration | None] = {}
+_found: dict[str, Configuration] = {}
 
 
 @dataclass
@@ -46,22 +46,19 @@ def find_configuration(file: str | Path, given: str | None = None) -> Configurat
         ConfigError: It is not valid TOML, or has a table or value it should not have.
     """
     if given is not None:
-        found = _load(Path(given), required=True)
-        return found or Configuration(given)
-    folder = Path.cwd() if str(file) == "-" else Path(os.path.abspath(file)).parent
-    for above in (folder, *folder.parents):
-        for name in NAMES:
-            found = _load(above / name)
-            if found is not None:
-                return found
-    return Configuration()
+        return _parse(Path(given), required=True) or Configuration(given)
+    folder = os.getcwd() if str(file) == "-" else os.path.dirname(os.path.abspath(file))
+    return _above(folder)
 
 
-def _load(path: Path, *, required: bool = False) -> Configuration | None:
-    key = str(path)
-    if key not in _read or required:
-        _read[key] = _parse(path, required=required)
-    return _read[key]
+def _above(folder: str) -> Configuration:
+    """The configuration nearest to a folder; what was found for it once holds for the run."""
+    if folder not in _found:
+        parent = os.path.dirname(folder)
+        here = (_parse(Path(folder, name), required=False) for name in NAMES)
+        found = next((configuration for configuration in here if configuration), None)
+        _found[folder] = found or (_above(parent) if parent != folder else Configuration())
+    return _found[folder]
 
 
 def _parse(path: Path, *, required: bool) -> Configuration | None:

@@ -27,7 +27,7 @@ def rules(path, **options):
 def config(write, text, name="urdftool.toml"):
     from urdftool import configuration
 
-    configuration._read.clear()
+    configuration._found.clear()
     return write(name, text)
 
 
@@ -101,5 +101,6 @@ def test_targets_are_inferred_and_said(robot, urdftool, write):
         "<export><build_type>ament_cmake</build_type></export></package>",
     )
     packages._names.clear()
+    packages._owners.clear()
     assert "(targets: gz, ros2)" in urdftool("lint", robot).err
     assert "(targets: mujoco)" in urdftool("lint", robot, "--target", "mujoco").err

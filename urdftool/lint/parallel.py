@@ -9,7 +9,7 @@ from functools import partial
 from .outcome import Options, Report
 from .run import lint_file
 
-WORTH_IT = 200  # below so many files, starting workers takes longer than they save
+WORTH_IT = 40  # below so many files, starting workers takes longer than they save
 
 
 def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) -> Iterator[Report]:

@@ -174,10 +174,11 @@ def _check_description(
         ran.add(rule.name)
         for document in documents if "document" in rule.needs else [None]:
             subjects["document"] = document
-            findings.extend(_run(rule, subjects, settings, targets, report))
-    comments = [document for document in documents if document.comments]
-    if comments:
-        suppressions, wrong = read_suppressions(comments)
+            problems = _problems(rule, subjects, settings, report)
+            if problems:
+                findings += [_finding(rule, problem, settings, targets) for problem in problems]
+    suppressions, wrong = read_suppressions(documents)
+    if suppressions or wrong:
         findings, report.suppressed = suppress(findings, suppressions)
         selected = set(settings.names())
         tags = _tags(description)
@@ -237,20 +238,17 @@ def _of_failure(failure: UrdftoolError, settings: Settings) -> Finding:
     )
 
 
-def _run(
-    rule: Rule,
-    subjects: Mapping[str, Any],
-    settings: Settings,
-    targets: frozenset[str],
-    report: Report,
-) -> Iterator[Finding]:
-    arguments = [subjects[name] for name in rule.needs]
-    thresholds = settings.thresholds.get(rule.name, {})
+def _problems(
+    rule: Rule, subjects: Mapping[str, Any], settings: Settings, report: Report
+) -> list[Problem]:
+    """What a rule finds, as far as it gets: one that breaks is a bug of ours, not of the robot."""
+    found: list[Problem] = []
     try:
-        for problem in rule.check(*arguments, **thresholds):
-            yield _finding(rule, problem, settings, targets)
+        arguments = [subjects[name] for name in rule.needs]
+        found.extend(rule.check(*arguments, **settings.thresholds.get(rule.name, {})))
     except Exception as error:
         report.failed_rules[rule.name] = f"{type(error).__name__}: {error}"
+    return found
 
 
 def _finding(rule: Rule, problem: Problem, settings: Settings, targets: frozenset[str]) -> Finding:

@@ -30,6 +30,7 @@ _MAX_CLIMB = 6
 # What was found below a folder stays true for the run of one command.
 _below: dict[str, dict[str, Path]] = {}
 _names: dict[str, str | None] = {}
+_owners: dict[str, tuple[str, Path] | None] = {}
 
 
 def package_name(folder: Path) -> str | None:
@@ -48,11 +49,18 @@ def package_name(folder: Path) -> str | None:
 
 def own_package(path: Path) -> tuple[str, Path] | None:
     """Name and folder of the package a file belongs to: the nearest ``package.xml`` above it."""
-    for folder in path.parents:
-        name = package_name(folder)
+    return _package_of(os.path.dirname(path))
+
+
+def _package_of(folder: str) -> tuple[str, Path] | None:
+    if folder not in _owners:
+        parent = os.path.dirname(folder)
+        name = package_name(Path(folder))
         if name is not None:
-            return name, folder
-    return None
+            _owners[folder] = name, Path(folder)
+        else:
+            _owners[folder] = _package_of(parent) if parent != folder else None
+    return _owners[folder]
 
 
 def packages_below(folder: Path) -> dict[str, Path]:
