@@ -33,6 +33,8 @@ FORCED = {
         link("a", f'{inertial()}<visual><geometry><sphere radius="0"/></geometry></visual>'),
     ),
     "bad-extension-number": (link("a"), gazebo("a", "<mu1>${mu}</mu1>")),
+    "unknown-sensor-type": (link("a"), gazebo("a", '<sensor name="s" type="nose"/>')),
+    "plugin-without-filename": (link("a"), '<gazebo><plugin name="p"/></gazebo>'),
     "unknown-joint-type": (link("a"), joint("j", "a", "b", "hinge"), link("b")),
     "self-mimic": (
         link("a"), joint("j", "a", "b", inside=f'{LIMIT}<mimic joint="j"/>'), link("b"),
@@ -126,3 +128,26 @@ def test_a_shape_that_cannot_be_written_is_left_out_alone():
     inside = f"{inertial()}<collision/><collision>{BOX}</collision>"
     written = export(link("a", inside), force=True)
     assert len(list(tree(written).iter("collision"))) == 1
+
+
+def test_a_pose_that_is_none_is_left_out_when_forced():
+    said = gazebo("a", '<sensor name="s" type="imu"><pose>1 2 x</pose></sensor>')
+    assert "6 finite numbers" in refused(link("a"), said).message
+    assert tree(export(link("a"), said, force=True)).find("link/sensor/pose") is None
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "<gravity>down</gravity>",
+        "<collision><surface><friction><ode><mu>x</mu></ode></friction></surface></collision>",
+        '<sensor name="s" type="imu"><always_on>sometimes</always_on></sensor>',
+        '<sensor name="s" type="imu"><imu><noise><rate><mean>x</mean></rate></noise></imu>'
+        "</sensor>",
+    ],
+)
+def test_values_that_a_reader_refuses(said):
+    parts = (link("a", f"{inertial()}<collision>{BOX}</collision>"), gazebo("a", said))
+    assert [f.rule for f in refused(*parts).findings] == ["bad-extension-number"]
+    text = export(*parts, force=True).files["model.sdf"].decode()
+    assert all(f">{word}<" not in text for word in ("down", "x", "sometimes"))

@@ -59,9 +59,11 @@ def test_an_exact_plate_is_left_alone():
 
 
 def test_shapes_keep_their_names_and_are_unique():
-    shapes = f'<visual name="v">{BOX}</visual><visual name="v">{BOX}</visual><visual>{BOX}</visual>'
+    visual, collision = (f'<{tag} name="v">{BOX}</{tag}>' for tag in ("visual", "collision"))
+    shapes = f"{visual}{visual}{collision}<visual>{BOX}</visual>"
     model = tree(export(link("a", inertial() + shapes)))
-    assert [e.get("name") for e in model.iter("visual")] == ["v", "v_1", "a_visual_2"]
+    assert [e.get("name") for e in model.iter("visual")] == ["v_visual", "v_visual_1", "a_visual_2"]
+    assert [e.get("name") for e in model.iter("collision")] == ["v"]
 
 
 def test_shapes_of_a_lumped_link_keep_their_numbers():
@@ -141,3 +143,9 @@ def test_what_is_written_twice_is_the_same():
     assert export(*WELDED, link("c", CUBE), joint("k", "a", "c", "fixed")).files == (
         export(*WELDED, link("c", CUBE), joint("k", "a", "c", "fixed")).files
     )
+
+
+def test_a_joint_called_world():
+    assert names(tree(export(link("a"), joint("world", "a", "b"), link("b"))), "joint") == [
+        "world_joint"
+    ]

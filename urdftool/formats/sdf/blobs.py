@@ -6,11 +6,12 @@ from ...model.elements import Joint, Link
 from ...model.pose import Pose, rotation_of_rpy
 from ...model.read import numbers
 from ...source.document import Element
+from .block_numbers import wanted
 from .imu import is_old_noise
 from .pose import set_pose
 from .translation import Translation
 from .vocabulary import DE_FACTO, ELEMENTS
-from .xml import Node, add, comment, copied
+from .xml import Node, add, comment, copied, spoken
 
 PLACED = frozenset(
     ("light", "projector", "sensor", "audio_source", "particle_emitter", "collision", "visual")
@@ -40,11 +41,25 @@ def blob(
     if not _is_known(str(node.tag), element):
         _lose(node, t, element, about)
         return None
+    if wanted(element):
+        text = f"<{element.tag}> is '{element.text.strip()}', not {wanted(element)}"
+        t.lose("extension", f"{text}; it is left out", element, about)
+        return None
     made = copied(node, element)
-    _prune(made, t, element, about)
+    prune(made, t, element, about)
+    if element.tag in ("light", "projector"):
+        _name_once(node, made)
     if isinstance(about, Link) and element.tag in PLACED:
         move(made, t, about)
     return made
+
+
+def _name_once(node: Node, made: Node) -> None:
+    """Give an element another name where a sibling has it."""
+    name = made.get("name") or made.tag
+    taken = {other.get("name") for other in node if other is not made}
+    free = (name, *(f"{name}_{number}" for number in range(2, 1000)))
+    made.set("name", next(one for one in free if one not in taken))
 
 
 def _is_known(parent: str, element: Element) -> bool:
@@ -56,14 +71,28 @@ def _is_known(parent: str, element: Element) -> bool:
     return known is None or element.tag in known or element.tag in DE_FACTO
 
 
-def _prune(made: Node, t: Translation, element: Element, about: Link | Joint | None) -> None:
+def prune(made: Node, t: Translation, element: Element, about: Link | Joint | None) -> None:
+    """Take out what is not SDF, or not a value that it could have.
+
+    Args:
+        made: The copy of an element.
+        t: The export.
+        element: The element it was copied from.
+        about: The link or joint that its block refers to.
+    """
     if element.tag == "plugin":
         return
     for child, source in zip(list(made), element.children, strict=True):
         if is_old_noise(source):
             made.remove(child)
+        elif wanted(source):
+            made.remove(child)
+            text = (
+                f"<{source.tag}> of <{made.tag}> is '{source.text.strip()}', not {wanted(source)}"
+            )
+            t.lose("extension", f"{text}; it is left out", source, about)
         elif _is_known(element.tag, source):
-            _prune(child, t, source, about)
+            prune(child, t, source, about)
         else:
             _lose(made, t, source, about)
             made.replace(child, made[-1])
@@ -79,14 +108,6 @@ def _lose(node: Node, t: Translation, element: Element, about: Link | Joint | No
         element,
         about,
     )
-
-
-def spoken(element: Element) -> str:
-    """An element in one line, for a comment."""
-    words = [element.tag, *(f'{name}="{value}"' for name, value in element.attributes.items())]
-    words += element.text.split()
-    inner = "; ".join(spoken(child) for child in element.children)
-    return " ".join(words) + (f" ({inner})" if inner else "")
 
 
 def move(made: Node, t: Translation, link: Link) -> None:

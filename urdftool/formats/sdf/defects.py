@@ -8,12 +8,13 @@ from ...finding import Finding
 from ...model.elements import Collision, Joint, Link, Mesh, Robot, UnknownShape, Visual
 from ...source.document import Element
 from ..defects import defect
+from .block_numbers import wanted
 from .extensions import read_value, said_of, value_of
 from .keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS, LINK_KEYWORDS
 from .mass import ROUNDING, shortfall, tensor_of
 from .mesh_files import MeshFiles
 from .plan import Plan
-from .sensor_types import NUMBERS
+from .sensor_types import KNOWN
 from .shapes import has_extent
 
 _WANTED = {
@@ -33,8 +34,9 @@ def written_defects(robot: Robot) -> Iterator[Finding]:
     for joint in robot.joints:
         yield from _joint(robot, joint)
         yield from _extension(robot, joint)
+    yield from _kinds(robot)
     for block in robot.gazebo:
-        yield from _sensors(block.element, block.reference or "")
+        yield from _blocks(block.element, block.reference or "")
 
 
 def mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
@@ -137,18 +139,24 @@ def _extension(robot: Robot, part: Link | Joint) -> Iterator[Finding]:
             )
 
 
-def _sensors(block: Element, reference: str) -> Iterator[Finding]:
-    for sensor in block.all("sensor"):
-        inside = {id(e) for plugin in sensor.all("plugin") for e in plugin.walk()}
-        for element in sensor.walk():
-            if id(element) in inside or element.children:
-                continue
-            if element.tag in NUMBERS and read_value("number", element.text) is None:
-                yield defect(
-                    "bad-extension-number",
-                    f"<{element.tag}> of sensor '{sensor.get('name')}' is "
-                    f"'{element.text.strip()}', not a finite number",
-                    element.place,
-                    "sensor",
-                    reference,
-                )
+def _kinds(robot: Robot) -> Iterator[Finding]:
+    """Sensors of types that no Gazebo has, and plugins that name no library."""
+    for block in robot.gazebo:
+        for sensor in block.sensors:
+            if sensor.type not in KNOWN:
+                text = f"sensor '{sensor.name}' is of type '{sensor.type}', which no Gazebo has"
+                yield defect("unknown-sensor-type", text, sensor.place, "sensor", sensor.name)
+    for plugin in robot.plugins:
+        if not plugin.filename:
+            text = f"plugin '{plugin.name}' names no library; write filename=\"…\""
+            yield defect("plugin-without-filename", text, plugin.place, "plugin", plugin.name)
+
+
+def _blocks(block: Element, reference: str) -> Iterator[Finding]:
+    inside = {id(e) for plugin in block.walk() if plugin.tag == "plugin" for e in plugin.walk()}
+    for element in block.walk():
+        right = wanted(element) if id(element) not in inside else ""
+        if right:
+            parent = element.parent or block
+            text = f"<{element.tag}> of <{parent.tag}> is '{element.text.strip()}', not {right}"
+            yield defect("bad-extension-number", text, element.place, "gazebo", reference)

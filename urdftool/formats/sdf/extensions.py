@@ -8,7 +8,7 @@ from ...model.elements import Joint, Link, Robot
 from ...model.read import number, numbers
 from ...source.document import Element
 from ..numbers import number_text, numbers_text
-from .blobs import blob
+from .blobs import blob, prune
 from .keywords import (
     COLLISION_KEYWORDS,
     IGNORED,
@@ -79,11 +79,10 @@ def merged(node: Node, t: Translation, link: Link, tag: str) -> None:
     """Put the ``<visual>`` or ``<collision>`` of a link's blocks into one of its own."""
     for element in said_of(t.robot, link):
         if element.tag == tag:
-            holder = add(node, tag)
-            for child in element.children:
-                copied(holder, child)
-            node.remove(holder)
-            merge(node, holder)
+            made = copied(node, element)
+            prune(made, t, element, link)
+            node.remove(made)
+            merge(node, made)
 
 
 def link_extensions(node: Node, t: Translation, link: Link) -> None:
@@ -99,9 +98,8 @@ def link_extensions(node: Node, t: Translation, link: Link) -> None:
         tag = element.tag
         if tag in LINK_ELEMENTS and own:
             existing = node.find(tag)
-            if existing is not None:
+            if blob(node, t, element, link) is not None and existing is not None:
                 node.remove(existing)
-            copied(node, element)
         elif tag in LINK_ELEMENTS or tag in LINK_KEYWORDS:
             if not own:
                 t.lose(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...model.read import number
 from ...source.document import Element
 from .xml import Node, add, at
 
@@ -30,9 +31,9 @@ def imu_noise(made: Node, sensor: Element) -> None:
                 continue
             one = add(node, "noise", type=kind.text.strip() if kind is not None else "gaussian")
             for name in _NUMBERS:
-                number = said.child(name)
-                if number is not None:
-                    add(one, name, number.text.strip())
+                value = said.child(name)
+                if value is not None and number(value.text.strip()) is not None:
+                    add(one, name, value.text.strip())
 
 
 def is_old_noise(element: Element) -> bool:

@@ -43,8 +43,8 @@ def make_names(robot: Robot, *, anchored: bool) -> Names:
     for kind, olds in (("joint", joints), ("link", links)):
         for old in olds:
             new = allowed(old)
-            if kind == "link" and new == "world":
-                new = "world_link"
+            if new == "world":
+                new = f"world_{kind}"
             if new in used:
                 new = next(free for free in _variants(new, kind) if free not in used | taken)
             used.add(new)

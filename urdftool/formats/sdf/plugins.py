@@ -18,7 +18,7 @@ from .plugin_types import (
 )
 from .pose import angles_of
 from .translation import Translation
-from .xml import Node, add, at, copied
+from .xml import Node, add, at, comment, copied, spoken
 
 _NAMES_LINK = frozenset(
     ("bodyName", "body_name", "linkName", "link_name", "gripper_link", "palm_link", "parent_link",
@@ -31,7 +31,10 @@ _SETUP = frozenset(("ros", "alwaysOn", "always_on", "robotNamespace", "rosDebugL
 def plugin(node: Node, t: Translation, element: Element) -> None:
     """A plugin of a model, link, joint or sensor."""
     name = library(element)
-    if t.options.classic:
+    if not name:
+        comment(node, spoken(element))
+        _lose(t, element, "names no library; it stays as a comment")
+    elif t.options.classic:
         _kept(node, t, element)
         if is_for_gz(element):
             _lose(t, element, "is one of gz, which Gazebo Classic cannot load; it stays as it is")
@@ -63,6 +66,8 @@ def system_name(t: Translation, word: str, name: str) -> dict[str, str]:
 def _kept(node: Node, t: Translation, element: Element) -> None:
     """Copy a plugin; what it calls by name is called so still."""
     made = copied(node, element)
+    if not made.get("name"):
+        made.set("name", library(element))
     _offset(made, t)
     for tag in made.iter():
         if not isinstance(tag.tag, str) or not tag.text:

@@ -73,9 +73,7 @@ SYSTEMS = {
 }  # fmt: skip
 """The system of gz that runs each type of sensor: the word in its library's name, and its class."""
 
-NUMBERS = frozenset(
-    ("update_rate", "horizontal_fov", "near", "far", "width", "height", "samples", "resolution",
-     "min_angle", "max_angle", "min", "max", "mean", "stddev", "bias_mean", "bias_stddev",
-     "precision", "dynamic_bias_stddev", "dynamic_bias_correlation_time")
-)  # fmt: skip
-"""Elements in a sensor that hold one number."""
+KNOWN = frozenset(
+    (*TO_GZ, *TO_CLASSIC, *SYSTEMS, "rgbd", "thermal", "segmentation", "wideangle_camera")
+)
+"""Types that some Gazebo has; a reader refuses a file with another."""

@@ -12,7 +12,7 @@ from .extensions import said_of
 from .imu import imu_noise
 from .plugins import plugin
 from .sensor_plugins import sensor_plugin
-from .sensor_types import TO_CLASSIC, TO_GZ
+from .sensor_types import KNOWN, TO_CLASSIC, TO_GZ
 from .shape_names import shape_names
 from .translation import Translation
 from .xml import Node
@@ -45,6 +45,10 @@ def joint_sensors(node: Node, t: Translation, joint: Joint) -> None:
 def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> list[Node]:
     """A sensor of the source in the words of the target; several of a multicamera."""
     kind = (element.get("type") or "").strip()
+    if kind not in KNOWN:
+        text = f"sensor '{element.get('name')}' is of no type that Gazebo has; it is left out"
+        t.lose("sensor", text, element, part)
+        return []
     types = TO_CLASSIC if t.options.classic else TO_GZ
     made = blob(node, t, element, about=None)
     assert made is not None  # a link and a joint may have sensors
@@ -79,7 +83,7 @@ def _name_once(
 ) -> None:
     """Give a sensor another name where one of its link has it already."""
     name = made.get("name") or f"{part.name}_sensor"
-    taken = {other.get("name") for other in node.findall("sensor") if other is not made}
+    taken = {other.get("name") for other in node if other is not made}
     new = next(n for n in (name, *(f"{name}_{i}" for i in range(2, 1000))) if n not in taken)
     if new != made.get("name"):
         made.set("name", new)

@@ -1,35 +1,41 @@
-"""Names of visuals and collisions, which in SDF are unique in a link."""
+"""Names of visuals and collisions, which in SDF are unique in a link, both kinds together."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from ...model.elements import Collision, Link, Visual
-
-SHAPE_SUFFIX = {"visual": "_visual", "collision": "_collision"}
 
 
 def shape_names(members: list[Link]) -> dict[int, str]:
     """The name of each visual and collision by identity: its own, or made of the link's.
 
-    Those are LINK_visual, LINK_visual_1 and so on; they are unique in a link for each kind.
+    Those are LINK_visual, LINK_visual_1 and so on. Where a visual has the name of a collision, it
+    is NAME_visual; sensors watch collisions by name, and nothing does so with visuals.
     """
     names: dict[int, str] = {}
-    for kind, suffix in SHAPE_SUFFIX.items():
-        used: set[str] = set()
+    used: set[str] = set()
+    for kind in ("collision", "visual"):
         for member in members:
-            shapes: Sequence[Visual | Collision] = (
-                member.visuals if kind == "visual" else member.collisions
+            shapes: Sequence[Collision | Visual] = (
+                member.collisions if kind == "collision" else member.visuals
             )
             for index, shape in enumerate(shapes):
-                base = (shape.name or "").replace("::", "_")
-                if not base:
-                    base = f"{member.name.replace('::', '_')}{suffix}" + (
-                        f"_{index}" if index else ""
-                    )
-                name, number = base, 1
-                while name in used:
-                    name, number = f"{base}_{number}", number + 1
-                used.add(name)
-                names[id(shape)] = name
+                own = (shape.name or "").replace("::", "_")
+                names[id(shape)] = next(
+                    name for name in _candidates(own, member.name, kind, index) if name not in used
+                )
+                used.add(names[id(shape)])
     return names
+
+
+def _candidates(own: str, link: str, kind: str, index: int) -> Iterator[str]:
+    base = own or f"{link.replace('::', '_')}_{kind}" + (f"_{index}" if index else "")
+    yield base
+    if own and kind == "visual":
+        base = f"{own}_visual"
+        yield base
+    number = 1
+    while True:
+        yield f"{base}_{number}"
+        number += 1

@@ -52,6 +52,14 @@ def copied(parent: Node, element: Element, tag: str | None = None) -> Node:
     return node
 
 
+def spoken(element: Element) -> str:
+    """An element in one line, for a comment."""
+    words = [element.tag, *(f'{name}="{value}"' for name, value in element.attributes.items())]
+    words += element.text.split()
+    inner = "; ".join(spoken(child) for child in element.children)
+    return " ".join(words) + (f" ({inner})" if inner else "")
+
+
 def merge(target: Node, source: Node) -> None:
     """Put what is in one element into another; a leaf that both have is the source's."""
     for child in source:
