@@ -22,6 +22,9 @@ TREE = (
 LIMITS = ("lossy-limit-inverted", "lower-above-upper", "not-a-number", "lossy-mimic-fixed")
 """A joint's bounds are changed."""
 
+TORN = ("lossy-floating",)
+"""A body that floats hangs on the world instead of its parent."""
+
 EFFORT = ("lossy-effort", "not-a-number")
 """The bound of its effort is changed."""
 

@@ -16,7 +16,7 @@ from .frame import plain, quaternion_of, quaternion_of_rotation
 from .inertia import Array
 
 POINT = 1e-15
-"""Inertia over mass [m²] below which a body is a point: thirty nanometres across."""
+"""Inertia [kg·m²] below which a body of 1 kg is a point, and a lighter one in proportion."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +69,7 @@ def inertia_of(link: Link) -> LinkInertia | None:
         xx, yy, zz = inertial.inertia.moments
         xy, xz, yz = inertial.inertia.products
         local = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    if mass > 0 and abs(local).max() < POINT * mass:
+    if mass > 0 and abs(local).max() < POINT * min(mass, 1.0):
         local = np.zeros((3, 3))  # what arithmetic left of zeros
     if mass < 0 or not (mass or local.any()):
         return None

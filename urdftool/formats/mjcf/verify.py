@@ -18,7 +18,7 @@ from ..check import Check
 from ..directory import write_directory
 from ..mechanics import Mechanics
 from ..written import Written
-from .announced import EFFORT, INERTIA, LIMITS, TREE, Said
+from .announced import EFFORT, INERTIA, LIMITS, TORN, TREE, Said
 from .compiled import Compiled
 from .options import Options
 from .verify_shapes import collision_check, visual_check
@@ -150,7 +150,7 @@ def _frames(
     mechanics: Mechanics, compiled: Compiled, configurations: list[dict[str, float]], said: Said
 ) -> Check:
     check = Check("frames", f"pose of every link, {len(configurations)} configurations", POSE)
-    torn = said.any("lossy-floating")
+    torn = said.any(*TORN)
     for positions in configurations:
         compiled.pose(positions)
         for link, expected in mechanics.frames(positions).items():
@@ -178,7 +178,7 @@ def _dynamics(
         scale = np.sqrt(np.maximum(np.diag(expected), 0.0))
         floor = max(1e-6 * float(np.diag(expected).max()), 1e-15)
         difference = abs(found - expected) / np.maximum(np.outer(scale, scale), floor)
-        inertia.compare(float(difference.max()), "the mass matrix", known=said.any(*INERTIA))
+        inertia.compare(float(difference.max()), "the mass matrix", known=said.any(*INERTIA, *TORN))
         force = mechanics.gravity(positions)[present]
         bias = compiled.gravity([dofs[index] for index in present])
         weight = max(
@@ -200,9 +200,9 @@ def _centroid(
         mass, com, tensor = mechanics.centroid(positions)
         found_mass, found_com, found_tensor = compiled.centroid()
         if mass == 0:
-            check.compare(found_mass, "mass where there is none", known=said.any(*INERTIA))
+            check.compare(found_mass, "mass where there is none", known=said.any(*INERTIA, *TORN))
             continue
-        known = said.any(*INERTIA, "lossy-floating")
+        known = said.any(*INERTIA, *TORN)
         # the tolerances of the three are brought to that of the row
         check.compare(abs(found_mass - mass) / mass * MATRIX / MASS, "total mass", known=known)
         check.compare(

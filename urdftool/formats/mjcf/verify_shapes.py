@@ -24,7 +24,7 @@ from ...model.elements import (
 )
 from ..check import Check
 from ..mechanics import Array, Mechanics, origin_matrix
-from .announced import LOOKS, SHAPES, Said
+from .announced import LOOKS, SHAPES, TORN, Said
 from .compiled import Compiled
 
 SIMPLE, MESH = 1e-9, 1e-6
@@ -46,7 +46,7 @@ def collision_check(
         compiled.pose(positions)
         for link in robot.links:
             geoms = list(_geoms(compiled, link, 3))
-            known = said.of(SHAPES, *_about(link))
+            known = said.of(SHAPES, *_about(link)) or said.any(*TORN)
             if len(geoms) != len(link.collisions):
                 text = f"link '{link.name}': {len(geoms)} collisions of {len(link.collisions)}"
                 check.compare(math.inf, text, known=known)
@@ -74,7 +74,7 @@ def visual_check(
     frames = mechanics.frames(configurations[0])
     compiled.pose(configurations[0])
     for link in robot.links:
-        known = said.of(SHAPES, *_about(link))
+        known = said.of(SHAPES, *_about(link)) or said.any(*TORN)
         geoms = list(_geoms(compiled, link, 2))
         frame = frames.get(link.name, np.eye(4))
         boxes = [box for v in link.visuals if (box := _bounds(robot, v, frame)) is not None]
