@@ -52,7 +52,7 @@ class Kinds(click.Group):
 @click.command("inertia", cls=Kinds, invoke_without_command=True)
 @click.pass_context
 def command(ctx: click.Context) -> int:
-    r"""Mass properties of a shape, a mesh or a whole robot.
+    """Mass properties of a shape, a mesh or a whole robot.
 
     Without anything at a terminal it asks: for the shape, its mass and its sizes.
 
@@ -61,7 +61,7 @@ def command(ctx: click.Context) -> int:
         urdftool inertia mesh link3.dae --density 2700
         urdftool inertia robot arm.urdf.xacro
         urdftool inertia robot arm.urdf --write --total-mass 18.4
-    """
+    """  # noqa: D301 -- \b is a character that click looks for
     if ctx.invoked_subcommand is not None:
         return 0
     from .inertia_ask import at_terminal, choose_shape

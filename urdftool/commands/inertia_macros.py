@@ -10,13 +10,13 @@ from .options import output_option
 @click.command("macros")
 @output_option("Write the file there; without it, to standard output.")
 def command(output: str | None) -> int:
-    r"""A xacro file with an inertia macro for each shape, solid and hollow.
+    """A xacro file with an inertia macro for each shape, solid and hollow.
 
     \b
         urdftool inertia macros -o inertia.xacro
         <xacro:include filename="inertia.xacro"/>
         <xacro:cylinder_inertia mass="0.18" radius="0.06" length="0.09"/>
-    """
+    """  # noqa: D301 -- \b is a character that click looks for
     from ..inertia.macros import macro_file
     from ..output import write_result
 

@@ -75,7 +75,7 @@ def command(
     style: str,
     output: str | None,
 ) -> int:
-    r"""Mass properties of the mesh FILE: STL, OBJ, DAE, PLY, glTF or GLB.
+    """Mass properties of the mesh FILE: STL, OBJ, DAE, PLY, glTF or GLB.
 
     A closed mesh is integrated exactly. What is not closed is repaired or estimated, and the
     method, its error and whether to rely on it are said.
@@ -83,7 +83,7 @@ def command(
     \b
         urdftool inertia mesh link3.stl --mass 1.2 --scale 0.001
         urdftool inertia mesh link3.dae --density 2700 --format json
-    """
+    """  # noqa: D301 -- \b is a character that click looks for
     check_amount(mass, density)
     check_pose(origin_xyz, origin_rpy)
     if mass is None and density is None:

@@ -99,7 +99,7 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    r"""Look over the inertia of every link of IN, fill in what is missing, or recompute it.
+    """Look over the inertia of every link of IN, fill in what is missing, or recompute it.
 
     A table shows what is written and what the geometry implies at uniform density, and marks what
     no body can have. With --write the source is edited: only the bytes that are added or changed
@@ -112,7 +112,7 @@ def command(
         urdftool inertia robot arm.urdf --lump --pose elbow=1.57
 
     Exit 1 if something written cannot be.
-    """
+    """  # noqa: D301 -- \b is a character that click looks for
     _check_options(density, total, write, lump, pose, output)
     from ..configuration import find_configuration
     from ..inertia.mass_file import read_masses

@@ -107,10 +107,10 @@ def _wanted(item: LinkReview, filling: Filling, masses: Masses, robot: Robot) ->
             left(f"its mass is written, {item.link.mass:g} kg; --all replaces it")
         return None
     if item.body is None:
-        if item.link.inertial is not None:
-            left("it has no geometry to compute from")
-        else:
+        if item.link.is_frame:
             filling.unchanged.append(name)
+        else:
+            left("it has no geometry of the wanted kind to compute from")
         return None
     if item.body.lacks:
         left(f"its {item.body.source} is not all there: {item.body.lacks[0].reason}")

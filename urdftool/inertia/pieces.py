@@ -30,6 +30,8 @@ from .tensor import Array, MassProperties, combine, rotate
 
 SOURCES = ("collision", "visual")
 
+_MIN, _MAX, _FAR = 1e-100, 1e100, 1e40
+
 Meshes = Mapping[str, "MeshBody | UrdftoolError"]
 Shape = Visual | Collision
 
@@ -124,6 +126,8 @@ def link_body(link: Link, source: str, meshes: Meshes) -> LinkBody | None:
     for shape in shapes_of(link, source):
         try:
             pieces.append(_piece(shape, meshes))
+        except ArithmeticError:
+            lacks.append(Lack(shape, "it is beyond what numbers can hold"))
         except UrdftoolError as error:
             lacks.append(Lack(shape, str(error)))
     return LinkBody(source, tuple(pieces), tuple(lacks)) if pieces or lacks else None
@@ -187,6 +191,11 @@ def _placed(
     pose = pose_of(shape.origin)
     rotation = np.array(pose.rotation, dtype=np.float64)
     xyz = np.array(pose.translation, dtype=np.float64)
+    size = float(np.abs(unit.inertia).max())
+    place = max(float(np.abs(values).max()) for values in (xyz, *box))
+    # beyond these, numbers lose their meaning on the way
+    if not (_MIN < size < _MAX and _MIN < unit.mass < _MAX and place < _FAR):
+        raise ArithmeticError
     moved = MassProperties(unit.mass, rotation @ unit.com + xyz, rotate(unit.inertia, rotation))
     middle, half = (box[0] + box[1]) / 2, (box[1] - box[0]) / 2
     centre, reach = rotation @ middle + xyz, np.abs(rotation) @ half

@@ -32,6 +32,8 @@ from .tensor import (
 
 NAMES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
+_LARGEST = 1e60
+
 ReadMeshes = Callable[[Sequence[str]], dict[str, Any]]
 
 
@@ -87,7 +89,7 @@ class LinkReview:
             return "wrong"
         if self.proposal is not None:
             return "doubtful"
-        if self.body is None and self.link.inertial is None:
+        if self.link.is_frame:
             return "frame"
         if self.missing:
             return "missing" if self.missing == ("inertial",) else "incomplete"
@@ -182,7 +184,7 @@ def inertial_rotation(inertial: Inertial | None) -> Array:
 def _read_written(item: LinkReview) -> None:
     inertial = item.link.inertial
     if inertial is None:
-        item.missing = ("inertial",) if item.body is not None else ()
+        item.missing = () if item.link.is_frame else ("inertial",)
         return
     missing = []
     if inertial.mass is None and not _unreadable(inertial, "mass", "value", item):
@@ -198,7 +200,11 @@ def _read_written(item: LinkReview) -> None:
     if missing or item.faults or inertial.mass is None or inertial.inertia is None:
         return
     pose = pose_of(inertial.origin)
-    six = (getattr(inertial.inertia, name) for name in NAMES)
+    six = [getattr(inertial.inertia, name) for name in NAMES]
+    if max(map(abs, (*six, inertial.mass, *pose.translation))) > _LARGEST:
+        message = f"a number above {_LARGEST:g} is beyond any robot"
+        item.faults.append(Fault("unreadable", message, inertial.place))
+        return
     item.written = MassProperties(
         inertial.mass,
         np.array(pose.translation, dtype=np.float64),
