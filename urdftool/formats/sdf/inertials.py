@@ -14,6 +14,7 @@ from .xml import Node, add
 
 _MARGIN = 1e-12
 _EPSILON = 2e-15
+_CLEAR = 1e-6
 
 WEIGHTLESS = 1e-12
 """The mass [kg] of a moving link that has none; its radius of gyration is a millimetre."""
@@ -39,14 +40,15 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
     add(node, "mass", number_text(mass.mass))
     short = shortfall(tensor, mass.mass)
     if short > EXACT:
-        what = "is off by rounding" if short <= ROUNDING else "no rigid body has"
+        what = "is possible but for rounding" if short <= ROUNDING else "no rigid body has"
         t.lose(
             "inertia",
-            f"inertia of link '{link.name}' {what}: the largest moment exceeds the sum of the "
-            f"others by {short:.2g} of itself; the nearest possible one is written",
+            f"link '{link.name}' has an inertia that {what}: the largest moment exceeds the sum of "
+            f"the others by {short:.2g} of itself; the nearest possible one is written",
             about,
             link,
         )
+        tensor = lifted(tensor, _CLEAR)
     _tensor(node, tensor if _is_safe(tensor) else lifted(tensor))
 
 

@@ -83,6 +83,9 @@ def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Ele
             text = f"material '{name}' of link '{link.name}' is a script, which gz cannot run"
             t.lose("material", f"{text}; URDF's own colour stays", said, link)
         return False
+    if first and name not in PICTURED and part.material is not None:
+        text = f"link '{link.name}' has the colour of '{name}', not URDF's"
+        t.note("material", f"{text}; gz cannot run the script of that name", said, link)
     if first and name in PICTURED:
         text = f"material '{name}' of link '{link.name}' has a picture; only its colour is written"
         t.lose("material", text, said, link)

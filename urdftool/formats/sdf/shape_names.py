@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ...model.elements import Collision, Link, Visual
+from .names import allowed
 
 
 def shape_names(members: list[Link]) -> dict[int, str]:
@@ -21,7 +22,7 @@ def shape_names(members: list[Link]) -> dict[int, str]:
                 member.collisions if kind == "collision" else member.visuals
             )
             for index, shape in enumerate(shapes):
-                own = (shape.name or "").replace("::", "_")
+                own = _allowed(shape.name or "")
                 names[id(shape)] = next(
                     name for name in _candidates(own, member.name, kind, index) if name not in used
                 )
@@ -29,8 +30,13 @@ def shape_names(members: list[Link]) -> dict[int, str]:
     return names
 
 
+def _allowed(name: str) -> str:
+    name = allowed(name)
+    return "world_shape" if name == "world" else name
+
+
 def _candidates(own: str, link: str, kind: str, index: int) -> Iterator[str]:
-    base = own or f"{link.replace('::', '_')}_{kind}" + (f"_{index}" if index else "")
+    base = own or f"{allowed(link)}_{kind}" + (f"_{index}" if index else "")
     yield base
     if own and kind == "visual":
         base = f"{own}_visual"
