@@ -80,3 +80,32 @@ def test_a_shape_by_its_name_and_a_wrong_one():
     code, out, _ = converse([], answers)
     assert code == 0
     assert 'ixx="0.2"' in out
+
+
+def test_an_end_of_input_stops():
+    main, side = pty.openpty()
+    process = subprocess.Popen([*COMMAND, "sphere"], stdin=side, stdout=side, stderr=side)
+    os.close(side)
+    seen = ""
+    while "Mass" not in seen:
+        seen += os.read(main, 4096).decode()
+    os.write(main, b"\x04")
+    assert process.wait(timeout=10) == 130
+    os.close(main)
+
+
+def test_progress_at_a_terminal_only(monkeypatch, capfd):
+    from urdftool.commands import inertia_robot
+    from urdftool.console import Console
+
+    monkeypatch.setattr(inertia_robot, "_PATIENCE", 0.0)
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
+    with inertia_robot._Progress(Console()) as progress:
+        progress(1, 3, "link.stl")
+    assert "meshes 1/3  link.stl" in capfd.readouterr().err
+    with inertia_robot._Progress(Console(verbosity=-1)) as progress:
+        progress(1, 3, "link.stl")
+    monkeypatch.setattr("sys.stderr.isatty", lambda: False, raising=False)
+    with inertia_robot._Progress(Console()) as progress:
+        progress(1, 3, "link.stl")
+    assert capfd.readouterr().err == ""

@@ -26,6 +26,7 @@ from .masses import Masses
 from .review import LinkReview
 from .wanted import Want, Wanted, wanted_for
 
+_LONGEST_CALL = 60
 _PARAMETER = re.compile(r"\$\{\s*(\w+)\s*\}")
 
 
@@ -279,7 +280,8 @@ def _said(want: Want) -> str:
     call = next((call for call in want.element.calls if call.macro), None)
     if call is None:
         return want.said
-    return f"{want.said} for {call.file.path}:{call.line}:{call.column} ({call.what})"
+    what = call.what if len(call.what) <= _LONGEST_CALL else f"macro '{call.macro}'"
+    return f"{want.said} for {call.file.path}:{call.line}:{call.column} ({what})"
 
 
 def _named(element: Element) -> str:

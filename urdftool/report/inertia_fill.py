@@ -52,7 +52,8 @@ def remarks(filling: Filling) -> Iterator[str]:
 
 def summary(filling: Filling, files: Sequence[str]) -> str:
     """Counts, and the files that changed."""
-    parts = [f"{len(filling.written)} links written"]
+    count = len(filling.written)
+    parts = [f"{count} link{'s' * (count != 1)} written"]
     if filling.unchanged:
         parts.append(f"{len(filling.unchanged)} as they were")
     if filling.left:

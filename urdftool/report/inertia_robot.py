@@ -160,11 +160,11 @@ def summary(reviews: Sequence[LinkReview]) -> str:
             ("doubtful", "doubtful"),
             ("missing", "without inertial"),
             ("incomplete", "incomplete"),
-            ("frame", "mere frames"),
+            ("frame", "frames"),
         )
     }
     written = math.fsum(item.link.mass for item in reviews)
-    parts = [f"{len(reviews)} links", f"{written:.6g} kg written"]
+    parts = [f"{len(reviews)} link{'s' * (len(reviews) != 1)}", f"{written:.6g} kg written"]
     planned = math.fsum(item.mass or 0.0 for item in reviews)
     if not math.isclose(planned, written, rel_tol=1e-9, abs_tol=1e-12):
         parts.append(f"{planned:.6g} kg wanted")

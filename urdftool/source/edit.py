@@ -21,7 +21,7 @@ from .location import SourceFile
 from .tags import value_span
 
 _BLANK = re.compile(rb"[ \t]*")
-_REST_OF_LINE = re.compile(rb"(?:[ \t]|<!--[^\n]*?-->)*(?=\r?\n)")
+_REST_OF_LINE = re.compile(rb"(?:[ \t]|<!--(?:(?!--)[^\n])*-->)*(?=\r?\n)")
 _QUOTES = {"&quot;": '"', "&apos;": "'"}
 
 
