@@ -22,7 +22,13 @@ BELOW = {
     "rules": ("finding", "model", "source", "meshes", "errors"),
     "lint": ("rules", "finding", "model", "source", "configuration", "errors"),
     "formats": ("finding", "model", "source", "meshes", "inertia", "output", "errors"),
-    "report": ("lint", "rules", "finding", "model", "source", "formats", "inertia", "errors"),
+    "graph": ("finding", "model", "source", "errors"),
+    "report": (
+        *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),
+        *("inertia", "errors"),
+    ),
+    "info": ("model", "source", "meshes", "errors"),
+    "compare": ("model", "source", "errors"),
     "api": ("source",),
 }
 
@@ -37,6 +43,7 @@ DOORS = {
     "rich": ("report/", "commands/", "formats/"),
     "numpy": ("meshes/", "inertia/", "formats/"),
     "mujoco": ("formats/mjcf/",),
+    "pygraphviz": ("graph/draw.py",),
 }
 
 

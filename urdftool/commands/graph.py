@@ -1,0 +1,121 @@
+"""``urdftool graph``: the robot's tree as a picture, as text, or at the terminal."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from ..console import Console
+from .options import output_option, package_options, robot_argument
+
+if TYPE_CHECKING:
+    from ..graph.faults import Fault
+    from ..graph.figure import Figure
+    from ..model.elements import Robot
+
+TEXTS = (".gv", ".dot", ".mmd", ".json")
+PICTURES = (".pdf", ".svg", ".png")
+
+
+@click.command("graph")
+@robot_argument
+@output_option(
+    "Write that file: .gv, .dot, .pdf, .svg, .png, .mmd (Mermaid) or .json; '-' prints a tree. "
+    "Without it, NAME.gv and NAME.pdf, NAME being the robot's."
+)
+@click.option(
+    "--style",
+    type=click.Choice(["ros", "detailed"]),
+    help="'ros' is what urdf_to_graphiz draws, and the default of .gv, .dot and pictures; "
+    "'detailed' has types, axes, limits, masses, shapes, sensors and controllers.",
+)
+@click.option("--fold-fixed", is_flag=True, help="Draw links that fixed joints join as one.")
+@click.option("--lint", "linted", is_flag=True, help="Mark what lint finds where it finds it.")
+@package_options
+@click.pass_obj
+def command(
+    console: Console,
+    robot: tuple[str, dict[str, str]],
+    output: str | None,
+    style: str | None,
+    fold_fixed: bool,
+    linted: bool,
+    package: dict[str, Path],
+    package_path: tuple[str, ...],
+) -> int:
+    r"""Draw the links and joints of IN.
+
+    Without -o it writes what urdf_to_graphiz writes, NAME.gv and NAME.pdf in the current folder;
+    nothing else need be installed. In an SVG, each node has a tooltip and a link to its line.
+
+    \b
+        urdftool graph arm.urdf
+        urdftool graph arm.urdf.xacro prefix:=left_ -o arm.svg --style detailed --lint
+        urdftool graph arm.urdf.xacro -o -
+
+    Exit 1 if the links are no tree, or if --lint finds an error or a warning.
+    """
+    from ..graph.faults import find_faults
+    from .graph_write import write_one, write_pair
+    from .read_lax import read_lax
+
+    suffix = _suffix(output)
+    path, arguments = robot
+    model = read_lax(console, path, arguments, package, package_path)
+    faults = list(find_faults(model))
+    wanted = style or ("ros" if suffix in (None, "", ".gv", ".dot", *PICTURES) else "detailed")
+    figure = _figure(console, model, faults, wanted, fold_fixed, linted)
+    if suffix in (None, ""):
+        write_pair(console, model, figure, path, output)
+    else:
+        write_one(console, model, figure, faults, output or "-", suffix)
+    for fault in faults:
+        console.note(f"{fault.place}: {fault.message}")
+    return int(bool(faults) or (linted and _is_marked(figure)))
+
+
+def _suffix(output: str | None) -> str | None:
+    """The kind of output; ``-`` for the terminal, empty for the name of a pair of files."""
+    if output is None or output == "-":
+        return output
+    suffix = os.path.splitext(output)[1].lower()
+    if suffix not in ("", *TEXTS, *PICTURES):
+        raise click.UsageError(
+            f"'{output}' says no kind of graph; it ends in {', '.join((*TEXTS, *PICTURES))}"
+        )
+    return suffix
+
+
+def _figure(
+    console: Console, model: Robot, faults: list[Fault], style: str, fold: bool, linted: bool
+) -> Figure:
+    from ..errors import ModelError
+    from ..graph.marks import mark_faults, mark_findings
+
+    if not model.links and not model.joints:
+        raise ModelError("there is no link in it, so nothing can be drawn", at=model.place)
+    if style == "ros":
+        from ..graph.ros import ros_figure as figure_of
+    else:
+        from ..graph.detailed import detailed_figure as figure_of
+    figure = figure_of(model)
+    mark_faults(figure, faults)
+    if linted:
+        from ..lint.run import check
+
+        mark_findings(figure, check(model, config=console.config))
+    if fold:
+        from ..graph.fold import fold_fixed
+
+        figure = fold_fixed(figure)
+    return figure
+
+
+def _is_marked(figure: Figure) -> bool:
+    from ..finding import Severity
+
+    nodes = [finding for node in figure.nodes.values() for finding in node.findings]
+    return any(f.severity >= Severity.WARNING for f in (*nodes, *figure.findings))

@@ -1,0 +1,98 @@
+"""Where a graph goes: a pair of files, one file, or the terminal."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from ..console import Console
+from ..graph.faults import Fault
+from ..graph.figure import Figure
+from ..model.elements import Robot
+from ..output import write_file, write_result
+
+
+def write_pair(
+    console: Console, model: Robot, figure: Figure, path: str, output: str | None
+) -> None:
+    """NAME.gv and NAME.pdf, with the messages of ``urdf_to_graphiz``.
+
+    Args:
+        console: Where it is said.
+        model: The robot.
+        figure: How it is drawn.
+        path: The description as it was named; a nameless robot's files are called as it is.
+        output: NAME where the user chose it; otherwise the robot's.
+    """
+    from ..graph.dot import to_dot
+    from ..graph.draw import draw
+    from ..graph.words import file_name
+
+    stem = "robot" if path == "-" else Path(path).name.partition(".")[0] or "robot"
+    name = output or file_name(model.name, stem)
+    text = to_dot(figure)
+    picture = draw(text, "pdf")
+    for suffix, data in ((".gv", text.encode("utf-8")), (".pdf", picture)):
+        _put(data, f"{name}{suffix}", model)
+        if not console.quiet:
+            click.echo(f"Created file {name}{suffix}")
+
+
+def write_one(
+    console: Console,
+    model: Robot,
+    figure: Figure,
+    faults: Sequence[Fault],
+    output: str,
+    suffix: str,
+) -> None:
+    """One file of a kind, or a tree at the terminal for ``-``."""
+    if suffix == "-":
+        from ..report.graph_tree import tree_text
+
+        width = shutil.get_terminal_size().columns
+        write_result(tree_text(model, figure, colors=console.colors(), width=width), None)
+        return
+    folder = os.path.dirname(output) or "."
+    if suffix == ".json":
+        from ..report.graph_json import to_json
+
+        data = to_json(model, figure, faults).encode("utf-8")
+    elif suffix == ".mmd":
+        from ..graph.mermaid import to_mermaid, too_large
+
+        text = to_mermaid(figure)
+        if too_large(figure, text):
+            console.note(f"{output}: warning: it has {too_large(figure, text)}; try --fold-fixed")
+        data = text.encode("utf-8")
+    else:
+        from ..graph.dot import to_dot
+
+        linked = suffix == ".svg" or (figure.style == "detailed" and suffix in (".gv", ".dot"))
+        text = to_dot(figure, folder if linked else None)
+        data = text.encode("utf-8")
+        if suffix not in (".gv", ".dot"):
+            from ..graph.draw import draw
+
+            data = draw(text, suffix[1:])
+    _put(data, output, model)
+    console.note(f"Created file {output}")
+
+
+def _put(data: bytes, target: str, model: Robot) -> None:
+    from ..errors import OutputError
+
+    for file in model.source.files if model.source is not None else ():
+        if (
+            os.path.exists(target)
+            and os.path.exists(file.path)
+            and os.path.samefile(file.path, target)
+        ):
+            raise OutputError(
+                f"is read as an input ({file.path}); write the output to another file", path=target
+            )
+    write_file(target, data)

@@ -1,0 +1,110 @@
+"""Sensors, plugins and controllers, hung on the link or joint that has them."""
+
+from __future__ import annotations
+
+from ..model.elements import ControlComponent, GazeboExtension, Robot, Ros2Control, Sensor
+from .figure import Edge, Figure, Node
+from .words import visible
+
+
+def add_attached(
+    figure: Figure, robot: Robot, links: dict[str, str], joints: dict[str, str]
+) -> None:
+    """Hang them on.
+
+    What concerns the whole robot hangs on its root, or on its first link where it has none.
+
+    Args:
+        figure: Where they are added.
+        robot: The robot.
+        links: Keys of nodes by the name of their link.
+        joints: Keys of nodes by the name of their joint.
+    """
+    tops = [*robot.tree.roots, *robot.links]
+    top = links.get(tops[0].name) if tops else None
+    for block in robot.gazebo:
+        name = block.reference
+        holder = top if name is None else links.get(name) or joints.get(name)
+        if holder is None and (block.sensors or block.plugins):
+            element = block.element
+            missing = Node(f"missing:{name}", "missing", name or "", elements=[element])
+            missing.faults.append("no such link or joint")
+            holder = figure.add(missing).key
+        if holder is not None:
+            if name is not None:
+                figure.nodes[holder].elements.append(block.element)
+            _hang_block(figure, block, holder)
+    for control in robot.ros2_controls:
+        _hang_control(figure, control, top, links, joints)
+
+
+def _hang(figure: Figure, node: Node, holder: str) -> Node:
+    figure.add(node)
+    figure.edges.append(Edge(holder, node.key, "holds"))
+    return node
+
+
+def _hang_block(figure: Figure, block: GazeboExtension, holder: str) -> None:
+    for sensor in block.sensors:
+        _hang(figure, _sensor(sensor), holder)
+    for plugin in block.plugins:
+        node = Node(f"plugin:{plugin.name}", "plugin", plugin.name, elements=[plugin.element])
+        node.facts = {"filename": plugin.filename}
+        node.lines.append(visible(plugin.filename) or "no library")
+        _hang(figure, node, holder)
+
+
+def _sensor(sensor: Sensor) -> Node:
+    node = Node(f"sensor:{sensor.name}", "sensor", sensor.name, elements=[sensor.element])
+    node.facts = {
+        "type": sensor.type,
+        "plugins": [plugin.filename for plugin in sensor.plugins],
+    }
+    node.lines.append(f"{visible(sensor.type)} sensor" if sensor.type else "sensor without a type")
+    node.lines += [visible(plugin.filename) for plugin in sensor.plugins]
+    return node
+
+
+def _hang_control(
+    figure: Figure,
+    control: Ros2Control,
+    top: str | None,
+    links: dict[str, str],
+    joints: dict[str, str],
+) -> None:
+    node = Node(f"controller:{control.name}", "controller", control.name)
+    node.elements.append(control.element)
+    node.facts = {
+        "type": control.type,
+        "plugin": control.plugin,
+        "joints": [joint.name for joint in control.joints],
+    }
+    node.lines.append(f"ros2_control {visible(control.type) or 'hardware'}")
+    if control.plugin:
+        node.lines.append(visible(control.plugin))
+    # where one joint is driven, its hardware hangs on it; else it would be a knot of lines
+    driven = [joints[joint.name] for joint in control.joints if joint.name in joints]
+    holder = driven[0] if len(set(driven)) == 1 and len(control.joints) == 1 else top
+    figure.add(node)
+    if holder is not None:
+        figure.edges.append(Edge(holder, node.key, "holds"))
+    for component in control.components:
+        said = _interfaces(component)
+        key = joints.get(component.name) if component.kind == "joint" else None
+        if key is not None:
+            figure.nodes[key].lines.append(said)
+            figure.nodes[key].elements.append(component.element)
+        else:
+            where = "" if component.kind != "joint" else " (no such joint)"
+            node.lines.append(f"{component.kind} {visible(component.name)}{where}")
+
+
+def _interfaces(component: ControlComponent) -> str:
+    said = []
+    for kind, interfaces in (
+        ("command", component.command_interfaces),
+        ("state", component.state_interfaces),
+    ):
+        if interfaces:
+            said.append(f"{kind} {', '.join(visible(interface.name) for interface in interfaces)}")
+    return "; ".join(said) or "controlled without interfaces"

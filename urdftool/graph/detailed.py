@@ -1,0 +1,175 @@
+"""The detailed figure: what a joint does, what a link weighs and is made of, what hangs on it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..model.elements import (
+    Collision,
+    Geometry,
+    Joint,
+    Link,
+    Mesh,
+    Robot,
+    Transmission,
+    UnknownShape,
+    Visual,
+)
+from .attached import add_attached
+from .figure import Edge, Figure, Node
+from .links import ends
+from .walk import walk
+from .words import number, numbers, visible
+
+_AXES = {
+    (1.0, 0.0, 0.0): "x",
+    (0.0, 1.0, 0.0): "y",
+    (0.0, 0.0, 1.0): "z",
+    (-1.0, 0.0, 0.0): "-x",
+    (0.0, -1.0, 0.0): "-y",
+    (0.0, 0.0, -1.0): "-z",
+}
+_MOST_SHAPES = 4
+
+
+def detailed_figure(robot: Robot) -> Figure:
+    """The figure of a robot."""
+    figure = Figure(robot.name, "detailed")
+    found = walk(robot)
+    transmissions = _transmissions(robot)
+    keys: dict[str, str] = {}
+    for link in found.links:
+        keys[link.name] = figure.add(_link(link)).key
+    joints: dict[str, str] = {}
+    for joint in found.joints:
+        node = figure.add(_joint(joint, transmissions.get(joint.name, [])))
+        joints.setdefault(joint.name, node.key)
+        _edges(figure, joint, node, keys)
+    for joint in found.joints:
+        if joint.mimic is not None and joint.mimic.joint in joints:
+            figure.edges.append(Edge(joints[joint.mimic.joint], joints[joint.name], "mimic"))
+    add_attached(figure, robot, keys, joints)
+    return figure
+
+
+def _edges(figure: Figure, joint: Joint, node: Node, keys: dict[str, str]) -> None:
+    parent, child = ends(figure, joint, keys)
+    xyz = rpy = ""
+    if joint.origin is not None:
+        xyz = numbers(joint.origin.xyz) if any(joint.origin.xyz) else ""
+        if joint.origin.quaternion is not None:
+            rpy = f"{numbers(joint.origin.quaternion)} (quaternion)"
+        elif any(joint.origin.rpy):
+            rpy = numbers(joint.origin.rpy)
+    figure.edges.append(Edge(parent, node.key, xyz=xyz, rpy=rpy))
+    figure.edges.append(Edge(node.key, child))
+
+
+def _transmissions(robot: Robot) -> dict[str, list[Transmission]]:
+    found: dict[str, list[Transmission]] = {}
+    for transmission in robot.transmissions:
+        for joint in transmission.joints:
+            found.setdefault(joint.name, []).append(transmission)
+    return found
+
+
+def _link(link: Link) -> Node:
+    node = Node(f"link:{link.name}", "link", link.name, elements=[link.element])
+    node.facts = {
+        "mass": link.inertial.mass if link.inertial is not None else None,
+        "visuals": [_shape_facts(shape) for shape in link.visuals],
+        "collisions": [_shape_facts(shape) for shape in link.collisions],
+    }
+    if link.is_frame:
+        node.lines.append("frame")
+        return node
+    mass = node.facts["mass"]
+    node.lines.append("no mass" if mass is None else f"{number(mass)} kg")
+    for kind, shapes in (("visual", link.visuals), ("collision", link.collisions)):
+        node.lines.append(f"{kind}: {_shapes(shapes)}" if shapes else f"no {kind}")
+    return node
+
+
+def _shapes(shapes: list[Visual] | list[Collision]) -> str:
+    counts: dict[str, int] = {}
+    for shape in shapes:
+        name = _shape(shape.geometry)
+        counts[name] = counts.get(name, 0) + 1
+    said = [name if count == 1 else f"{count} × {name}" for name, count in counts.items()]
+    more = [f"{len(said) - _MOST_SHAPES + 1} more"] if len(said) > _MOST_SHAPES else []
+    return ", ".join([*said[: _MOST_SHAPES - len(more)], *more])
+
+
+def _shape(geometry: Geometry | None) -> str:
+    if geometry is None:
+        return "nothing"
+    if isinstance(geometry, Mesh):
+        return visible(geometry.filename.replace("\\", "/").rpartition("/")[2] or "mesh")
+    if isinstance(geometry, UnknownShape):
+        return f"<{visible(geometry.element.tag)}>"
+    return geometry.element.tag
+
+
+def _shape_facts(shape: Visual | Collision) -> dict[str, Any]:
+    geometry = shape.geometry
+    facts: dict[str, Any] = {"shape": None if geometry is None else geometry.element.tag}
+    if isinstance(geometry, Mesh):
+        facts["filename"] = geometry.filename
+    return facts
+
+
+def _joint(joint: Joint, transmissions: list[Transmission]) -> Node:
+    node = Node(f"joint:{joint.name}", "joint", joint.name, elements=[joint.element])
+    axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+    limit, mimic = joint.limit, joint.mimic
+    node.facts = {
+        "type": joint.type,
+        "parent": joint.parent,
+        "child": joint.child,
+        "axis": list(axis) if joint.has_axis else None,
+        "limit": None
+        if limit is None
+        else {name: getattr(limit, name) for name in ("lower", "upper", "effort", "velocity")},
+        "mimic": None
+        if mimic is None
+        else {"joint": mimic.joint, "multiplier": mimic.multiplier, "offset": mimic.offset},
+        "transmissions": [transmission.name for transmission in transmissions],
+    }
+    kind = visible(joint.type) or "no type"
+    verb = "along" if joint.type == "prismatic" else "normal to" if kind == "planar" else "about"
+    node.lines.append(
+        f"{kind} {verb} {_AXES.get(axis) or numbers(axis)}" if joint.has_axis else kind
+    )
+    node.lines += _limits(joint)
+    if mimic is not None:
+        offset = f" {mimic.offset:+.4g}" if mimic.offset else ""
+        node.lines.append(f"mimics {number(mimic.multiplier)} × {visible(mimic.joint)}{offset}")
+    for transmission in transmissions:
+        node.elements.append(transmission.element)
+        interfaces = [name for member in transmission.joints for name in member.hardware_interfaces]
+        for actuator in transmission.actuators:
+            interfaces += actuator.hardware_interfaces
+        said = ", ".join(visible(name.rpartition("/")[2]) for name in dict.fromkeys(interfaces))
+        node.lines.append(
+            f"transmission {visible(transmission.name)}" + (f" ({said})" if said else "")
+        )
+    return node
+
+
+def _limits(joint: Joint) -> list[str]:
+    limit = joint.limit
+    if limit is None:
+        return ["no limit"] if joint.is_limited else []
+    slides = joint.type == "prismatic"
+    lines = []
+    if joint.is_limited:
+        unit = "m" if slides else "rad"
+        lines.append(f"{number(limit.lower or 0.0)} … {number(limit.upper or 0.0)} {unit}")
+    rates = []
+    if limit.effort is not None:
+        rates.append(f"{number(limit.effort)} {'N' if slides else 'N·m'}")
+    if limit.velocity is not None:
+        rates.append(f"{number(limit.velocity)} {'m/s' if slides else 'rad/s'}")
+    if rates and not joint.is_fixed:
+        lines.append("at most " + ", ".join(rates))
+    return lines

@@ -1,0 +1,180 @@
+"""A figure as DOT, the language of Graphviz.
+
+Names are data: each stands in quotes with what means something to Graphviz escaped, or in an
+HTML-like label with what means something to XML escaped.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from html import escape
+from urllib.parse import quote
+
+from ..finding import Severity
+from .figure import Edge, Figure, Node
+from .words import shown, visible
+
+COLORS = {Severity.ERROR: "#c0271b", Severity.WARNING: "#c77700", Severity.INFO: "#2f6fb5"}
+
+_ENTITY = re.compile(r"&(?=#?\w+;)")
+_FILLS = {
+    "link": "#e9eff6",
+    "joint": "#fff3d1",
+    "sensor": "#e7e0f5",
+    "plugin": "#e4f1e4",
+    "controller": "#dcefef",
+    "missing": "#ffffff",
+}
+_FIXED = "#ededed"
+_SHAPES = {"joint": "box", "plugin": "note", "controller": "component", "sensor": "tab"}
+_MOST_MEMBERS = 8
+
+
+def to_dot(figure: Figure, folder: str | None = None) -> str:
+    """The text of a figure.
+
+    Args:
+        figure: The figure; of style ``ros``, the text is that of ``urdf_to_graphiz``, and further
+            attributes are there only for what is wrong, and for tooltips and links.
+        folder: The folder of the picture, which links to the source start from; None for neither
+            tooltips nor links.
+    """
+    lines = _ros(figure, folder) if figure.style == "ros" else _detailed(figure, folder)
+    return "".join(f"{line}\n" for line in lines)
+
+
+def quoted(text: str) -> str:
+    """A text as Graphviz shows it, in quotes: nothing in it is an escape or an entity."""
+    text = visible(text).replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{_ENTITY.sub("&amp;", text)}"'
+
+
+def _several(lines: list[str]) -> str:
+    """Lines of a label or tooltip, in one pair of quotes."""
+    return '"' + "\\n".join(quoted(line)[1:-1] for line in lines) + '"'
+
+
+def _ros(figure: Figure, folder: str | None) -> Iterator[str]:
+    yield "digraph G {"
+    yield from _caption(figure)
+    yield "node [shape=box];"
+    for node in figure.of_kind("link"):
+        yield f"{quoted(node.key)} [label={_ros_label(node)}{_ros_more(node, folder)}];"
+    yield "node [shape=ellipse, color=blue, fontcolor=blue];"
+    for node in figure.of_kind("joint", "missing"):
+        more = _ros_more(node, folder)
+        label = _ros_label(node)
+        if more or label != f'"{node.key}"':
+            yield f"{quoted(node.key)} [label={label}{more}];"
+    for edge in figure.edges:
+        label = f' [label="xyz: {edge.xyz} \\nrpy: {edge.rpy}"]' if edge.xyz else ""
+        yield f"{quoted(edge.tail)} -> {quoted(edge.head)}{label}"
+    yield "}"
+
+
+def _ros_label(node: Node) -> str:
+    return _several([node.name, *_members(node), *(mark for mark, _ in node.marks())])
+
+
+def _ros_more(node: Node, folder: str | None) -> str:
+    found = {}
+    if node.severity is not None:
+        color = COLORS[node.severity]
+        found = {"color": f'"{color}"', "fontcolor": f'"{color}"', "penwidth": "2"}
+    found |= _links(node, folder)
+    return "".join(f", {name}={value}" for name, value in found.items())
+
+
+def _detailed(figure: Figure, folder: str | None) -> Iterator[str]:
+    yield f"digraph {quoted(figure.name)} {{"
+    yield from _caption(figure)
+    yield 'graph [fontname="Helvetica", nodesep=0.25, ranksep=0.35];'
+    yield 'node [fontname="Helvetica", fontsize=12, shape=box, style=filled, color="#5a6b7d"];'
+    yield 'edge [fontname="Helvetica", fontsize=9, fontcolor="#5a6b7d", color="#5a6b7d"];'
+    for node in figure.nodes.values():
+        attributes = {"label": f"<{_html(node)}>", **_look(node), **_links(node, folder)}
+        said = ", ".join(f"{name}={value}" for name, value in attributes.items())
+        yield f"{quoted(node.key)} [{said}];"
+    for edge in figure.edges:
+        yield f"{quoted(edge.tail)} -> {quoted(edge.head)}{_edge(edge)};"
+    yield "}"
+
+
+def _caption(figure: Figure) -> Iterator[str]:
+    """What is wrong and concerns no node, below the picture."""
+    if figure.findings:
+        said = list(dict.fromkeys(f"{f.severity.label}: {f.rule}" for f in figure.findings))
+        color = COLORS[max(finding.severity for finding in figure.findings)]
+        label = _several([shown(figure.name), *said])
+        yield f'graph [label={label}, fontcolor="{color}"];'
+
+
+def _members(node: Node) -> list[str]:
+    more = len(node.members) - _MOST_MEMBERS
+    names = [f"+ {shown(name)}" for name in node.members]
+    return [*names[: _MOST_MEMBERS - 1], f"+ {more + 1} more"] if more > 0 else names
+
+
+def _html(node: Node) -> str:
+    """Name in bold, small lines below, and what is wrong in its colour."""
+    name = _data(shown(node.name))
+    rows = [f"<B>{name}</B>" if name.strip() else "<I>no name</I>"]
+    small = [_data(shown(line)) for line in (*_members(node), *node.lines)]
+    if small:
+        rows.append(f'<FONT POINT-SIZE="10">{"<BR/>".join(small)}</FONT>')
+    marks = [
+        f'<FONT POINT-SIZE="10" COLOR="{COLORS[severity]}"><B>{_data(mark)}</B></FONT>'
+        for mark, severity in node.marks()
+    ]
+    if marks:
+        rows.append("<BR/>".join(marks))
+    cells = "".join(f"<TR><TD>{row}</TD></TR>" for row in rows)
+    return f'<TABLE BORDER="0" CELLSPACING="0" CELLPADDING="1">{cells}</TABLE>'
+
+
+def _data(text: str) -> str:
+    """A text in an HTML-like label, where Graphviz takes a backslash for an escape, too."""
+    return escape(text, quote=False).replace("\\", "\\\\")
+
+
+def _look(node: Node) -> dict[str, str]:
+    fixed = node.facts.get("type") == "fixed"
+    look = {"fillcolor": f'"{_FIXED if node.kind == "joint" and fixed else _FILLS[node.kind]}"'}
+    if node.kind in _SHAPES:
+        look["shape"] = _SHAPES[node.kind]
+    if node.kind == "joint":
+        look["style"] = '"filled,rounded"'
+    if node.kind == "missing":
+        look["style"] = '"filled,dashed"'
+    if node.severity is not None:
+        look |= {"color": f'"{COLORS[node.severity]}"', "penwidth": "2.5"}
+    return look
+
+
+def _edge(edge: Edge) -> str:
+    if edge.kind == "mimic":
+        return ' [style=dashed, constraint=false, label="mimic"]'
+    if edge.kind == "holds":
+        return " [style=dotted, arrowhead=none]"
+    lines = [f"{name} {text}" for name, text in (("xyz", edge.xyz), ("rpy", edge.rpy)) if text]
+    return f" [label={_several([f'  {line}' for line in lines])}]" if lines else ""
+
+
+def _links(node: Node, folder: str | None) -> dict[str, str]:
+    """A tooltip with everything that is wrong, and a link to where the node is written."""
+    if folder is None:
+        return {}
+    place = node.place
+    lines = [f"{node.kind} {node.name}", *node.lines, *node.faults]
+    lines += [f"{f.severity.label}: {f.message} [{f.rule}]" for f in node.findings]
+    found = {}
+    if place is not None:
+        lines.insert(1, f"{place.path}:{place.line}")
+        if not place.path.startswith("<"):
+            path = os.path.relpath(os.path.abspath(place.path), os.path.abspath(folder))
+            found["URL"] = f'"{quote(path.replace(os.sep, "/"))}#L{place.line}"'
+    # Graphviz resolves the escapes of a tooltip twice
+    found["tooltip"] = _several([line.replace("\\", "\\\\") for line in map(visible, lines)])
+    return found

@@ -1,0 +1,69 @@
+"""What is wrong, on the nodes it concerns."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterable
+from operator import itemgetter
+
+from ..finding import Finding
+from ..source.location import Call, Place
+from .faults import Fault
+from .figure import Figure, Node
+
+
+def mark_faults(figure: Figure, faults: Iterable[Fault]) -> None:
+    """Write what keeps the robot from being a tree on its nodes."""
+    by_element = {id(e): node for node in figure.nodes.values() for e in node.elements[:1]}
+    for fault in faults:
+        node = by_element.get(id(fault.part.element))
+        if node is not None and fault.mark not in node.faults:
+            node.faults.append(fault.mark)
+
+
+def mark_findings(figure: Figure, findings: Iterable[Finding]) -> None:
+    """Hang findings on the nodes they concern; on the figure where there is none.
+
+    A finding belongs to the link or joint that it names, else to the node whose XML it stands in.
+    Of one that has several instances, each marks the node it made.
+    """
+    named: dict[tuple[str, str], list[Node]] = {}
+    for node in figure.nodes.values():
+        named.setdefault((node.kind, node.name), []).append(node)
+    owners = _Owners(figure)
+    for finding in findings:
+        place = finding.place
+        found: dict[str, Node] = {}
+        for name, calls in ((finding.name, place.calls), *finding.others):
+            nodes = named.get((finding.kind, name), []) if name else []
+            owner = owners.at(place, calls)
+            if owner is not None and (owner in nodes or not nodes):
+                nodes = [owner]
+            found.update((node.key, node) for node in nodes)
+        for node in found.values():
+            node.findings.append(finding)
+        if not found:
+            figure.findings.append(finding)
+
+
+class _Owners:
+    """Which node the bytes of a file belong to, for each way they were expanded."""
+
+    def __init__(self, figure: Figure) -> None:
+        self._starts: dict[tuple[str, tuple[Call, ...]], list[tuple[int, Node]]] = {}
+        for node in figure.nodes.values():
+            for element in node.elements:
+                for inner in element.walk():
+                    key = inner.file.path, inner.calls
+                    self._starts.setdefault(key, []).append((inner.start, node))
+        for starts in self._starts.values():
+            starts.sort(key=itemgetter(0))
+
+    def at(self, place: Place, calls: tuple[Call, ...]) -> Node | None:
+        """The node whose XML has a tag that goes over a place."""
+        starts = self._starts.get((place.file.path, calls), [])
+        index = bisect_right(starts, place.start, key=itemgetter(0)) - 1
+        if index < 0:
+            return None
+        start, node = starts[index]
+        return node if place.start < place.file.tag_end(start) else None

@@ -1,0 +1,82 @@
+"""A figure as Mermaid, which GitHub and GitLab draw in a README or a pull request."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from .dot import COLORS
+from .figure import Edge, Figure, Node
+from .words import shown
+
+MAX_EDGES = 500
+MAX_CHARACTERS = 50_000
+
+_PLAIN = frozenset(" _.,:+-/=×°·…")
+_BRACKETS = {
+    "link": ('["', '"]'),
+    "joint": ('(["', '"])'),
+    "sensor": ('>"', '"]'),
+    "plugin": ('[["', '"]]'),
+    "controller": ('{{"', '"}}'),
+    "missing": ('["', '"]'),
+}
+_LOOKS = {
+    "link": "fill:#e9eff6,stroke:#5a6b7d,color:#1b2733",
+    "joint": "fill:#fff3d1,stroke:#5a6b7d,color:#1b2733",
+    "sensor": "fill:#e7e0f5,stroke:#5a6b7d,color:#1b2733",
+    "plugin": "fill:#e4f1e4,stroke:#5a6b7d,color:#1b2733",
+    "controller": "fill:#dcefef,stroke:#5a6b7d,color:#1b2733",
+    "missing": "fill:#ffffff,stroke:#5a6b7d,color:#1b2733,stroke-dasharray:4",
+}
+
+
+def to_mermaid(figure: Figure) -> str:
+    """The text of a figure, as a flowchart."""
+    return "".join(f"{line}\n" for line in _lines(figure))
+
+
+def too_large(figure: Figure, text: str) -> str:
+    """Why a page would not draw it as Mermaid is set up by default; empty if it would."""
+    if len(figure.edges) > MAX_EDGES:
+        return f"{len(figure.edges)} edges, and Mermaid draws {MAX_EDGES} unless maxEdges is set"
+    if len(text) > MAX_CHARACTERS:
+        return f"{len(text)} characters, and Mermaid reads {MAX_CHARACTERS} unless maxTextSize is"
+    return ""
+
+
+def label(text: str) -> str:
+    """A text as Mermaid shows it: all that may mean something to it or to HTML is a code."""
+    coded = "".join(c if c.isalnum() or c in _PLAIN else f"#{ord(c)};" for c in shown(text))
+    return coded.replace("#92;n", "#92;#8288;n")  # it takes the two for a line end, coded or not
+
+
+def _lines(figure: Figure) -> Iterator[str]:
+    numbers = {key: f"n{number}" for number, key in enumerate(figure.nodes)}
+    yield "flowchart TB"
+    for node in figure.nodes.values():
+        begin, end = _BRACKETS[node.kind]
+        yield f"  {numbers[node.key]}{begin}{_text(node)}{end}:::{node.kind}"
+    for edge in figure.edges:
+        yield f"  {numbers[edge.tail]} {_arrow(edge)} {numbers[edge.head]}"
+    for kind in dict.fromkeys(node.kind for node in figure.nodes.values()):
+        yield f"  classDef {kind} {_LOOKS[kind]}"
+    for node in figure.nodes.values():
+        if node.severity is not None:
+            color = COLORS[node.severity]
+            yield f"  style {numbers[node.key]} stroke:{color},stroke-width:3px,color:{color}"
+
+
+def _text(node: Node) -> str:
+    name = label(node.name) if node.name.strip() else "no name"
+    lines = [f"+ {member}" for member in node.members] + node.lines
+    lines += [mark for mark, _ in node.marks()]
+    return "<br>".join([name, *map(label, lines)])
+
+
+def _arrow(edge: Edge) -> str:
+    if edge.kind == "mimic":
+        return '-.->|"mimic"|'
+    if edge.kind == "holds":
+        return "-.-"
+    said = [f"{name} {text}" for name, text in (("xyz", edge.xyz), ("rpy", edge.rpy)) if text]
+    return f'-->|"{"<br>".join(map(label, said))}"|' if said else "-->"

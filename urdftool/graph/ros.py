@@ -1,0 +1,81 @@
+"""The figure that ROS's ``urdf_to_graphiz`` draws, and the same text.
+
+A box a link, an ellipse a joint, and on the edge to the joint where it is. A link's joints come in
+the order of their names, which is the one that urdfdom keeps them in.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..model.elements import Joint, Origin, Robot, Vector
+from ..model.pose import quaternion_of_rpy
+from .figure import Edge, Figure, Node
+from .links import ends
+from .walk import by_name, walk
+
+
+def ros_figure(robot: Robot) -> Figure:
+    """The figure of a robot."""
+    figure = Figure(robot.name, "ros")
+    found = walk(robot, by_name)
+    keys: dict[str, str] = {}
+    for link in found.links:
+        keys[link.name] = figure.add(
+            Node(link.name, "link", link.name, elements=[link.element])
+        ).key
+    joints = {joint.name for joint in found.joints}
+    clash = joints & keys.keys()  # urdfdom's graph has one node for both, and so has this text
+    for joint in found.joints:
+        if joint.name in clash:
+            clash.discard(joint.name)
+            node = figure.nodes[keys[joint.name]]
+        else:
+            node = figure.add(Node(joint.name, "joint", joint.name, elements=[joint.element]))
+        _edges(figure, robot, joint, node, keys)
+    return figure
+
+
+def _edges(figure: Figure, robot: Robot, joint: Joint, node: Node, keys: dict[str, str]) -> None:
+    parent, child = ends(figure, joint, keys)
+    xyz = joint.origin.xyz if joint.origin is not None else (0.0, 0.0, 0.0)
+    node.facts |= {"type": joint.type, "parent": joint.parent, "child": joint.child}
+    figure.edges.append(
+        Edge(parent, node.key, xyz=_six(xyz), rpy=_six(_rpy(joint.origin, robot.version)))
+    )
+    figure.edges.append(Edge(node.key, child))
+
+
+def _six(values: Vector) -> str:
+    """Six digits each, as C++ streams print them."""
+    return " ".join(f"{value:g}" for value in values)
+
+
+def _rpy(origin: Origin | None, version: str | None) -> Vector:
+    """Roll, pitch and yaw [rad] as urdfdom gives them back from the quaternion it keeps.
+
+    Its quaternions are taken from ``quat_xyzw`` since URDF 1.1 only.
+    """
+    if origin is None:
+        x = y = z = 0.0
+        w = 1.0
+    elif origin.quaternion is not None and version not in (None, "1", "1.0"):
+        x, y, z, w = origin.quaternion
+    else:
+        w, x, y, z = quaternion_of_rpy(origin.rpy)
+    length = math.sqrt(x * x + y * y + z * z + w * w)
+    if length == 0.0:
+        x = y = z = 0.0
+        w = length = 1.0
+    x, y, z, w = x / length, y / length, z / length, w / length
+    xx, yy, zz, ww = x * x, y * y, z * z, w * w
+    sine = -2 * (x * z - w * y) / (xx + yy + zz + ww)
+    if sine <= -0.99999:
+        return 0.0, -math.pi / 2, 2 * math.atan2(x, -y)
+    if sine >= 0.99999:
+        return 0.0, math.pi / 2, 2 * math.atan2(-x, y)
+    return (
+        math.atan2(2 * (y * z + w * x), ww - xx - yy + zz),
+        math.asin(sine),
+        math.atan2(2 * (x * y + w * z), ww + xx - yy - zz),
+    )

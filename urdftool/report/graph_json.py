@@ -1,0 +1,59 @@
+"""A figure as JSON; the schema is ``docs/schemas/graph.json``."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from typing import Any
+
+from ..finding import Finding
+from ..graph.faults import Fault
+from ..graph.figure import Edge, Figure, Node
+from ..model.elements import Robot
+from ..source.location import Place
+
+
+def to_json(robot: Robot, figure: Figure, faults: Iterable[Fault]) -> str:
+    """Nodes, edges, and what keeps the robot from being a tree, as one object."""
+    graph = {
+        "version": 1,
+        "name": robot.name,
+        "nodes": [_node(node) for node in figure.nodes.values()],
+        "edges": [_edge(edge) for edge in figure.edges],
+        "faults": [{"message": fault.message, **_where(fault.place)} for fault in faults],
+        "findings": [_finding(finding) for finding in figure.findings],
+    }
+    return json.dumps(graph, indent=1, ensure_ascii=False) + "\n"
+
+
+def _node(node: Node) -> dict[str, Any]:
+    return {
+        "key": node.key,
+        "kind": node.kind,
+        "name": node.name,
+        **_where(node.place),
+        "folded": node.members,
+        "facts": node.facts,
+        "faults": node.faults,
+        "findings": [_finding(finding) for finding in node.findings],
+    }
+
+
+def _edge(edge: Edge) -> dict[str, Any]:
+    return {"from": edge.tail, "to": edge.head, "kind": edge.kind}
+
+
+def _finding(finding: Finding) -> dict[str, Any]:
+    return {
+        "rule": finding.rule,
+        "severity": finding.severity.label,
+        "message": finding.message,
+        **_where(finding.place),
+    }
+
+
+def _where(place: Place | None) -> dict[str, Any]:
+    if place is None:
+        return {"path": None, "line": None, "column": None}
+    line, column = place.file.position(place.start)
+    return {"path": place.path, "line": line, "column": column}

@@ -1,0 +1,108 @@
+"""A figure as a tree at the terminal, by rich."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+
+from rich.console import Console
+from rich.text import Text
+from rich.tree import Tree
+
+from ..finding import Severity
+from ..graph.figure import Figure, Node
+from ..graph.words import shown
+from ..model.elements import Robot
+
+_STYLES = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "blue"}
+_DEEPEST = 40
+_WIDEST = 100_000
+
+
+def tree_text(robot: Robot, figure: Figure, *, colors: bool = False, width: int = 80) -> str:
+    """Each root with what hangs on it, a line a joint and its link.
+
+    Args:
+        robot: The robot.
+        figure: The robot as a detailed figure.
+        colors: Whether there are any.
+        width: Columns of the terminal; longer lines run on into the next.
+    """
+    stream = io.StringIO()
+    console = Console(
+        file=stream,
+        force_terminal=colors,
+        color_system="standard" if colors else None,
+        width=max(width, 40) if colors else _WIDEST,
+        highlight=False,
+        emoji=False,
+        markup=False,
+    )
+    title = Text(shown(robot.name) or "no name", style="bold")
+    for finding in figure.findings:
+        title.append(f"  {finding.severity.label}: {finding.rule}", _STYLES[finding.severity])
+    console.print(title, soft_wrap=True)
+    for tree in _trees(figure):
+        console.print(tree, soft_wrap=True)
+    lines = (line.rstrip() for line in stream.getvalue().splitlines())
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _trees(figure: Figure) -> Iterator[Tree]:
+    """A tree for each root; a branch too deep to be shown goes on in a tree of its own."""
+    below, child_of = _below(figure)
+    hanging = {key for keys in below.values() for key in keys} | set(child_of.values())
+    starts = [*(key for key in figure.nodes if key not in hanging), *figure.nodes]
+    starts.reverse()
+    seen: set[str] = set()
+    while starts:
+        start = starts.pop()
+        if start in seen:
+            continue
+        seen.add(start)
+        tree = Tree(_line(figure.nodes[start]), guide_style="dim")
+        todo = [(tree, key, 1) for key in reversed(below.get(start, ()))]
+        deeper: list[str] = []
+        while todo:
+            branch, key, depth = todo.pop()
+            line = _line(figure.nodes[key])
+            end = child_of.get(key, key)
+            if end != key:
+                seen.add(key)
+                line.append(" → ", "dim").append_text(_line(figure.nodes[end]))
+            if end in seen:
+                branch.add(line.append(" (shown elsewhere)", "dim"))
+            elif depth >= _DEEPEST:
+                branch.add(line.append(" (goes on below)", "dim"))
+                deeper.append(end)
+            else:
+                seen.add(end)
+                twig = branch.add(line)
+                held = below.get(key, []) if end != key else []
+                todo.extend((twig, k, depth + 1) for k in reversed(held + below.get(end, [])))
+        starts.extend(reversed(deeper))
+        yield tree
+
+
+def _below(figure: Figure) -> tuple[dict[str, list[str]], dict[str, str]]:
+    """What hangs on each node, and apart from that the child link of each joint."""
+    below: dict[str, list[str]] = {}
+    child_of: dict[str, str] = {}
+    for edge in figure.edges:
+        if edge.kind == "joint" and figure.nodes[edge.tail].kind == "joint":
+            child_of[edge.tail] = edge.head
+        elif edge.kind != "mimic":
+            below.setdefault(edge.tail, []).append(edge.head)
+    return below, child_of
+
+
+def _line(node: Node) -> Text:
+    style = {"link": "bold", "joint": "cyan", "missing": "red"}.get(node.kind, "magenta")
+    line = Text(shown(node.name) or "no name", style=style)
+    for member in node.members:
+        line.append(f" + {shown(member)}", "bold")
+    if node.lines:
+        line.append(f"  {', '.join(map(shown, node.lines))}", "dim")
+    for mark, severity in node.marks():
+        line.append(f"  ! {mark}", _STYLES[severity])
+    return line
