@@ -57,7 +57,8 @@ def table(folder: Path, only: str) -> str:
             notes.append(f"- {name}: {', '.join(sorted(said) or why)}")
     head = f"| robot | s | {' | '.join(COLUMNS)} | verdict |"
     count = len(robots)
-    foot = f"| **{count}** | | {' | '.join(f'**{totals[c]}**' for c in COLUMNS)} | **{totals['all']} equal** |"
+    sums = " | ".join(f"**{totals[column]}**" for column in COLUMNS)
+    foot = f"| **{count}** | | {sums} | **{totals['all']} equal** |"
     lines = [head, "|---" * (len(COLUMNS) + 3) + "|", *rows, foot, ""]
     lines.append(f"{totals['compiles']} of {count} compile in MuJoCo without a warning.")
     return "\n".join([*lines, *notes])

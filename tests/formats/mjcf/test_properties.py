@@ -60,7 +60,7 @@ def at_random(random, odd):
         inside = (
             (
                 f'{origin(random)}<axis xyz="{text(random.normal(size=3))}"/>'
-                f'<limit lower="{low!r}" upper="{high!r}" effort="{random.random()!r}" velocity="1"/>'
+                f'<limit lower="{low!r}" upper="{high!r}" effort="2.5" velocity="1"/>'
                 f'<dynamics damping="{random.random()!r}" friction="0.5"/>'
             )
             .replace("np.float64(", "")

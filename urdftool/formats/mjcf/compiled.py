@@ -71,6 +71,12 @@ class Compiled:
         self.data = self.mujoco.MjData(self.model)
         self.root = max(self.body(root), 0)
 
+    @property
+    def tensor_rounding(self) -> float:
+        """How exactly MuJoCo keeps a full tensor; before 4 its diagonalisation stops early."""
+        major = str(self.mujoco.__version__).partition(".")[0]
+        return 1e-8 if major.isdigit() and int(major) >= 4 else 2e-6
+
     def _warn(self, text: str) -> None:
         line = " ".join(text.split())
         if line not in self.warnings:

@@ -26,7 +26,7 @@ from .write import write
 
 CONFIGURATIONS = 20
 
-POSE, MATRIX, MASS = 1e-9, 1e-8, 1e-12
+POSE, FORCE, MASS = 1e-9, 1e-8, 1e-12
 
 
 def verify_copy(robot: Robot, options: Options, written: Written) -> list[Check]:
@@ -164,8 +164,8 @@ def _dynamics(
     mechanics: Mechanics, compiled: Compiled, configurations: list[dict[str, float]], said: Said
 ) -> Iterator[Check]:
     """Mass matrix and gravity over the joints, with the root held."""
-    inertia = Check("mass matrix", "over all joints, the root held", MATRIX)
-    gravity = Check("gravity", "force at every joint that holds the robot", MATRIX)
+    inertia = Check("mass matrix", "over all joints, the root held", compiled.tensor_rounding)
+    gravity = Check("gravity", "force at every joint that holds the robot", FORCE)
     names = [joint.name for joint in mechanics.joints]
     dofs = compiled.dofs(names)
     present = [index for index, dof in enumerate(dofs) if dof >= 0]
@@ -194,7 +194,8 @@ def _dynamics(
 def _centroid(
     mechanics: Mechanics, compiled: Compiled, configurations: list[dict[str, float]], said: Said
 ) -> Check:
-    check = Check("centroid", "total mass, centre of mass and inertia about it", MATRIX)
+    bound = compiled.tensor_rounding
+    check = Check("centroid", "total mass, centre of mass and inertia about it", bound)
     for positions in configurations:
         compiled.pose(positions)
         mass, com, tensor = mechanics.centroid(positions)
@@ -204,9 +205,9 @@ def _centroid(
             continue
         known = said.any(*INERTIA, *TORN)
         # the tolerances of the three are brought to that of the row
-        check.compare(abs(found_mass - mass) / mass * MATRIX / MASS, "total mass", known=known)
+        check.compare(abs(found_mass - mass) / mass * bound / MASS, "total mass", known=known)
         check.compare(
-            float(abs(found_com - com).max()) * MATRIX / POSE, "centre of mass", known=known
+            float(abs(found_com - com).max()) * bound / POSE, "centre of mass", known=known
         )
         size = max(float(abs(tensor).max()), 1e-300)
         check.compare(float(abs(found_tensor - tensor).max()) / size, "inertia", known=known)
