@@ -355,3 +355,39 @@ def test_a_damaged_edit_is_never_written(urdftool, write, monkeypatch):
     assert done.code == 2
     assert "is not written" in done.err
     assert Path(path).read_text() == BARE
+
+
+def test_a_damaged_edit_of_an_included_file_is_never_written(
+    urdftool, xacro_file, write, monkeypatch
+):
+    from urdftool.source import edit
+
+    part = (
+        '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n  <xacro:macro name="part">\n'
+        '    <link name="a">\n      <visual><geometry><sphere radius="1"/></geometry></visual>\n'
+        "    </link>\n  </xacro:macro>\n</robot>\n"
+    )
+    write("part.xacro", part)
+    path = xacro_file("r.xacro", '<xacro:include filename="part.xacro"/><xacro:part/>')
+    with monkeypatch.context() as patch:
+        patch.setattr(edit, "apply", lambda file, edits: file.data.replace(b"sphere", b"ball"))
+        done = urdftool("inertia", "robot", path, "--write", "--density", "10")
+    assert done.code == 2
+    assert "more than inertia would change" in done.err
+    assert Path("part.xacro").read_text() == part
+    fill(urdftool, path, "--density", "10")
+    assert "      <inertial>\n        <origin" in Path("part.xacro").read_text()
+
+
+def test_an_argument_that_serves_more_than_inertia_is_left(urdftool, xacro_file):
+    macro = (
+        '<xacro:macro name="part" params="name m">\n<link name="${name}">\n'
+        '<inertial><mass value="${m}"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+        '</inertial>\n<visual><geometry><box size="${m} 1 1"/></geometry></visual>\n</link>\n'
+        "</xacro:macro>\n"
+    )
+    path = xacro_file("r.xacro", macro + '<xacro:part name="a" m="2"/>')
+    before = Path(path).read_text()
+    done = fill(urdftool, path, "--all", "--mass", "a=6", code=1)
+    assert 'value="${m}" is computed' in done.err
+    assert Path(path).read_text() == before

@@ -242,14 +242,14 @@ def _write(
     style: str,
     output: str | None,
 ) -> int:
-    from ..inertia.fill import fill
+    from ..inertia.fill_check import checked_filling
     from ..output import write_result
     from ..report import inertia_fill as report
     from .inertia_write import write_files
 
     assert model.source is not None
-    filling = fill(model, found, wanted, single=output is not None)
-    data = write_files(model, filling, output)
+    filling, edited = checked_filling(model, found, wanted, single=output is not None)
+    files = write_files(model, edited, output)
     text = report.as_json(filling, model) if style == "json" else report.text(filling)
     if output == "-":
         click.echo(text, err=True, nl=False)
@@ -257,5 +257,5 @@ def _write(
         write_result(text, None)
     for line in report.remarks(filling):
         console.say(line)
-    console.note(report.summary(filling, data))
+    console.note(report.summary(filling, files))
     return int(bool(filling.refused) or filling.still_wrong)

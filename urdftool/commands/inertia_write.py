@@ -1,34 +1,26 @@
-"""The edited source of a robot on its way to disk: checked, then written whole."""
+"""The edited source of a robot on its way to disk: written whole, and only over what was read."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..inertia.fill import Filling
     from ..model.elements import Robot
 
 
-def write_files(robot: Robot, filling: Filling, output: str | None) -> list[str]:
+def write_files(robot: Robot, edited: Mapping[str, bytes], output: str | None) -> list[str]:
     """Write the edited files; the names of those that changed.
 
     Raises:
         OutputError: A file cannot be written, or was changed since it was read.
-        SourceError: The edits would do more than they should.
     """
-    from ..errors import SourceError
-    from ..inertia.fill_check import check_filling
     from ..output import write_file
     from ..source.document import STDIN
-    from ..source.edit import apply
 
     assert robot.source is not None
     files = {file.path: file for file in robot.source.files}
-    edited = {path: apply(files[path], edits) for path, edits in filling.edits.items()}
-    problem = check_filling(robot, filling, edited)
-    if problem:
-        raise SourceError(f"is not written: {problem}", path=robot.source.path)
     for path in edited:
         if path != STDIN:
             _check_unchanged(path, files[path].data)

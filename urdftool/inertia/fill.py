@@ -70,7 +70,12 @@ class Filling:
 
 
 def fill(
-    robot: Robot, found: Sequence[LinkReview], masses: Masses, *, single: bool = False
+    robot: Robot,
+    found: Sequence[LinkReview],
+    masses: Masses,
+    *,
+    single: bool = False,
+    through_calls: bool = True,
 ) -> Filling:
     """The edits that give each reviewed link the inertia that its geometry implies.
 
@@ -79,6 +84,7 @@ def fill(
         found: Its links, looked over.
         masses: How they were weighed; ``anew`` replaces what is written, too.
         single: Only the description itself may be edited, not what it includes.
+        through_calls: Arguments of macro calls may be edited.
     """
     filling = Filling()
     todo = [
@@ -86,7 +92,7 @@ def fill(
         for item in found
         if (wanted := _wanted(item, filling, masses, robot)) is not None and wanted.wants
     ]
-    _Editor(robot, single).settle(todo, filling)
+    _Editor(robot, single, through_calls).settle(todo, filling)
     touched = {wanted.link.name for wanted in filling.written}
     filling.still_wrong = any(
         item.status == "wrong" and item.link.name not in touched for item in found
@@ -141,10 +147,11 @@ class _RefusedError(Exception):
 class _Editor:
     """Decides which places may be edited."""
 
-    def __init__(self, robot: Robot, single: bool) -> None:
+    def __init__(self, robot: Robot, single: bool, through_calls: bool) -> None:
         assert robot.source is not None
         self.description = robot.source
         self.single = single
+        self.through_calls = through_calls
         self.main = self.description.files[0].path
         self.sources: dict[str, edit.Source] = {}
         self.users: dict[tuple[str, int], list[Element]] = {}
@@ -232,7 +239,8 @@ class _Editor:
             tag = None
             if passed and call is not None:
                 tag = self._source(call.file).elements.get(call.start)
-            if passed is None or call is None or tag is None or passed[1] not in tag.attributes:
+            known = passed is not None and tag is not None and passed[1] in tag.attributes
+            if not (known and self.through_calls) or passed is None or call is None or tag is None:
                 raise _RefusedError(f'{name}="{raw}" is computed')
             name = passed[1]
             raw = edit.literal(tag, name) or ""

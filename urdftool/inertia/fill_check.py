@@ -2,27 +2,55 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from ..errors import UrdftoolError
+from ..errors import SourceError, UrdftoolError
 from ..model.elements import Robot
 from ..model.pose import pose_of
 from ..model.read import read_robot
+from ..source import edit
 from ..source.description import is_xacro
 from ..source.document import Document, Element, parse
 from ..source.location import SourceFile
-from .fill import Filling
-from .review import NAMES
+from ..source.packages import Packages, shown_path
+from .fill import Filling, fill
+from .masses import Masses
+from .review import NAMES, LinkReview
 from .tensor import MassProperties, is_possible, rotate, tensor_from_six
+
+
+def checked_filling(
+    robot: Robot, found: Sequence[LinkReview], masses: Masses, *, single: bool = False
+) -> tuple[Filling, dict[str, bytes]]:
+    """As :func:`fill`, with the new bytes of each edited file, once they are proved.
+
+    Where an argument of a macro call turns out to serve more than inertia, arguments are left as
+    they are.
+
+    Raises:
+        SourceError: The edits would do more than they should.
+    """
+    assert robot.source is not None
+    files = {file.path: file for file in robot.source.files}
+    problem = ""
+    for through_calls in (True, False):
+        filling = fill(robot, found, masses, single=single, through_calls=through_calls)
+        edited = {path: edit.apply(files[path], edits) for path, edits in filling.edits.items()}
+        problem = check_filling(robot, filling, edited)
+        if not problem:
+            return filling, edited
+    raise SourceError(f"is not written: {problem}", path=robot.source.path)
 
 
 def check_filling(robot: Robot, filling: Filling, edited: Mapping[str, bytes]) -> str:
     """What is wrong with an edited source; empty where nothing is.
 
-    Included files are only parsed again; where just the description itself is edited it is expanded
-    again, and each element is compared.
+    The edited text is parsed, and expanded with the edited copies of what it includes; then each
+    element is compared with what was there.
 
     Args:
         robot: The robot as it was read.
@@ -30,13 +58,10 @@ def check_filling(robot: Robot, filling: Filling, edited: Mapping[str, bytes]) -
         edited: The new bytes of each edited file.
     """
     assert robot.source is not None
-    main = robot.source.files[0]
     try:
         for path, data in edited.items():
             parse(SourceFile(path, data))
-        if set(edited) != {main.path}:
-            return ""
-        root = _read(robot, SourceFile(main.path, edited[main.path])).root
+        root = _read(robot, edited).root
     except UrdftoolError as error:
         return f"the edited text cannot be read: {error}"
     names = {wanted.link.name for wanted in filling.written}
@@ -55,14 +80,36 @@ def check_filling(robot: Robot, filling: Filling, edited: Mapping[str, bytes]) -
     return ""
 
 
-def _read(robot: Robot, file: SourceFile) -> Document:
+class _EditedPackages(Packages):
+    """Finds what the description's own packages find, with edited copies in place of files."""
+
+    def __init__(self, original: Packages, copies: Mapping[str, Path]) -> None:
+        self.__dict__.update(original.__dict__)
+        self.copies = copies
+
+    def installed(self, path: str | Path) -> Path:
+        """As :meth:`Packages.installed`; of an edited file, its copy."""
+        found = super().installed(path)
+        return self.copies.get(shown_path(found), found)
+
+
+def _read(robot: Robot, edited: Mapping[str, bytes]) -> Document:
     description = robot.source
     assert description is not None
+    main = description.files[0]
+    file = SourceFile(main.path, edited.get(main.path, main.data))
     if not is_xacro(file):
         return parse(file)
     from ..source.expand import expand_xacro
 
-    return expand_xacro(file, description.arguments, description.packages).document()
+    with TemporaryDirectory() as folder:
+        copies = {}
+        for number, path in enumerate(edited):
+            if path != main.path:
+                copies[path] = Path(folder, f"{number}.xacro")
+                copies[path].write_bytes(edited[path])
+        packages = _EditedPackages(description.packages, copies)
+        return expand_xacro(file, description.arguments, packages).document()
 
 
 def _outside(
