@@ -11,8 +11,9 @@ import sysconfig
 from importlib.util import find_spec
 from pathlib import Path
 
+from urdftool.inertia.link_review import LinkReview
 from urdftool.inertia.mesh_files import read_meshes
-from urdftool.inertia.review import LinkReview, review
+from urdftool.inertia.review import review
 from urdftool.model.load import load
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "inertia-vendors.md"

@@ -13,8 +13,8 @@ from ..console import Console
 from .options import package_options, robot_argument
 
 if TYPE_CHECKING:
+    from ..inertia.link_review import LinkReview
     from ..inertia.masses import Masses
-    from ..inertia.review import LinkReview
     from ..model.elements import Robot
 
 

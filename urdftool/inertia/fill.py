@@ -22,8 +22,8 @@ from ..source.document import STDIN, Element
 from ..source.location import Place, SourceFile
 from ..source.packages import own_package, shown_path
 from .inertia_error import InertiaError
+from .link_review import LinkReview
 from .masses import Masses
-from .review import LinkReview
 from .wanted import Want, Wanted, wanted_for
 
 _LONGEST_CALL = 60

@@ -18,8 +18,8 @@ from ..source.document import Document, Element, parse
 from ..source.location import SourceFile
 from ..source.packages import Packages, shown_path
 from .fill import Filling, fill
+from .link_review import NAMES, LinkReview
 from .masses import Masses
-from .review import NAMES, LinkReview
 from .tensor import MassProperties, is_possible, rotate, tensor_from_six
 
 

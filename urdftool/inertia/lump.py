@@ -16,7 +16,7 @@ import numpy as np
 from ..model.elements import Joint, Robot
 from ..model.pose import IDENTITY, Pose, pose_of
 from .inertia_error import InertiaError
-from .review import LinkReview
+from .link_review import LinkReview
 from .tensor import Array, MassProperties, combine, rotate
 
 

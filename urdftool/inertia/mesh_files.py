@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from ..errors import UrdftoolError
@@ -14,6 +14,7 @@ WORTH_IT = 4_000_000
 """Bytes of meshes from which on starting further processes takes less time than it saves."""
 
 Progress = Callable[[int, int, str], None]
+ReadMeshes = Callable[[Sequence[str]], "dict[str, MeshBody | UrdftoolError]"]
 
 
 def read_meshes(
@@ -101,3 +102,19 @@ def _ignore_interrupts() -> None:
     import signal
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+class Meshes:
+    """Meshes that have been read, and more where they are wanted."""
+
+    def __init__(self, read: ReadMeshes) -> None:
+        """Start with none."""
+        self.read = read
+        self.known: dict[str, MeshBody | UrdftoolError] = {}
+
+    def want(self, names: Iterator[str] | Sequence[str]) -> dict[str, MeshBody | UrdftoolError]:
+        """All that have been read, with these among them."""
+        new = [name for name in dict.fromkeys(names) if name not in self.known]
+        if new:
+            self.known |= self.read(new)
+        return self.known

@@ -13,7 +13,7 @@ import numpy as np
 from ..model.elements import Link
 from ..model.read import number, numbers
 from ..source.document import Element
-from .review import NAMES, LinkReview, inertial_rotation
+from .link_review import NAMES, LinkReview, inertial_rotation
 from .rounding import number_text, numbers_text, round_properties
 from .tensor import MassProperties, require_possible, rotate, six_numbers, tensor_from_six
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..inertia.comparison import Comparison
-from ..inertia.review import LinkReview
+from ..inertia.link_review import LinkReview
 from ..inertia.rounding import number_text, round_properties
 from ..inertia.tensor import MassProperties, six_numbers
 from ..source.location import Place
