@@ -108,6 +108,7 @@ def test_install_rules_are_followed(tmp_path):
     (home / "data" / "limits.yaml").touch()
     finder = Packages(file)
     assert finder.resolve("package://demo/urdf/robot.urdf") == file
+    assert finder.resolve("package:///demo/urdf/robot.urdf") == file
     assert finder.resolve("package://demo/pid.yaml") == home / "description/config/pid.yaml"
     assert finder.resolve("model://demo/params/joint_limits.yaml") == home / "data/limits.yaml"
     assert finder.resolve("package://demo/urdf/absent.stl") == home / "urdf/absent.stl"

@@ -38,7 +38,7 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    r"""Expand the xacro file IN to URDF, equal as XML to what xacro prints.
+    """Expand the xacro file IN to URDF, equal as XML to what xacro prints.
 
     IN is a .xacro or .urdf.xacro file, or '-'. Arguments follow it as name:=value. ROS is not
     needed: $(find NAME) looks in the file's workspace, the configuration, ROS_PACKAGE_PATH and
@@ -48,7 +48,7 @@ def command(
         urdftool expand arm.urdf.xacro prefix:=left_ -o arm.urdf
         urdftool expand arm.urdf.xacro --check arm.urdf
         urdftool expand arm.urdf.xacro -o arm.urdf --depfile arm.d
-    """
+    """  # noqa: D301 -- click reads the escape
     from ..configuration import find_configuration
     from ..output import write_result
     from ..report import expansion as report

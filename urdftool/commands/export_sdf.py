@@ -80,7 +80,7 @@ def command(
     style: str,
     **choices: Any,
 ) -> int:
-    r"""Turn the robot IN into SDF for Gazebo, and prove that it is the same robot.
+    """Turn the robot IN into SDF for Gazebo, and prove that it is the same robot.
 
     A folder has model.config, model.sdf and meshes; a file its meshes beside it. Links, joints and
     what <gazebo> says of them stay under their names. What is lost is said, with its place.
@@ -88,7 +88,7 @@ def command(
     \b
         urdftool export sdf arm.urdf.xacro -o arm/ --verify
         urdftool export sdf mira.urdf -o mira.sdf --target gazebo-classic
-    """
+    """  # noqa: D301 -- click reads the escape
     from ..configuration import find_configuration
     from ..formats import said
     from ..formats.defects import Refused

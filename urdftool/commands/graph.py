@@ -46,7 +46,7 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    r"""Draw the links and joints of IN.
+    """Draw the links and joints of IN.
 
     Without -o it writes what urdf_to_graphiz writes, NAME.gv and NAME.pdf in the current folder;
     nothing else need be installed. In an SVG, each node has a tooltip and a link to its line.
@@ -57,7 +57,7 @@ def command(
         urdftool graph arm.urdf.xacro -o -
 
     Exit 1 if the links are no tree, or if --lint finds an error or a warning.
-    """
+    """  # noqa: D301 -- click reads the escape
     from ..graph.faults import find_faults
     from .graph_write import write_one, write_pair
     from .read_lax import read_lax

@@ -61,7 +61,7 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    r"""Find what is wrong with robots, and point at the line that is.
+    """Find what is wrong with robots, and point at the line that is.
 
     PATH is a .urdf or .xacro file, a folder to search for .urdf and .urdf.xacro files, or '-'.
     RULES are rule names, prefixes such as 'mesh-*' and families such as 'inertia', separated by
@@ -74,7 +74,7 @@ def command(
         urdftool lint --explain zero-axis
 
     Exit 1 if there are findings of --fail-on or above, 2 if a file cannot be read.
-    """
+    """  # noqa: D301 -- click reads the escape
     from ..lint.discover import find_descriptions
     from ..lint.outcome import Options
     from ..lint.parallel import lint_files

@@ -256,7 +256,7 @@ class Packages:
         """
         scheme, separator, rest = uri.partition("://")
         if separator and scheme in ("package", "model"):
-            name, _, inner = rest.partition("/")
+            name, _, inner = rest.lstrip("/").partition("/")
             return self.installed(self.find(name) / inner.lstrip("/"))
         if separator and scheme == "file":
             return self.installed(rest)
