@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,8 +18,20 @@ def read_lax(
     arguments: Mapping[str, str],
     packages: Mapping[str, Path],
     package_paths: Iterable[str],
+    *,
+    neighbours: Mapping[str, Path] | None = None,
+    shown: Callable[[str], str] = str,
 ) -> Robot:
     """Read a robot; XML that is wrong and that ROS reads all the same is said and passed over.
+
+    Args:
+        console: Where it is said, and the configuration that was named.
+        path: The description.
+        arguments: Values for its xacro arguments.
+        packages: Folders by package name, from the command line.
+        package_paths: Folders with packages below.
+        neighbours: Folders by package name that count as configured.
+        shown: How its path is said.
 
     Raises:
         UrdftoolError: As ``read_description`` and ``robot_of``.
@@ -32,7 +44,7 @@ def read_lax(
     from ..source.well_formed import mend
 
     file = read_file(path)
-    configured = find_configuration(path, console.config).packages
+    configured = {**(neighbours or {}), **find_configuration(path, console.config).packages}
     try:
         return robot_of(
             read_description(
@@ -59,5 +71,5 @@ def read_lax(
             )
         except XmlError:
             raise error from None
-        console.note(f"{error.where}: warning: {error.message}; lax readers pass over it")
+        console.note(f"{shown(error.where)}: warning: {error.message}; lax readers pass over it")
         return robot_of(description)

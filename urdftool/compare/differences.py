@@ -1,0 +1,84 @@
+"""Two robots to the changes between them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ..model.elements import Joint, Link, Material, Robot
+from .change import Change
+from .closeness import TOLERANCE
+from .extensions import extension_changes
+from .joints import joint_changes
+from .links import link_changes
+from .renames import find_renames
+
+
+def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Change]:
+    """What changed from one robot to another: links, joints, then what hangs on them.
+
+    Order, comments and layout do not count, nor does how a pose, an axis or a tensor is written.
+
+    Args:
+        a: The robot as it was.
+        b: The robot as it is.
+        tolerance: As in ``closeness``.
+    """
+    materials = _materials(a), _materials(b)
+
+    def same_link(x: Link, y: Link) -> bool:
+        return next(link_changes(x, y, tolerance, materials), None) is None
+
+    def same_joint(x: Joint, y: Joint) -> bool:
+        ends = ("parent", "child", "mimic joint")
+        return all(c.what in ends for c in joint_changes(x, y, tolerance, {}))
+
+    links, joints = find_renames(a, b, same_link, same_joint)
+    if a.name != b.name:
+        yield Change("robot", b.name, "name", a.name, b.name, place=b.place)
+    yield from _presence("link", a.link, b.link, links)
+    yield from _presence("joint", a.joint, b.joint, joints)
+    for name, link in a.link.items():
+        other = b.link.get(links.get(name, name))
+        if other is not None:
+            yield from link_changes(link, other, tolerance, materials)
+    renamed = {**joints, **links}
+    for name, joint in a.joint.items():
+        new = b.joint.get(joints.get(name, name))
+        if new is not None:
+            yield from joint_changes(joint, new, tolerance, renamed)
+    yield from extension_changes(a, b, tolerance, renamed)
+
+
+def _presence(
+    kind: str,
+    a: Mapping[str, Link] | Mapping[str, Joint],
+    b: Mapping[str, Link] | Mapping[str, Joint],
+    renamed: Mapping[str, str],
+) -> Iterator[Change]:
+    """What is there in one robot alone."""
+    for old, new in renamed.items():
+        yield Change(kind, new, "renamed", old, new, place=b[new].place)
+    for name, part in a.items():
+        if name not in b and name not in renamed:
+            yield Change(kind, name, "removed", _what(part), place=part.place)
+    new_names = set(renamed.values())
+    for name, part in b.items():
+        if name not in a and name not in new_names:
+            yield Change(kind, name, "added", after=_what(part), place=part.place)
+
+
+def _what(part: Link | Joint) -> dict[str, object]:
+    """What is worth saying of a part that is new or gone."""
+    if isinstance(part, Joint):
+        return {"type": part.type, "parent": part.parent, "child": part.child}
+    return {"mass": part.inertial.mass if part.inertial is not None else None}
+
+
+def _materials(robot: Robot) -> dict[str, Material]:
+    """Named materials; one that is written out in a visual is known to all, as urdfdom has it."""
+    found: dict[str, Material] = {}
+    written = [v.material for link in robot.links for v in link.visuals if v.material is not None]
+    for material in (*robot.materials, *written):
+        if material.color is not None or material.texture is not None:
+            found.setdefault(material.name, material)
+    return found

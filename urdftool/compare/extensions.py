@@ -1,0 +1,95 @@
+"""What changed of the blocks for simulators and controllers: by the path of what is in them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ..model.elements import Robot
+from ..model.read import number
+from ..source.document import Element
+from .change import Change
+from .closeness import close
+
+Flat = dict[str, tuple[str, Element]]
+_NAMING = ("name", "reference", "filename", "type")
+
+
+def extension_changes(
+    a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
+) -> Iterator[Change]:
+    """What changed of ``<gazebo>``, ``<transmission>`` and ``<ros2_control>`` blocks."""
+    for tag in ("transmission", "gazebo", "ros2_control"):
+        one = _blocks(a, tag, renamed)
+        two = _blocks(b, tag, {})
+        for name in dict.fromkeys((*one, *two)):
+            yield from _changes(tag, name, one.get(name), two.get(name), tolerance, renamed)
+
+
+def _blocks(robot: Robot, tag: str, renamed: Mapping[str, str]) -> dict[str, list[Element]]:
+    """Blocks by what they are called or refer to."""
+    found: dict[str, list[Element]] = {}
+    for element in robot.element.all(tag):
+        name = element.get("reference" if tag == "gazebo" else "name") or ""
+        found.setdefault(renamed.get(name, name), []).append(element)
+    return found
+
+
+def _changes(
+    tag: str,
+    name: str,
+    one: list[Element] | None,
+    two: list[Element] | None,
+    tolerance: float,
+    renamed: Mapping[str, str],
+) -> Iterator[Change]:
+    if one is None or two is None:
+        what = "added" if one is None else "removed"
+        yield Change(tag, name, what, place=(two or one or [])[0].place)
+        return
+    before, after = _flat(one), _flat(two)
+    for path in dict.fromkeys((*before, *after)):
+        x, y = before.get(path), after.get(path)
+        old, new = (None if side is None else side[0] for side in (x, y))
+        if not _same(old, new, tolerance, renamed):
+            side = y or x
+            yield Change(tag, name, path, old, new, place=side[1].place if side else None)
+
+
+def _same(a: str | None, b: str | None, tolerance: float, renamed: Mapping[str, str]) -> bool:
+    if a is None or b is None:
+        return a is b
+    if a == b or renamed.get(a) == b:
+        return True
+    one, two = list(map(number, a.split())), list(map(number, b.split()))
+    return (
+        len(one) == len(two)
+        and None not in (*one, *two)
+        and all(close(x, y, tolerance) for x, y in zip(one, two, strict=True))
+    )
+
+
+def _flat(elements: list[Element]) -> Flat:
+    """Every attribute and text below some elements, by a path; order among them counts not."""
+    found: Flat = {}
+    for element in elements:
+        for child in element.children or [element]:
+            _flatten(child, "", found)
+        for name, value in element.attributes.items():
+            if name not in ("name", "reference"):
+                found.setdefault(f"@{name}", (value, element))
+    return found
+
+
+def _flatten(element: Element, above: str, found: Flat) -> None:
+    named = next((element.get(name) for name in _NAMING if element.get(name)), None)
+    step = element.tag + (f"[{named}]" if named else "")
+    path, count = above + step, 1
+    while path in found:
+        count += 1
+        path = f"{above}{step}({count})"
+    found[path] = " ".join(element.text.split()), element
+    for name, value in element.attributes.items():
+        if value != named:
+            found[f"{path}/@{name}"] = " ".join(value.split()), element
+    for child in element.children:
+        _flatten(child, f"{path}/", found)

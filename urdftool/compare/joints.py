@@ -1,0 +1,86 @@
+"""What changed of a joint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ..model.elements import Joint, Vector
+from ..model.pose import norm, pose_of
+from .change import Change
+from .closeness import all_close, close, moved, same_pose
+from .links import pose_facts
+
+_X: Vector = (1.0, 0.0, 0.0)
+
+
+def joint_changes(
+    a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]
+) -> Iterator[Change]:
+    """What changed of a joint.
+
+    Args:
+        a: The joint in the first robot.
+        b: The joint in the second.
+        tolerance: As in ``closeness``.
+        renamed: New names of links and joints, by the old ones.
+    """
+
+    def change(
+        what: str, before: object, after: object, unit: str = "", remark: str = ""
+    ) -> Change:
+        part = getattr(b, what.partition(" ")[0], None)
+        place = getattr(part, "place", None) or b.place
+        return Change("joint", b.name, what, before, after, unit, remark, place)
+
+    for what in ("type", "parent", "child"):
+        before, after = getattr(a, what), getattr(b, what)
+        if (before if what == "type" else renamed.get(before, before)) != after:
+            yield change(what, before, after)
+    one, two = pose_of(a.origin), pose_of(b.origin)
+    if not same_pose(one, two, tolerance):
+        yield change("origin", pose_facts(one), pose_facts(two), "", moved(one, two))
+    if a.has_axis and b.has_axis:
+        x, y = _axis(a), _axis(b)
+        if not all_close(x, y, max(tolerance, 1e-12)):
+            opposite = all_close(x, (-y[0], -y[1], -y[2]), max(tolerance, 1e-12))
+            yield change("axis", x, y, "", "turned round" if opposite else "")
+    yield from _numbers(a, b, tolerance, renamed)
+
+
+def _axis(joint: Joint) -> Vector:
+    """The axis, of length 1 where it has one."""
+    x, y, z = joint.axis.xyz if joint.axis is not None else _X
+    length = norm((x, y, z)) or 1.0
+    return x / length, y / length, z / length
+
+
+def _numbers(a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]) -> Iterator[Change]:
+    slides = b.type == "prismatic"
+    here, force, rate = ("m", "N", "m/s") if slides else ("rad", "N·m", "rad/s")
+    units = {
+        "limit": {"lower": here, "upper": here, "effort": force, "velocity": rate},
+        "dynamics": {"damping": "N·s/m" if slides else "N·m·s/rad", "friction": force},
+        "mimic": {"joint": "", "multiplier": "", "offset": here},
+        "safety_controller": {
+            "soft_lower_limit": here,
+            "soft_upper_limit": here,
+            "k_position": "",
+            "k_velocity": "",
+        },
+        "calibration": {"rising": here, "falling": here, "reference_position": here},
+    }
+    for part, properties in units.items():
+        one, two = getattr(a, part), getattr(b, part)
+        place = b.place if two is None else two.place
+        for name, unit in properties.items():
+            before = None if one is None else getattr(one, name)
+            after = None if two is None else getattr(two, name)
+            if part == "limit" and name in ("lower", "upper") and a.is_limited and b.is_limited:
+                before, after = before or 0.0, after or 0.0  # what readers take
+            if isinstance(before, str) or isinstance(after, str):
+                same = renamed.get(before or "", before) == after
+            else:
+                same = close(before, after, tolerance)
+            if not same:
+                what = f"{part.replace('_', ' ')} {name.replace('_', ' ')}"
+                yield Change("joint", b.name, what, before, after, unit, "", place)

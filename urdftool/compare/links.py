@@ -1,0 +1,185 @@
+"""What changed of a link: its mass, and the shapes that are seen and touched."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from ..model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Geometry,
+    Inertial,
+    Link,
+    Material,
+    Mesh,
+    Sphere,
+    Visual,
+)
+from ..model.pose import Pose, pose_of, rpy_of_rotation
+from ..model.tensor3 import Six, turned
+from .change import Change
+from .closeness import all_close, close, distance, moved, same_pose
+
+Materials = Mapping[str, Material]
+Shape = Visual | Collision
+
+
+def link_changes(
+    a: Link, b: Link, tolerance: float, materials: tuple[Materials, Materials]
+) -> Iterator[Change]:
+    """What changed of a link.
+
+    Args:
+        a: The link in the first robot.
+        b: The link in the second.
+        tolerance: As in ``closeness``.
+        materials: The named materials of both robots.
+    """
+    yield from _inertial(a, b, tolerance)
+    yield from _shapes("visual", a.visuals, b.visuals, b, tolerance, materials)
+    yield from _shapes("collision", a.collisions, b.collisions, b, tolerance, materials)
+
+
+def _inertial(a: Link, b: Link, tolerance: float) -> Iterator[Change]:
+    one, two, name = a.inertial, b.inertial, b.name
+    if one is None or two is None:
+        if one is not two:
+            place = b.place if two is None else two.place
+            yield Change("link", name, "inertial", _mass(one), _mass(two), "kg", place=place)
+        return
+    place = two.place
+    if not close(one.mass, two.mass, tolerance):
+        remark = _percent(one.mass, two.mass)
+        yield Change("link", name, "mass", one.mass, two.mass, "kg", remark, place)
+    before, after = pose_of(one.origin).translation, pose_of(two.origin).translation
+    if distance(before, after) > tolerance:
+        remark = moved(Pose(translation=before), Pose(translation=after))
+        yield Change("link", name, "centre of mass", before, after, "m", remark, place)
+    if not all_close(_tensor(one), _tensor(two), tolerance):
+        yield Change("link", name, "inertia", _tensor(one), _tensor(two), "kg·m²", "", place)
+
+
+def _mass(inertial: Inertial | None) -> float | None:
+    return None if inertial is None else inertial.mass or 0.0
+
+
+def _tensor(inertial: Inertial) -> Six | None:
+    """``ixx, ixy, ixz, iyy, iyz, izz`` about the centre of mass, along the link's axes [kg·m²]."""
+    i = inertial.inertia
+    if i is None:
+        return None
+    rotation = pose_of(inertial.origin).rotation
+    return turned((i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz), rotation)
+
+
+def _percent(a: float | None, b: float | None) -> str:
+    return f"{100 * (b - a) / a:+.3g} %" if a and b is not None else ""
+
+
+def _shapes(
+    kind: str,
+    a: Sequence[Visual] | Sequence[Collision],
+    b: Sequence[Visual] | Sequence[Collision],
+    two: Link,
+    tolerance: float,
+    materials: tuple[Materials, Materials],
+) -> Iterator[Change]:
+    """Shapes by their names; those without a name in their order, equal ones first."""
+    left: list[Shape] = list(a)
+    right: list[Shape] = list(b)
+    pairs: list[tuple[Shape, Shape]] = []
+
+    def equal(x: Shape, y: Shape) -> bool:
+        return next(_shape(kind, "", x, y, two, tolerance, materials), None) is None
+
+    for same in (equal, _same_name, _same_kind, _any):
+        for x in list(left):
+            match = next((y for y in right if same(x, y)), None)
+            if match is not None:
+                left = [shape for shape in left if shape is not x]
+                right = [shape for shape in right if shape is not match]
+                pairs.append((x, match))
+    several = len(a) > 1 or len(b) > 1
+    for x, y in pairs:
+        number = next(i for i, shape in enumerate(b, 1) if shape is y)
+        yield from _shape(kind, f" {number}" if several else "", x, y, two, tolerance, materials)
+    for x in left:
+        yield Change("link", two.name, f"{kind} removed", shape_facts(x.geometry), place=x.place)
+    for y in right:
+        yield Change(
+            "link", two.name, f"{kind} added", after=shape_facts(y.geometry), place=y.place
+        )
+
+
+def _same_name(a: Shape, b: Shape) -> bool:
+    return a.name is not None and a.name == b.name
+
+
+def _same_kind(a: Shape, b: Shape) -> bool:
+    return type(a.geometry) is type(b.geometry)
+
+
+def _any(a: Shape, b: Shape) -> bool:
+    return True
+
+
+def _shape(
+    kind: str,
+    number: str,
+    a: Shape,
+    b: Shape,
+    link: Link,
+    tolerance: float,
+    materials: tuple[Materials, Materials],
+) -> Iterator[Change]:
+    before, after = shape_facts(a.geometry), shape_facts(b.geometry)
+    same = before.keys() == after.keys() and all(
+        all_close(before[key], after[key], tolerance)
+        if isinstance(before[key], tuple) and isinstance(after[key], tuple)
+        else before[key] == after[key]
+        for key in before
+    )
+    if not same:
+        yield Change("link", link.name, f"{kind}{number} geometry", before, after, place=b.place)
+    one, two = pose_of(a.origin), pose_of(b.origin)
+    if not same_pose(one, two, tolerance):
+        what = f"{kind}{number} origin"
+        said = pose_facts(one), pose_facts(two)
+        yield Change("link", link.name, what, *said, "", moved(one, two), b.place)
+    if isinstance(a, Visual) and isinstance(b, Visual):
+        old, new = _look(a.material, materials[0]), _look(b.material, materials[1])
+        if old != new:
+            yield Change("link", link.name, f"{kind}{number} material", old, new, place=b.place)
+
+
+def shape_facts(geometry: Geometry | None) -> dict[str, Any]:
+    """A shape as data: its kind, and its lengths [m] or its file."""
+    if geometry is None:
+        return {"shape": None}
+    facts: dict[str, Any] = {"shape": geometry.element.tag}
+    if isinstance(geometry, Box):
+        facts["size"] = geometry.size
+    elif isinstance(geometry, Cylinder | Capsule):
+        facts |= {"radius": (geometry.radius,), "length": (geometry.length,)}
+    elif isinstance(geometry, Sphere):
+        facts["radius"] = (geometry.radius,)
+    elif isinstance(geometry, Mesh):
+        facts |= {"filename": geometry.filename, "scale": geometry.scale}
+    return facts
+
+
+def pose_facts(pose: Pose) -> dict[str, Any]:
+    """A pose as data: ``xyz`` [m] and ``rpy`` [rad]."""
+    return {"xyz": pose.translation, "rpy": rpy_of_rotation(pose.rotation)}
+
+
+def _look(material: Material | None, named: Materials) -> dict[str, Any] | None:
+    """The colour and texture of a visual, wherever they are written."""
+    if material is None:
+        return None
+    if material.color is None and material.texture is None:
+        material = named.get(material.name, material)
+    return {"rgba": material.color, "texture": material.texture}

@@ -1,0 +1,206 @@
+"""A description as it was in git: ``REV:path``, with its includes at that revision.
+
+The files of the revision are put in a temporary folder as git keeps them: no filter, hook or
+attribute of the repository has a part in it, and its working tree and index are left alone.
+Meshes and pictures are left out, as a description is read without them.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+from ..errors import MissingDependency, SourceError, UrdftoolError
+from ..model.elements import Mesh, Robot
+from ..source.packages import packages_below
+
+_MOST_BYTES = 4 * 1024 * 1024
+_MEDIA = frozenset(
+    (
+        *(".stl", ".dae", ".obj", ".mtl", ".ply", ".glb", ".gltf", ".bin", ".step", ".stp"),
+        *(".png", ".jpg", ".jpeg", ".gif", ".tif", ".tiff", ".hdr", ".webp", ".mp4", ".webm"),
+        *(".fcstd", ".blend", ".mov", ".pdf", ".zip", ".gz", ".xz", ".bag", ".db3", ".mcap"),
+        *(".onnx", ".pt", ".npz", ".npy"),
+    )
+)
+
+
+class Named(NamedTuple):
+    """What ``REV:path`` names."""
+
+    revision: str
+    path: str
+
+
+class Blob(NamedTuple):
+    """A file as git keeps it: its object, and whether its content is the target of a link."""
+
+    sha: str
+    is_link: bool
+
+
+@dataclass(frozen=True)
+class Checkout:
+    """The files of a revision in a temporary folder.
+
+    Attributes:
+        path: The description there.
+        folder: The folder, which stands for the root of the repository.
+        top: The root of the repository's working tree.
+        revision: As the user named it.
+    """
+
+    path: Path
+    folder: Path
+    top: Path
+    revision: str
+
+    def shown(self, text: str) -> str:
+        """A text with each path of the temporary folder as ``REV:path``."""
+        text = text.replace(f"{self.folder}{os.sep}", f"{self.revision}:")
+        return text.replace(str(self.folder), f"{self.revision}:")
+
+    def there(self, folder: str | Path) -> Path:
+        """Where a folder of the working tree was at the revision; elsewhere, the folder itself."""
+        real = Path(os.path.realpath(folder))
+        if real == self.top or self.top in real.parents:
+            return self.folder / real.relative_to(self.top)
+        return real
+
+    def renamed(self, robot: Robot) -> Robot:
+        """The robot with each path of the temporary folder as it is in the working tree."""
+        if robot.source is not None:
+            for file in robot.source.files:
+                file.path = self.shown(file.path)
+        here, there = str(self.folder), str(self.top)
+        for element in robot.element.walk():
+            for name, value in element.attributes.items():
+                if here in value:
+                    element.attributes[name] = value.replace(here, there)
+            element.text = element.text.replace(here, there)
+        for _, shape in robot.shapes:
+            if isinstance(shape.geometry, Mesh):
+                shape.geometry.filename = shape.geometry.filename.replace(here, there)
+        return robot
+
+    def renamed_error(self, error: UrdftoolError) -> UrdftoolError:
+        """The error with each path of the temporary folder as ``REV:path``."""
+        error.message = self.shown(error.message)
+        error.path = None if error.path is None else self.shown(error.path)
+        error.notes = tuple(map(self.shown, error.notes))
+        for call in error.calls:
+            call.file.path = self.shown(call.file.path)
+        return error
+
+    def neighbours(self) -> Mapping[str, Path]:
+        """Packages beside a repository that is a package; those inside it are in the revision."""
+        above = self.top.parent
+        if len(above.parts) <= 2 or not (self.top / "package.xml").exists():
+            return {}  # never crawl /, /home or /tmp
+        found = packages_below(above)
+        return {n: p for n, p in found.items() if self.top not in (p, *p.parents)}
+
+
+def named(word: str) -> Named | None:
+    """The revision and path that a word names; None if it is the path of a file."""
+    revision, colon, path = word.partition(":")
+    if not (colon and path) or os.path.exists(word) or (len(revision) == 1 and os.name == "nt"):
+        return None
+    return Named(revision, path)
+
+
+@contextmanager
+def checked_out(wanted: Named) -> Iterator[Checkout]:
+    """The files of a revision, for as long as they are wanted.
+
+    Raises:
+        SourceError: There is no such repository, revision or file.
+        MissingDependency: git is not installed.
+    """
+    revision, path = wanted
+    if not revision or revision.startswith("-"):
+        raise SourceError(
+            f"'{revision}' is no revision; write one before the colon, as HEAD:{path}"
+        )
+    start = os.path.dirname(os.path.abspath(path)) if os.path.isabs(path) else os.getcwd()
+    top = Path(os.fsdecode(_git(start, "rev-parse", "--show-toplevel").rstrip(b"\r\n")))
+    tree = _git(
+        start, "rev-parse", "--verify", "--quiet", "--end-of-options", f"{revision}^{{tree}}",
+        fail=f"no revision is called '{revision}' in the repository {top}",
+    )  # fmt: skip
+    blobs = dict(_blobs(top, tree.decode().strip()))
+    inner = _inner(path, top, blobs)
+    if inner is None:
+        raise SourceError(f"there is no file '{path}' at {revision}", path=f"{revision}:{path}")
+    with TemporaryDirectory(prefix="urdftool-") as name:
+        folder = Path(os.path.realpath(name)) / (top.name or "repository")
+        _write(top, {p: blob for p, blob in blobs.items() if p == inner or _is_read(p)}, folder)
+        yield Checkout(folder / inner, folder, top, revision)
+
+
+def _inner(path: str, top: Path, blobs: Mapping[str, Blob]) -> str | None:
+    """The path in the repository: from its root, as git has it, or from the current folder."""
+    here = os.path.relpath(os.path.realpath(path), os.path.realpath(top))
+    candidates = [os.path.normpath(path), here]
+    if path.startswith(("./", "../")):
+        candidates.reverse()
+    return next((p for p in (c.replace(os.sep, "/") for c in candidates) if p in blobs), None)
+
+
+def _is_read(path: str) -> bool:
+    return os.path.splitext(path)[1].lower() not in _MEDIA
+
+
+def _blobs(top: Path, tree: str) -> Iterator[tuple[str, Blob]]:
+    """Path and object of each file that is not larger than a description can be."""
+    for entry in _git(top, "ls-tree", "-r", "-z", "--long", "--full-tree", tree).split(b"\0"):
+        facts, _, path = entry.partition(b"\t")
+        words = facts.decode("ascii").split()
+        if len(words) == 4 and words[1] == "blob" and int(words[3]) <= _MOST_BYTES:
+            yield os.fsdecode(path), Blob(words[2], words[0] == "120000")
+
+
+def _write(top: Path, blobs: Mapping[str, Blob], folder: Path) -> None:
+    """Write files as git has them, all in one call."""
+    data = _git(
+        top, "cat-file", "--batch", given="".join(f"{b.sha}\n" for b in blobs.values()).encode()
+    )
+    (folder / ".git").mkdir(parents=True)  # empty: the mark where the search for packages ends
+    at = 0
+    for path, blob in blobs.items():
+        end = data.index(b"\n", at)
+        size = int(data[at:end].rsplit(b" ", 1)[1])
+        content = data[end + 1 : end + 1 + size]
+        at = end + 1 + size + 1
+        target = folder / path
+        if ".." in target.parts or ".git" in Path(path).parts:
+            continue
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if not blob.is_link:
+            target.write_bytes(content)
+            continue
+        goal = os.path.normpath(target.parent / os.fsdecode(content))
+        if goal.startswith(f"{folder}{os.sep}"):  # nothing is read from outside the revision
+            target.symlink_to(os.fsdecode(content))
+
+
+def _git(
+    folder: str | Path, *words: str, fail: str | None = None, given: bytes | None = None
+) -> bytes:
+    command: Sequence[str] = ["git", "-C", str(folder), *words]
+    try:
+        done = subprocess.run(command, input=given, capture_output=True, check=False)
+    except FileNotFoundError:
+        raise MissingDependency(
+            "a revision is read by git, which is not installed; name a file instead"
+        ) from None
+    if done.returncode:
+        said = done.stderr.decode("utf-8", "replace").strip().splitlines()
+        raise SourceError(fail or f"git says: {said[-1] if said else 'nothing'} (in {folder})")
+    return done.stdout

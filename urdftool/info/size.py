@@ -1,0 +1,131 @@
+"""The box around all shapes at zero pose, and the meshes with their triangles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..errors import UrdftoolError
+from ..model.bounds import Bounds, bounds_of
+from ..model.elements import Collision, Mesh, Origin, Robot, Vector, Visual
+from ..model.pose import Pose, pose_of, rpy_of_rotation
+from .zero_pose import zero_poses
+
+Progress = Callable[[int, int, str], None]
+
+
+@dataclass
+class MeshFile:
+    """A mesh file of a robot.
+
+    Attributes:
+        uri: As it is written.
+        path: The file; None where it is not found.
+        triangles: How many are in it; None where it cannot be read.
+        visuals: How many visuals show it.
+        collisions: How many collisions are made of it.
+        reason: Why it cannot be read; empty where it can.
+    """
+
+    uri: str
+    path: str | None = None
+    triangles: int | None = None
+    visuals: int = 0
+    collisions: int = 0
+    reason: str = ""
+
+
+@dataclass
+class Measured:
+    """What the shapes of a robot come to.
+
+    Attributes:
+        bounds: The box around them all at zero pose, along the axes of the root [m]; None where
+            there is no shape that could be read.
+        meshes: The mesh files, in the order they are named.
+    """
+
+    bounds: Bounds | None = None
+    meshes: list[MeshFile] = field(default_factory=list)
+
+    def triangles(self, kind: str) -> int:
+        """Triangles of all ``visuals`` or ``collisions``, a mesh counted as often as it is used."""
+        return sum((mesh.triangles or 0) * getattr(mesh, kind) for mesh in self.meshes)
+
+
+def measure(robot: Robot, progress: Progress = lambda *_: None) -> Measured:
+    """Read the meshes of a robot and put all its shapes where they are at zero pose.
+
+    Args:
+        robot: The robot, read from a description, which finds its packages.
+        progress: Told of each mesh before it is read: its number, how many, its URI.
+    """
+    poses = zero_poses(robot)
+    measured = Measured()
+    boxes: list[Bounds] = []
+    uses: dict[str, list[tuple[Pose | None, Visual | Collision]]] = {}
+    for link, shape in robot.shapes:
+        at = poses.get(link.name)
+        if isinstance(shape.geometry, Mesh):
+            uses.setdefault(shape.geometry.filename, []).append((at, shape))
+        elif at is not None:
+            box = _primitive(shape, at)
+            boxes += [] if box is None else [box]
+    for number, (uri, shapes) in enumerate(uses.items(), 1):
+        progress(number, len(uses), uri)
+        mesh = MeshFile(uri)
+        mesh.visuals = sum(isinstance(shape, Visual) for _, shape in shapes)
+        mesh.collisions = len(shapes) - mesh.visuals
+        measured.meshes.append(mesh)
+        try:
+            boxes += _read(robot, mesh, shapes)
+        except UrdftoolError as error:
+            mesh.reason = error.message
+    for box in boxes:
+        measured.bounds = box if measured.bounds is None else measured.bounds.joined(box)
+    return measured
+
+
+def _primitive(shape: Visual | Collision, at: Pose) -> Bounds | None:
+    """The box around a primitive, along the axes of the frame its link's pose is in."""
+    pose = at @ pose_of(shape.origin)
+    origin = Origin(shape.element, pose.translation, rpy_of_rotation(pose.rotation))
+    return bounds_of(Collision(shape.element, origin=origin, geometry=shape.geometry))
+
+
+def _read(
+    robot: Robot, mesh: MeshFile, shapes: list[tuple[Pose | None, Visual | Collision]]
+) -> Iterator[Bounds]:
+    """Read a mesh, at each scale it is used; the box around each use of it.
+
+    Raises:
+        UrdftoolError: It is not found or cannot be read.
+    """
+    from ..meshes.load import load_mesh
+
+    if robot.source is None:
+        return
+    path = robot.source.resolve(mesh.uri)
+    mesh.path = str(path)
+    by_scale: dict[Vector, list[tuple[Pose | None, Visual | Collision]]] = {}
+    for at, shape in shapes:
+        assert isinstance(shape.geometry, Mesh)
+        by_scale.setdefault(shape.geometry.scale, []).append((at, shape))
+    for scale, same in by_scale.items():
+        read = load_mesh(path, scale)
+        mesh.triangles = len(read.faces)
+        for at, shape in same:
+            if at is not None:
+                pose = at @ pose_of(shape.origin)
+                yield _around(read.vertices, pose)
+
+
+def _around(vertices: Any, pose: Pose) -> Bounds:
+    """The box around points, each axis at a time: rows of the rotation times all of them."""
+    low, high = [], []
+    for row, shift in zip(pose.rotation, pose.translation, strict=True):
+        along = vertices @ row
+        low.append(float(along.min()) + shift)
+        high.append(float(along.max()) + shift)
+    return Bounds((low[0], low[1], low[2]), (high[0], high[1], high[2]))

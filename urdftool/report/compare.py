@@ -1,0 +1,133 @@
+"""What changed between two robots, as text, Markdown and JSON (``docs/schemas/diff.json``)."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby
+from typing import Any
+
+from ..compare.change import Change
+from .findings import Painter, clean
+
+_COLORS = {"added": "green", "removed": "red"}
+
+
+def text(changes: Iterable[Change], *, colors: bool = False) -> str:
+    """Each part that changed with what changed of it."""
+    paint = Painter(colors)
+    lines = []
+    for title, group in _by_part(changes):
+        lines.append(paint(title, bold=True))
+        for change in group:
+            before, after = _values(change)
+            color = _COLORS.get(change.what.rpartition(" ")[2], "yellow")
+            lines.append(f"  {paint(clean(change.what), color)}{_said(change, before, after)}")
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _said(change: Change, before: str, after: str) -> str:
+    remark = f" ({change.remark})" if change.remark else ""
+    unit = f" {change.unit}" if change.unit else ""
+    if before and after:
+        return f": {before} → {after}{unit}{remark}"
+    if _is_presence(change):
+        return f": {before or after}{unit}" if before or after else ""
+    sides = (f"{side}{unit}" if side else "none" for side in (before, after))
+    return f": {' → '.join(sides)}{remark}"
+
+
+def _is_presence(change: Change) -> bool:
+    return change.what.rpartition(" ")[2] in ("added", "removed")
+
+
+def markdown(names: tuple[str, str], changes: Sequence[Change]) -> str:
+    """A table for a pull request."""
+    lines = [f"**{_cell(summary(names, changes))}**"]
+    if changes:
+        lines += ["", "| part | what | before | after | |", "|---|---|---|---|---|"]
+    for title, group in _by_part(changes):
+        for change in group:
+            before, after = _values(change)
+            unit = f" {change.unit}" if change.unit else ""
+            cells = (title, change.what, *(v and v + unit for v in (before, after)), change.remark)
+            lines.append(f"| {' | '.join(map(_cell, cells))} |")
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _cell(text: str) -> str:
+    """A text in a table of Markdown: nothing in it is markup."""
+    marked = "".join(f"\\{c}" if c in "\\`*_{}[]<>#|~!@" else c for c in clean(text))
+    return marked.replace("&", "&amp;")
+
+
+def to_json(names: tuple[str, str], changes: Sequence[Change], tolerance: float) -> str:
+    """One object; lengths in metres, angles in radians, masses in kilograms."""
+    said = {
+        "version": 1,
+        "before": names[0],
+        "after": names[1],
+        "tolerance": tolerance,
+        "equal": not changes,
+        "changes": [_record(change) for change in changes],
+    }
+    return json.dumps(said, indent=1, ensure_ascii=False) + "\n"
+
+
+def _record(change: Change) -> dict[str, Any]:
+    record: dict[str, Any] = {"element": {"kind": change.kind, "name": change.name}}
+    record |= {"what": change.what, "before": change.before, "after": change.after}
+    record |= {"remark": change.remark or None, "path": None, "line": None, "column": None}
+    if change.place is not None:
+        line, column = change.place.file.position(change.place.start)
+        record |= {"path": change.place.path, "line": line, "column": column}
+    return record
+
+
+def summary(names: tuple[str, str], changes: Sequence[Change]) -> str:
+    """How much changed, in one line."""
+    pair = f"{clean(names[0])} → {clean(names[1])}"
+    if not changes:
+        return f"{pair}: the same robot"
+    parts = {(change.kind, change.name) for change in changes}
+    count = f"{len(changes)} change{'s' * (len(changes) != 1)}"
+    return f"{pair}: {count} in {len(parts)} part{'s' * (len(parts) != 1)}"
+
+
+def _by_part(changes: Iterable[Change]) -> Iterator[tuple[str, Iterator[Change]]]:
+    ordered: dict[tuple[str, str], list[Change]] = {}
+    for change in changes:
+        ordered.setdefault((change.kind, change.name), []).append(change)
+    flat = (change for group in ordered.values() for change in group)
+    for (kind, name), group in groupby(flat, key=lambda change: (change.kind, change.name)):
+        yield f"{kind} '{clean(name)}'" if name else kind, group
+
+
+def _values(change: Change) -> tuple[str, str]:
+    return _value(change.before), _value(change.after)
+
+
+def _value(value: Any) -> str:
+    """A value for people; empty for none."""
+    if value is None:
+        return ""
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, tuple | list):
+        return " ".join(_value(part) for part in value)
+    if isinstance(value, dict):
+        return _facts(value)
+    return clean(str(value))
+
+
+def _facts(facts: dict[str, Any]) -> str:
+    """A pose, a shape or what is worth saying of a part."""
+    if "rpy" in facts:
+        turned = any(abs(angle) > 1e-12 for angle in facts["rpy"])
+        rpy = " ".join(f"{math.degrees(angle):.4g}°" for angle in facts["rpy"])
+        return f"xyz {_value(facts['xyz'])}" + (f" rpy {rpy}" if turned else "")
+    if "shape" in facts:
+        rest = " ".join(f"{k} {_value(v)}" for k, v in facts.items() if k != "shape")
+        return f"{facts['shape'] or 'nothing'} {rest}".strip()
+    return ", ".join(f"{key} {_value(v)}" for key, v in facts.items() if v not in (None, ""))
