@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from ..console import Console
+from .export_report import put_files, say_refused, say_written
 from .options import package_options, robot_argument
-
-if TYPE_CHECKING:
-    from ..formats.check import Check
-    from ..formats.defects import Refused
-    from ..formats.written import Written
 
 FILES = (".xml", ".mjcf")
 """Suffixes of an output that is one file."""
@@ -87,7 +83,6 @@ def command(
     from ..configuration import find_configuration
     from ..formats import said
     from ..formats.defects import Refused
-    from ..formats.directory import write_export
     from ..formats.mjcf.options import Options
     from ..formats.mjcf.verify import verify_copy
     from ..formats.mjcf.write import write
@@ -96,6 +91,7 @@ def command(
 
     if Path(mesh_dir).is_absolute() or ".." in Path(mesh_dir).parts:
         raise click.UsageError("--mesh-dir is a folder beside the model, such as assets")
+    as_json = style == "json"
     path, arguments = robot
     description = read_description(
         path,
@@ -112,64 +108,12 @@ def command(
         if strict and (lost := said.strict(written.losses)):
             raise Refused(lost)
     except Refused as refused:
-        return _refused(refused, style)
+        return say_refused(refused.findings, as_json=as_json)
     checks = verify_copy(robot_of(description), options, written) if verified else []
-    if output is None or output == "-":
-        _print(written, style)
-    else:
-        inputs: list[str | Path] = [source.path for source in description.files]
-        inputs += [options.srdf] if options.srdf is not None else []
-        write_export(output, written, single=bool(file), overwrite=overwrite, inputs=inputs)
-    return _report(console, written, checks, output, style)
-
-
-def _refused(refused: Refused, style: str) -> int:
-    """Every defect, one a line; nothing is written."""
-    from ..formats import said
-
-    if style == "json":
-        from ..report.exports import to_json
-
-        click.echo(to_json(None, (), refused.findings, ()), nl=False)
-    lines = list(said.lines(refused.findings))
-    for line in lines:
-        click.echo(line, err=True)
-    count = "1 error" if len(lines) == 1 else f"{len(lines)} errors"
-    click.echo(f"urdftool: nothing is written: {count}", err=True)
-    return 2
-
-
-def _print(written: Written, style: str) -> None:
-    """A model without companions on standard output."""
-    from ..errors import OutputError
-
-    content = written.files[written.main]
-    if len(written.files) > 1 or not isinstance(content, bytes):
-        raise OutputError("meshes or a scene come with the model; say where to with -o OUT")
-    if style != "json":
-        click.echo(content, nl=False)
-
-
-def _report(
-    console: Console, written: Written, checks: list[Check], output: str | None, style: str
-) -> int:
-    """Losses on stderr, the table or JSON on stdout; the exit code."""
-    from ..finding import Severity
-    from ..formats import said
-    from ..formats.check import check_table, is_faithful
-
-    shown = [f for f in written.losses if f.severity > Severity.INFO or console.verbosity > 0]
-    hidden = len(said.merged(written.losses)) - len(said.merged(shown))
-    if style == "json":
-        from ..report.exports import to_json
-
-        click.echo(to_json(output, written.files, written.losses, checks), nl=False)
-    else:
-        for line in said.lines(shown):
-            console.note(line)
-        if checks:
-            click.echo(check_table(checks), nl=False, err=output in (None, "-"))
-    if output not in (None, "-"):
-        more = f", {hidden} notes (-v shows them)" if hidden else ""
-        console.note(f"{output}: {written.main}, {len(written.files)} files{more}")
-    return 0 if is_faithful(checks) else 1
+    inputs = [source.path for source in description.files]
+    inputs += [str(options.srdf)] if options.srdf is not None else []
+    target = output or "-"
+    put_files(
+        written, target, single=bool(file), overwrite=overwrite, inputs=inputs, as_json=as_json
+    )
+    return say_written(console, written, checks, target, as_json=as_json)

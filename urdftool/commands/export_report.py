@@ -46,17 +46,16 @@ def put_files(
         OutputError: They cannot be written there; what was there is as it was.
     """
     from ..errors import OutputError
-    from ..formats.directory import write_beside, write_directory
+    from ..formats.directory import write_export
 
     if output == "-":
         if len(written.files) > 1:
-            raise OutputError("other files come with the model; say where to with -o OUT")
+            raise OutputError("meshes or a scene come with the model; say where to with -o OUT")
         content = written.files[written.main]
         if not as_json and isinstance(content, bytes):
             click.echo(content, nl=False)
         return
-    write_it = write_beside if single else write_directory
-    write_it(output, written.files, main=written.main, overwrite=overwrite, inputs=inputs)
+    write_export(output, written, single=single, overwrite=overwrite, inputs=inputs)
 
 
 def say_written(

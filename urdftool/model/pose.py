@@ -96,17 +96,16 @@ def rotation_of_quaternion(quaternion: Quaternion) -> Rotation:
 
 
 def rpy_of_rotation(rotation: Rotation) -> Vector:
-    """URDF's rpy of a rotation; at a pitch of ±90° the yaw is put to zero."""
-    (r00, r01, r02), (r10, r11, _), (r20, r21, r22) = rotation
-    pitch = math.atan2(-r20, math.hypot(r00, r10))
-    if math.hypot(r00, r10) < 1e-12:
-        sign = 1.0 if r20 < 0 else -1.0
-        return (
-            math.atan2(sign * r01, r11 if abs(r11) > 1e-15 or r02 == 0 else sign * r02),
-            pitch,
-            0.0,
-        )
-    return math.atan2(r21, r22), pitch, math.atan2(r10, r00)
+    """URDF's rpy of a rotation [rad], exact also where the pitch is a right angle.
+
+    The roll is taken after the yaw is undone, so that what rounding does to one undoes what it does
+    to the other.
+    """
+    (r00, r01, r02), (r10, r11, r12), (r20, _, _) = rotation
+    yaw = math.atan2(r10, r00)
+    s, c = math.sin(yaw), math.cos(yaw)
+    pitch = math.atan2(-r20, c * r00 + s * r10)
+    return math.atan2(s * r02 - c * r12, c * r11 - s * r01), pitch, yaw
 
 
 def matrix_product(a: Rotation, b: Rotation) -> Rotation:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from ...model.elements import Capsule, Collision, Cylinder, Link, Origin, Sphere
-from ...model.pose import Pose, pose_of
+from ...model.pose import Pose, pose_of, rpy_of_rotation
 from ...source.document import Element
 from .extensions import merged, values
 from .keywords import COLLISION_KEYWORDS
-from .pose import angles_of
 from .shapes import geometry, set_place, writable
 from .translation import Translation
 from .xml import Node, add, at
@@ -46,7 +45,7 @@ def _pieces(part: Collision, capsule: Capsule) -> list[tuple[str, Collision]]:
 
     def placed(z: float) -> Origin:
         moved = pose @ Pose(translation=(0.0, 0.0, z))
-        return Origin(element, moved.translation, angles_of(moved.rotation))
+        return Origin(element, moved.translation, rpy_of_rotation(moved.rotation))
 
     tube = Cylinder(_tagged(capsule, "cylinder"), capsule.radius, capsule.length)
     ball = Sphere(_tagged(capsule, "sphere"), capsule.radius)

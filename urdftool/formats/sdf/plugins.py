@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...model.elements import ZERO
-from ...model.pose import Pose, rotation_of_rpy
+from ...model.pose import Pose, rotation_of_rpy, rpy_of_rotation
 from ...model.read import number, numbers
 from ...source.document import Element
 from ..numbers import number_text, numbers_text
@@ -16,7 +16,6 @@ from .plugin_types import (
     is_for_gz,
     library,
 )
-from .pose import angles_of
 from .translation import Translation
 from .xml import Node, add, at, comment, copied, spoken
 
@@ -90,7 +89,7 @@ def _offset(made: Node, t: Translation) -> None:
     local = Pose(rotation_of_rpy(rpy), xyz)  # type: ignore[arg-type]
     pose = t.plan.in_owner[name] @ local
     at(made, "xyzOffset").text = numbers_text(pose.translation)
-    at(made, "rpyOffset").text = numbers_text(angles_of(pose.rotation))
+    at(made, "rpyOffset").text = numbers_text(rpy_of_rotation(pose.rotation))
 
 
 def _system(node: Node, t: Translation, element: Element, system: System) -> None:

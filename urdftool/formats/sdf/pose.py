@@ -2,25 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
-from ...model.elements import Origin, Vector
-from ...model.pose import Pose, Rotation, rotation_of_quaternion
+from ...model.elements import Origin
+from ...model.pose import Pose, rotation_of_quaternion, rpy_of_rotation
 from ..numbers import numbers_text
 from .xml import Node, add
-
-
-def angles_of(rotation: Rotation) -> Vector:
-    """Roll, pitch and yaw of a rotation [rad], exact also where the pitch is a right angle.
-
-    The roll is taken after the yaw is undone, so that what rounding does to one undoes what it does
-    to the other.
-    """
-    (r00, r01, r02), (r10, r11, r12), (r20, _, _) = rotation
-    yaw = math.atan2(r10, r00)
-    s, c = math.sin(yaw), math.cos(yaw)
-    pitch = math.atan2(-r20, c * r00 + s * r10)
-    return math.atan2(s * r02 - c * r12, c * r11 - s * r01), pitch, yaw
 
 
 def set_origin(
@@ -46,13 +31,13 @@ def set_origin(
     rpy = origin.rpy
     if origin.quaternion is not None:
         x, y, z, w = origin.quaternion
-        rpy = angles_of(rotation_of_quaternion((w, x, y, z)))
+        rpy = rpy_of_rotation(rotation_of_quaternion((w, x, y, z)))
     add(node, "pose", numbers_text((*origin.xyz, *rpy)), **frame)
 
 
 def set_pose(node: Node, pose: Pose, relative_to: str = "") -> None:
     """Give an element a pose that was computed; the identity in its parent is not written."""
-    numbers = (*pose.translation, *angles_of(pose.rotation))
+    numbers = (*pose.translation, *rpy_of_rotation(pose.rotation))
     if any(numbers) or relative_to:
         frame = {"relative_to": relative_to} if relative_to else {}
         add(node, "pose", numbers_text(numbers), **frame)
