@@ -51,8 +51,9 @@ def read_written(item: LinkReview) -> None:
         return
     pose = pose_of(inertial.origin)
     six = [getattr(inertial.inertia, name) for name in NAMES]
-    if max(map(abs, (*six, inertial.mass, *pose.translation))) > _LARGEST:
-        message = f"a number above {_LARGEST:g} is beyond any robot"
+    largest = max(map(abs, (*six, inertial.mass, *pose.translation)))
+    if largest > _LARGEST or 0 < abs(inertial.mass) < 1 / _LARGEST:
+        message = f"a number above {_LARGEST:g} or a mass below {1 / _LARGEST:g} is no robot's"
         item.faults.append(Fault("unreadable", message, inertial.place))
         return
     item.written = MassProperties(
