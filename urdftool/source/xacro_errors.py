@@ -60,7 +60,7 @@ def _missing(path: str, reason: str, at: Place) -> XacroError:
         there = []
         missing = next((p for p in reversed(Path(path).parents) if not p.exists()), None)
         reason = f"there is no folder {missing}" if missing else reason
-    near = get_close_matches(name, there, 1, 0.6)
+    near = get_close_matches(name, there, 1, 0.75)
     hint = f"; did you mean '{near[0]}'?" if near and near[0] != name else ""
     return XacroError(f"{path}: {reason}{hint}", at=at, rule="include-not-found")
 
