@@ -58,7 +58,7 @@ def command(
 
     Exit 1 if the links are no tree, or if --lint finds an error or a warning.
     """  # noqa: D301 -- click reads the escape
-    from ..graph.faults import find_faults
+    from ..graph.faults import find_faults, first_of_each
     from .graph_write import write_one, write_pair
     from .read_lax import read_lax
 
@@ -72,8 +72,8 @@ def command(
         write_pair(console, model, figure, path, output)
     else:
         write_one(console, model, figure, faults, output or "-", suffix)
-    for fault in faults:
-        console.note(f"{fault.place}: {fault.message}")
+    for message, fault in first_of_each(faults).items():
+        console.note(f"{fault.place}: {message}")
     return int(bool(faults) or (linted and _is_marked(figure)))
 
 

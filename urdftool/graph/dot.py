@@ -52,8 +52,11 @@ def quoted(text: str) -> str:
 
 
 def _several(lines: list[str]) -> str:
-    """Lines of a label or tooltip, in one pair of quotes."""
-    return '"' + "\\n".join(quoted(line)[1:-1] for line in lines) + '"'
+    """Lines of a label or tooltip, in one pair of quotes.
+
+    Graphviz now and then breaks on an empty line among others, so there is none.
+    """
+    return '"' + "\\n".join(quoted(line)[1:-1] for line in lines if line) + '"'
 
 
 def _ros(figure: Figure, folder: str | None) -> Iterator[str]:
@@ -75,7 +78,9 @@ def _ros(figure: Figure, folder: str | None) -> Iterator[str]:
 
 
 def _ros_label(node: Node) -> str:
-    return _several([node.name, *_members(node), *(mark for mark, _ in node.marks())])
+    return _several(
+        [node.name or "(no name)", *_members(node), *(mark for mark, _ in node.marks())]
+    )
 
 
 def _ros_more(node: Node, folder: str | None) -> str:

@@ -1,17 +1,23 @@
 """DOT text to a picture, by the Graphviz that the wheel of pygraphviz carries.
 
-Graphviz is C in this process. It talks to standard error, so that is kept from it; and it cannot
-be told to stop, so a large graph is drawn in a process of its own: this module, run by
-:func:`draw`, reads the text from its standard input.
+Graphviz is C that talks to standard error, cannot be told to stop, and may break on a graph and
+take its process along. So it works in a child of this process that is forked for it, which costs
+a millisecond; where that cannot be had, a large graph is drawn in a Python of its own, which is
+this module run as a program.
 """
 
 from __future__ import annotations
 
 import os
+import select
+import signal
 import sys
 import tempfile
+import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import NoReturn
 
 from ..errors import MissingDependency, UrdftoolError
 
@@ -19,6 +25,7 @@ FORMATS = ("pdf", "svg", "png")
 MAX_SECONDS = 45.0
 
 _LARGE = 800  # edges; below, a second is enough
+_FAILED, _BROKEN, _MISSING = 2, 3, 4  # exit codes of a process that draws
 
 
 class DrawError(UrdftoolError):
@@ -36,9 +43,77 @@ def draw(text: str, format: str) -> bytes:
         DrawError: It takes longer than ``MAX_SECONDS``, or Graphviz breaks on it.
         MissingDependency: pygraphviz is not installed, or not for this machine.
     """
+    if sys.platform == "linux" and threading.active_count() == 1:
+        return _draw_forked(text, format)
     if text.count(" -> ") < _LARGE:
         return _draw_here(text, format)
     return _draw_apart(text, format)
+
+
+def _draw_forked(text: str, format: str) -> bytes:
+    """Draw in a fork of this process."""
+    source, sink = os.pipe()
+    child = os.fork()
+    if child == 0:
+        _answer(sink, text, format)
+    os.close(sink)
+    data = bytearray()
+    end = time.monotonic() + MAX_SECONDS
+    status = None
+    try:
+        while (left := end - time.monotonic()) > 0 and select.select([source], [], [], left)[0]:
+            piece = os.read(source, 1 << 20)
+            if not piece:
+                status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+                break
+            data += piece
+    finally:
+        os.close(source)
+        if status is None:
+            os.kill(child, signal.SIGKILL)
+            os.waitpid(child, 0)
+    if status is None:
+        raise _too_slow(text)
+    return _result(bytes(data), status)
+
+
+def _answer(sink: int, text: str, format: str) -> NoReturn:
+    """Draw, hand over a picture or the reason why there is none, and end this process."""
+    code = _BROKEN
+    try:
+        try:
+            data, code = _draw_here(text, format), 0
+        except MissingDependency as error:
+            data, code = str(error).encode(), _MISSING
+        except UrdftoolError as error:
+            data, code = str(error).encode(), _FAILED
+        rest = memoryview(data)
+        while rest:
+            rest = rest[os.write(sink, rest) :]
+    finally:
+        os._exit(code)
+
+
+def _result(data: bytes, code: int) -> bytes:
+    """The picture that another process has drawn, or its error raised here."""
+    if code == 0 and data:
+        return data
+    if code in (_MISSING, _FAILED):
+        error = MissingDependency if code == _MISSING else DrawError
+        raise error(data.decode("utf-8", "replace").strip())
+    reason = f"signal {-code}" if code < 0 else f"code {code}"
+    raise DrawError(
+        f"Graphviz breaks on this graph ({reason}); --fold-fixed makes it smaller, "
+        "and .gv, .mmd and .json need no layout"
+    )
+
+
+def _too_slow(text: str) -> DrawError:
+    edges = text.count(" -> ")
+    return DrawError(
+        f"Graphviz has not laid out this graph of {edges} edges in {MAX_SECONDS:g} s, and was "
+        "stopped; --fold-fixed makes it smaller, and .gv, .mmd and .json need no layout"
+    )
 
 
 def _draw_here(text: str, format: str) -> bytes:
@@ -84,40 +159,18 @@ def _stderr_kept() -> Iterator[None]:
 
 
 def _draw_apart(text: str, format: str) -> bytes:
+    """Draw in a Python of its own."""
     import subprocess
 
     command = [sys.executable, "-m", __name__, format]
     try:
         done = subprocess.run(
-            command, input=text.encode("utf-8"), capture_output=True, timeout=MAX_SECONDS
+            command, input=text.encode("utf-8"), stdout=subprocess.PIPE, timeout=MAX_SECONDS
         )
     except subprocess.TimeoutExpired:
-        edges = text.count(" -> ")
-        raise DrawError(
-            f"Graphviz has not laid out this graph of {edges} edges in {MAX_SECONDS:g} s, and was "
-            "stopped; --fold-fixed makes it smaller, and .gv, .mmd and .json need no layout"
-        ) from None
-    if done.returncode == 0 and done.stdout:
-        return done.stdout
-    said = done.stderr.decode("utf-8", "replace").strip().splitlines()
-    if done.returncode == 4:
-        raise MissingDependency(said[-1])
-    reason = f"it was ended by signal {-done.returncode}" if done.returncode < 0 else said[-1:]
-    raise DrawError(
-        f"Graphviz breaks on this graph ({reason}); --fold-fixed makes it smaller, "
-        "and .gv, .mmd and .json need no layout"
-    )
-
-
-def _main() -> int:
-    try:
-        data = _draw_here(sys.stdin.buffer.read().decode("utf-8"), sys.argv[1])
-    except UrdftoolError as error:
-        sys.stderr.write(f"{error}\n")
-        return 4 if isinstance(error, MissingDependency) else 2
-    sys.stdout.buffer.write(data)
-    return 0
+        raise _too_slow(text) from None
+    return _result(done.stdout, done.returncode)
 
 
 if __name__ == "__main__":
-    raise SystemExit(_main())
+    _answer(1, sys.stdin.buffer.read().decode("utf-8"), sys.argv[1])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from ..model.elements import Joint, Link, Robot
@@ -36,19 +36,24 @@ def find_faults(robot: Robot) -> Iterator[Fault]:
         yield from _ends(robot, joint)
 
 
+def first_of_each(faults: Iterable[Fault]) -> dict[str, Fault]:
+    """Faults by their message, the first where several links share one."""
+    found: dict[str, Fault] = {}
+    for fault in faults:
+        found.setdefault(fault.message, fault)
+    return found
+
+
 def _roots(robot: Robot) -> Iterator[Fault]:
     roots = robot.tree.roots
     if len(roots) < 2:
         return
+    message = (
+        f"{len(roots)} links have no parent, {_names(link.name for link in roots)}; "
+        "a robot has one such link, its root"
+    )
     for number, link in enumerate(roots, 1):
-        others = _names(other.name for other in roots if other is not link)
-        yield Fault(
-            link,
-            f"root {number} of {len(roots)}",
-            f"link '{visible(link.name)}' is a root, and so is {others}; "
-            "a robot has one link without a parent",
-            link.place,
-        )
+        yield Fault(link, f"root {number} of {len(roots)}", message, link.place)
 
 
 def _loops(robot: Robot) -> Iterator[Fault]:
@@ -56,19 +61,13 @@ def _loops(robot: Robot) -> Iterator[Fault]:
     tree = robot.tree
     told: set[str] = set()
     for link in robot.link.values():
-        chain = _loop_through(robot, link.name)
-        if chain and link.name not in told:
+        chain = _loop_through(robot, link.name) if link.name else []
+        if len(chain) > 1 and link.name not in told:
             told.update(chain)
             shown = " → ".join(f"'{visible(name)}'" for name in _shortened([*chain, chain[0]]))
+            message = f"links hang on each other in a loop, {shown}; one of them hangs elsewhere"
             for name in chain:
-                member = robot.link[name]
-                yield Fault(
-                    member,
-                    "in a loop",
-                    f"link '{visible(name)}' is its own ancestor ({shown}); "
-                    "a link hangs on one above it",
-                    member.place,
-                )
+                yield Fault(robot.link[name], "in a loop", message, robot.link[name].place)
     for link in tree.detached:
         if link.name not in told:
             yield Fault(
@@ -99,7 +98,7 @@ def _loop_through(robot: Robot, name: str) -> list[str]:
 def _parents(robot: Robot) -> Iterator[Fault]:
     for name, joints in robot.tree.joints_of_child.items():
         link = robot.link.get(name)
-        if link is not None and len(joints) > 1:
+        if name and link is not None and len(joints) > 1:
             named = _names(joint.name for joint in joints)
             yield Fault(
                 link,
@@ -152,7 +151,7 @@ def _ends(robot: Robot, joint: Joint) -> Iterator[Fault]:
             yield Fault(joint, mark, message, place)
 
 
-def _names(names: Iterator[str] | list[str]) -> str:
+def _names(names: Iterable[str]) -> str:
     shown = [f"'{visible(name)}'" for name in _shortened(list(names))]
     return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} and {shown[-1]}"
 

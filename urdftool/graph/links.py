@@ -21,7 +21,7 @@ def ends(figure: Figure, joint: Joint, keys: dict[str, str]) -> tuple[str, str]:
         (joint.parent, joint.parent_element),
         (joint.child, joint.child_element),
     ):
-        if name in keys:
+        if name and name in keys:
             found.append(keys[name])
             continue
         mark = "no such link" if name else "not said"
