@@ -2,9 +2,15 @@
 
 import struct
 
+import pytest
+
+from urdftool.formats.directory import is_ours, write_export
 from urdftool.formats.sdf.options import Options
+from urdftool.formats.sdf.verify.compare import compare, pair_of
 from urdftool.formats.sdf.write import write as export
 from urdftool.model.load import load
+
+from .robots import tree
 
 STL = b"\0" * 80 + struct.pack("<I", 0)
 
@@ -67,16 +73,79 @@ def test_textures_of_meshes_come_along(write):
     ]
 
 
+MATERIAL = '<material name="w"><texture filename="package://pkg/textures/{}"/></material>'
+TEXTURED = '<visual><geometry><box size="1 1 1"/></geometry><material name="w"/></visual>'
+
+
 def test_a_texture_is_a_map_of_the_material(write):
     write("pkg/textures/wood.png", b"picture")
-    material = '<material name="w"><texture filename="package://pkg/textures/wood.png"/></material>'
-    visual = '<visual><geometry><box size="1 1 1"/></geometry><material name="w"/></visual>'
-    robot = description(write, visual, extra=material)
+    robot = description(write, TEXTURED, extra=MATERIAL.format("wood.png"))
     written = export(robot, Options())
     assert b"<albedo_map>meshes/textures/wood.png</albedo_map>" in written.files["model.sdf"]
     assert places(robot) == ["meshes/textures/wood.png"]
-    classic = export(robot, Options(target="gazebo-classic"))
-    assert [loss.rule for loss in classic.losses] == ["lossy-texture"]
+
+
+def test_a_texture_for_classic_has_a_script(write):
+    write("pkg/textures/Wood 1.PNG", b"picture")
+    robot = description(write, TEXTURED, extra=MATERIAL.format("Wood 1.PNG"))
+    written = export(robot, Options(target="gazebo-classic", folder="arm"))
+    script = tree(written).find("link/visual/material/script")
+    assert [e.text for e in script] == [
+        "model://arm/materials/scripts",
+        "model://arm/materials/textures",
+        "r/r_Wood_1",
+    ]
+    text = written.files["materials/scripts/r.material"]
+    assert isinstance(text, bytes)
+    assert is_ours(text)
+    assert "texture r_Wood_1.png" in text.decode()
+    assert places(robot, target="gazebo-classic") == [
+        "materials/scripts/r.material",
+        "materials/textures/r_Wood_1.png",
+    ]
+    assert written.losses == []
+
+
+def test_pictures_of_one_name_do_not_mix(write):
+    write("pkg/textures/a/x.png", b"one")
+    write("pkg/textures/b/x.png", b"two")
+    extra = "".join(
+        MATERIAL.format(f"{name}/x.png").replace('"w"', f'"{name}"') for name in ("a", "b")
+    )
+    visuals = [TEXTURED.replace('"w"', f'"{name}"') for name in ("a", "b")]
+    robot = description(write, *visuals, extra=extra)
+    written = export(robot, Options(target="gazebo-classic"))
+    names = [e.text for e in tree(written).iterfind("link/visual/material/script/name")]
+    assert names == ["r/r_x", "r/r_x_2"]
+
+
+@pytest.mark.parametrize("choices", [{"file": "m.sdf"}, {"uri": "file"}, {"uri": "package"}])
+def test_a_script_that_nothing_can_find_is_not_written(write, choices):
+    write("pkg/textures/wood.png", b"picture")
+    robot = description(write, TEXTURED, extra=MATERIAL.format("wood.png"))
+    written = export(robot, Options(target="gazebo-classic", **choices))
+    assert [loss.rule for loss in written.losses] == ["lossy-texture"]
+    assert tree(written).find("link/visual/material/script") is None
+    assert [name for name in written.files if name.startswith("materials/")] == []
+
+
+@pytest.mark.parametrize("target", ["gz", "gazebo-classic"])
+@pytest.mark.parametrize("spoiled", [False, True])
+def test_textures_are_verified(write, tmp_path, target, spoiled):
+    write("pkg/textures/wood.png", b"picture")
+    robot = description(write, TEXTURED, extra=MATERIAL.format("wood.png"))
+    options = Options(target=target, folder="out")
+    written = export(robot, options)
+    if spoiled:
+        (name,) = [name for name in written.files if name.endswith(".png")]
+        written.files[name] = b"other"
+    write_export(tmp_path / "out", written, single=False)
+    colours = next(
+        check
+        for check in compare(pair_of(robot, written, tmp_path / "out" / "model.sdf"))
+        if check.name == "colours"
+    )
+    assert colours.verdict == ("differs" if spoiled else "equal")
 
 
 def test_a_uri_with_too_many_slashes_is_understood(write):

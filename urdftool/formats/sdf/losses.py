@@ -32,7 +32,7 @@ LOSSES = {
     "safety": "`<safety_controller>` stays as a comment",
     "sensor": "a sensor's type was translated, or the target does not have it",
     "shape": "a shape that cannot be written is left out (`--force`)",
-    "texture": "a texture is missing, or needs a script in Gazebo Classic",
+    "texture": "a texture is missing, or has no place for the script that Classic needs",
     "transmission": "a transmission stays as a comment",
     "world": "what the root link `world` has is left out; it is the world itself",
 }

@@ -28,7 +28,11 @@ ELEMENTS = (
     ("box, cylinder, sphere, capsule", "the same", "capsule from SDF 1.8 on"),
     ("mesh filename, scale", "mesh uri, scale", "copied with the textures it names"),
     ("color rgba", "ambient and diffuse", "and transparency; not made brighter"),
-    ("texture filename", "pbr metal albedo_map", "gz only"),
+    (
+        "texture filename",
+        "pbr metal albedo_map",
+        "a script of Ogre for Gazebo Classic, in a folder or with `--uri model`",
+    ),
     ("joint origin", "pose relative_to the parent link", "from the model's frame in SDF 1.6"),
     ("axis xyz", "axis xyz", "of unit length"),
     ("limit lower, upper", "limit lower, upper", "0 where only the limit is written, as in URDF"),

@@ -24,21 +24,20 @@ def material(node: Node, t: Translation, link: Link, part: Visual) -> None:
     if own is None:
         return
     color = own.color
-    path = t.meshes.texture(own.texture) if own.texture else None
-    if own.texture and path is None:
+    there = bool(own.texture) and t.meshes.found.get(own.texture or "") is not None
+    if own.texture and not there:
         text = f"texture '{own.texture}' of material '{own.name}' is missing; it is left out"
         t.lose("texture", text, own, link)
-    if color is None and path is None:
+    if color is None and not there:
         return
+    rgba = color or (1.0, 1.0, 1.0, 1.0)
     made = add(node, "material")
-    if color is not None or path is not None:
-        rgba = color or (1.0, 1.0, 1.0, 1.0)
-        add(made, "ambient", numbers_text(rgba))
-        add(made, "diffuse", numbers_text(rgba))
-        if rgba[3] < 1.0:
-            _transparency(node, rgba[3])
-    if path is not None:
-        _texture(made, t, link, own, path)
+    add(made, "ambient", numbers_text(rgba))
+    add(made, "diffuse", numbers_text(rgba))
+    if rgba[3] < 1.0:
+        _transparency(node, rgba[3])
+    if own.texture and there:
+        _texture(made, t, link, own, own.texture)
 
 
 def resolved(robot: Robot, own: Material | None) -> Material | None:
@@ -51,14 +50,23 @@ def resolved(robot: Robot, own: Material | None) -> Material | None:
     return None
 
 
-def _texture(made: Node, t: Translation, link: Link, own: Material, path: str) -> None:
-    if t.options.classic:
-        text = f"texture '{own.texture}' needs a script of Ogre in Gazebo Classic; it is left out"
-        t.lose("texture", text, own, link)
+def _texture(made: Node, t: Translation, link: Link, own: Material, filename: str) -> None:
+    if not t.options.classic:
+        metal = add(add(made, "pbr"), "metal")
+        add(metal, "albedo_map", t.meshes.texture(filename))
+        add(metal, "metalness", "0")
         return
-    metal = add(add(made, "pbr"), "metal")
-    add(metal, "albedo_map", path)
-    add(metal, "metalness", "0")
+    found = t.meshes.script(filename)
+    if found is None:
+        text = f"texture '{filename}' needs a script of Ogre beside the model; it is left out"
+        hint = "write a folder, or give --uri model"
+        t.lose("texture", text, own, link, hint=hint)
+        return
+    name, folders = found
+    script = add(made, "script")
+    for folder in folders:
+        add(script, "uri", folder)
+    add(script, "name", name)
 
 
 def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Element) -> bool:

@@ -10,7 +10,9 @@ from pathlib import Path, PurePosixPath
 from ...errors import UrdftoolError
 from ...model.elements import Mesh, Robot
 from ...source.packages import own_package
+from .names import model_name
 from .options import Options
+from .scripts import SCRIPTS, TEXTURES, material_name, picture_names, plain, script
 
 _NAMED = {
     ".dae": re.compile(rb"<init_from>\s*(?:<ref>)?([^<]+)<"),
@@ -29,11 +31,15 @@ class MeshFiles:
         options: The choices of the export.
         found: The file of each URI; None for one that is missing.
         places: Where each file goes, relative to the model.
+        pictures: Names of the textures that a script of Ogre shows.
+        robot: The name of the model.
     """
 
     options: Options
+    robot: str = ""
     found: dict[str, Path | None] = field(default_factory=dict)
     places: dict[Path, str] = field(default_factory=dict)
+    pictures: dict[Path, str] = field(default_factory=dict)
 
     def known(self, mesh: Mesh) -> bool:
         """Whether the file of a mesh is there."""
@@ -44,8 +50,16 @@ class MeshFiles:
         return self._named(mesh.filename) or mesh.filename
 
     def texture(self, filename: str) -> str | None:
-        """How the model names a texture; None where it is missing."""
+        """How a model for gz names a texture; None where it is missing."""
         return self._named(filename)
+
+    def script(self, filename: str) -> tuple[str, list[str]] | None:
+        """The material with a texture, and the folders it needs; None without a script."""
+        picture = self.pictures.get(self.found.get(filename) or Path())
+        if picture is None:
+            return None
+        folders = [self._placed(place) for place in (SCRIPTS, TEXTURES)]
+        return material_name(self.robot, picture), folders
 
     def _named(self, filename: str) -> str | None:
         path = self.found.get(filename)
@@ -56,29 +70,51 @@ class MeshFiles:
             return _package_uri(filename, path)
         if style == "file":
             return path.resolve().as_uri()
-        place = self.places[path]
-        return f"model://{self.options.folder}/{place}" if style == "model" else place
+        return self._placed(self.places[path])
+
+    def _placed(self, place: str) -> str:
+        relative = self.options.uri_style != "model"
+        return place if relative else f"model://{self.options.folder}/{place}"
 
     @property
     def files(self) -> dict[str, bytes | Path]:
         """What is copied, by its place."""
         if self.options.uri_style in ("package", "file"):
             return {}
-        return {place: path for path, place in self.places.items()}
+        files: dict[str, bytes | Path] = {place: path for path, place in self.places.items()}
+        files |= {f"{TEXTURES}/{name}": path for path, name in self.pictures.items()}
+        return files
+
+    @property
+    def scripts(self) -> dict[str, bytes]:
+        """The script of the materials with a picture, by its place."""
+        if not self.pictures:
+            return {}
+        return {f"{SCRIPTS}/{plain(self.robot)}.material": script(self.robot, self.pictures)}
 
 
 def find_meshes(robot: Robot, options: Options) -> MeshFiles:
     """Look for every mesh and texture, and give each a place of its own."""
     names = [s.geometry.filename for _, s in robot.shapes if isinstance(s.geometry, Mesh)]
-    names += [m.texture for m in robot.materials if m.texture]
+    textures = [m.texture for m in robot.materials if m.texture]
     for link in robot.links:
-        names += [v.material.texture for v in link.visuals if v.material and v.material.texture]
-    meshes = MeshFiles(options)
-    for name in dict.fromkeys(names):
+        textures += [v.material.texture for v in link.visuals if v.material and v.material.texture]
+    meshes = MeshFiles(options, model_name(robot))
+    for name in dict.fromkeys([*names, *textures]):
         meshes.found[name] = _find(robot, name)
-    wanted = list(dict.fromkeys(path for path in meshes.found.values() if path is not None))
-    _give_places(meshes, wanted)
+    if options.classic:
+        if options.uri_style in ("model", "relative"):
+            meshes.pictures = picture_names(meshes.robot, _there(meshes, textures))
+    else:
+        names += textures
+    _give_places(meshes, _there(meshes, names))
     return meshes
+
+
+def _there(meshes: MeshFiles, names: list[str]) -> list[Path]:
+    """The files of URIs, each once, without those that are missing."""
+    found = (meshes.found[name] for name in names)
+    return list(dict.fromkeys(path for path in found if path is not None))
 
 
 def _find(robot: Robot, name: str) -> Path | None:

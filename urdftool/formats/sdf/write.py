@@ -77,6 +77,8 @@ def _files(t: Translation, root: Node, node: Node) -> None:
         name = NAMES_FILE if not options.file else f"{options.file.rpartition('.')[0]}.{NAMES_FILE}"
         files[name] = _sidecar(t)
     files.update(t.meshes.files)
+    for name, text in t.meshes.scripts.items():
+        files[name] = b"// " + mark(text, source)
 
 
 def _sidecar(t: Translation) -> bytes:

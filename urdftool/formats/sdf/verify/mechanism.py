@@ -58,13 +58,14 @@ class Hinge:
 
 @dataclass
 class Shape:
-    """A visual or collision: on which body, where, what, and in which colour."""
+    """A visual or collision: on which body, where, what, in which colour, with which picture."""
 
     link: str
     body: str
     pose: Array
     what: tuple[Any, ...]
     rgba: tuple[float, ...] | None = None
+    picture: str | None = None
 
 
 @dataclass

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
+from itertools import dropwhile, islice, pairwise
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote, urlparse
@@ -192,7 +193,25 @@ def _shape(frames: Frames, link: str, part: ET.Element, path: Path, find: Find) 
         frames.local(link, part),
         _what(part, path, find),
         tuple(map(float, rgba.split())) if rgba else None,
+        _picture(part, path, find),
     )
+
+
+def _picture(part: ET.Element, path: Path, find: Find) -> str | None:
+    """The digest of a visual's texture, by the map of its material or by a script of Ogre."""
+    uri = _text(part, "material/pbr/metal/albedo_map")
+    if uri:
+        return digest(_file(uri, path, find))
+    name = _text(part, "material/script/name")
+    uris = [(uri.text or "").strip() for uri in part.findall("material/script/uri")]
+    folders = [_file(uri, path, find) for uri in uris if not uri.startswith("file://media/")]
+    for script in (file for folder in folders for file in sorted(folder.glob("*.material"))):
+        words = iter(script.read_text("utf-8", "replace").split())
+        if ("material", name) in pairwise(words):
+            words = dropwhile(lambda word: word != "texture", words)
+            picture = next(islice(words, 1, None), "")
+            return digest(next((f / picture for f in folders if (f / picture).is_file()), script))
+    return None
 
 
 def _what(part: ET.Element, path: Path, find: Find) -> tuple[Any, ...]:

@@ -46,9 +46,9 @@ def compare_shapes(pair: Pair, kind: str, configurations: Sequence[Mapping[str, 
 
 
 def compare_colors(pair: Pair) -> Check:
-    """Compare the colour of each visual that URDF gives one."""
-    colored = sum(shape.rgba is not None for shape in pair.source.visuals)
-    check = Check("colours", f"{colored} visuals", COLORS)
+    """Compare the colour and the texture of each visual that URDF gives one."""
+    colored = sum(s.rgba is not None or s.picture is not None for s in pair.source.visuals)
+    check = Check("colours", f"{colored} visuals, textures", COLORS)
     here = _places(pair, pair.source, pair.source.visuals, [{}], renamed=False)
     there = _places(pair, pair.made, pair.made.visuals, [{}], renamed=True)
     left = list(range(len(pair.made.visuals)))
@@ -57,12 +57,15 @@ def compare_colors(pair: Pair) -> Check:
         if nearest is None:
             continue
         left.remove(nearest)
+        known = shape.link in pair.excuses.colors
+        if shape.picture != pair.made.visuals[nearest].picture:
+            check.compare(1.0, f"{shape.link}: has another texture", known=known)
         if shape.rgba is None:
             continue
         found = pair.made.visuals[nearest].rgba
         off = 1.0 if found is None else float(np.abs(np.subtract(found, shape.rgba)).max())
         text = f"{shape.link}: is {found}, not {shape.rgba}"
-        check.compare(off, text, known=shape.link in pair.excuses.colors)
+        check.compare(off, text, known=known)
     return check
 
 

@@ -17,6 +17,7 @@ from ....model.elements import (
     Geometry,
     Joint,
     Link,
+    Material,
     Mesh,
     Origin,
     Robot,
@@ -109,8 +110,10 @@ def _limits(joint: Joint) -> dict[str, float]:
 
 
 def _shape(robot: Robot, link: Link, shape: Visual | Collision) -> Shape:
-    rgba = _rgba(robot, link, shape) if isinstance(shape, Visual) else None
-    return Shape(link.name, link.name, pose(shape.origin), _what(robot, shape.geometry), rgba)
+    made = Shape(link.name, link.name, pose(shape.origin), _what(robot, shape.geometry))
+    if isinstance(shape, Visual) and shape.material is not None and not _told(robot, link):
+        made.rgba, made.picture = _looks(robot, shape.material)
+    return made
 
 
 def _what(robot: Robot, geometry: Geometry | None) -> tuple[Any, ...]:
@@ -145,15 +148,16 @@ def digest(path: Path) -> str:
         return "missing"
 
 
-def _rgba(robot: Robot, link: Link, visual: Visual) -> tuple[float, ...] | None:
-    """The colour URDF gives a visual; None where there is none, or Gazebo is told another."""
-    told = (block.element for block in robot.extensions.get(link.name, []))
-    if any(element.child(tag) for element in told for tag in ("material", "visual")):
-        return None
-    own = visual.material
-    if own is None:
-        return None
-    named = [m for m in robot.materials if m.name == own.name and m.color]
-    named += [v.material for k in robot.links for v in k.visuals if v.material and v.material.color
-              and v.material.name == own.name]  # fmt: skip
-    return own.color or (named[0].color if named and not own.texture else None)
+def _told(robot: Robot, link: Link) -> bool:
+    """Whether Gazebo is told how a link looks."""
+    blocks = (block.element for block in robot.extensions.get(link.name, []))
+    return any(element.child(tag) for element in blocks for tag in ("material", "visual"))
+
+
+def _looks(robot: Robot, own: Material) -> tuple[tuple[float, ...] | None, str | None]:
+    """The colour and the picture of a material: its own, else those of the first so named."""
+    every = [own, *robot.materials, *(v.material for k in robot.links for v in k.visuals)]
+    for one in every:
+        if one is not None and one.name == own.name and (one.color or one.texture):
+            return one.color, _digest_of(robot, one.texture) if one.texture else None
+    return None, None
