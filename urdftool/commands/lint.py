@@ -9,7 +9,7 @@ import click
 from ..console import Console
 from .options import package_options, split_arguments
 
-FORMATS = ("full", "concise", "json")
+FORMATS = ("full", "concise", "json", "sarif", "github", "junit")
 LEVELS = ("error", "warning", "info")
 
 
@@ -109,33 +109,33 @@ def _report(
     fail_on: str,
 ) -> int:
     from ..finding import Severity
-    from ..lint.merge import in_order, merge
+    from ..lint.merge import gather
     from ..output import write_result
-    from ..report import findings as text
+    from ..report.findings import summary
+    from ..report.findings_formats import as_text
 
-    findings = in_order(merge(f for report in reports for f in report.findings))
+    outcome = gather(reports)
+    threshold = Severity[fail_on.upper()]
     to_file = output_file not in (None, "-")
-    colors = console.colors(to_file=to_file)
-    if statistics:
-        lines = text.statistics(findings)
-    elif style == "json":
-        from ..report.findings_json import to_json
-
-        lines = iter([to_json(reports, findings).rstrip("\n")])
-    else:
-        lines = (text.full if style == "full" else text.concise)(findings, colors=colors)
+    text = as_text(
+        outcome,
+        style,
+        colors=console.colors(to_file=to_file),
+        fail_on=threshold,
+        statistics=statistics,
+    )
     inputs = [report.path for report in reports if report.path != "-"] if to_file else []
-    write_result("".join(f"{line}\n" for line in lines), output_file, inputs=inputs)
+    write_result(text, output_file, inputs=inputs)
     broken = _say_the_rest(console, reports)
-    checked = [report for report in reports if not report.skipped and report.error is None]
-    targets = {name for report in checked for name in report.targets}
-    hidden = sum(report.suppressed for report in reports)
+    checked = [report for report in reports if report.checked]
     if checked:
-        console.note(text.summary(findings, len(checked), targets, hidden))
+        targets = {name for report in checked for name in report.targets}
+        hidden = sum(report.suppressed for report in reports)
+        console.note(summary(outcome.findings, len(checked), targets, hidden))
     if broken:
         return broken
-    worst = max((f.severity for f in findings), default=None)
-    failed = worst is not None and worst >= Severity[fail_on.upper()]
+    worst = max((f.severity for f in outcome.findings), default=None)
+    failed = worst is not None and worst >= threshold
     return int(failed and not exit_zero)
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..finding import Finding
+from .outcome import Outcome, Report
 
 
 def merge(findings: Iterable[Finding]) -> list[Finding]:
@@ -30,3 +31,15 @@ def merge(findings: Iterable[Finding]) -> list[Finding]:
 def in_order(findings: Iterable[Finding]) -> list[Finding]:
     """Findings by file, place and rule."""
     return sorted(findings, key=lambda f: (f.place.file.path, f.place.start, f.rule))
+
+
+def gather(reports: Iterable[Report]) -> Outcome:
+    """All reports as one: a file that several descriptions include is spoken of once."""
+    reports = list(reports)
+    findings = in_order(merge(f for report in reports for f in report.findings))
+    ignored: dict[str, list[Finding]] = {}
+    for report in reports:
+        for finding, reason in report.ignored:
+            ignored.setdefault(reason, []).append(finding)
+    excused = [(f, reason) for reason, found in ignored.items() for f in in_order(merge(found))]
+    return Outcome(reports, findings, excused)

@@ -38,7 +38,7 @@ class Report:
         path: The description.
         findings: What is wrong with it.
         targets: The targets it was checked for.
-        suppressed: How many findings comments cover.
+        ignored: Findings that comments cover, each with the reason its comment gives.
         skipped: Why it was not checked; empty if it was.
         error: What kept it from being read.
         failed_rules: Rules that broke, which is a bug of ours, with what they raised.
@@ -47,7 +47,32 @@ class Report:
     path: str
     findings: list[Finding] = field(default_factory=list)
     targets: frozenset[str] = frozenset()
-    suppressed: int = 0
+    ignored: list[tuple[Finding, str]] = field(default_factory=list)
     skipped: str = ""
     error: UrdftoolError | None = None
     failed_rules: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def suppressed(self) -> int:
+        """How many findings comments cover."""
+        return len(self.ignored)
+
+    @property
+    def checked(self) -> bool:
+        """Whether it was read and looked at."""
+        return not self.skipped and self.error is None
+
+
+@dataclass
+class Outcome:
+    """What there is to say of all descriptions of a run.
+
+    Attributes:
+        reports: A report for each description.
+        findings: Their findings, merged, in the order of the source.
+        ignored: Findings that comments cover, each with the reason its comment gives.
+    """
+
+    reports: list[Report]
+    findings: list[Finding]
+    ignored: list[tuple[Finding, str]] = field(default_factory=list)

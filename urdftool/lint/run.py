@@ -179,7 +179,7 @@ def _check_description(
                 findings += [_finding(rule, problem, settings, targets) for problem in problems]
     suppressions, wrong = read_suppressions(documents)
     if suppressions or wrong:
-        findings, report.suppressed = suppress(findings, suppressions)
+        findings, report.ignored = suppress(findings, suppressions)
         selected = set(settings.names())
         tags = _tags(description)
         idle = {name for name in selected if not speaks_of(name, tags)}

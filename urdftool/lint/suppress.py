@@ -32,6 +32,7 @@ class Suppression:
         place: The comment.
         start: First byte that it covers.
         end: Byte after the last that it covers.
+        reason: What it says after the rules.
         used: Whether it has covered a finding.
     """
 
@@ -39,6 +40,7 @@ class Suppression:
     place: Place
     start: int
     end: int
+    reason: str = ""
     used: bool = False
 
     def covers(self, finding: Finding) -> bool:
@@ -76,7 +78,8 @@ def read_suppressions(documents: Iterable[Document]) -> tuple[list[Suppression],
             names = tuple(w.strip() for w in (match[2] or "").split(",") if w.strip())
             whole = bool(match[1])
             start, end = _covered(document, place) if not whole else (0, len(document.file.data))
-            found.append(Suppression(names, place, start, end))
+            reason = " ".join(comment.text[match.end() :].split())
+            found.append(Suppression(names, place, start, end, reason))
     return found, wrong
 
 
@@ -130,19 +133,19 @@ def _with_element(document: Document, start: int, end: int) -> tuple[int, int]:
 
 def suppress(
     findings: Iterable[Finding], suppressions: list[Suppression]
-) -> tuple[list[Finding], int]:
-    """The findings that no comment covers, and how many are covered."""
+) -> tuple[list[Finding], list[tuple[Finding, str]]]:
+    """The findings that no comment covers, and those that one does, with its reason."""
     kept: list[Finding] = []
-    hidden = 0
+    ignored: list[tuple[Finding, str]] = []
     for finding in findings:
         covering = [s for s in suppressions if s.covers(finding)]
         for suppression in covering:
             suppression.used = True
         if covering:
-            hidden += 1
+            ignored.append((finding, covering[0].reason))
         else:
             kept.append(finding)
-    return kept, hidden
+    return kept, ignored
 
 
 def unused(suppressions: Iterable[Suppression], ran: set[str]) -> Iterator[Finding]:

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator
 import click
 
 from ..finding import Finding, Severity
-from ..source.location import Call
+from .findings_words import call_lines, remarks, sentence
+from .findings_words import clean as clean
 
 _COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "blue"}
 _MOST_LINES = 6
@@ -46,19 +47,11 @@ def full(findings: Iterable[Finding], *, colors: bool = False) -> Iterator[str]:
 
 def _headline(finding: Finding, paint: Painter) -> str:
     color = _COLORS[finding.severity]
-    times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
     return (
-        f"{paint(str(finding.place), bold=True)}: "
+        f"{paint(clean(str(finding.place)), bold=True)}: "
         f"{paint(finding.severity.label, color, bold=True)}: "
-        f"{clean(finding.message)}{times} {paint(f'[{finding.rule}]', color)}"
+        f"{sentence(finding)} {paint(f'[{finding.rule}]', color)}"
     )
-
-
-def clean(text: str) -> str:
-    """Text from a file, fit for a terminal: control characters are written out."""
-    if text.isprintable():
-        return text
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def _source(finding: Finding, paint: Painter) -> Iterator[str]:
@@ -100,10 +93,9 @@ def _expand_tabs(text: str) -> str:
 
 
 def _remarks(finding: Finding, paint: Painter) -> Iterator[str]:
-    for target, effect in finding.effects.items():
-        yield f"{paint(target, bold=True)}: {effect}"
-    if finding.hint:
-        yield f"{paint('hint', bold=True)}: {clean(finding.hint)}"
+    for remark in remarks(finding):
+        label, _, text = remark.partition(": ")
+        yield f"{paint(label, bold=True)}: {text}"
     yield from (f"from {line}" for line in call_lines(finding.place.calls))
     chains = [(name, calls) for name, calls in finding.others if calls]
     for name, calls in chains[: _MOST_CALLS - 1]:
@@ -111,14 +103,6 @@ def _remarks(finding: Finding, paint: Painter) -> Iterator[str]:
         yield f"also {clean(name)}: from {through}" if name else f"also from {through}"
     if len(chains) > _MOST_CALLS - 1:
         yield f"and {len(chains) - _MOST_CALLS + 1} more"
-
-
-def call_lines(calls: Iterable[Call]) -> Iterator[str]:
-    """``FILE:LINE:COLUMN: macro 'name' argument=value`` for each call, innermost first."""
-    for call in calls:
-        what = clean(call.what)
-        what = what if len(what) < 90 else what[:87] + "…"
-        yield f"{call.file.path}:{call.line}:{call.column}: {what}"
 
 
 def statistics(findings: Iterable[Finding]) -> Iterator[str]:

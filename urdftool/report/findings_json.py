@@ -7,18 +7,18 @@ from collections.abc import Iterable
 from typing import Any
 
 from ..finding import Finding, Severity
-from ..lint.outcome import Report
+from ..lint.outcome import Outcome
 
 
-def to_json(reports: Iterable[Report], findings: list[Finding]) -> str:
-    """All reports as one object, with their findings merged."""
-    reports = list(reports)
+def to_json(outcome: Outcome) -> str:
+    """A run as one object."""
+    reports, findings = outcome.reports, outcome.findings
     counts = {severity: sum(f.severity is severity for f in findings) for severity in Severity}
     table = {
         "version": 1,
         "findings": [finding_record(finding) for finding in findings],
         "summary": {
-            "files": sum(not report.skipped and report.error is None for report in reports),
+            "files": sum(report.checked for report in reports),
             "errors": counts[Severity.ERROR],
             "warnings": counts[Severity.WARNING],
             "infos": counts[Severity.INFO],

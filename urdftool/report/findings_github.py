@@ -1,0 +1,34 @@
+"""Findings as workflow commands, which GitHub Actions shows beside the changed lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ..finding import Finding, Severity
+from .findings_words import call_lines, remarks, sentence
+
+_COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
+
+
+def github(findings: Iterable[Finding]) -> Iterator[str]:
+    """``::error file=…,line=…,title=RULE::message``, a line each."""
+    for finding in findings:
+        line, column = finding.place.file.position(finding.place.start)
+        end_line, end_column = finding.place.end_position
+        properties: dict[str, object] = {"file": finding.place.path, "line": line}
+        properties["endLine"] = end_line
+        if line == end_line:  # columns of a span over several lines are refused
+            properties |= {"col": column, "endColumn": end_column}
+        properties["title"] = finding.rule
+        said = ",".join(f"{key}={_property(str(value))}" for key, value in properties.items())
+        came = (f"from {call}" for call in call_lines(finding.place.calls))
+        text = "\n".join([sentence(finding), *remarks(finding), *came])
+        yield f"::{_COMMANDS[finding.severity]} {said}::{_data(text)}"
+
+
+def _data(text: str) -> str:
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    return _data(text).replace(":", "%3A").replace(",", "%2C")

@@ -1,0 +1,81 @@
+"""Findings as JUnit XML, which colcon and most servers read: a suite a file, a case a rule."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from ..finding import Finding, Severity
+from ..lint.outcome import Outcome, Report
+from .findings_words import call_lines, clean, remarks, sentence
+
+
+def to_junit(outcome: Outcome, fail_on: Severity) -> str:
+    """A run; findings below a severity are told in cases that pass.
+
+    Args:
+        outcome: The run.
+        fail_on: From which severity on a finding is a failure.
+    """
+    by_file: dict[str, dict[str, list[Finding]]] = {r.path: {} for r in outcome.reports}
+    for finding in outcome.findings:
+        by_rule = by_file.setdefault(finding.place.path, {})
+        by_rule.setdefault(finding.rule, []).append(finding)
+    reports = {report.path: report for report in outcome.reports}
+    root = Element("testsuites", name="urdftool lint")
+    for path, by_rule in by_file.items():
+        root.append(_suite(path, by_rule, reports.get(path), fail_on))
+    for count in ("tests", "failures", "errors"):
+        root.set(count, str(sum(int(suite.get(count, "0")) for suite in root)))
+    indent(root, " ")
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+
+
+def _suite(
+    path: str, by_rule: Mapping[str, list[Finding]], report: Report | None, fail_on: Severity
+) -> Element:
+    suite = Element("testsuite", name=clean(path))
+    for rule, findings in by_rule.items():
+        _told(_case(suite, path, rule), findings, fail_on)
+    if report is not None:
+        _unchecked(suite, report)
+    if not len(suite):
+        _case(suite, path, "lint")
+    suite.set("tests", str(len(suite)))
+    for count, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
+        suite.set(count, str(len(suite.findall(f"testcase/{tag}"))))
+    return suite
+
+
+def _case(suite: Element, path: str, name: str) -> Element:
+    return SubElement(suite, "testcase", classname=clean(path), name=name, time="0")
+
+
+def _told(case: Element, findings: Iterable[Finding], fail_on: Severity) -> None:
+    """The findings of one rule in a file: a failure, or output of a case that passes."""
+    findings = list(findings)
+    worst = max(finding.severity for finding in findings)
+    text = "\n".join(line for finding in findings for line in _lines(finding))
+    if worst < fail_on:
+        SubElement(case, "system-out").text = text
+        return
+    more = f" (and {len(findings) - 1} more)" if len(findings) > 1 else ""
+    failure = SubElement(case, "failure", type=worst.label, message=sentence(findings[0]) + more)
+    failure.text = text
+
+
+def _lines(finding: Finding) -> Iterable[str]:
+    yield f"{clean(str(finding.place))}: {finding.severity.label}: {sentence(finding)}"
+    yield from (f"  {remark}" for remark in remarks(finding))
+    yield from (f"  from {clean(line)}" for line in call_lines(finding.place.calls))
+
+
+def _unchecked(suite: Element, report: Report) -> None:
+    """A file that was skipped or could not be read, and rules that broke on it."""
+    if report.skipped:
+        SubElement(_case(suite, report.path, "lint"), "skipped", message=clean(report.skipped))
+    if report.error is not None:
+        case = _case(suite, report.path, "lint")
+        SubElement(case, "error", type="unreadable", message=clean(report.error.message))
+    for rule, why in report.failed_rules.items():
+        SubElement(_case(suite, report.path, rule), "error", type="broken rule", message=clean(why))

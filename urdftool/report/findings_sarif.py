@@ -1,0 +1,141 @@
+"""Findings as SARIF 2.1.0, which code scanning services and editors read."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections import Counter
+from collections.abc import Iterator
+from typing import Any
+from urllib.parse import quote
+
+from .. import __version__
+from ..finding import Finding, Severity
+from ..lint.fingerprint import fingerprint
+from ..lint.outcome import Outcome
+from ..rules import FAMILY_OF, get_rule
+from ..source.location import Call, Place
+from .findings_words import call_words, clean, remarks, sentence
+
+SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
+_LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
+
+
+def to_sarif(outcome: Outcome) -> str:
+    """A run, with the findings that comments excuse as suppressed results."""
+    excused = [(finding, _in_source(reason)) for finding, reason in outcome.ignored]
+    found: list[tuple[Finding, list[dict[str, Any]]]] = [
+        *((finding, []) for finding in outcome.findings),
+        *((finding, [suppression]) for finding, suppression in excused),
+    ]
+    names = sorted({finding.rule for finding, _ in found})
+    seen: Counter[tuple[str, str]] = Counter()
+    results = []
+    for finding, suppressions in found:
+        result = _result(finding, names.index(finding.rule), seen)
+        results.append(result | {"suppressions": suppressions} if excused else result)
+    driver = {
+        "name": "urdftool",
+        "semanticVersion": __version__,
+        "rules": [_rule(name) for name in names],
+    }
+    run = {
+        "tool": {"driver": driver},
+        "columnKind": "unicodeCodePoints",
+        "invocations": [_invocation(outcome)],
+        "results": results,
+    }
+    log = {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
+    return json.dumps(log, indent=1, ensure_ascii=False) + "\n"
+
+
+def _rule(name: str) -> dict[str, Any]:
+    """A rule with its page as help."""
+    record: dict[str, Any] = {"id": name}
+    if name not in FAMILY_OF:
+        return record
+    from .rule_pages import page
+
+    rule = get_rule(name)
+    return record | {
+        "shortDescription": {"text": rule.fact},
+        "help": {"text": page(name)},
+        "defaultConfiguration": {"level": _LEVELS[rule.severity], "enabled": rule.default},
+        "properties": {"tags": [rule.family]},
+    }
+
+
+def _result(finding: Finding, index: int, seen: Counter[tuple[str, str]]) -> dict[str, Any]:
+    known_by = fingerprint(finding)
+    seen[finding.place.path, known_by] += 1
+    location: dict[str, Any] = {"physicalLocation": _place(finding.place)}
+    if finding.name:
+        location["logicalLocations"] = [{"name": finding.name, "kind": finding.kind}]
+    text = "\n".join([sentence(finding), *remarks(finding)])
+    record = {
+        "ruleId": finding.rule,
+        "ruleIndex": index,
+        "level": _LEVELS[finding.severity],
+        "message": {"text": text},
+        "locations": [location],
+        "partialFingerprints": {
+            "primaryLocationLineHash": f"{known_by}:{seen[finding.place.path, known_by]}"
+        },
+    }
+    related = [
+        {**location, "id": number} for number, location in enumerate(_related(finding), start=1)
+    ]
+    return record | {"relatedLocations": related} if related else record
+
+
+def _related(finding: Finding) -> Iterator[dict[str, Any]]:
+    """The macro calls and includes it came through, then those of its other instances."""
+    for call in finding.place.calls:
+        yield _call(call, f"from {call_words(call)}")
+    for name, calls in finding.others:
+        for call in calls[:1]:
+            yield _call(call, f"also {clean(name)}, from {call_words(call)}")
+
+
+def _call(call: Call, text: str) -> dict[str, Any]:
+    place = Place(call.file, call.start, call.file.tag_end(call.start))
+    return {"physicalLocation": _place(place), "message": {"text": text}}
+
+
+def _place(place: Place) -> dict[str, Any]:
+    where: dict[str, Any] = {"artifactLocation": {"uri": uri(place.path)}}
+    if place.file.data:
+        line, column = place.file.position(place.start)
+        end_line, end_column = place.end_position
+        where["region"] = {
+            "startLine": line,
+            "startColumn": column,
+            "endLine": end_line,
+            "endColumn": end_column,
+        }
+    return where
+
+
+def uri(path: str) -> str:
+    """A path as a URI: relative as it is, absolute with ``file://``."""
+    quoted = quote(os.fsencode(path.replace(os.sep, "/")))
+    return f"file://{quoted}" if os.path.isabs(path) else quoted
+
+
+def _in_source(reason: str) -> dict[str, Any]:
+    record = {"kind": "inSource"}
+    return record | {"justification": clean(reason)} if reason else record
+
+
+def _invocation(outcome: Outcome) -> dict[str, Any]:
+    """Whether all files were read and no rule broke, and what kept them."""
+    notes = []
+    for report in outcome.reports:
+        where = {"physicalLocation": {"artifactLocation": {"uri": uri(report.path)}}}
+        said = [clean(report.error.message)] if report.error is not None else []
+        said += [f"rule {r}: {clean(why)}" for r, why in report.failed_rules.items()]
+        notes += [
+            {"level": "error", "message": {"text": text}, "locations": [where]} for text in said
+        ]
+    record: dict[str, Any] = {"executionSuccessful": not notes}
+    return record | {"toolExecutionNotifications": notes} if notes else record

@@ -1,0 +1,43 @@
+"""The words every report of findings shares."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ..finding import Finding
+from ..source.location import Call
+
+_LONGEST_CALL = 90
+
+
+def clean(text: str) -> str:
+    """Text from a file, fit for a terminal: control characters are written out."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def sentence(finding: Finding) -> str:
+    """The message, with how many instances there are."""
+    times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
+    return f"{clean(finding.message)}{times}"
+
+
+def remarks(finding: Finding) -> Iterator[str]:
+    """What each reader does with it, and what would mend it, a line each."""
+    for reader, effect in finding.effects.items():
+        yield f"{reader}: {effect}"
+    if finding.hint:
+        yield f"hint: {clean(finding.hint)}"
+
+
+def call_words(call: Call) -> str:
+    """``macro 'name' argument=value``, or ``include``."""
+    what = clean(call.what)
+    return what if len(what) < _LONGEST_CALL else what[: _LONGEST_CALL - 3] + "…"
+
+
+def call_lines(calls: Iterable[Call]) -> Iterator[str]:
+    """``FILE:LINE:COLUMN: macro 'name' argument=value`` for each call, innermost first."""
+    for call in calls:
+        yield f"{clean(call.file.path)}:{call.line}:{call.column}: {call_words(call)}"
