@@ -46,7 +46,7 @@ def _changes(
         what = "added" if one is None else "removed"
         yield Change(tag, name, what, place=(two or one or [])[0].place)
         return
-    before, after = _flat(one), _flat(two)
+    before, after = _flat(one, renamed), _flat(two, {})
     for path in dict.fromkeys((*before, *after)):
         x, y = before.get(path), after.get(path)
         old, new = (None if side is None else side[0] for side in (x, y))
@@ -68,21 +68,21 @@ def _same(a: str | None, b: str | None, tolerance: float, renamed: Mapping[str, 
     )
 
 
-def _flat(elements: list[Element]) -> Flat:
+def _flat(elements: list[Element], renamed: Mapping[str, str]) -> Flat:
     """Every attribute and text below some elements, by a path; order among them counts not."""
     found: Flat = {}
     for element in elements:
         for child in element.children or [element]:
-            _flatten(child, "", found)
+            _flatten(child, "", found, renamed)
         for name, value in element.attributes.items():
             if name not in ("name", "reference"):
                 found.setdefault(f"@{name}", (value, element))
     return found
 
 
-def _flatten(element: Element, above: str, found: Flat) -> None:
+def _flatten(element: Element, above: str, found: Flat, renamed: Mapping[str, str]) -> None:
     named = next((element.get(name) for name in _NAMING if element.get(name)), None)
-    step = element.tag + (f"[{named}]" if named else "")
+    step = element.tag + (f"[{renamed.get(named, named)}]" if named else "")
     path, count = above + step, 1
     while path in found:
         count += 1
@@ -92,4 +92,4 @@ def _flatten(element: Element, above: str, found: Flat) -> None:
         if value != named:
             found[f"{path}/@{name}"] = " ".join(value.split()), element
     for child in element.children:
-        _flatten(child, f"{path}/", found)
+        _flatten(child, f"{path}/", found, renamed)

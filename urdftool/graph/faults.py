@@ -80,13 +80,13 @@ def _loops(robot: Robot) -> Iterator[Fault]:
 
 
 def _loop_through(robot: Robot, name: str) -> list[str]:
-    """The links of the loop that a link is in, from it upwards by first parents; or none."""
+    """The links of the loop that a link is in, from it downwards; by first parents; or none."""
     chain = [name]
     seen = {name}
     joint = robot.tree.parent_joint(name)
     while joint is not None and joint.parent in robot.link:
         if joint.parent == name:
-            return chain[::-1]
+            return [name, *chain[:0:-1]]
         if joint.parent in seen:
             return []
         seen.add(joint.parent)
