@@ -58,6 +58,38 @@ def test_obj_has_objects_colours_polygons_and_relative_indices():
     assert solid_facts(mesh.vertices, mesh.faces).volume == pytest.approx(2.0)
 
 
+@pytest.mark.parametrize("name", ["textured.obj", "textured.dae", "textured.glb"])
+@pytest.mark.parametrize("mirror", [1, -1])
+def test_texture_coordinates_lie_on_their_corners(name, mirror):
+    mesh = load_mesh(FIXTURES / name, (mirror, 1, 1))
+    front, sides = mesh.parts
+    corners = mesh.vertices[mesh.part_faces(front)]
+    np.testing.assert_allclose(front.uv[..., 0], corners[..., 0] * mirror, atol=1e-9)
+    np.testing.assert_allclose(front.uv[..., 1], corners[..., 2], atol=1e-9)
+    assert sides.uv is None
+    assert sides.texture is None
+    if name.endswith("glb"):
+        assert front.image == (FIXTURES / "quadrants.png").read_bytes()
+    else:
+        assert front.texture == FIXTURES / "quadrants.png"
+
+
+def test_obj_with_a_corner_without_texture_has_none(tmp_path):
+    file = tmp_path / "a.obj"
+    file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nf 1/1 2/2 3\nf 1/1 2/2 3/9\n")
+    assert load_mesh(file).parts[0].uv is None
+    file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1\nf 1/1/1 2/2/1 3/-1/1\n")
+    assert load_mesh(file).parts[0].uv.tolist() == [[[0, 0], [1, 0], [1, 0]]]
+
+
+def test_collada_with_a_broken_material_keeps_its_triangles():
+    mesh = load_mesh(FIXTURES / "broken_material.dae")
+    assert [part.count for part in mesh.parts] == [2, 4]
+    assert mesh.parts[0].rgba is None
+    assert mesh.parts[1].rgba == (0.5, 0.0, 0.5, 1.0)
+    assert "broken" in mesh.notes[0]
+
+
 def test_collada_unit_is_applied_and_up_axis_only_when_asked():
     mesh = load_mesh(FIXTURES / "inch_y_up.dae")
     size = np.ptp(bounds(mesh), axis=0).reshape(-1)

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote, urlsplit
@@ -44,14 +45,14 @@ def read(path: Path, *, upright: bool = False) -> Reading:
         path: The file.
         upright: Turn a file whose ``<up_axis>`` is not Z_UP so that its up axis becomes Z.
     """
-    document = _parse(path)
+    notes: list[str] = []
+    document = _parse(path, notes)
     unit = 1.0 if document.assetInfo.unitmeter is None else float(document.assetInfo.unitmeter)
     if not (math.isfinite(unit) and unit > 0):
         raise MeshError(
             f"the COLLADA file declares a unit of {unit:g} m; a length above zero is needed",
             path=path,
         )
-    notes = []
     if not math.isclose(unit, 1.0):
         notes.append(f"The COLLADA file is in units of {unit:g} m, which is applied.")
     up = str(document.assetInfo.upaxis or "Y_UP")
@@ -71,7 +72,7 @@ def read(path: Path, *, upright: bool = False) -> Reading:
     return Reading(pieces, list(dict.fromkeys(notes)))
 
 
-def _parse(path: Path) -> Any:
+def _parse(path: Path, notes: list[str]) -> Any:
     import collada
 
     head = path.read_bytes()
@@ -82,13 +83,34 @@ def _parse(path: Path) -> Any:
         )
     try:
         with open(path, "rb") as file:
-            return collada.Collada(file, ignore=[collada.common.DaeError])
+            document = collada.Collada(file, ignore=[collada.common.DaeError])
+        if document.errors and _drop_broken_materials(document):
+            notes.append("A material of the COLLADA file is broken; its colour is lost.")
+            mended = BytesIO()
+            document.xmlnode.write(mended)
+            mended.seek(0)
+            document = collada.Collada(mended, ignore=[collada.common.DaeError])
+        return document
     # the parser meets malformed files with whatever its arithmetic raises
     except Exception as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         raise MeshError(
             f"the COLLADA file cannot be read ({reason}); export or fetch it again", path=path
         ) from error
+
+
+def _drop_broken_materials(document: Any) -> bool:
+    """Unbind materials that could not be read, with which their geometries were left out."""
+    known = {f"#{material.id}" for material in document.materials}
+    broken = [
+        (parent, child)
+        for parent in document.xmlnode.getroot().iter()
+        for child in parent
+        if str(child.tag).endswith("}instance_material") and child.get("target") not in known
+    ]
+    for parent, child in broken:
+        parent.remove(child)
+    return bool(broken)
 
 
 def _asset_children(document: Any) -> set[str]:
@@ -130,7 +152,7 @@ def _node_pieces(
 
 
 def _geometry_pieces(geometry: Any, bound: Any, matrix: Points, path: Path) -> Iterator[Piece]:
-    effects = {material.symbol: material.target.effect for material in bound}
+    materials = {material.symbol: material for material in bound}
     for written in geometry.primitives:
         # polygons are cut into fans
         primitive = written.triangleset() if hasattr(written, "triangleset") else written
@@ -148,11 +170,37 @@ def _geometry_pieces(geometry: Any, bound: Any, matrix: Points, path: Path) -> I
             )
         points = np.asarray(primitive.vertex, dtype=np.float64)[:, :3]
         points = points @ matrix[:3, :3].T + matrix[:3, 3]
+        material = materials.get(primitive.material)
+        effect = material.target.effect if material is not None else None
+        rgba, texture = _diffuse(effect, path)
+        uv = _uv(primitive, material)
         if np.linalg.det(matrix[:3, :3]) < 0:
             faces = faces[:, ::-1]
-        rgba, texture = _diffuse(effects.get(primitive.material), path)
+            uv = None if uv is None else uv[:, ::-1]
         name = geometry.name or geometry.id or ""
-        yield Piece(points, np.ascontiguousarray(faces), name, rgba, texture)
+        yield Piece(points, np.ascontiguousarray(faces), name, rgba, texture, uv=uv)
+
+
+def _uv(primitive: Any, material: Any) -> Points | None:
+    """The texture coordinates of each corner: those its image is bound to, else the first."""
+    sets = getattr(primitive, "texcoordset", None)
+    if not sets:
+        return None
+    chosen = 0
+    channel = getattr(getattr(getattr(material, "target", None), "effect", None), "diffuse", None)
+    wanted = [
+        number
+        for semantic, _, number in getattr(material, "inputs", ())
+        if semantic == getattr(channel, "texcoord", None)
+    ]
+    written = [str(source[3] or 0) for source in primitive.sources["TEXCOORD"]]
+    if wanted and str(wanted[0] or 0) in written:
+        chosen = written.index(str(wanted[0] or 0))
+    points = np.asarray(sets[chosen], dtype=np.float64)
+    rows = primitive.texcoord_indexset[chosen]
+    if not rows.size or rows.min() < 0 or rows.max() >= len(points):
+        return None
+    return np.asarray(points[rows][:, :, :2])
 
 
 def _diffuse(

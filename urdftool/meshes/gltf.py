@@ -11,6 +11,8 @@ from __future__ import annotations
 
 import json
 import struct
+from base64 import b64decode
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -33,8 +35,13 @@ def read(path: Path, *, upright: bool = True) -> Reading:
     import trimesh
 
     try:
-        scene = trimesh.load_scene(path, file_type=path.suffix.lower()[1:], process=False)
-        textures = _textures(path)
+        looks, stream = _looks(path)
+        scene = trimesh.load_scene(
+            stream,
+            file_type=path.suffix.lower()[1:],
+            process=False,
+            resolver=trimesh.resolvers.FilePathResolver(str(path)),
+        )
     # the parser meets malformed files with whatever its arithmetic raises
     except Exception as error:
         reason = " ".join(str(error).split()) or type(error).__name__
@@ -56,8 +63,12 @@ def read(path: Path, *, upright: bool = True) -> Reading:
         if np.linalg.det(linear) < 0:
             faces = faces[:, ::-1].copy()
         material = getattr(geometry.visual, "material", None)
-        texture = textures.get(str(getattr(material, "name", "")))
-        pieces.append(Piece(vertices, faces, str(name), _rgba(material), texture))
+        texture, image = looks.get(str(getattr(material, "name", "")), (None, None))
+        points = getattr(geometry.visual, "uv", None)
+        uv = None
+        if points is not None and len(points) == len(vertices):
+            uv = np.asarray(points, dtype=np.float64)[faces]
+        pieces.append(Piece(vertices, faces, str(name), _rgba(material), texture, image, uv))
     how = "turned to Z: RViz does, Gazebo does not" if upright else "not turned, as in Gazebo"
     return Reading(pieces, [f"The up axis of a glTF file is Y, {how}."])
 
@@ -72,20 +83,47 @@ def _rgba(material: Any) -> tuple[float, float, float, float] | None:
     return red, green, blue, alpha
 
 
-def _textures(path: Path) -> dict[str, Path]:
-    """Base colour images that are files of their own, by the name of their material."""
+Image = tuple[Path | None, bytes | None]
+"""A file, or the image itself."""
+
+
+def _looks(path: Path) -> tuple[dict[str, Image], BytesIO]:
+    """The images of base colours by material, and the file with its materials named by number."""
     data = path.read_bytes()
-    if data[:4] == b"glTF":
+    binary = data[:4] == b"glTF"
+    rest = b""
+    if binary:
         (length,) = struct.unpack_from("<I", data, 12)
-        data = data[20 : 20 + length]
-    tree = json.loads(data)
-    found = {}
-    for material in tree.get("materials", ()):
+        rest = data[20 + length :]
+    tree = json.loads(data[20 : 20 + length] if binary else data)
+    looks: dict[str, Image] = {}
+    for number, material in enumerate(tree.get("materials", ())):
+        material["name"] = str(number)
         base = material.get("pbrMetallicRoughness", {}).get("baseColorTexture")
-        if base is None:
-            continue
-        source = tree["textures"][base["index"]].get("source")
-        uri = tree["images"][source].get("uri", "") if source is not None else ""
-        if uri and not uri.startswith("data:"):
-            found[str(material.get("name", ""))] = path.parent / unquote(uri)
-    return found
+        source = tree["textures"][base["index"]].get("source") if base is not None else None
+        if source is not None:
+            looks[str(number)] = _image(tree, tree["images"][source], path, rest)
+    text = json.dumps(tree).encode()
+    if not binary:
+        return looks, BytesIO(text)
+    text += b" " * (-len(text) % 4)
+    head = struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A)
+    return looks, BytesIO(head + text + rest)
+
+
+def _image(tree: dict[str, Any], image: dict[str, Any], path: Path, rest: bytes) -> Image:
+    uri = str(image.get("uri", ""))
+    if uri.startswith("data:"):
+        return None, b64decode(uri.partition(",")[2])
+    if uri:
+        return path.parent / unquote(uri), None
+    view = tree["bufferViews"][image["bufferView"]]
+    start = view.get("byteOffset", 0)
+    buffer = tree["buffers"][view["buffer"]].get("uri")
+    if buffer is None:  # the binary chunk, after its own head
+        content = rest[8:]
+    elif buffer.startswith("data:"):
+        content = b64decode(buffer.partition(",")[2])
+    else:
+        content = (path.parent / unquote(buffer)).read_bytes()
+    return None, content[start : start + view["byteLength"]]

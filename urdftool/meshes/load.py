@@ -120,11 +120,13 @@ def _assemble(file: Path, suffix: str, reading: Reading, factors: tuple[float, .
             path=file,
         )
     vertices = vertices * np.array(factors)
-    if math.prod(factors) < 0:
+    mirrored = math.prod(factors) < 0
+    if mirrored:
         faces = np.ascontiguousarray(faces[:, ::-1])
     parts, first = [], 0
     for piece in pieces:
         count = len(piece.faces)
-        parts.append(Part(piece.name, first, count, piece.rgba, piece.texture))
+        uv = piece.uv[:, ::-1] if mirrored and piece.uv is not None else piece.uv
+        parts.append(Part(piece.name, first, count, piece.rgba, piece.texture, piece.image, uv))
         first += count
     return Mesh(vertices, faces, tuple(parts), suffix, file, tuple(reading.notes))

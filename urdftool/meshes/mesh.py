@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +26,11 @@ class Part:
     """Diffuse colour, each in 0 … 1; None where the file gives none."""
     texture: Path | None = None
     """Image of the diffuse colour beside the mesh; None where there is none or it is embedded."""
+    image: bytes | None = field(default=None, repr=False)
+    """The image itself where it is embedded in the mesh file."""
+    uv: Points | None = field(default=None, repr=False, compare=False)
+    """Where each corner lies in the image, shape (count, 3, 2): from its lower left corner, which
+    is 0 0, to its upper right one, which is 1 1. None where the file does not say."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +64,8 @@ class Piece:
     name: str = ""
     rgba: tuple[float, float, float, float] | None = None
     texture: Path | None = None
+    image: bytes | None = None
+    uv: Points | None = None
 
 
 @dataclass(frozen=True)

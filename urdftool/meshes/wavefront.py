@@ -1,9 +1,9 @@
-"""Wavefront OBJ with its MTL: objects, groups, polygons and diffuse colours, in no unit."""
+"""Wavefront OBJ with its MTL: objects, groups, polygons, colours and images, in no unit."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +12,17 @@ from ..errors import MeshError
 from .mesh import Piece, Points, Reading
 
 Rgba = tuple[float, float, float, float]
+
+
+@dataclass
+class Run:
+    """Triangles of one object and material: rows of their corners, from zero."""
+
+    name: str
+    material: str
+    corners: list[int] = field(default_factory=list)
+    texels: list[int] = field(default_factory=list)
+    """Rows of texture coordinates, -1 for none; as long as ``corners``, or empty."""
 
 
 @dataclass
@@ -35,7 +46,8 @@ def read(path: Path) -> Reading:
     triangles add up to it even where it is not convex. Lines, points and curves are left out.
     """
     points: list[str] = []
-    runs: list[tuple[str, str, list[tuple[int, ...]]]] = []
+    texels: list[str] = []
+    runs: list[Run] = []
     libraries: list[str] = []
     name = material = ""
     fresh = True
@@ -43,11 +55,15 @@ def read(path: Path) -> Reading:
         keyword, _, rest = line.partition(" ")
         if keyword == "v":
             points.append(rest)
+        elif keyword == "vt":
+            texels.append(rest)
         elif keyword == "f":
             if fresh:
-                runs.append((name, material, []))
+                runs.append(Run(name, material))
                 fresh = False
-            runs[-1][2].extend(_fan(rest, len(points), path, number))
+            _fan(rest, len(points), runs[-1].corners, path, number)
+            if texels:
+                _texture_fan(rest, len(texels), runs[-1])
         elif keyword in ("o", "g"):
             name, fresh = rest.strip(), True
         elif keyword == "usemtl":
@@ -57,10 +73,11 @@ def read(path: Path) -> Reading:
     notes: list[str] = []
     materials = _materials(path, libraries, notes)
     vertices = _vertices(points, path)
+    texture_points = _texture_points(texels)
     pieces = []
-    for object_name, material_name, triangles in runs:
-        used = materials.get(material_name, Material())
-        faces = np.array(triangles, dtype=np.int64).reshape(-1, 3)
+    for run in runs:
+        used = materials.get(run.material, Material())
+        faces = np.array(run.corners, dtype=np.int64).reshape(-1, 3)
         if faces.max(initial=-1) >= len(vertices):
             raise MeshError(
                 f"a face of the OBJ file names vertex {faces.max() + 1} of {len(vertices)}",
@@ -71,9 +88,10 @@ def read(path: Path) -> Reading:
             Piece(
                 vertices[kept],
                 inverse.reshape(-1, 3).astype(np.int64),
-                object_name or material_name,
+                run.name or run.material,
                 used.rgba,
                 used.texture,
+                uv=_uv(texture_points, run),
             )
         )
     return Reading(pieces, notes)
@@ -95,9 +113,9 @@ def _logical_lines(path: Path) -> Iterator[tuple[int, str]]:
             yield number, full
 
 
-def _fan(rest: str, points: int, path: Path, number: int) -> Iterator[tuple[int, int, int]]:
-    """Triangles of one ``f`` statement, with indices from zero."""
-    corners = []
+def _fan(rest: str, points: int, corners: list[int], path: Path, number: int) -> None:
+    """Add the triangles of one ``f`` statement."""
+    polygon = []
     for word in rest.split():
         try:
             index = int(word.partition("/")[0])
@@ -113,9 +131,41 @@ def _fan(rest: str, points: int, path: Path, number: int) -> Iterator[tuple[int,
                 "counted from 1",
                 path=path,
             )
-        corners.append(index)
-    for second in range(1, len(corners) - 1):
-        yield corners[0], corners[second], corners[second + 1]
+        polygon.append(index)
+    for second in range(1, len(polygon) - 1):
+        corners += (polygon[0], polygon[second], polygon[second + 1])
+
+
+def _texture_fan(rest: str, texels: int, run: Run) -> None:
+    """Add the texture coordinates of the triangles of one ``f`` statement."""
+    polygon = []
+    for word in rest.split():
+        try:
+            index = int(word.split("/", 2)[1])
+        except (IndexError, ValueError):
+            index = 0
+        polygon.append(index - 1 if index > 0 else texels + index if index < 0 else -1)
+    for second in range(1, len(polygon) - 1):
+        run.texels += (polygon[0], polygon[second], polygon[second + 1])
+
+
+def _texture_points(texels: list[str]) -> Points | None:
+    """The ``vt`` statements, shape (n, 2); None where there are none, or one is no number."""
+    try:
+        rows = [[*texel.split(), "0"][:2] for texel in texels]
+        return np.array(rows, dtype=np.float64) if rows else None
+    except ValueError:
+        return None
+
+
+def _uv(texture_points: Points | None, run: Run) -> Points | None:
+    """The texture coordinates of a run's corners; None unless each of them has one."""
+    rows = np.array(run.texels, dtype=np.int64).reshape(-1, 3)
+    if texture_points is None or not rows.size or 3 * len(rows) != len(run.corners):
+        return None
+    if rows.min() < 0 or rows.max() >= len(texture_points):
+        return None
+    return np.asarray(texture_points[rows])
 
 
 def _vertices(points: list[str], path: Path) -> Points:

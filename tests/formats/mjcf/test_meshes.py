@@ -109,6 +109,71 @@ def test_parts_by_material(write, mesh):
     assert len(assets(written)) == len(colors)
 
 
+@pytest.fixture
+def painted(write, mesh):
+    """The export of a mesh with an image beside it, or in it."""
+
+    def made(name, *, image=True):
+        if image:
+            mesh("quadrants.png")
+        mesh("textured.mtl")
+        return export(write("r.urdf", robot(link("a", shape("visual", mesh(name))))))
+
+    return made
+
+
+@pytest.mark.parametrize("name", ["textured.obj", "textured.dae", "textured.glb"])
+def test_the_image_of_a_converted_mesh_is_kept(painted, tmp_path, name):
+    written = painted(name)
+    model = tree(written)
+    (texture,) = model.iter("texture")
+    content = written.files[f"assets/{texture.get('file')}"]
+    data = content if isinstance(content, bytes) else content.read_bytes()
+    assert data == (MESHES / "quadrants.png").read_bytes()
+    front, sides = (geom for geom in model.iter("geom") if geom.get("mesh"))
+    material = next(m for m in model.iter("material") if m.get("texture"))
+    assert front.get("material") == material.get("name")
+    assert sides.get("rgba").startswith("0.5")
+    (tmp_path / "made.obj").write_bytes(written.files["assets/textured_0.obj"])
+    made = load_mesh(tmp_path / "made.obj")
+    corners = made.vertices[made.faces]
+    assert made.parts[0].uv == pytest.approx(corners[..., [0, 2]])
+    assert b"vt" not in written.files["assets/textured_1.obj"]
+
+
+@pytest.mark.parametrize("name", ["textured.obj", "textured.glb"])
+def test_an_image_from_the_cache_is_the_same(painted, name):
+    assert painted(name).files == painted(name).files
+
+
+def test_an_image_that_is_not_there_is_said(painted):
+    written = painted("textured.dae", image=False)
+    assert rules(written) == ["lossy-texture"]
+    assert "quadrants.png" in written.losses[0].message
+
+
+def test_another_picture_becomes_a_png(write, mesh, tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    image.open(MESHES / "quadrants.png").save(tmp_path / "quadrants.bmp")
+    text = (MESHES / "textured.dae").read_text().replace("quadrants.png", "quadrants.bmp")
+    write("textured.dae", text)
+    written = export(write("r.urdf", robot(link("a", shape("visual", "textured.dae")))))
+    assert written.files["assets/quadrants.png"].startswith(b"\x89PNG")
+
+
+def test_an_image_without_texture_coordinates_is_said(write, mesh, tmp_path):
+    mesh("quadrants.png")
+    mesh("textured.mtl")
+    text = "".join(
+        line.replace("/1", "").replace("/2", "").replace("/3", "").replace("/-1", "")
+        for line in (MESHES / "textured.obj").read_text().splitlines(keepends=True)
+    )
+    write("textured.obj", text)
+    written = export(write("r.urdf", robot(link("a", shape("visual", "textured.obj")))))
+    assert any("no texture coordinates" in loss.message for loss in written.losses)
+    assert not list(tree(written).iter("texture"))
+
+
 def test_flat_collision_is_thickened_and_said(write, mesh, tmp_path):
     written = export(write("r.urdf", robot(link("a", shape("collision", mesh("flat.stl"))))))
     (tmp_path / "made.obj").write_bytes(written.files["assets/flat.obj"])

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from .convert import Converted, Piece, conversion
 
-_VERSION = 3
+_VERSION = 4
 _BIG = 400_000
 
 
@@ -75,7 +75,13 @@ def _read(key: str, path: Path) -> Converted | None:
                 if data is not None and len(data) != facts["bytes"]:
                     return None
                 rgba = None if facts["rgba"] is None else tuple(facts["rgba"])
-                texture = None if facts["texture"] is None else path.parent / facts["texture"]
+                texture: Path | bytes | None = None
+                if facts["texture"] is not None:
+                    texture = path.parent / facts["texture"]
+                if facts["image"] is not None:
+                    texture = stream.read(facts["image"])
+                    if len(texture) != facts["image"]:
+                        return None
                 pieces.append(Piece(data, rgba, texture, facts["shell"]))
             return Converted(pieces, head["hull"], head["notes"])
     except (OSError, ValueError, KeyError, TypeError):
@@ -90,9 +96,10 @@ def _write(key: str, made: Converted, path: Path) -> None:
             {
                 "bytes": None if piece.data is None else len(piece.data),
                 "rgba": piece.rgba,
-                "texture": None
-                if piece.texture is None
-                else os.path.relpath(piece.texture, path.parent),
+                "texture": os.path.relpath(piece.texture, path.parent)
+                if isinstance(piece.texture, Path)
+                else None,
+                "image": len(piece.texture) if isinstance(piece.texture, bytes) else None,
                 "shell": piece.shell,
             }
             for piece in made.pieces
@@ -104,7 +111,9 @@ def _write(key: str, made: Converted, path: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         with open(neighbour, "wb") as stream:
             stream.write(json.dumps(head).encode() + b"\n")
-            stream.writelines(piece.data for piece in made.pieces if piece.data is not None)
+            for piece in made.pieces:
+                stream.write(piece.data or b"")
+                stream.write(piece.texture if isinstance(piece.texture, bytes) else b"")
         os.replace(neighbour, folder / key)
     except OSError:
         neighbour.unlink(missing_ok=True)

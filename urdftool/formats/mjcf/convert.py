@@ -27,6 +27,7 @@ THICKENED = 1e-3
 """What a flat mesh that collides is thickened to, relative to its size."""
 
 Rgba = tuple[float, float, float, float]
+Image = Path | bytes
 
 
 @dataclass
@@ -36,13 +37,13 @@ class Piece:
     Attributes:
         data: The file; None for the original.
         rgba: Its colour, where the file gives one.
-        texture: Its image, where the file gives one.
+        texture: Its image, where the file gives one: a file, or the image itself.
         shell: Whether it has too little volume to be anything but a shell.
     """
 
     data: bytes | None
     rgba: Rgba | None = None
-    texture: Path | None = None
+    texture: Image | None = None
     shell: bool = False
 
 
@@ -74,18 +75,21 @@ def convert(path: Path, *, collides: bool) -> Converted:
         return _collision(mesh, copied, notes)
     groups = _by_material(mesh)
     pieces = []
-    for part, faces in groups:
+    for part, faces, uv in groups:
         vertices = mesh.vertices
         shell = _is_shell(vertices, faces)
         data = None
+        image = part_image(part)
+        if image is None and not (part.texture is None and part.image is None):
+            notes.append("An image has no texture coordinates in the file, so it is lost.")
         if _points(vertices[faces]) < 4:
             notes.append("A part has fewer than four points, MuJoCo's least; it is thickened.")
-            data = _thick_obj(vertices[faces])
+            data, image = _thick_obj(vertices[faces]), None
         elif not (copied and len(groups) == 1):
-            data = obj_bytes(vertices, faces)
-        if data is not None and part.texture is not None:
-            notes.append("Texture coordinates are not converted; the texture is lost.")
-        pieces.append(Piece(data, part.rgba, part.texture if data is None else None, shell))
+            # without a look of its own it may get an image from the material of the visual
+            seen = image is not None or part.rgba is None
+            data = obj_bytes(vertices, faces, uv if seen else None)
+        pieces.append(Piece(data, part.rgba, image, shell))
     return Converted(pieces, None, list(dict.fromkeys(notes)))
 
 
@@ -116,15 +120,25 @@ def _is_readable(mesh: Mesh) -> bool:
     return False
 
 
-def _by_material(mesh: Mesh) -> list[tuple[Part, Faces]]:
-    """The faces by how they look, in the order of the file."""
-    looks: dict[tuple[Rgba | None, Path | None], list[Part]] = {}
+def part_image(part: Part) -> Image | None:
+    """The image of a part, if it can be shown: where it is known how it lies on the faces."""
+    if part.uv is None or not np.isfinite(part.uv).all():
+        return None
+    return part.image if part.texture is None else part.texture
+
+
+def _by_material(mesh: Mesh) -> list[tuple[Part, Faces, Points | None]]:
+    """The faces by how they look, with their texture coordinates, in the order of the file."""
+    looks: dict[tuple[Rgba | None, Path | bytes | None], list[Part]] = {}
     for part in mesh.parts:
-        looks.setdefault((part.rgba, part.texture), []).append(part)
-    return [
-        (parts[0], np.concatenate([mesh.part_faces(part) for part in parts]))
-        for parts in looks.values()
-    ]
+        looks.setdefault((part.rgba, part_image(part)), []).append(part)
+    groups = []
+    for parts in looks.values():
+        faces = np.concatenate([mesh.part_faces(part) for part in parts])
+        known = [part.uv for part in parts if part.uv is not None and np.isfinite(part.uv).all()]
+        uv = np.concatenate(known) if len(known) == len(parts) else None
+        groups.append((parts[0], faces, uv))
+    return groups
 
 
 def _points(corners: Points) -> int:

@@ -57,7 +57,11 @@ ROBOT: tuple[Row, ...] = (
     ("`mesh@scale`", EXACT, "`mesh@scale`, mirrored ones too"),
     ("`material/color`", EXACT, "`material`, or `rgba` where it has no name"),
     ("`material/texture`", EXACT, "`texture`, PNG copied, others converted"),
-    ("colours in a mesh file", EXACT, "come before the URDF's material, as RViz has it"),
+    (
+        "colours and images of a mesh file",
+        EXACT,
+        "come before the URDF's material, as RViz has it; other images than PNG are converted",
+    ),
 )
 
 JOINT: tuple[Row, ...] = (

@@ -10,11 +10,11 @@ from ...errors import SourceError
 from ...model.elements import Material, Robot, Visual
 from ..numbers import numbers_text
 from ..written import Written
-from .convert import Rgba
+from .convert import Image, Rgba
 from .gazebo_colors import gazebo_color
 from .meshes import MeshPiece
 from .names import Names, file_name
-from .texture import is_png, png_bytes
+from .texture import png
 
 
 class Materials:
@@ -38,8 +38,8 @@ class Materials:
         self._robot = robot
         self._names = Names()
         self._files = Names(fold=True)
-        self._used: dict[tuple[str, Rgba | None, Path | None], str] = {}
-        self._textures: dict[Path, str | None] = {}
+        self._used: dict[tuple[str, Rgba | None, Image | None], str] = {}
+        self._textures: dict[Image, str | None] = {}
         self.elements: list[etree._Element] = []
 
     @property
@@ -55,8 +55,8 @@ class Materials:
         What a mesh file says of its own parts comes first, as RViz has it; then the material of the
         visual; then Gazebo's colour for the link.
         """
-        if piece is not None and piece.texture is not None and piece.texture.is_file():
-            name = self._material(piece.texture.stem, None, piece.texture, visual)
+        if piece is not None and piece.texture is not None:
+            name = self._of_mesh(piece.texture, piece.file, visual)
             if name is not None:
                 geom.set("material", name)
                 return
@@ -74,6 +74,19 @@ class Materials:
                 geom.set("material", name)
         elif material.color is not None:
             geom.set("rgba", numbers_text(material.color))
+
+    def _of_mesh(self, image: Image, mesh: str, visual: Visual) -> str | None:
+        """The material of a mesh file's own image; None where there is none to see."""
+        stem = Path(mesh).stem if isinstance(image, bytes) else image.stem
+        if isinstance(image, Path) and not image.is_file():
+            if image not in self._textures:
+                self._textures[image] = None
+                self._lose_image(f"image {image} of {mesh} is not there", visual, mesh)
+            return None
+        return self._material(stem, None, image, visual, mesh)
+
+    def _lose_image(self, message: str, visual: Visual, name: str) -> None:
+        self._written.lose("texture", message, visual.place, kind="material", name=name)
 
     def _definition(self, visual: Visual) -> Material | None:
         material = visual.material
@@ -114,12 +127,12 @@ class Materials:
         )
 
     def _material(
-        self, name: str, color: Rgba | None, image: Path | None, visual: Visual
+        self, name: str, color: Rgba | None, image: Image | None, visual: Visual, mesh: str = ""
     ) -> str | None:
         key = (name, color, image)
         if key in self._used:
             return self._used[key]
-        texture = self._texture(image, visual) if image is not None else None
+        texture = self._texture(image, visual, mesh) if image is not None else None
         if texture is None and color is None:
             return None
         element = etree.Element("material", name=self._names.take(name or "material"))
@@ -131,22 +144,23 @@ class Materials:
         self._used[key] = element.get("name", "")
         return self._used[key]
 
-    def _texture(self, image: Path, visual: Visual) -> str | None:
+    def _texture(self, image: Image, visual: Visual, mesh: str) -> str | None:
         if image in self._textures:
             return self._textures[image]
-        data = image if is_png(image) else png_bytes(image)
+        file = f"in {mesh}" if isinstance(image, bytes) else image.name
+        stem = Path(mesh).stem if isinstance(image, bytes) else image.stem
+        data = png(image)
         if data is None:
-            self._written.lose(
-                "texture",
-                f"texture {image.name} is lost: it is no PNG, and Pillow, which converts others, "
-                "is not there or cannot read it",
-                visual.place,
-                kind="material",
-                name=visual.material.name if visual.material is not None else "",
+            named = visual.material.name if visual.material is not None else ""
+            self._lose_image(
+                f"texture {file} is lost: it is no PNG, and Pillow, which converts others, is not "
+                "there or cannot read it",
+                visual,
+                mesh or named,
             )
             self._textures[image] = None
             return None
-        name = self._files.take(file_name(image.stem))
+        name = self._files.take(file_name(stem))
         folder = f"{self._folder}/" if self._folder else ""
         self._written.files[f"{folder}{name}.png"] = data
         self.elements.append(etree.Element("texture", type="2d", name=name, file=f"{name}.png"))

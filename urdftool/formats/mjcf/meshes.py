@@ -15,7 +15,7 @@ from ...model.elements import Collision, Mesh, Robot, Vector, Visual
 from ..defects import defect
 from ..numbers import numbers_text
 from ..written import Written
-from .convert import Converted, Piece, Rgba
+from .convert import Converted, Image, Piece, Rgba
 from .names import Names, file_name
 
 ONE: Vector = (1.0, 1.0, 1.0)
@@ -26,11 +26,12 @@ HULL = 1.05
 
 @dataclass(frozen=True)
 class MeshPiece:
-    """A mesh asset to be shown or collided with: its name and how the file says it looks."""
+    """A mesh asset to be shown or collided with: its name, its looks, the file they are from."""
 
     name: str
     rgba: Rgba | None
-    texture: Path | None
+    texture: Image | None
+    file: str
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,8 @@ def mesh_assets(robot: Robot, written: Written, mesh_dir: str) -> tuple[Assets, 
                 stem = file.rpartition(".")[0]
                 known[key] = names.take(stem)
                 elements[collides].append(_element(known[key], file, mesh.scale, piece))
-            pieces.setdefault(id(mesh), []).append(MeshPiece(known[key], piece.rgba, piece.texture))
+            used = MeshPiece(known[key], piece.rgba, piece.texture, path.name)
+            pieces.setdefault(id(mesh), []).append(used)
     sources = list(dict.fromkeys(path for path, _, _ in uses))
     return Assets(pieces, [*elements[False], *elements[True]], sources), wrong
 

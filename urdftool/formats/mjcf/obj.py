@@ -7,10 +7,15 @@ import numpy as np
 from ...meshes.mesh import Faces, Points
 
 
-def obj_bytes(vertices: Points, faces: Faces) -> bytes:
+def obj_bytes(vertices: Points, faces: Faces, uv: Points | None = None) -> bytes:
     """One object with the vertices that are used, each once.
 
     Nine digits carry the single precision that MuJoCo keeps.
+
+    Args:
+        vertices: Points.
+        faces: Indices of them, shape (n, 3).
+        uv: Texture coordinates of each corner, shape (n, 3, 2).
     """
     used, corners = np.unique(faces, return_inverse=True)
     points, same = np.unique(vertices[used], axis=0, return_inverse=True)
@@ -22,7 +27,14 @@ def obj_bytes(vertices: Points, faces: Faces) -> bytes:
     )
     if solid.any():
         corners = corners[solid]
+        uv = None if uv is None else uv[solid]
     points = points + 0.0  # no -0
     lines = list(map("v %.9g %.9g %.9g".__mod__, map(tuple, points.tolist())))
+    if uv is not None:
+        texels, rows = np.unique(uv.reshape(-1, 2) + 0.0, axis=0, return_inverse=True)
+        lines += map("vt %.9g %.9g".__mod__, map(tuple, texels.tolist()))
+        pairs = np.stack([corners, rows.reshape(-1, 3)], axis=2).reshape(-1, 6) + 1
+        lines += map("f %d/%d %d/%d %d/%d".__mod__, map(tuple, pairs.tolist()))
+        return ("\n".join(lines) + "\n").encode()
     lines += map("f %d %d %d".__mod__, map(tuple, (corners + 1).tolist()))
     return ("\n".join(lines) + "\n").encode()

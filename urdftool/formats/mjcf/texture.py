@@ -9,10 +9,15 @@ from pathlib import Path
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
-def is_png(image: Path) -> bool:
-    """Whether a file is a PNG by its bytes, whatever its name says, with sums that are right."""
+def png(image: Path | bytes) -> Path | bytes | None:
+    """An image as a PNG: itself, or converted; None without Pillow or for no image."""
+    return image if _is_png(image) else _png_bytes(image)
+
+
+def _is_png(image: Path | bytes) -> bool:
+    """Whether it is a PNG by its bytes, whatever its name says, with sums that are right."""
     try:
-        data = image.read_bytes()
+        data = image if isinstance(image, bytes) else image.read_bytes()
     except OSError:
         return False
     if not data.startswith(SIGNATURE):
@@ -29,14 +34,14 @@ def is_png(image: Path) -> bool:
     return True
 
 
-def png_bytes(image: Path) -> bytes | None:
+def _png_bytes(image: Path | bytes) -> bytes | None:
     """An image in any format that Pillow reads as a PNG; None without Pillow or for no image."""
     try:
         from PIL import Image
     except ImportError:
         return None
     try:
-        with Image.open(image) as picture:
+        with Image.open(BytesIO(image) if isinstance(image, bytes) else image) as picture:
             target = BytesIO()
             picture.convert("RGBA").save(target, "PNG")
     except (OSError, ValueError):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 
@@ -26,6 +27,7 @@ from ..check import Check
 from ..mechanics import Array, Mechanics, origin_matrix
 from .announced import LOOKS, SHAPES, TORN, Said
 from .compiled import Compiled
+from .convert import Image, part_image
 
 SIMPLE, MESH = 1e-9, 1e-6
 
@@ -191,6 +193,13 @@ def _rgba(compiled: Compiled, geom: int) -> tuple[float, ...]:
     return tuple(float(part) for part in source)
 
 
+def _seen(look: tuple[tuple[float, ...] | None, Image | None]) -> tuple[float, ...] | None:
+    """The colour of a part: white below an image that is there."""
+    rgba, image = look
+    there = image.is_file() if isinstance(image, Path) else image is not None
+    return (1.0, 1.0, 1.0, 1.0) if there else rgba
+
+
 def _colors(robot: Robot, link: Link) -> Iterator[tuple[float, ...]]:
     """The colours of a link's visuals by the description or its meshes; none if one has none."""
     colors: list[tuple[float, ...]] = []
@@ -206,8 +215,8 @@ def _colors(robot: Robot, link: Link) -> Iterator[tuple[float, ...]]:
                 mesh = load_mesh(robot.source.resolve(visual.geometry.filename))
             except UrdftoolError:
                 return
-            looks = dict.fromkeys((part.rgba, part.texture) for part in mesh.parts)
-            parts = [own if rgba is None else rgba for rgba, _ in looks]
+            looks = dict.fromkeys((part.rgba, part_image(part)) for part in mesh.parts)
+            parts = [own if rgba is None else rgba for rgba in map(_seen, looks)]
         if None in parts or _bounds(robot, visual, np.eye(4)) is None:
             return
         colors += [part for part in parts if part is not None]
