@@ -80,6 +80,13 @@ def test_a_joint_without_links_is_drawn_apart():
     assert [node.kind for node in figure.nodes.values()] == ["link", "joint", "missing", "missing"]
 
 
+def test_what_a_joint_lacks_stands_on_the_joint():
+    model = robot('<robot name="r"><link name="a"/><joint name="j"/></robot>')
+    figure = detailed_figure(model)
+    mark_faults(figure, find_faults(model))
+    assert figure.nodes["joint:j"].faults == ["no parent", "no child"]
+
+
 def test_fixed_joints_fold_and_faulty_ones_do_not():
     model = tree("abcd", [("ab", "a", "b"), ("bc", "b", "c"), ("bd", "b", "d"), ("cd", "c", "d")])
     figure = detailed_figure(model)

@@ -38,11 +38,14 @@ class Named(NamedTuple):
     path: str
 
 
-class Blob(NamedTuple):
-    """A file as git keeps it: its object, and whether its content is the target of a link."""
+class Entry(NamedTuple):
+    """What git keeps under a path: an object and its bytes, none known of a submodule."""
 
+    path: str
     sha: str
+    size: int
     is_link: bool
+    is_module: bool
 
 
 @dataclass(frozen=True)
@@ -54,12 +57,14 @@ class Checkout:
         folder: The folder, which stands for the root of the repository.
         top: The root of the repository's working tree.
         revision: As the user named it.
+        modules: Submodules, by their paths in the repository.
     """
 
     path: Path
     folder: Path
     top: Path
     revision: str
+    modules: tuple[str, ...] = ()
 
     def shown(self, text: str) -> str:
         """A text with each path of the temporary folder as ``REV:path``."""
@@ -99,12 +104,15 @@ class Checkout:
         return error
 
     def neighbours(self) -> Mapping[str, Path]:
-        """Packages beside a repository that is a package; those inside it are in the revision."""
+        """Packages in submodules as they are now, and beside a repository that is a package."""
+        found: dict[str, Path] = {}
         above = self.top.parent
-        if len(above.parts) <= 2 or not (self.top / "package.xml").exists():
-            return {}  # never crawl /, /home or /tmp
-        found = packages_below(above)
-        return {n: p for n, p in found.items() if self.top not in (p, *p.parents)}
+        if len(above.parts) > 2 and (self.top / "package.xml").exists():  # never crawl / or /home
+            beside = packages_below(above)
+            found |= {n: p for n, p in beside.items() if self.top not in (p, *p.parents)}
+        for module in self.modules:
+            found |= packages_below(self.top / module)
+        return found
 
 
 def named(word: str) -> Named | None:
@@ -134,17 +142,19 @@ def checked_out(wanted: Named) -> Iterator[Checkout]:
         start, "rev-parse", "--verify", "--quiet", "--end-of-options", f"{revision}^{{tree}}",
         fail=f"no revision is called '{revision}' in the repository {top}",
     )  # fmt: skip
-    blobs = dict(_blobs(top, tree.decode().strip()))
+    listing = list(_listing(top, tree.decode().strip()))
+    blobs = {entry.path: entry for entry in listing if 0 <= entry.size <= _MOST_BYTES}
     inner = _inner(path, top, blobs)
     if inner is None:
         raise SourceError(f"there is no file '{path}' at {revision}", path=f"{revision}:{path}")
     with TemporaryDirectory(prefix="urdftool-") as name:
         folder = Path(os.path.realpath(name)) / (top.name or "repository")
         _write(top, {p: blob for p, blob in blobs.items() if p == inner or _is_read(p)}, folder)
-        yield Checkout(folder / inner, folder, top, revision)
+        modules = tuple(entry.path for entry in listing if entry.is_module)
+        yield Checkout(folder / inner, folder, top, revision, modules)
 
 
-def _inner(path: str, top: Path, blobs: Mapping[str, Blob]) -> str | None:
+def _inner(path: str, top: Path, blobs: Mapping[str, Entry]) -> str | None:
     """The path in the repository: from its root, as git has it, or from the current folder."""
     here = os.path.relpath(os.path.realpath(path), os.path.realpath(top))
     candidates = [os.path.normpath(path), here]
@@ -157,16 +167,16 @@ def _is_read(path: str) -> bool:
     return os.path.splitext(path)[1].lower() not in _MEDIA
 
 
-def _blobs(top: Path, tree: str) -> Iterator[tuple[str, Blob]]:
-    """Path and object of each file that is not larger than a description can be."""
-    for entry in _git(top, "ls-tree", "-r", "-z", "--long", "--full-tree", tree).split(b"\0"):
-        facts, _, path = entry.partition(b"\t")
-        words = facts.decode("ascii").split()
-        if len(words) == 4 and words[1] == "blob" and int(words[3]) <= _MOST_BYTES:
-            yield os.fsdecode(path), Blob(words[2], words[0] == "120000")
+def _listing(top: Path, tree: str) -> Iterator[Entry]:
+    for line in _git(top, "ls-tree", "-r", "-z", "--long", "--full-tree", tree).split(b"\0"):
+        facts, tab, path = line.partition(b"\t")
+        if tab:
+            mode, kind, sha, size = facts.decode("ascii").split()
+            length = int(size) if size.isdigit() else -1
+            yield Entry(os.fsdecode(path), sha, length, mode == "120000", kind == "commit")
 
 
-def _write(top: Path, blobs: Mapping[str, Blob], folder: Path) -> None:
+def _write(top: Path, blobs: Mapping[str, Entry], folder: Path) -> None:
     """Write files as git has them, all in one call."""
     data = _git(
         top, "cat-file", "--batch", given="".join(f"{b.sha}\n" for b in blobs.values()).encode()

@@ -14,7 +14,9 @@ from .figure import Figure, Node
 
 def mark_faults(figure: Figure, faults: Iterable[Fault]) -> None:
     """Write what keeps the robot from being a tree on its nodes."""
-    by_element = {id(e): node for node in figure.nodes.values() for e in node.elements[:1]}
+    # a link that is not said has its joint's element, and the fault is the joint's
+    nodes = sorted(figure.nodes.values(), key=lambda node: node.kind != "missing")
+    by_element = {id(element): node for node in nodes for element in node.elements[:1]}
     for fault in faults:
         node = by_element.get(id(fault.part.element))
         if node is not None and fault.mark not in node.faults:
