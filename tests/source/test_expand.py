@@ -1,5 +1,7 @@
 import csv
 import io
+import subprocess
+import sys
 from contextlib import redirect_stderr, suppress
 from pathlib import Path
 
@@ -293,6 +295,16 @@ def test_yaml_is_read_and_its_faults_are_placed(xacro_file, write):
     write("bad.yaml", "a: [1\nb: }")
     with pytest.raises(XacroError, match=r"bad\.yaml:2"):
         expand(xacro_file("s.xacro", inside % "bad.yaml"))
+
+
+def test_units_of_yaml_are_read_also_where_yaml_is_loaded_before(xacro_file, write):
+    write("c.yaml", "a: !millimeters 5\n")
+    code = "import yaml, urdftool\nprint(urdftool.expand('r.xacro'))"
+    inside = '<xacro:include filename="part.xacro"/><l n="${c.a}"/>'
+    write("part.xacro", XACRO.format('<xacro:property name="c" value="${load_yaml(\'c.yaml\')}"/>'))
+    xacro_file("r.xacro", inside)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert '<l n="0.005"/>' in done.stdout, done.stderr
 
 
 def test_too_many_elements_end():

@@ -149,9 +149,14 @@ class Run:
         fast = getattr(yaml, "CSafeLoader", None)
         if fast is None or self.yaml_safe_load is not None:
             return
-        loader = type("Loader", (fast,), {"yaml_constructors": yaml.SafeLoader.yaml_constructors})
         self.yaml_safe_load = yaml.safe_load
-        yaml.safe_load = lambda stream: yaml.load(stream, Loader=loader)
+
+        def safe_load(stream: Any) -> Any:
+            """With the units that xacro has taught the slow loader."""
+            units = {"yaml_constructors": yaml.SafeLoader.yaml_constructors}
+            return yaml.load(stream, Loader=type("Loader", (fast,), units))
+
+        yaml.safe_load = safe_load
 
     def warning(self, *words: object, **_: object) -> None:
         """Keep a warning with the place it was met."""
