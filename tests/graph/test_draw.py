@@ -91,7 +91,7 @@ def test_what_takes_too_long_is_stopped(monkeypatch):
     monkeypatch.setattr(drawing, "_draw_here", lambda *_: time.sleep(5))
     begin = time.monotonic()
     with pytest.raises(DrawError, match=r"1 edges in 0.05 s, and was stopped; --fold-fixed"):
-        drawing._draw_forked("a -> b", "svg")
+        draw("a -> b", "svg")
     assert time.monotonic() - begin < 2
 
 
@@ -104,7 +104,7 @@ def test_a_graphviz_that_breaks_breaks_nothing_else(monkeypatch):
 
     monkeypatch.setattr(drawing, "_draw_here", crash)
     with pytest.raises(DrawError, match="Graphviz breaks on this graph"):
-        drawing._draw_forked("digraph {\n}", "svg")
+        draw("digraph {\n}", "svg")
 
 
 def test_text_that_is_no_graph_is_an_error():

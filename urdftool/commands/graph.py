@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -58,20 +59,27 @@ def command(
 
     Exit 1 if the links are no tree, or if --lint finds an error or a warning.
     """  # noqa: D301 -- click reads the escape
-    from ..graph.faults import find_faults, first_of_each
-    from .graph_write import write_one, write_pair
-    from .read_lax import read_lax
-
     suffix = _suffix(output)
-    path, arguments = robot
-    model = read_lax(console, path, arguments, package, package_path)
-    faults = list(find_faults(model))
-    wanted = style or ("ros" if suffix in (None, "", ".gv", ".dot", *PICTURES) else "detailed")
-    figure = _figure(console, model, faults, wanted, fold_fixed, linted)
-    if suffix in (None, ""):
-        write_pair(console, model, figure, path, output)
+    if suffix in (None, "", *PICTURES):
+        from ..graph.draw import Artist
+
+        artist: AbstractContextManager[Artist | None] = Artist()
     else:
-        write_one(console, model, figure, faults, output or "-", suffix)
+        artist = nullcontext()
+    with artist as pencil:
+        from ..graph.faults import find_faults, first_of_each
+        from .graph_write import write_one, write_pair
+        from .read_lax import read_lax
+
+        path, arguments = robot
+        model = read_lax(console, path, arguments, package, package_path)
+        faults = list(find_faults(model))
+        wanted = style or ("ros" if suffix in (None, "", ".gv", ".dot", *PICTURES) else "detailed")
+        figure = _figure(console, model, faults, wanted, fold_fixed, linted)
+        if suffix in (None, ""):
+            write_pair(console, model, figure, path, output, pencil)
+        else:
+            write_one(console, model, figure, faults, output or "-", suffix, pencil)
     for message, fault in first_of_each(faults).items():
         console.note(f"{fault.place}: {message}")
     return int(bool(faults) or (linted and _is_marked(figure)))

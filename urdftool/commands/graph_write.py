@@ -3,21 +3,29 @@
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from ..console import Console
-from ..graph.faults import Fault
-from ..graph.figure import Figure
-from ..model.elements import Robot
 from ..output import write_file, write_result
+
+if TYPE_CHECKING:
+    from ..graph.draw import Artist
+    from ..graph.faults import Fault
+    from ..graph.figure import Figure
+    from ..model.elements import Robot
 
 
 def write_pair(
-    console: Console, model: Robot, figure: Figure, path: str, output: str | None
+    console: Console,
+    model: Robot,
+    figure: Figure,
+    path: str,
+    output: str | None,
+    artist: Artist | None,
 ) -> None:
     """NAME.gv and NAME.pdf, with the messages of ``urdf_to_graphiz``.
 
@@ -27,15 +35,16 @@ def write_pair(
         figure: How it is drawn.
         path: The description as it was named; a nameless robot's files are called as it is.
         output: NAME where the user chose it; otherwise the robot's.
+        artist: Who draws.
     """
     from ..graph.dot import to_dot
-    from ..graph.draw import draw
     from ..graph.words import file_name
 
     stem = "robot" if path == "-" else Path(path).name.partition(".")[0] or "robot"
     name = output or file_name(model.name, stem)
     text = to_dot(figure)
-    picture = draw(text, "pdf")
+    assert artist is not None
+    picture = artist.draw(text, "pdf")
     for suffix, data in ((".gv", text.encode("utf-8")), (".pdf", picture)):
         _put(data, f"{name}{suffix}", model)
         if not console.quiet:
@@ -49,9 +58,12 @@ def write_one(
     faults: Sequence[Fault],
     output: str,
     suffix: str,
+    artist: Artist | None,
 ) -> None:
     """One file of a kind, or a tree at the terminal for ``-``."""
     if suffix == "-":
+        import shutil
+
         from ..report.graph_tree import tree_text
 
         width = shutil.get_terminal_size().columns
@@ -75,10 +87,8 @@ def write_one(
         linked = suffix == ".svg" or (figure.style == "detailed" and suffix in (".gv", ".dot"))
         text = to_dot(figure, folder if linked else None)
         data = text.encode("utf-8")
-        if suffix not in (".gv", ".dot"):
-            from ..graph.draw import draw
-
-            data = draw(text, suffix[1:])
+        if artist is not None:
+            data = artist.draw(text, suffix[1:])
     _put(data, output, model)
     console.note(f"Created file {output}")
 

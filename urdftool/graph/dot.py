@@ -9,8 +9,6 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
-from html import escape
-from urllib.parse import quote
 
 from ..finding import Severity
 from .figure import Edge, Figure, Node
@@ -141,7 +139,9 @@ def _html(node: Node) -> str:
 
 def _data(text: str) -> str:
     """A text in an HTML-like label, where Graphviz takes a backslash for an escape, too."""
-    return escape(text, quote=False).replace("\\", "\\\\")
+    for plain, written in (("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ("\\", "\\\\")):
+        text = text.replace(plain, written)
+    return text
 
 
 def _look(node: Node) -> dict[str, str]:
@@ -171,6 +171,8 @@ def _links(node: Node, folder: str | None) -> dict[str, str]:
     """A tooltip with everything that is wrong, and a link to where the node is written."""
     if folder is None:
         return {}
+    from urllib.parse import quote  # half as long to import as all else that a .gv needs
+
     place = node.place
     lines = [f"{node.kind} {node.name}", *node.lines, *node.faults]
     lines += [f"{f.severity.label}: {f.message} [{f.rule}]" for f in node.findings]

@@ -16,7 +16,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import NoReturn
 
 from ..errors import MissingDependency, UrdftoolError
@@ -43,38 +43,88 @@ def draw(text: str, format: str) -> bytes:
         DrawError: It takes longer than ``MAX_SECONDS``, or Graphviz breaks on it.
         MissingDependency: pygraphviz is not installed, or not for this machine.
     """
-    if sys.platform == "linux" and threading.active_count() == 1:
-        return _draw_forked(text, format)
-    if text.count(" -> ") < _LARGE:
-        return _draw_here(text, format)
-    return _draw_apart(text, format)
+    with Artist() as artist:
+        return artist.draw(text, format)
 
 
-def _draw_forked(text: str, format: str) -> bytes:
-    """Draw in a fork of this process."""
-    source, sink = os.pipe()
-    child = os.fork()
-    if child == 0:
-        _answer(sink, text, format)
-    os.close(sink)
-    data = bytearray()
-    end = time.monotonic() + MAX_SECONDS
-    status = None
-    try:
-        while (left := end - time.monotonic()) > 0 and select.select([source], [], [], left)[0]:
-            piece = os.read(source, 1 << 20)
-            if not piece:
-                status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+class Artist:
+    """Draws one graph, in a fork of this process that gets ready while the graph is made.
+
+    Where it cannot be forked, it is drawn when it is wanted: here, or in a Python of its own.
+    """
+
+    def __init__(self) -> None:
+        """Fork; the child loads Graphviz and waits for a graph."""
+        self._child = 0
+        self._source = self._sink = -1
+        if sys.platform == "linux" and threading.active_count() == 1:
+            asked, self._sink = os.pipe()
+            self._source, answer = os.pipe()
+            self._child = os.fork()
+            if self._child == 0:
+                os.close(self._sink)
+                os.close(self._source)
+                _serve(asked, answer)
+            os.close(asked)
+            os.close(answer)
+
+    def __enter__(self) -> Artist:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End the child, if it has not ended."""
+        self._hang_up()
+        if self._child:
+            os.kill(self._child, signal.SIGKILL)
+            os.waitpid(self._child, 0)
+            self._child = 0
+
+    def draw(self, text: str, format: str) -> bytes:
+        """A picture of a graph, once; as :func:`draw`."""
+        if not self._child:
+            return (_draw_here if text.count(" -> ") < _LARGE else _draw_apart)(text, format)
+        end = time.monotonic() + MAX_SECONDS
+        self._ask(f"{format}\n{text}".encode())
+        data = bytearray()
+        while (left := end - time.monotonic()) > 0:
+            if not select.select([self._source], [], [], left)[0]:
                 break
+            piece = os.read(self._source, 1 << 20)
+            if not piece:
+                status = os.waitstatus_to_exitcode(os.waitpid(self._child, 0)[1])
+                self._child = 0
+                return _result(bytes(data), status)
             data += piece
-    finally:
-        os.close(source)
-        if status is None:
-            os.kill(child, signal.SIGKILL)
-            os.waitpid(child, 0)
-    if status is None:
         raise _too_slow(text)
-    return _result(bytes(data), status)
+
+    def _ask(self, question: bytes) -> None:
+        rest = memoryview(question)
+        try:
+            while rest:
+                rest = rest[os.write(self._sink, rest) :]
+        except BrokenPipeError:  # it has ended, and its exit code says why
+            pass
+        os.close(self._sink)
+        self._sink = -1
+
+    def _hang_up(self) -> None:
+        for end in (self._source, self._sink):
+            if end >= 0:
+                os.close(end)
+        self._source = self._sink = -1
+
+
+def _serve(asked: int, answer: int) -> NoReturn:
+    """Load Graphviz, read what is to be drawn, draw it, and end this process."""
+    try:
+        with suppress(Exception), _stderr_kept():
+            import pygraphviz  # noqa: F401
+        with open(asked, "rb") as stream:
+            format, _, text = stream.read().decode("utf-8").partition("\n")
+        if format:
+            _answer(answer, text, format)
+    finally:
+        os._exit(_BROKEN)
 
 
 def _answer(sink: int, text: str, format: str) -> NoReturn:
