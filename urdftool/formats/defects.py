@@ -58,17 +58,18 @@ class Refused(ModelError):  # noqa: N818 -- reads as what happened
         self.findings = list(findings)
 
 
-def refuse(findings: Iterable[Finding], *, force: bool) -> None:
+def refuse(findings: Iterable[Finding], *, force: bool, fatal: frozenset[str] = FATAL) -> None:
     """Raise where defects forbid an export.
 
     Args:
         findings: Defects.
         force: Go past those that leave a robot.
+        fatal: Names of those that leave none.
 
     Raises:
         Refused: With those that forbid it.
     """
-    forbidding = [f for f in findings if not force or f.rule in FATAL]
+    forbidding = [f for f in findings if not force or f.rule in fatal]
     if forbidding:
         raise Refused(forbidding)
 

@@ -2,11 +2,26 @@
 
 import pytest
 
+from urdftool.formats.check import is_faithful
 from urdftool.formats.defects import Refused
 from urdftool.formats.sdf.options import Options
+from urdftool.formats.sdf.verify.compare import verify
 from urdftool.formats.sdf.write import write
 
-from .robots import BOX, TWO, export, gazebo, inertial, joint, link, robot, rules, tree
+from .robots import (
+    BOX,
+    TWO,
+    export,
+    gazebo,
+    inertial,
+    joint,
+    link,
+    named,
+    names,
+    robot,
+    rules,
+    tree,
+)
 
 LIMIT = '<limit lower="0" upper="1" effort="1" velocity="1"/>'
 IMPOSSIBLE = inertial(1, (0.1, 0.1, 0.5))
@@ -48,15 +63,27 @@ FORCED = {
     ),
 }  # fmt: skip
 
+LEFT = {
+    "multiple-roots": ((link("a"), link("b")), ["a", "b"], []),
+    "unknown-parent-link": ((link("a"), joint("j", "x", "a")), ["a"], []),
+    "unknown-child-link": ((link("a"), joint("j", "a", "x")), ["a"], []),
+    "missing-parent-or-child": ((link("a"), '<joint name="j" type="fixed"/>'), ["a"], []),
+    "duplicate-link-name": ((link("a"), link("a", inertial(7))), ["a"], []),
+    "duplicate-joint-name": (
+        (link("a"), link("b"), link("c"), joint("j", "a", "b"), joint("j", "a", "c")),
+        ["a", "b", "c"], ["j", "j_2"],
+    ),
+    "missing-name": ((*TWO, link(""), link("c"), joint("", "b", "c")), ["a", "b", "c"],
+                     ["j", "c_joint"]),
+}  # fmt: skip
+"""What --force makes of errors in links and joints: the links and joints that are left."""
+
 FATAL = {
     "no-links": (),
-    "multiple-roots": (link("a"), link("b")),
+    "immense-number": (link("a", inertial(1e200)),),
     "no-root": (link("a"), link("b"), joint("j", "a", "b"), joint("k", "b", "a")),
     "detached-cycle": (*TWO, link("c"), link("d"), joint("k", "c", "d"), joint("l", "d", "c")),
     "multiple-parents": (*TWO, link("c"), joint("k", "a", "c"), joint("l", "b", "c")),
-    "unknown-parent-link": (link("a"), joint("j", "x", "a")),
-    "duplicate-link-name": (link("a"), link("a")),
-    "missing-name": (link(""),),
 }
 
 
@@ -66,11 +93,12 @@ def refused(*parts, **choices):
     return caught.value
 
 
-@pytest.mark.parametrize("rule", [*FORCED, *FATAL])
+@pytest.mark.parametrize("rule", [*FORCED, *LEFT, *FATAL])
 def test_a_defect_is_one_finding_at_its_place(rule):
-    error = refused(*{**FORCED, **FATAL}[rule])
+    parts = {**FORCED, **{name: case[0] for name, case in LEFT.items()}, **FATAL}[rule]
+    error = refused(*parts)
     found = [finding for finding in error.findings if finding.rule == rule]
-    assert len(found) == 1, [str(f) for f in error.findings]
+    assert len(found) == 1 + (rule in ("missing-parent-or-child", "missing-name"))
     assert str(found[0]).startswith("r.urdf:")
     assert error.line is not None
 
@@ -81,6 +109,39 @@ def test_force_goes_past_it_and_says_so(rule, choices):
     written = export(*FORCED[rule], force=True, **choices)
     assert f"lossy-{rule}" in rules(written)
     assert tree(written).find("link") is not None
+
+
+@pytest.mark.parametrize("rule", LEFT)
+@pytest.mark.parametrize("choices", [{}, {"fixed_joints": "lump"}, {"target": "gazebo-classic"}])
+def test_force_leaves_what_can_stand(rule, choices, tmp_path):
+    parts, links, joints = LEFT[rule]
+    source = robot(*parts)
+    options = Options(force=True, file="m.sdf", **choices)
+    written = write(source, options)
+    assert f"lossy-{rule}" in rules(written)
+    assert all("passed by --force" in loss.hint for loss in written.losses)
+    assert names(tree(written), "link") == links
+    assert names(tree(written), "joint") == joints
+    place = tmp_path / "m.sdf"
+    place.write_bytes(written.files["m.sdf"])
+    checks = verify(source, written, options, place)
+    assert is_faithful(checks), [check.differing for check in checks]
+
+
+def test_a_world_that_no_link_declares_is_the_world():
+    parts = (link("a"), joint("j", "world", "a", "fixed"))
+    assert [f.rule for f in refused(*parts).findings] == ["unknown-parent-link"]
+    written = export(*parts, force=True)
+    assert tree(written).findtext("joint/parent") == "world"
+    assert tree(written).find("joint").get("type") == "fixed"
+
+
+def test_trees_stand_at_the_origin_one_beside_the_other():
+    parts = (*TWO, link("c"), joint("k", "c", "d", "fixed", origin="1 2 3"), link("d"))
+    model = tree(export(*parts, force=True))
+    assert names(model, "link") == ["a", "b", "c", "d"]
+    assert named(model, "link", "c").find("pose") is None
+    assert model.get("canonical_link") is None
 
 
 @pytest.mark.parametrize("rule", FATAL)

@@ -18,6 +18,9 @@ PLACED = frozenset(
 )
 """Elements of a link that have a pose in it."""
 
+OWN_FRAMES = frozenset(("frame", "link", "model", "joint"))
+"""Elements of a model that have a frame of their name."""
+
 BEFORE_SDF = frozenset(
     ("body", "controller", "geom", "interface", "joint", "model", "physics", "rendering", "sensor")
 )
@@ -112,7 +115,7 @@ def _lose(node: Node, t: Translation, element: Element, about: Link | Joint | No
 
 def move(made: Node, t: Translation, link: Link) -> None:
     """Let the pose of something in a link mean the same in the link's owner."""
-    rename_frames(made, t)
+    rename_frames(made, t, link)
     pose = made.find("pose")
     if t.plan.stays(link.name) or (pose is not None and pose.get("relative_to")):
         return
@@ -135,9 +138,23 @@ def move(made: Node, t: Translation, link: Link) -> None:
         made.insert(0, placed)
 
 
-def rename_frames(node: Node, t: Translation) -> None:
-    """Rewrite references to frames whose names changed."""
+def rename_frames(node: Node, t: Translation, part: Link | Joint) -> None:
+    """Rewrite references to frames whose names changed, and leave out those to no frame."""
     for pose in node.iter("pose"):
         frame = pose.get("relative_to")
-        if frame is not None and ("link", frame) in t.names.renamed:
+        if frame is None:
+            continue
+        if not is_frame(t, frame):
+            del pose.attrib["relative_to"]
+            text = f"a pose of <{node.tag}> '{node.get('name')}' is relative to '{frame}'"
+            t.lose("reference", f"{text}, which does not exist; that is left out", part, part)
+        elif ("link", frame) in t.names.renamed:
             pose.set("relative_to", t.names.link(frame))
+
+
+def is_frame(t: Translation, name: str) -> bool:
+    """Whether there is a link, joint or frame of a name; what is in another model is believed."""
+    if name in t.robot.link or name in t.robot.joint or name in ("", "__model__") or "::" in name:
+        return True
+    blocks = (block.element for block in t.robot.gazebo if not block.reference)
+    return any(e.get("name") == name for b in blocks for e in b.children if e.tag in OWN_FRAMES)

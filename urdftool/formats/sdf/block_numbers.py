@@ -26,6 +26,9 @@ FLAGS = frozenset(
 )  # fmt: skip
 """Elements that hold true or false, or 1 or 0."""
 
+COLORS = frozenset(("ambient", "diffuse", "specular", "emissive"))
+"""Elements in a material or light that hold a colour, with or without its opacity."""
+
 _NUMBERS = {"sensor": SENSOR_NUMBERS, "collision": SHAPE_NUMBERS, "visual": SHAPE_NUMBERS}
 
 
@@ -37,6 +40,9 @@ def wanted(element: Element) -> str:
     if element.tag == "pose":
         count = 7 if element.get("rotation_format") == "quat_xyzw" else 6
         return f"{count} finite numbers" if text and numbers(text, count) is None else ""
+    if element.tag in COLORS and _inside(element) != "sensor":
+        right = any(numbers(text, count) for count in (3, 4))
+        return "" if right else "3 or 4 finite numbers"
     if element.tag in FLAGS:
         return "" if is_flag(element.get("value") or text) else "true or false"
     known = _NUMBERS.get(_inside(element), frozenset())

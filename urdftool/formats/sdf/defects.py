@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 from ...finding import Finding
 from ...model.elements import Collision, Joint, Link, Mesh, Robot, UnknownShape, Visual
+from ...model.read import number
 from ...source.document import Element
-from ..defects import defect
+from ..defects import NUMBERS, defect
 from .block_numbers import wanted
 from .extensions import read_value, said_of, value_of
 from .keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS, LINK_KEYWORDS
@@ -16,6 +17,9 @@ from .mesh_files import MeshFiles
 from .plan import Plan
 from .sensor_types import KNOWN
 from .shapes import has_extent
+
+IMMENSE = 1e60
+"""Lengths, masses and moments [SI units] beyond this are not reckoned with."""
 
 _WANTED = {
     "number": "a finite number",
@@ -34,6 +38,7 @@ def written_defects(robot: Robot) -> Iterator[Finding]:
     for joint in robot.joints:
         yield from _joint(robot, joint)
         yield from _extension(robot, joint)
+    yield from _immense(robot)
     yield from _kinds(robot)
     for block in robot.gazebo:
         yield from _blocks(block.element, block.reference or "")
@@ -137,6 +142,25 @@ def _extension(robot: Robot, part: Link | Joint) -> Iterator[Finding]:
                 part.element.tag,
                 part.name,
             )
+
+
+def _immense(robot: Robot) -> Iterator[Finding]:
+    """Numbers whose squares and products are no numbers any more."""
+    parts: tuple[Link | Joint, ...] = (*robot.links, *robot.joints)
+    for part in parts:
+        for element in part.element.walk():
+            measured = element.tag in ("origin", "mass", "inertia")
+            for name in NUMBERS[element.tag] if measured else ():
+                words = (element.get(name) or "").split()
+                if any(abs(number(word) or 0.0) > IMMENSE for word in words):
+                    text = f'{name}="{element.get(name)}" of <{element.tag}> in {part.element.tag} '
+                    yield defect(
+                        "immense-number",
+                        f"{text}'{part.name}' is more than can be reckoned with",
+                        element.attribute_place(name),
+                        part.element.tag,
+                        part.name,
+                    )
 
 
 def _kinds(robot: Robot) -> Iterator[Finding]:

@@ -9,6 +9,7 @@ from ...model.read import number, numbers
 from ...source.document import Element
 from ..numbers import number_text, numbers_text
 from .blobs import blob, prune
+from .body_sensors import is_body_sensor
 from .keywords import (
     COLLISION_KEYWORDS,
     IGNORED,
@@ -111,7 +112,8 @@ def link_extensions(node: Node, t: Translation, link: Link) -> None:
                     hint="keep the fixed joint with <preserveFixedJoint>true</preserveFixedJoint>",
                 )
         elif tag == "plugin":
-            plugin(node, t, element)
+            if not is_body_sensor(t, element):
+                plugin(node, t, element)
         elif tag in JOINT_KEYWORDS or tag in LUMPING_KEYWORDS:
             if link.name not in t.robot.joint:
                 text = f"<{tag}> is said of link '{link.name}', and is of joints"
@@ -146,7 +148,8 @@ def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
     for element in said_of(t.robot, joint):
         tag = element.tag
         if tag == "plugin":
-            plugin(node, t, element)
+            if not is_body_sensor(t, element):
+                plugin(node, t, element)
         elif tag not in JOINT_KEYWORDS and tag not in (*LUMPING_KEYWORDS, *IGNORED, "sensor"):
             if joint.name in t.robot.link:
                 continue  # of the link of that name

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from .body_sensors import BODY_SENSORS
 from .colors import COLORS
 from .joints import SDF_TYPES
 from .keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS, LINK_KEYWORDS, LUMPING_KEYWORDS, Keyword
@@ -132,4 +133,7 @@ def _plugins() -> Iterator[tuple[str, str]]:
         yield f"`lib{name}.so`", "`<mimic>` of the axis"
     for name, plugin in SENSOR_PLUGINS.items():
         kind = f" of type {plugin.type}" if plugin.type else ""
-        yield f"`lib{name}.so`", f"the sensor itself{kind}, by gz-sim-{plugin.system}-system"
+        alone = BODY_SENSORS.get(name)
+        outside = f"; outside of one, a sensor of type {alone.type}" if alone else ""
+        system = f"gz-sim-{plugin.system}-system"
+        yield f"`lib{name}.so`", f"the sensor itself{kind}, by {system}{outside}"

@@ -7,10 +7,11 @@ from decimal import Decimal
 from ...model.elements import Link, Material, Robot, Visual
 from ...source.document import Element
 from ..numbers import number_text, numbers_text
+from .blobs import blob
 from .colors import COLORS, PICTURED, Color
 from .extensions import said_of, value_of
 from .translation import Translation
-from .xml import Node, add, copied
+from .xml import Node, add
 
 SCRIPTS = "file://media/materials/scripts/gazebo.material"
 
@@ -74,7 +75,7 @@ def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Ele
     if said.children:
         made = add(node, "material")
         for child in said.children:
-            copied(made, child)
+            blob(made, t, child, link)
         return True
     name = value_of(said)
     if not name:

@@ -7,7 +7,8 @@ from itertools import count
 from ...model.elements import ZERO, GazeboExtension, Origin
 from ...model.read import numbers
 from ...source.document import Element
-from .blobs import blob
+from .blobs import blob, is_frame
+from .body_sensors import body_sensors, is_body_sensor
 from .control import control
 from .frames import frames
 from .joints import joint
@@ -77,7 +78,8 @@ def _parts(node: Node, t: Translation) -> None:
     for block in _blocks(t):
         for element in block.element.children:
             if element.tag == "plugin":
-                plugin(node, t, element)
+                if not is_body_sensor(t, element):
+                    plugin(node, t, element)
             elif element.tag == "joint":
                 _closing_joint(node, t, element)
             elif element.tag == "pose":
@@ -86,11 +88,18 @@ def _parts(node: Node, t: Translation) -> None:
                 node.insert(0, copied(node, element))
             elif element.tag not in ("static", "canonicalBody"):
                 blob(node, t, element)
+    body_sensors(node, t)
     _note_dangling(t)
 
 
 def _closing_joint(node: Node, t: Translation, element: Element) -> None:
     """A joint of SDF in a block, which closes a loop: its links by the names they have now."""
+    wrong = [end for end in _ends(element) if not _can_join(t, *end)]
+    if wrong or len(_ends(element)) != 2:
+        end = f"its {wrong[0][0]} '{wrong[0][1]}' is no link" if wrong else "it joins nothing"
+        text = f"<joint> '{element.get('name')}' of a <gazebo> block is left out: {end}"
+        t.lose("reference", text, element)
+        return
     made = blob(node, t, element)
     if made is None:
         return
@@ -109,6 +118,15 @@ def _closing_joint(node: Node, t: Translation, element: Element) -> None:
             name = (tag.text or "").strip()
             if name in t.plan.owner:
                 tag.text = t.names.link(t.plan.owner[name])
+
+
+def _ends(element: Element) -> list[tuple[str, str]]:
+    ends = (element.child(end) for end in ("parent", "child"))
+    return [(end.tag, end.text.strip()) for end in ends if end is not None]
+
+
+def _can_join(t: Translation, end: str, name: str) -> bool:
+    return is_frame(t, name) and name != "" if name != WORLD else end == "parent"
 
 
 def _note_dangling(t: Translation) -> None:

@@ -42,7 +42,7 @@ def make_names(robot: Robot, *, anchored: bool) -> Names:
     used: set[str] = set()
     for kind, olds in (("joint", joints), ("link", links)):
         for old in olds:
-            new = allowed(old)
+            new = allowed(old) or "unnamed"
             if new == "world":
                 new = f"world_{kind}"
             if new in used:
@@ -54,8 +54,8 @@ def make_names(robot: Robot, *, anchored: bool) -> Names:
 
 
 def allowed(name: str) -> str:
-    """A name without what SDF reserves: ``::`` parts scopes, ``__x__`` and ``world`` are taken."""
-    name = name.replace("::", "_")
+    """A name without what SDF reserves: ``::`` parts scopes, ``__x__`` and blanks are no names."""
+    name = name.replace("::", "_") if name.strip() else ""
     if name.startswith("__") and name.endswith("__"):
         name = name.strip("_") or "unnamed"
     return name

@@ -24,7 +24,7 @@ WORLD = "world"
 
 @dataclass
 class Plan:
-    """The bodies of a robot with one root.
+    """The bodies of a robot.
 
     Attributes:
         owner: For each link the link that it becomes a part of; itself, if it stays.
@@ -57,11 +57,10 @@ def make_plan(robot: Robot, *, lump: bool) -> Plan:
     """Decide for each link and fixed joint.
 
     Args:
-        robot: A robot that is a tree.
+        robot: A robot that is a tree, or several.
         lump: Dissolve every fixed joint that nothing is said of.
     """
-    root = robot.tree.root
-    plan = Plan(anchored=root is not None and root.name == WORLD)
+    plan = Plan(anchored=any(root.name == WORLD for root in robot.tree.roots))
     links = [name for name in robot.tree.order if not (plan.anchored and name == WORLD)]
     loose = _loose_joints(robot, plan)
     group = {name: name for name in links}

@@ -237,7 +237,9 @@ SENSOR_PLUGINS: dict[str, SensorPlugin] = {
     "gazebo_ros_imu_sensor": SensorPlugin("imu", "", _BODY_FIRST),
     "gazebo_ros_imu": SensorPlugin("imu", "", _BODY_FIRST),
     "gazebo_ros_gps_sensor": SensorPlugin("navsat"),
+    "hector_gazebo_ros_imu": SensorPlugin("imu", "", _BODY_FIRST),
     "hector_gazebo_ros_gps": SensorPlugin("navsat"),
+    "hector_gazebo_ros_magnetic": SensorPlugin("magnetometer"),
     "gazebo_ros_ft_sensor": SensorPlugin("forcetorque"),
     "gazebo_ros_bumper": SensorPlugin("contact"),
 }
@@ -261,6 +263,6 @@ def is_for_gz(element: Element) -> bool:
 def is_for_classic(element: Element) -> bool:
     """Whether a plugin is known to be one of Gazebo Classic."""
     words = library(element)
-    return words.startswith("gazebo_") or any(
+    return words.startswith(("gazebo_", "hector_gazebo_")) or any(
         words in table for table in (SYSTEM_PLUGINS, SENSOR_PLUGINS, MIMIC_PLUGINS)
     )

@@ -10,6 +10,7 @@ from ..numbers import number_text, numbers_text
 from .plugin_types import (
     CONTROL_PLUGINS,
     MIMIC_PLUGINS,
+    SENSOR_PLUGINS,
     SYSTEM_PLUGINS,
     System,
     is_for_classic,
@@ -46,7 +47,10 @@ def plugin(node: Node, t: Translation, element: Element) -> None:
             _system(node, t, element, system)
     else:
         _kept(node, t, element)
-        if is_for_classic(element):
+        if name in SENSOR_PLUGINS:
+            where = "and is neither in one nor names a link or joint of SDF; it stays as it is"
+            _lose(t, element, f"is of a sensor, {where}")
+        elif is_for_classic(element):
             _lose(
                 t, element, "is one of Gazebo Classic without a successor in gz; it stays as it is"
             )

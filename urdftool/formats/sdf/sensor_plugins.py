@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ...model.elements import Joint, Link
+from ...model.read import number
 from ...source.document import Element
 from .plugin_types import SENSOR_PLUGINS, library
 from .translation import Translation
@@ -25,7 +26,7 @@ def sensor_plugin(made: Node, t: Translation, part: Link | Joint, element: Eleme
     topic = _topic(element, settings)
     _once(made, "topic", topic)
     rate = settings.get("updateRate") or settings.get("update_rate") or ""
-    if rate not in ("", "0", "0.0"):
+    if number(rate):
         _once(made, "update_rate", rate)
     frame = next((settings[tag] for tag in known.frame if tag in settings), "")
     _name_frame(made, t, part, element, frame)

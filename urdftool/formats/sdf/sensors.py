@@ -39,7 +39,7 @@ def joint_sensors(node: Node, t: Translation, joint: Joint) -> None:
     for element in said_of(t.robot, joint):
         if element.tag == "sensor":
             for made in _made(node, t, joint, element):
-                rename_frames(made, t)
+                rename_frames(made, t, joint)
 
 
 def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> list[Node]:

@@ -9,11 +9,13 @@ from lxml import etree
 
 from ...finding import Finding
 from ...model.elements import Robot
-from ..defects import FATAL, defects, refuse
+from ..defects import FATAL as STRUCTURAL
+from ..defects import refuse
 from ..directory import mark
 from ..written import Written
 from .config import config
 from .defects import inertia_defects, mesh_defects, written_defects
+from .forced import FATAL, INSTEAD, left_of, tree_defects
 from .mesh_files import find_meshes
 from .model import model
 from .names import make_names, model_name
@@ -38,14 +40,17 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         Refused: Its defects forbid it; the message has a place, and the findings are with it.
     """
     options = options or Options()
-    found = [*defects(robot), *written_defects(robot)]
+    left = left_of(robot)
+    found = [*tree_defects(robot, left, options.force), *written_defects(robot)]
+    if options.force:
+        robot = left
     meshes = find_meshes(robot, options)
     found += mesh_defects(robot, meshes)
-    if any(finding.rule in FATAL for finding in found):
-        refuse(found, force=options.force)
+    if any(finding.rule in FATAL | STRUCTURAL for finding in found):
+        refuse(found, force=options.force, fatal=FATAL)
     plan = make_plan(robot, lump=options.lump)
     found += inertia_defects(robot, plan)
-    refuse(found, force=options.force)
+    refuse(found, force=options.force, fatal=FATAL)
     names = make_names(robot, anchored=plan.anchored)
     written = Written(options.file or MODEL, renamed=names.renamed)
     t = Translation(robot, options, plan, names, meshes, written)
@@ -102,11 +107,12 @@ def _note_names(t: Translation) -> None:
 def _note_forced(t: Translation, found: list[Finding]) -> None:
     """Say which defects were passed; what stands in their place is said where it was written."""
     for finding in found:
+        instead = INSTEAD.get(finding.rule)
         t.written.lose(
             finding.rule,
             finding.message,
             finding.place,
             kind=finding.kind,
             name=finding.name,
-            hint="passed by --force",
+            hint=f"passed by --force; {instead}" if instead else "passed by --force",
         )

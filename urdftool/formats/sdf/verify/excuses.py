@@ -22,7 +22,7 @@ class Excuses:
 
     Attributes:
         heavy: Joints above a link whose mass is not as written.
-        massy: Whether any mass is not as written.
+        massy: Whether any mass is not as written, or Gazebo is told of more bodies.
         motion: Joints that move otherwise.
         frames: Links whose frame is gone, or hangs below a joint that moves otherwise.
         limits: Joints with other limits.
@@ -43,13 +43,15 @@ class Excuses:
 
 def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
     """Sort announcements by what they account for."""
-    made = Excuses()
+    blocks = (block.element for block in robot.gazebo if not block.reference)
+    more = any(block.child(tag) for block in blocks for tag in ("link", "model", "include"))
+    made = Excuses(massy=more)
     for loss in losses:
         rule, name = loss.rule, loss.name
         if rule in MASS:
             made.massy = True
             made.heavy |= {joint.name for joint in _above(robot, name)}
-        if rule in MOTION:
+        if rule in MOTION or (rule == "lossy-floating" and _carried(robot, name)):
             made.motion.add(name)
             joint = robot.joint.get(name)
             if joint is not None:
@@ -69,6 +71,12 @@ def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
         if rule in COLORS:
             made.colors.add(name)
     return made
+
+
+def _carried(robot: Robot, name: str) -> bool:
+    """Whether what a joint holds is moved by joints above, which a free link does not follow."""
+    joint = robot.joint.get(name)
+    return joint is not None and any(not j.is_fixed for j in _above(robot, joint.parent))
 
 
 def _above(robot: Robot, link: str) -> list[Joint]:

@@ -10,6 +10,7 @@ import numpy as np
 from ...check import Check
 from .dynamics import poses
 from .mechanism import Array, Mechanism, Shape, inverse
+from .source import base_of
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -85,9 +86,9 @@ def _places(
             q = {pair.joint(name): value for name, value in q.items()}
         placed = poses(robot, q, order)
         base = np.eye(4)
-        root = pair.robot.tree.root
-        if renamed and root is not None and root.name != "world":
-            body, inside = robot.frames.get(pair.link(root.name), ("world", np.eye(4)))
+        root = base_of(pair.robot)
+        if renamed and root is not None:
+            body, inside = robot.frames.get(pair.link(root), ("world", np.eye(4)))
             base = inverse(placed[body] @ inside)
         for row, shape in zip(rows, shapes, strict=True):
             row.append(base @ placed[shape.body] @ shape.pose)
@@ -102,7 +103,12 @@ def _nearest(
     left: Sequence[int],
 ) -> int | None:
     alike = [i for i in left if _alike(shape, others[i])]
-    return min(alike, key=lambda i: float(np.abs(places[i] - place).max()), default=None)
+
+    def distance(i: int) -> tuple[float, bool]:
+        """How far it is; of several at one place, one of the same colour."""
+        return max(float(np.abs(places[i] - place).max()), PLACES), others[i].rgba != shape.rgba
+
+    return min(alike, key=distance, default=None)
 
 
 def _alike(one: Shape, two: Shape) -> bool:

@@ -39,12 +39,11 @@ KINDS = {
 
 
 def mechanism_of(robot: Robot) -> Mechanism:
-    """The mechanism of a robot that is a tree; a root named ``world`` is the world."""
+    """The mechanism of a robot of trees; a root named ``world`` is the world."""
     made = Mechanism()
-    root = robot.tree.root
-    anchor = "world" if root is not None and root.name == "world" else None
+    anchored = base_of(robot) is None
     for link in robot.links:
-        if link.name != anchor:
+        if not (anchored and link.name == "world"):
             made.bodies[link.name] = _body(link)
         made.frames[link.name] = (link.name, np.eye(4))
         for kind, shapes in (("visuals", link.visuals), ("collisions", link.collisions)):
@@ -52,6 +51,12 @@ def mechanism_of(robot: Robot) -> Mechanism:
                 getattr(made, kind).append(_shape(robot, link, shape))
     made.joints = [_hinge(joint) for joint in robot.joints]
     return made
+
+
+def base_of(robot: Robot) -> str | None:
+    """The link at the model's origin, the first root; None where a root is the world."""
+    names = [root.name for root in robot.tree.roots]
+    return names[0] if names and "world" not in names else None
 
 
 def pose(origin: Origin | None) -> Array:
@@ -78,6 +83,7 @@ def _body(link: Link) -> Body:
 
 def _hinge(joint: Joint) -> Hinge:
     axis = np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
+    axis /= np.abs(axis).max() or 1.0  # so that the squares neither vanish nor overflow
     length = np.linalg.norm(axis)
     mimic = joint.mimic and (joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
     return Hinge(

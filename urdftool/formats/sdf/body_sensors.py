@@ -1,0 +1,154 @@
+"""Plugins of Gazebo Classic that sense a link or joint they name: for gz, a ``<sensor>`` each."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ...model.elements import Joint, Link
+from ...model.read import number, numbers
+from ...source.document import Element
+from ..numbers import number_text, numbers_text
+from .blobs import move
+from .plugin_types import SENSOR_PLUGINS, library
+from .sensor_plugins import sensor_plugin
+from .translation import Translation
+from .xml import Node, add, at
+
+
+class BodySensor(NamedTuple):
+    """A plugin that is a sensor.
+
+    Attributes:
+        type: The type of the sensor.
+        names: Parameters that name the link or joint.
+        noises: For each parameter with a standard deviation, what of the sensor it is of.
+        offsets: For each parameter with a constant error, what of the sensor it is of.
+    """
+
+    type: str
+    names: tuple[str, ...] = ("bodyName", "body_name")
+    noises: dict[str, tuple[str, ...]] = {}  # noqa: RUF012 -- a named tuple's default
+    offsets: dict[str, tuple[str, ...]] = {}  # noqa: RUF012
+
+
+_TURNING = tuple(f"imu/angular_velocity/{axis}" for axis in "xyz")
+_MOVING = tuple(f"imu/linear_acceleration/{axis}" for axis in "xyz")
+_FIX = tuple(f"navsat/position_sensing/{way}" for way in ("horizontal", "horizontal", "vertical"))
+_SPEED = tuple(f"navsat/velocity_sensing/{way}" for way in ("horizontal", "horizontal", "vertical"))
+_IMU = BodySensor(
+    "imu",
+    noises={"gaussianNoise": (*_TURNING, *_MOVING), "gaussian_noise": (*_TURNING, *_MOVING)},
+)
+
+BODY_SENSORS = {
+    "gazebo_ros_imu": _IMU,
+    "gazebo_ros_imu_sensor": _IMU,
+    "hector_gazebo_ros_imu": BodySensor(
+        "imu",
+        noises={"rateGaussianNoise": _TURNING, "accelGaussianNoise": _MOVING},
+        offsets={"rateOffset": _TURNING, "accelOffset": _MOVING},
+    ),
+    "hector_gazebo_ros_gps": BodySensor(
+        "navsat", noises={"gaussianNoise": _FIX, "velocityGaussianNoise": _SPEED}
+    ),
+    "hector_gazebo_ros_magnetic": BodySensor("magnetometer"),
+    "gazebo_ros_ft_sensor": BodySensor("force_torque", ("jointName", "joint_name")),
+}
+"""By the name of the library; in a ``<sensor>`` they are settings of it, outside they are one."""
+
+_CARRIED = frozenset(
+    ("bodyName", "body_name", "jointName", "joint_name", "updateRate", "update_rate", "topicName",
+     "topic_name", "frameName", "frame_name", "frameId", "frame_id", "xyzOffset", "rpyOffset",
+     "xyz_offset", "rpy_offset", "ros", "alwaysOn", "always_on", "robotNamespace", "serviceName")
+)  # fmt: skip
+
+
+def is_body_sensor(t: Translation, element: Element) -> bool:
+    """Whether a plugin outside of a sensor becomes one: for gz, where its link or joint stands."""
+    return not t.options.classic and _place(t, element) is not None
+
+
+def body_sensors(model: Node, t: Translation) -> None:
+    """The sensors that plugins of the model, its links and its joints are."""
+    known = {None, "", *t.robot.link, *t.robot.joint}
+    for block in t.robot.gazebo:
+        for element in block.element.all("plugin") if block.reference in known else ():
+            if is_body_sensor(t, element):
+                _sensor(model, t, element)
+
+
+def _place(t: Translation, element: Element) -> Link | Joint | None:
+    """The link or joint a plugin senses: the one it names, else the one its block refers to."""
+    kind = BODY_SENSORS.get(library(element))
+    if kind is None:
+        return None
+    named = (child.text.strip() for tag in kind.names for child in element.all(tag))
+    name = next(named, "") or (element.parent.get("reference") or "" if element.parent else "")
+    if kind.type == "force_torque":
+        joint = t.robot.joint.get(name)
+        return joint if joint is not None and joint.name not in t.plan.dissolved else None
+    return t.robot.link.get(name) if name in t.plan.owner else None
+
+
+def _sensor(model: Node, t: Translation, element: Element) -> None:
+    part = _place(t, element)
+    assert part is not None
+    kind = BODY_SENSORS[library(element)]
+    if isinstance(part, Link):
+        tag, name = "link", t.names.link(t.plan.owner[part.name])
+    else:
+        tag, name = "joint", t.names.joint(part.name)
+    node = next((e for e in model.findall(tag) if e.get("name") == name), None)
+    if node is None:  # a joint that is none in SDF
+        t.lose(
+            "plugin",
+            f"plugin '{library(element)}' senses '{part.name}', which is no {tag} in "
+            "SDF; it is left out",
+            element,
+            part,
+        )
+        return
+    made = add(node, "sensor", name=_free_name(node, element), type=kind.type)
+    _pose(made, element)
+    add(made, "always_on", "true")
+    said = {child.tag: child.text.strip() for child in element.children}
+    for table, word in ((kind.noises, "stddev"), (kind.offsets, "mean")):
+        for parameter, places in table.items():
+            _noise(made, places, word, said.get(parameter, ""))
+    if library(element) in SENSOR_PLUGINS:
+        sensor_plugin(made, t, part, element)
+    if isinstance(part, Link):
+        move(made, t, part)
+    left = [tag for tag in said if tag not in _CARRIED | {*kind.noises, *kind.offsets}]
+    if left:
+        text = f"plugin '{library(element)}' is sensor '{made.get('name')}' in gz; it has no "
+        t.lose("plugin", text + ", ".join(dict.fromkeys(left)), element, part)
+
+
+def _free_name(node: Node, element: Element) -> str:
+    name = element.get("name") or library(element)
+    taken = {other.get("name") for other in node}
+    return next(n for n in (name, *(f"{name}_{i}" for i in range(2, 1000))) if n not in taken)
+
+
+def _pose(made: Node, element: Element) -> None:
+    six: list[float] = []
+    for word in ("xyz", "rpy"):
+        found = element.child(f"{word}Offset") or element.child(f"{word}_offset")
+        six += (numbers(found.text, 3) if found is not None else None) or (0.0, 0.0, 0.0)
+    if any(six):
+        add(made, "pose", numbers_text(six))
+
+
+def _noise(made: Node, places: tuple[str, ...], word: str, text: str) -> None:
+    """Set one number of the noise at each place; of three numbers, each at its own."""
+    single = number(text)
+    values = numbers(text, 3) if single is None else (single, single, single)
+    if values is None or not any(values):
+        return
+    for index, place in enumerate(places):
+        noise = at(made, f"{place}/noise")
+        noise.set("type", "gaussian")
+        for tag in ("mean", "stddev"):
+            at(noise, tag).text = noise.findtext(tag) or "0"
+        at(noise, word).text = number_text(values[index % 3])
