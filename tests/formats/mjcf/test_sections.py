@@ -2,6 +2,7 @@
 
 import pytest
 
+from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.colors import color_name
 
 from .robots import BOX, INERTIAL, export, find, joint, link, robot, rules, tree
@@ -161,6 +162,50 @@ def test_names_of_geoms_are_unique(write):
         g.get("name") for g in tree(export(write("r.urdf", text))).find("worldbody").iter("geom")
     ]
     assert names == ["x", "a_x", "b_x", "b_x_collision"]
+
+
+@pytest.mark.parametrize(
+    "inside",
+    [
+        '<option timestep="fast"/>',
+        '<option timestep="nan"/>',
+        '<option gravity="0 0"/>',
+        '<option iterations="1.5"/>',
+        '<option o_solref="1 2 3"/>',
+        '<option integrator="euler"/>',
+        '<option><flag contact="off"/></option>',
+        '<compiler alignfree="maybe"/>',
+        '<size nkey="few"/>',
+        '<statistic center="0 0"/>',
+        '<visual><map znear="${near}"/></visual>',
+        '<visual><rgba fog="1 1 1"/></visual>',
+    ],
+)
+def test_mujoco_values_that_are_none(write, inside):
+    path = write("r.urdf", robot("", link("a"), f"<mujoco>{inside}</mujoco>"))
+    with pytest.raises(Refused) as caught:
+        export(path)
+    (finding,) = caught.value.findings
+    assert finding.rule == "bad-extension-number"
+    assert finding.place.line == 3
+    written = export(path, force=True)
+    assert rules(written) == ["bad-extension-number"]
+    value = inside.partition('="')[2].partition('"')[0]
+    assert f'"{value}"' not in written.files[written.main].decode()
+
+
+@pytest.mark.parametrize(
+    "inside",
+    [
+        '<option timestep="1e-3" gravity="0 0 -9.81" iterations="20" o_solref="0.02"/>',
+        '<option solver="CG" cone="elliptic"><flag contact="disable"/></option>',
+        '<option something_new="yes"/>',
+        '<size memory="10M"/>',
+    ],
+)
+def test_mujoco_values_that_are_good(write, inside):
+    written = export(write("r.urdf", robot(link("a"), f"<mujoco>{inside}</mujoco>")))
+    assert rules(written) == []
 
 
 def test_mujoco_extension(write):

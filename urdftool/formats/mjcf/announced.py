@@ -19,6 +19,9 @@ TREE = (
 )  # fmt: skip
 """A joint moves otherwise than it is written."""
 
+LOOPS = ("lossy-loop", "bad-extension-number")
+"""A joint that closes a loop is left out."""
+
 LIMITS = ("lossy-limit-inverted", "lower-above-upper", "not-a-number", "lossy-mimic-fixed")
 """A joint's bounds are changed."""
 

@@ -2,7 +2,8 @@
 
 MuJoCo does not collide the geoms of one rigid body, nor those of a rigid body with those of the
 one it hangs on, unless that one is held by the world. Those pairs are excluded here, as every
-engine for URDF does it; then those that an SRDF disables.
+engine for URDF does it; then those that a joint joins which closes a loop, and those that an SRDF
+disables.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 from lxml import etree
 
 from .body import Bodies
+from .loops import loops
 from .srdf import Srdf
 from .structure import Structure
 
@@ -20,13 +22,13 @@ def contact_section(
     """``<contact>``, or None where nothing needs to be excluded."""
     pairs = _beside_the_world(structure, bodies)
     filtered = set(map(frozenset, pairs))
-    if srdf is not None:
-        for one, other in srdf.disabled:
-            pair = frozenset((one, other))
-            if pair in filtered or not _can_collide(structure, bodies, one, other):
-                continue
-            filtered.add(pair)
-            pairs.append((one, other))
+    joined = [(loop.parent, loop.child) for loop in loops(structure)]
+    for one, other in (*joined, *(srdf.disabled if srdf is not None else ())):
+        pair = frozenset((one, other))
+        if pair in filtered or not _can_collide(structure, bodies, one, other):
+            continue
+        filtered.add(pair)
+        pairs.append((one, other))
     if not pairs:
         return None
     section = etree.Element("contact")

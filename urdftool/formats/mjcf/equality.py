@@ -1,4 +1,4 @@
-"""Joints that follow another, and joints that cannot move, as equalities."""
+"""Joints that follow another, cannot move, or close a loop, as equalities."""
 
 from __future__ import annotations
 
@@ -9,14 +9,12 @@ from ...model.elements import Joint
 from ..numbers import numbers_text
 from ..written import Written
 from .joint import locked_at
+from .loops import STIFF, loop_equalities
 from .structure import Structure
-
-STIFF = {"solimp": "0.95 0.99 0.001", "solref": "0.005 1"}
-"""Softness of the constraint, as MuJoCo Menagerie has it for coupled fingers."""
 
 
 def equality_section(structure: Structure, written: Written) -> etree._Element | None:
-    """``<equality>``, or None where no joint follows or is locked."""
+    """``<equality>``, or None where no joint follows, is locked or closes a loop."""
     section = etree.Element("equality")
     for joint in structure.moving:
         if joint.mimic is not None:
@@ -26,6 +24,7 @@ def equality_section(structure: Structure, written: Written) -> etree._Element |
         held = locked_at(joint)
         if held is not None:
             _hold(joint, held, section)
+    section.extend(loop_equalities(structure, written))
     return section if len(section) else None
 
 

@@ -43,7 +43,6 @@ LOST: dict[str, tuple[str, Severity]] = {
     "audio_source": ("MuJoCo has no sound", Severity.WARNING),
     "battery": ("MuJoCo has no batteries", Severity.WARNING),
     "particle_emitter": ("MuJoCo has no particles", Severity.WARNING),
-    "joint": ("a joint that closes a loop is not written", Severity.WARNING),
     "gripper": ("MuJoCo grasps by contact alone", Severity.WARNING),
     "include": ("other models are not included", Severity.WARNING),
     "velocity_decay": ("MuJoCo damps joints, not bodies", Severity.WARNING),
@@ -52,7 +51,7 @@ LOST: dict[str, tuple[str, Severity]] = {
 KNOWN = frozenset(
     ("mu1", "mu2", "mu", "material", "turnGravityOff", "gravity", "sensor", "light", "plugin",
      "springStiffness", "springReference", "static", "preserveFixedJoint",
-     "disableFixedJointLumping", "canonicalBody", "visual", "collision", "pose")
+     "disableFixedJointLumping", "canonicalBody", "visual", "collision", "pose", "joint")
 )  # fmt: skip
 """Keywords that are carried, or need not be."""
 

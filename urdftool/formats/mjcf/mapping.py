@@ -6,6 +6,7 @@ Where the code has a table of its own, this one is made from it.
 from __future__ import annotations
 
 from .gazebo import LOST
+from .loops import KINDS as CLOSERS
 from .sensor import AT_SITE, CAMERAS, SCANNERS
 from .structure import KINDS
 
@@ -21,6 +22,11 @@ _JOINT_TEXT = {
     "ball": '`joint type="ball"`',
     "weld": "nothing: the body is nested without a joint, and never fused",
 }
+
+
+def _loops(kind: str) -> str:
+    return ", ".join(name for name, made in CLOSERS.items() if made == kind)
+
 
 ROBOT: tuple[Row, ...] = (
     ("`robot@name`", EXACT, "`mujoco@model`, the file's and the default class's name"),
@@ -103,6 +109,13 @@ EXTENSIONS: tuple[Row, ...] = (
     ("gazebo `material`", CLOSE, "colour of visuals that have none"),
     ("gazebo `springStiffness`, `springReference`", EXACT, "`stiffness`, `springref`"),
     ("gazebo `static`", EXACT, "the root is held"),
+    (
+        f"gazebo `joint` {_loops('connect')}",
+        CLOSE,
+        "`equality/connect`, for a hinge in space two; its limits and dynamics are said",
+    ),
+    (f"gazebo `joint` {_loops('weld')}", CLOSE, "`equality/weld`"),
+    ("gazebo `joint` of another type", LOST_MARK, "said"),
     ("gazebo `light`", CLOSE, "`light`"),
     ("gazebo `plugin`", LOST_MARK, "belongs to Gazebo; one that drives wheels makes the base free"),
     ("SRDF `disable_collisions`", EXACT, "`exclude`, where MuJoCo would collide the pair"),

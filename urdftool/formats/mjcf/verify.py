@@ -21,6 +21,7 @@ from ..written import Written
 from .announced import EFFORT, INERTIA, LIMITS, TORN, TREE, Said
 from .compiled import Compiled
 from .options import Options
+from .verify_loops import compare_loops
 from .verify_shapes import collision_check, visual_check
 from .write import write
 
@@ -126,6 +127,7 @@ def _tree(robot: Robot, compiled: Compiled, said: Said) -> Check:
         if joint.mimic is not None:
             same = _follows(joint, compiled)
             check.compare(0 if same else math.inf, f"mimic of joint '{joint.name}'", known=known)
+    compare_loops(robot, compiled, said, check)
     if freedom != model.nv:
         text = f"{model.nv} degrees of freedom instead of {freedom}"
         check.compare(math.inf, text, known=said.any(*TREE))
@@ -135,7 +137,7 @@ def _tree(robot: Robot, compiled: Compiled, said: Said) -> Check:
 def _follows(joint: Joint, compiled: Compiled) -> bool:
     assert joint.mimic is not None
     model = compiled.model
-    for number in range(model.neq):
+    for number in _couplings(compiled):
         if model.eq_obj1id[number] == compiled.id("JOINT", joint.name):
             leader = compiled.id("JOINT", joint.mimic.joint)
             data = model.eq_data[number][:5]
@@ -268,9 +270,15 @@ def _custom(compiled: Compiled, name: str) -> float:
     return float(compiled.model.numeric_data[compiled.model.numeric_adr[number]])
 
 
+def _couplings(compiled: Compiled) -> Iterator[int]:
+    """The equalities of joints."""
+    kind = compiled.mujoco.mjtEq.mjEQ_JOINT
+    yield from (n for n in range(compiled.model.neq) if compiled.model.eq_type[n] == kind)
+
+
 def _held(compiled: Compiled, joint: int) -> Iterator[float]:
     """The position an equality holds a joint at."""
     model = compiled.model
-    for number in range(model.neq):
+    for number in _couplings(compiled):
         if model.eq_obj1id[number] == joint and model.eq_obj2id[number] < 0:
             yield float(model.eq_data[number][0])

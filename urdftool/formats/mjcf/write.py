@@ -9,9 +9,11 @@ from ...model.elements import Mesh, Robot
 from ..defects import FATAL, defect, defects, refuse
 from ..directory import mark
 from ..written import Written
+from .extension import extension_defects
 from .gazebo import gazebo_defects
 from .geom import shape_size
 from .inertials import inertials
+from .loops import loop_defects
 from .meshes import mesh_assets
 from .model import model_text
 from .names import file_name
@@ -41,7 +43,13 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     options = options or Options()
     model = model_name(robot)
     written = Written(options.file or f"{model}.xml")
-    found = [*defects(robot), *gazebo_defects(robot), *_shape_defects(robot)]
+    found = [
+        *defects(robot),
+        *gazebo_defects(robot),
+        *loop_defects(robot),
+        *extension_defects(robot),
+        *_shape_defects(robot),
+    ]
     if any(finding.rule in FATAL for finding in found):
         refuse(found, force=options.force)
     packages = robot.source.packages if robot.source is not None else None

@@ -1,0 +1,234 @@
+"""Joints that close a loop: URDF is a tree, so Gazebo's ``<gazebo><joint>`` adds them, as SDF."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from lxml import etree
+
+from ...finding import Finding, Severity
+from ...model.elements import GazeboExtension, Robot, Vector
+from ...model.pose import IDENTITY, Pose, add, dot, norm, rotate, rotation_of_rpy
+from ...model.read import number, numbers
+from ...source.document import Element
+from ..defects import defect
+from ..numbers import numbers_text
+from ..written import Written
+from .names import Names
+from .structure import WORLD, Structure
+
+KINDS = {"revolute": "connect", "continuous": "connect", "ball": "connect", "fixed": "weld"}
+"""What each type of SDF joint becomes; any other is said."""
+
+STIFF = {"solimp": "0.95 0.99 0.001", "solref": "0.005 1"}
+"""Softness of an equality, as MuJoCo Menagerie has it for coupled fingers."""
+
+ARM = 0.1
+"""Distance [m] along the axis of a second point, which keeps the axis of a loop in space."""
+
+UNBOUNDED = 1e15
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A joint that closes a loop.
+
+    Attributes:
+        element: The ``<joint>``.
+        kind: The equality it becomes.
+        child: A link.
+        parent: Another link, or ``world``.
+        pose: Its pose in the child's frame.
+    """
+
+    element: Element
+    kind: str
+    child: str
+    parent: str
+    pose: Pose
+
+    @property
+    def name(self) -> str:
+        """The joint's name."""
+        return self.element.get("name") or ""
+
+
+def loops(structure: Structure) -> Iterator[Loop]:
+    """The joints that can be written."""
+    for block in structure.robot.gazebo:
+        for element in block.element.all("joint"):
+            found = _read(structure, block, element)
+            if isinstance(found, Loop):
+                yield found
+
+
+def loop_defects(robot: Robot) -> Iterator[Finding]:
+    """Poses and axes that are no numbers."""
+    for block in robot.gazebo:
+        for joint in block.element.all("joint"):
+            axis = joint.child("axis")
+            for element, count in (
+                (joint.child("pose"), 6),
+                (axis.child("xyz") if axis is not None else None, 3),
+            ):
+                if element is not None and numbers(element.text, count) is None:
+                    yield defect(
+                        "bad-extension-number",
+                        f"<{element.tag}> of joint '{joint.get('name') or ''}' in <gazebo> is "
+                        f"'{element.text.strip()}', which is not {count} finite numbers",
+                        element.place,
+                        "gazebo",
+                        block.reference or "",
+                    )
+
+
+def loop_equalities(structure: Structure, written: Written) -> Iterator[etree._Element]:
+    """``<connect>`` and ``<weld>`` for each joint, and what is lost of it."""
+    names = Names()
+    for block in structure.robot.gazebo:
+        for element in block.element.all("joint"):
+            loop = _read(structure, block, element)
+            if isinstance(loop, Loop):
+                _bounds_losses(loop, written)
+                yield from _equalities(structure, loop, names)
+            else:
+                written.lose(
+                    "loop",
+                    f"joint '{element.get('name') or ''}' of <gazebo> is not carried: {loop}",
+                    element.place,
+                    kind="gazebo",
+                    name=block.reference or "",
+                )
+
+
+def _read(structure: Structure, block: GazeboExtension, element: Element) -> Loop | str:
+    """A joint; in words why it cannot be written, otherwise."""
+    if block.reference is not None:
+        return "a joint that closes a loop belongs into a <gazebo> without reference"
+    kind = KINDS.get(element.get("type") or "")
+    if kind is None:
+        return f"a loop can be closed by {', '.join(KINDS)}, not by '{element.get('type') or ''}'"
+    child, parent = _text(element, "child"), _text(element, "parent")
+    # the model's own name may stand in front
+    child, parent = child.rpartition("::")[2], parent.rpartition("::")[2]
+    known = structure.robot.link
+    for end, name in (("child", child), ("parent", parent)):
+        if name not in known and not (end == "parent" and name == WORLD):
+            return f"its {end} '{name}' is no link"
+    if child == parent:
+        return f"it joins '{child}' to itself"
+    pose = _pose(structure, element, child)
+    return pose if isinstance(pose, str) else Loop(element, kind, child, parent, pose)
+
+
+def _pose(structure: Structure, joint: Element, child: str) -> Pose | str:
+    element = joint.child("pose")
+    if element is None:
+        return IDENTITY
+    values = numbers(element.text, 6) or (0.0,) * 6
+    turn = rotation_of_rpy((values[3], values[4], values[5]))
+    pose = Pose(turn, (values[0], values[1], values[2]))
+    frame = element.get("relative_to") or element.get("frame") or child
+    if frame == child:
+        return pose
+    if frame != "__model__" and frame not in structure.robot.link:
+        return f"its pose is relative to '{frame}', which is no link"
+    start = IDENTITY if frame == "__model__" else structure.pose_at_zero(frame)
+    return structure.pose_at_zero(child).inverse() @ start @ pose
+
+
+def _equalities(structure: Structure, loop: Loop, names: Names) -> Iterator[etree._Element]:
+    bodies = {"body1": structure.body_name(loop.child)}
+    if loop.parent in structure.robot.link and loop.parent != WORLD:
+        bodies["body2"] = loop.parent
+    elif loop.parent in structure.robot.link and not structure.in_world:
+        bodies["body2"] = structure.body_name(loop.parent)
+    name = names.take(loop.name or f"{loop.child}_{loop.kind}")
+    if loop.kind == "weld":
+        yield etree.Element("weld", {"name": name, **bodies, **STIFF})
+        return
+    points = [loop.pose.translation]
+    if loop.element.get("type") != "ball":
+        axis = _axis(structure, loop)
+        if not _is_planar(structure, loop, axis):
+            x, y, z = axis
+            points.append(add(points[0], (ARM * x, ARM * y, ARM * z)))
+    for index, point in enumerate(points):
+        own = name if index == 0 else names.take(f"{name}_axis")
+        anchor = numbers_text(point)
+        yield etree.Element("connect", {"name": own, **bodies, "anchor": anchor, **STIFF})
+
+
+def _axis(structure: Structure, loop: Loop) -> Vector:
+    """The axis in the child's frame, of length 1."""
+    axis = loop.element.child("axis")
+    xyz = axis.child("xyz") if axis is not None else None
+    x, y, z = numbers(xyz.text if xyz is not None else "0 0 1", 3) or (0.0, 0.0, 1.0)
+    length = norm((x, y, z)) or 1.0
+    direction = (x / length, y / length, z / length)
+    old = axis is not None and _text(axis, "use_parent_model_frame").lower() in ("1", "true")
+    if old or (xyz is not None and xyz.get("expressed_in") == "__model__"):
+        return rotate(structure.pose_at_zero(loop.child).inverse().rotation, direction)
+    return rotate(loop.pose.rotation, direction)
+
+
+def _is_planar(structure: Structure, loop: Loop, axis: Vector) -> bool:
+    """Whether the other joints of the loop keep its axis already: all move in one plane."""
+    axis = rotate(structure.pose_at_zero(loop.child).rotation, axis)
+    paths = [_to_root(structure, link) for link in (loop.child, loop.parent)]
+    for link in set(paths[0]) ^ set(paths[1]):
+        joint = structure.robot.tree.parent_joint(link)
+        kind = structure.kind(joint) if joint is not None else "weld"
+        if kind == "weld" or joint is None:
+            continue
+        if kind not in ("hinge", "slide") or joint.axis is None:
+            return False
+        own = rotate(structure.pose_at_zero(link).rotation, joint.axis.xyz)
+        along = abs(dot(axis, own)) / norm(own)
+        if abs(along - (1.0 if kind == "hinge" else 0.0)) > 1e-6:
+            return False
+    return True
+
+
+def _to_root(structure: Structure, link: str) -> list[str]:
+    path = []
+    while link in structure.robot.link:
+        path.append(link)
+        joint = structure.robot.tree.parent_joint(link)
+        if joint is None:
+            break
+        link = joint.parent
+    return path
+
+
+def _bounds_losses(loop: Loop, written: Written) -> None:
+    axis = loop.element.child("axis")
+    if axis is None or loop.kind == "weld":
+        return
+    limit, dynamics = axis.child("limit"), axis.child("dynamics")
+    bounds = [number(_text(limit, end)) for end in ("lower", "upper")] if limit is not None else []
+    rubs = (
+        [number(_text(dynamics, tag)) for tag in ("damping", "friction", "spring_stiffness")]
+        if dynamics is not None
+        else []
+    )
+    for what, lost, part in (
+        ("limits", any(b is not None and abs(b) < UNBOUNDED for b in bounds), limit),
+        ("dynamics", any(rubs), dynamics),
+    ):
+        if lost and part is not None:
+            written.lose(
+                "loop",
+                f"{what} of joint '{loop.name}', which closes a loop, are not carried: MuJoCo "
+                "closes it by an equality, which has none",
+                part.place,
+                kind="gazebo",
+                name=loop.name,
+                severity=Severity.WARNING,
+            )
+
+
+def _text(element: Element, tag: str) -> str:
+    child = element.child(tag)
+    return child.text.strip() if child is not None else ""

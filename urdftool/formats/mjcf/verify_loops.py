@@ -1,0 +1,51 @@
+"""The joints with which Gazebo closes loops, in MuJoCo's model."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...model.elements import Robot
+from ...model.read import numbers
+from ...source.document import Element
+from ..check import Check
+from .announced import LOOPS, Said
+from .compiled import Compiled
+
+HELD = {"revolute": "CONNECT", "continuous": "CONNECT", "ball": "CONNECT", "fixed": "WELD"}
+
+
+def compare_loops(robot: Robot, compiled: Compiled, said: Said, check: Check) -> None:
+    """Each joint of a ``<gazebo>`` without reference has its equality, at its place."""
+    for block in robot.extensions.get(None, ()):
+        for joint in block.element.all("joint"):
+            held = _holds(joint, compiled)
+            name = joint.get("name") or ""
+            known = said.of(LOOPS, block.reference or "", name)
+            check.compare(0 if held else math.inf, f"joint '{name}' of a loop", known=known)
+
+
+def _holds(joint: Element, compiled: Compiled) -> bool:
+    model, kinds = compiled.model, compiled.mujoco.mjtEq
+    kind = HELD.get(joint.get("type") or "")
+    ends = [_body(joint, end, compiled) for end in ("child", "parent")]
+    pose = joint.child("pose")
+    plain = pose is None or not pose.attributes
+    for number in range(model.neq if kind else 0):
+        if model.eq_type[number] != getattr(kinds, f"mjEQ_{kind}"):
+            continue
+        if [model.eq_obj1id[number], model.eq_obj2id[number]] != ends:
+            continue
+        place = numbers(pose.text, 6) if pose is not None else None
+        anchor = np.array(place or [0.0] * 6)[:3]
+        if kind == "WELD" or not plain or abs(model.eq_data[number][:3] - anchor).max() < 1e-12:
+            return True
+    return False
+
+
+def _body(joint: Element, end: str, compiled: Compiled) -> int:
+    element = joint.child(end)
+    name = element.text.strip().rpartition("::")[2] if element is not None else ""
+    found = compiled.body(name)
+    return 0 if found < 0 and name == "world" else found
