@@ -196,6 +196,13 @@ def test_frames_of_what_was_lumped(extended):
     assert {"issue378_link_joint", "jCamera", "Camera", "linkSensorPoseTwoLevel2"} <= set(frames)
 
 
+def test_a_tag_keeps_its_fixed_joint():
+    assert "joint12a" not in names(model_of("fixed_joint_reduction", **CLASSIC), "joint")
+    kept = names(model_of("fixed_joint_reduction_disabled", **CLASSIC), "joint")
+    assert "joint12a" in kept
+    assert "joint23a" not in kept
+
+
 def test_a_force_torque_sensor_keeps_its_joint():
     model = model_of("force_torque_sensor")
     assert named(model, "joint", "joint_1").find("sensor") is not None

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ...finding import Finding
 from ...model.elements import Collision, Joint, Link, Mesh, Robot, UnknownShape, Visual
-from ...model.read import number
+from ...model.read import number, numbers
 from ...source.document import Element
 from ..defects import NUMBERS, defect
 from .block_numbers import wanted
@@ -38,6 +38,7 @@ def written_defects(robot: Robot) -> Iterator[Finding]:
     for joint in robot.joints:
         yield from _joint(robot, joint)
         yield from _extension(robot, joint)
+    yield from _origin(robot)
     yield from _immense(robot)
     yield from _kinds(robot)
     for block in robot.gazebo:
@@ -142,6 +143,18 @@ def _extension(robot: Robot, part: Link | Joint) -> Iterator[Finding]:
                 part.element.tag,
                 part.name,
             )
+
+
+def _origin(robot: Robot) -> Iterator[Finding]:
+    """The pose of the robot itself, which only Gazebo reads."""
+    origin = robot.element.child("origin")
+    if origin is None:
+        return
+    for name in ("xyz", "rpy"):
+        text = origin.get(name)
+        if text is not None and numbers(text, 3) is None:
+            message = f'{name}="{text}" of <origin> of the robot is not 3 finite numbers'
+            yield defect("not-a-number", message, origin.attribute_place(name), "robot")
 
 
 def _immense(robot: Robot) -> Iterator[Finding]:
