@@ -15,7 +15,7 @@ from typing import Any
 from .errors import ConfigError
 
 NAMES = (".urdftool.toml", "urdftool.toml", "pyproject.toml")
-TABLES = ("packages", "lint")
+TABLES = ("packages", "lint", "collision")
 
 _found: dict[str, Configuration] = {}
 
@@ -28,11 +28,13 @@ class Configuration:
         path: The file; None where there is none.
         packages: Folders by package name, absolute.
         lint: The ``lint`` table as it is written.
+        collision: The ``collision`` table as it is written.
     """
 
     path: str | None = None
     packages: dict[str, Path] = field(default_factory=dict)
     lint: dict[str, Any] = field(default_factory=dict)
+    collision: dict[str, Any] = field(default_factory=dict)
 
 
 def find_configuration(file: str | Path, given: str | None = None) -> Configuration:
@@ -86,15 +88,17 @@ def _parse(path: Path, *, required: bool) -> Configuration | None:
     for name in table:
         if name not in TABLES:
             raise ConfigError(
-                f"unknown table '{name}'; the tables are {' and '.join(TABLES)}", path=path
+                f"unknown table '{name}'; the tables are {', '.join(TABLES)}", path=path
             )
     packages = table.get("packages", {})
     lint = table.get("lint", {})
     if not isinstance(packages, dict) or not all(isinstance(v, str) for v in packages.values()):
         raise ConfigError('[packages] wants lines like my_robot = "../my_robot"', path=path)
-    if not isinstance(lint, dict):
-        raise ConfigError("[lint] wants to be a table", path=path)
+    collision = table.get("collision", {})
+    for name, value in (("lint", lint), ("collision", collision)):
+        if not isinstance(value, dict):
+            raise ConfigError(f"[{name}] wants to be a table", path=path)
     folder = Path(os.path.abspath(path)).parent
     return Configuration(
-        str(path), {name: folder / value for name, value in packages.items()}, lint
+        str(path), {name: folder / value for name, value in packages.items()}, lint, collision
     )

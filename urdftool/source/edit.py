@@ -151,6 +151,39 @@ def insert_child(
     return Edit(at, at, text)
 
 
+def replace_element(source: Source, element: Element, blocks: Sequence[Sequence[str]]) -> Edit:
+    """The edit that puts other elements in an element's place.
+
+    Args:
+        source: The file.
+        element: What goes.
+        blocks: The lines of each element that comes, each level of it indented by one tab.
+    """
+    own = source.indentation(element)
+    step = source.step
+    parts = []
+    for lines in blocks:
+        shown = [line.encode("ascii", "xmlcharrefreplace") for line in lines]
+        if own is None:
+            parts.append(b"".join(line.lstrip(b"\t") for line in shown))
+            continue
+        deep = [step * (len(line) - len(line.lstrip(b"\t"))) + line.lstrip(b"\t") for line in shown]
+        parts.append((source.line_end + own).join(deep))
+    between = b"" if own is None else source.line_end + own
+    return Edit(element.start, element.end, between.join(parts))
+
+
+def remove_element(source: Source, element: Element) -> Edit:
+    """The edit that takes an element away, with its line where nothing else stands on it."""
+    data = source.file.data
+    start, end = element.start, element.end
+    own = source.indentation(element)
+    rest = re.compile(rb"[ \t]*\r?\n").match(data, end)
+    if own is not None and rest is not None:
+        return Edit(start - len(own), rest.end(), b"")
+    return Edit(start, end, b"")
+
+
 def _step_within(source: Source, parent: Element, inner: bytes) -> bytes:
     own = source.indentation(parent)
     if own is not None and inner.startswith(own) and len(inner) > len(own):

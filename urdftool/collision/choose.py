@@ -1,0 +1,219 @@
+"""The methods, and ``auto``: the cheapest geometry whose error is small enough.
+
+Cheapest is what engines pay: primitives before hulls, few hulls before many, few vertices before
+many. A concave mesh comes last, since most engines take the hull of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import MeshError
+from ..meshes.solid import body_labels, edges_of
+from .convex import capped_hull, thickened
+from .decompose import DecompositionError, decompose
+from .measure import Measures, Target, measure
+from .piece import Piece, mesh_piece
+from .primitives import fit_primitives, signed_distance
+from .quadric import simplify
+from .settings import FEW_HULLS, Settings
+from .surface import Prepared
+
+LADDER = (0.2, 0.08, 0.04)
+"""CoACD's thresholds that ``auto`` tries, coarse ones first; each takes several times as long."""
+
+PLATE = 0.002
+"""Thickness, relative to its size, that a flat mesh is given."""
+
+TRIMMED = 0.003
+"""Distance, relative to the size, that vertices of CoACD's pieces may be left out."""
+
+_MEASURED = 3  # primitives that are measured: those that fit best
+_SHARE = 0.3  # part of the error that leaving out vertices of a hull may take
+_COARSER = 3.0
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Pieces, the method they came from, and how good they are.
+
+    Attributes:
+        method: ``"primitive"``, ``"hull"``, ``"coacd"`` or ``"simplify"``.
+        pieces: The pieces, in the mesh's frame.
+        measures: What was measured.
+        notes: What did not work on the way; complete sentences.
+    """
+
+    method: str
+    pieces: list[Piece]
+    measures: Measures
+    notes: tuple[str, ...] = ()
+
+
+def choose(surface: Prepared, settings: Settings) -> Choice:
+    """The collision geometry of one mesh.
+
+    Raises:
+        MeshError: The mesh has no extent in two directions.
+        MissingDependency: A library that the method needs is not installed.
+    """
+    target = Target(surface)
+    notes: list[str] = []
+    if _is_flat(surface):
+        return _plate(surface, target)
+    if settings.method != "auto":
+        found = _METHODS[settings.method](target, settings, notes)
+        best = min(found, key=lambda choice: (choice.measures.error, choice.measures.mean))
+        return Choice(best.method, best.pieces, best.measures, tuple(notes))
+    tried: list[Choice] = []
+    for step in (_primitives, _hulls, _bodies, _ladder, _simplified):
+        fits = []
+        for choice in step(target, settings, notes):
+            tried.append(choice)
+            if choice.measures.error <= settings.max_error:
+                fits.append(choice)
+                if step is not _primitives:
+                    break
+        if fits:
+            best = min(fits, key=lambda choice: choice.measures.mean)
+            return Choice(best.method, best.pieces, best.measures, tuple(notes))
+    best = min(tried, key=_regret)
+    return Choice(best.method, best.pieces, best.measures, tuple(notes))
+
+
+def _regret(choice: Choice) -> float:
+    """The error where none is small enough; a concave mesh has to be better by a quarter."""
+    return choice.measures.error * (1.25 if choice.method == "simplify" else 1.0)
+
+
+def _is_flat(surface: Prepared) -> bool:
+    """Whether all points lie in a plane but for a part of the size that rounding explains."""
+    centred = surface.vertices - surface.vertices.mean(axis=0)
+    _, axes = np.linalg.eigh(centred.T @ centred)
+    return float(np.ptp(centred @ axes[:, 0])) <= 1e-6 * surface.size
+
+
+def _plate(surface: Prepared, target: Target) -> Choice:
+    thickness = PLATE * surface.size
+    vertices, faces = capped_hull(thickened(surface.vertices, thickness), 64)
+    pieces = [mesh_piece(vertices, faces)]
+    note = f"The mesh is flat; its collision is its outline, {thickness * 1000:.3g} mm thick."
+    return Choice("hull", pieces, measure(target, pieces), (note,))
+
+
+def _primitives(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+    """The shapes that fit best by the largest distance of the visual."""
+    even = target.even
+    fits = fit_primitives(even)
+    fits.sort(key=lambda piece: float(np.abs(signed_distance(piece, even)).max()))
+    for piece in fits[:_MEASURED]:
+        yield Choice("primitive", [piece], measure(target, [piece]))
+
+
+def _hulls(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+    """One hull: with as few vertices as the error allows, then with as many as it may have."""
+    points = target.surface.vertices
+    tolerances = [0.0]
+    if settings.method == "auto":
+        tolerances = [_SHARE * settings.max_error * target.size, 0.0]
+    for tolerance in tolerances:
+        vertices, faces = capped_hull(points, settings.max_vertices, tolerance)
+        pieces = [mesh_piece(vertices, faces)]
+        choice = Choice("hull", pieces, measure(target, pieces))
+        yield choice
+        if choice.measures.error > 3 * settings.max_error:
+            return
+
+
+def _bodies(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+    """A hull for each body that can be touched, where there are several but not too many."""
+    surface = target.surface
+    labels = body_labels(len(surface.faces), edges_of(surface.faces))
+    count = int(labels.max()) + 1
+    if count < 2:
+        return
+    seen = target.flood.touches(surface.vertices)
+    tolerance = _SHARE * settings.max_error * target.size
+    pieces: list[Piece] = []
+    for label in range(count):
+        used = np.unique(surface.faces[labels == label])
+        if not seen[used].any():
+            continue
+        points = surface.vertices[used]
+        if float(np.linalg.norm(np.ptp(points, axis=0))) < tolerance:
+            continue
+        if len(pieces) == (settings.max_hulls or FEW_HULLS):
+            return
+        try:
+            vertices, faces = capped_hull(points, settings.max_vertices, tolerance)
+        except MeshError:  # a decal, or a face that hangs on nothing
+            continue
+        pieces.append(mesh_piece(vertices, faces))
+    if len(pieces) > 1:
+        yield Choice("hull", pieces, measure(target, pieces))
+
+
+def _ladder(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+    """CoACD, finer and finer, until more pieces are not allowed."""
+    tolerance = _SHARE * settings.max_error * target.size
+    for threshold in LADDER:
+        if threshold < 1.5 * settings.max_error:
+            return
+        try:
+            pieces = _cut(target, settings, threshold, tolerance)
+        except DecompositionError as error:
+            notes.append(f"{error.message}, at a threshold of {threshold:g}; it was left out.")
+            return
+        if len(pieces) > (settings.max_hulls or FEW_HULLS):
+            return
+        yield Choice("coacd", pieces, measure(target, pieces))
+
+
+def _coacd(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+    """CoACD at its threshold; coarser where it fails, and one hull where that fails, too."""
+    for threshold in (settings.threshold, settings.threshold * _COARSER):
+        try:
+            pieces = _cut(target, settings, threshold, TRIMMED * target.size)
+        except DecompositionError as error:
+            notes.append(f"{error.message}, at a threshold of {threshold:g}.")
+            continue
+        yield Choice("coacd", pieces, measure(target, pieces))
+        return
+    notes.append("One convex hull was taken instead.")
+    yield from _hulls(target, settings, notes)
+
+
+def _cut(target: Target, settings: Settings, threshold: float, tolerance: float) -> list[Piece]:
+    # merged down to a number they are far worse than coarser ones, and it takes long
+    most = None if settings.method == "auto" else settings.max_hulls
+    return decompose(
+        target.surface,
+        threshold,
+        max_hulls=most or -1,
+        max_vertices=settings.max_vertices,
+        time_limit=settings.time_limit,
+        tolerance=tolerance,
+    )
+
+
+def _simplified(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+    """Fewer triangles; under ``auto`` a quarter of what is allowed first."""
+    surface = target.surface
+    counts = [settings.max_triangles]
+    if settings.method == "auto":
+        counts = [settings.max_triangles // 4, settings.max_triangles]
+    for count in counts:
+        vertices, faces = simplify(surface.vertices, surface.faces, count)
+        pieces = [mesh_piece(vertices, faces, convex=False)]
+        yield Choice("simplify", pieces, measure(target, pieces))
+
+
+_METHODS: dict[str, Callable[[Target, Settings, list[str]], Iterator[Choice]]] = {
+    "primitive": _primitives,
+    "hull": _hulls,
+    "coacd": _coacd,
+    "simplify": _simplified,
+}

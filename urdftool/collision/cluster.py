@@ -1,0 +1,74 @@
+"""The same work on a Dask cluster, for thousands of meshes.
+
+The workers need urdftool and its extra ``collision``, and nothing of the files: these are sent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from ..errors import MissingDependency, UrdftoolError
+from .compute import Task, attempt
+
+
+def on_cluster(tasks: Sequence[Task], address: str) -> Iterator[tuple[int, bytes | UrdftoolError]]:
+    """The outcome of each task, by its number, as they come.
+
+    Raises:
+        MissingDependency: distributed is not installed.
+        UrdftoolError: No scheduler answers at the address.
+    """
+    try:
+        import distributed
+    except ImportError as error:
+        raise MissingDependency(
+            "distributed is not installed; pip install 'urdftool[dask]'"
+        ) from error
+    try:
+        library: Any = distributed
+        client: Any = library.Client(address, timeout=10, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise UrdftoolError(
+            f"no Dask scheduler answers at {address}; start one with `dask scheduler`"
+        ) from error
+    with client:
+        futures = {
+            client.submit(simplify_file, task, _files(task.path), pure=False): index
+            for index, task in enumerate(tasks)
+        }
+        for future in library.as_completed(list(futures)):
+            index = futures[future]
+            try:
+                outcome = future.result()
+            # whatever a worker may die of
+            except Exception as error:
+                outcome = UrdftoolError(
+                    f"the cluster gave it up: {type(error).__name__}: {error}",
+                    path=tasks[index].path,
+                )
+            future.release()
+            yield index, outcome
+
+
+def simplify_file(task: Task, files: dict[str, bytes]) -> bytes | UrdftoolError:
+    """On a worker: write the files, simplify the mesh, and name it as its owner does."""
+    import tempfile
+    from dataclasses import replace
+
+    with tempfile.TemporaryDirectory(prefix="urdftool-") as folder:
+        for name, data in files.items():
+            (Path(folder) / name).write_bytes(data)
+        outcome = attempt(replace(task, path=Path(folder) / task.path.name))
+    if isinstance(outcome, UrdftoolError) and outcome.path is not None:
+        return type(outcome)(outcome.message, path=task.path)
+    return outcome
+
+
+def _files(path: Path) -> dict[str, bytes]:
+    """The mesh, and for glTF the buffers beside it."""
+    paths = [path]
+    if path.suffix.lower() == ".gltf":
+        paths += sorted(path.parent.glob("*.bin"))
+    return {file.name: file.read_bytes() for file in paths if file.is_file()}

@@ -1,0 +1,138 @@
+"""One mesh file to its collision geometry, as it is computed, kept and sent about."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from ..errors import MeshError, UrdftoolError
+from .piece import Piece, piece_of
+from .settings import Settings
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Task:
+    """A mesh to be simplified: the same task always has the same result.
+
+    Attributes:
+        path: The mesh file.
+        scale: Factors, as URDF's ``<mesh scale>``.
+        settings: What is wanted.
+    """
+
+    path: Path
+    scale: Vector = (1.0, 1.0, 1.0)
+    settings: Settings = field(default_factory=Settings)
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """The collision geometry of a mesh.
+
+    Attributes:
+        method: The method it came from.
+        pieces: Its pieces, in the mesh's frame.
+        measures: What was measured, as :meth:`Measures.as_dict`.
+        before: ``triangles`` and ``vertices`` of the mesh.
+        notes: What should be known of it; complete sentences.
+        seconds: How long it took [s], when it was computed.
+        cached: Whether it was computed before.
+    """
+
+    method: str
+    pieces: list[Piece]
+    measures: dict[str, Any]
+    before: dict[str, int]
+    notes: tuple[str, ...]
+    seconds: float
+    cached: bool = False
+
+    @property
+    def error(self) -> float:
+        """The Hausdorff distance relative to the size."""
+        return float(self.measures["error"])
+
+    def as_bytes(self) -> bytes:
+        """All of it as text that :func:`result_of` reads."""
+        table = {
+            "method": self.method,
+            "pieces": [piece.as_dict() for piece in self.pieces],
+            "measures": self.measures,
+            "before": self.before,
+            "notes": list(self.notes),
+            "seconds": self.seconds,
+        }
+        return json.dumps(table, separators=(",", ":")).encode()
+
+
+def result_of(data: bytes, *, cached: bool = False) -> Result:
+    """The result that :meth:`Result.as_bytes` told of.
+
+    Raises:
+        ValueError: It is damaged.
+    """
+    try:
+        table = json.loads(data)
+        return Result(
+            table["method"],
+            [piece_of(piece) for piece in table["pieces"]],
+            table["measures"],
+            table["before"],
+            tuple(table["notes"]),
+            float(table["seconds"]),
+            cached,
+        )
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"a result that cannot be read: {error}") from error
+
+
+def compute(task: Task) -> Result:
+    """Simplify a mesh.
+
+    Raises:
+        UrdftoolError: It cannot be read or simplified.
+    """
+    from .choose import choose
+    from .surface import read_surface
+
+    begin = perf_counter()
+    surface = read_surface(task.path, task.scale)
+    try:
+        choice = choose(surface, task.settings)
+    except MeshError as error:
+        raise MeshError(error.message, path=task.path) from error
+    return Result(
+        choice.method,
+        choice.pieces,
+        choice.measures.as_dict(),
+        {"triangles": surface.triangles, "vertices": surface.points},
+        (*surface.notes, *choice.notes),
+        perf_counter() - begin,
+    )
+
+
+def attempt(task: Task) -> bytes | UrdftoolError:
+    """As :func:`compute`, with what went wrong as a result, so that it goes between processes."""
+    try:
+        return compute(task).as_bytes()
+    except UrdftoolError as error:
+        return type(error)(error.message, path=error.path)
+    except (MemoryError, RecursionError) as error:
+        return MeshError(
+            f"the mesh is too large to be simplified ({type(error).__name__})", path=task.path
+        )
+
+
+def shown_scale(scale: Sequence[float]) -> str:
+    """A scale as it is said; nothing where it is one."""
+    if all(factor == 1 for factor in scale):
+        return ""
+    if len(set(scale)) == 1:
+        return f"×{scale[0]:g}"
+    return "×" + ",".join(f"{factor:g}" for factor in scale)

@@ -1,0 +1,133 @@
+"""Convex hulls: exact, or with few vertices."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import MeshError
+from ..meshes.mesh import Faces, Points
+
+_LIMIT = 4000  # hull vertices beyond which a cap looks at the extreme ones of a direction only
+
+
+def hull(points: Points) -> tuple[Points, Faces]:
+    """The convex hull of points, its triangles outwards.
+
+    Raises:
+        MeshError: The points lie in a plane.
+    """
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        found = ConvexHull(points)
+    except (QhullError, ValueError) as error:
+        raise MeshError("the mesh is flat; it encloses no volume") from error
+    used = np.sort(found.vertices)
+    number = np.full(len(points), -1)
+    number[used] = np.arange(len(used))
+    faces = number[found.simplices].astype(np.int64)
+    vertices = points[used]
+    corners = vertices[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    inwards = np.einsum("ij,ij->i", normals, found.equations[:, :3]) < 0
+    faces[inwards] = faces[inwards][:, ::-1]
+    return vertices, faces[np.lexsort(faces.T[::-1])]
+
+
+def capped_hull(points: Points, most: int, tolerance: float = 0.0) -> tuple[Points, Faces]:
+    """A convex hull of a few of the points.
+
+    Begun with the extreme points along the axes, it takes in the point that lies farthest outside,
+    until none lies farther out than the tolerance, or there are enough.
+
+    Args:
+        points: Points [m].
+        most: Vertices it may have, at least 4.
+        tolerance: Distance [m] that points may be left outside.
+
+    Raises:
+        MeshError: The points lie in a plane.
+    """
+    outer, faces = hull(points)
+    if len(outer) <= min(most, 8):
+        return outer, faces
+    chosen = _first(outer, most)
+    while True:
+        vertices, faces = hull(outer[chosen])
+        beyond = signed_distance(outer, planes(vertices, faces))
+        beyond[chosen] = -np.inf
+        worst = int(np.argmax(beyond))
+        if beyond[worst] <= tolerance or len(chosen) >= most:
+            return vertices, faces
+        chosen.append(worst)
+
+
+def _first(outer: Points, most: int) -> list[int]:
+    """Four points or more that span a volume: extreme along the axes and the diagonals."""
+    chosen: list[int] = []
+    start = int(np.argmax(np.linalg.norm(outer - outer.mean(axis=0), axis=1)))
+    chosen.append(start)
+    chosen.append(int(np.argmax(np.linalg.norm(outer - outer[start], axis=1))))
+    along = outer[chosen[1]] - outer[start]
+    along = along / np.linalg.norm(along)
+    off = outer - outer[start]
+    chosen.append(int(np.argmax(np.linalg.norm(off - np.outer(off @ along, along), axis=1))))
+    normal = np.cross(along, outer[chosen[2]] - outer[start])
+    chosen.append(int(np.argmax(np.abs(off @ normal))))
+    for axis in np.eye(3):
+        for sign in (1, -1):
+            index = int(np.argmax(sign * (outer @ axis)))
+            if index not in chosen and len(chosen) < most:
+                chosen.append(index)
+    return chosen
+
+
+def planes(vertices: Points, faces: Faces) -> Points:
+    """The plane of each triangle: outward unit normal and distance from the origin, shape (m, 4).
+
+    Triangles without an area, and all but one of those in one plane, are left out.
+    """
+    corners = vertices[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1)
+    extent = float(np.ptp(vertices, axis=0).max())
+    sound = lengths > 1e-12 * extent**2
+    unit = normals[sound] / lengths[sound, None]
+    offsets = np.einsum("ij,ij->i", unit, corners[sound, 0])
+    found = np.concatenate([unit, offsets[:, None]], axis=1)
+    scale = np.array([1, 1, 1, 1 / max(extent, 1e-300)])
+    _, first = np.unique(np.round(found * scale, 6), axis=0, return_index=True)
+    return np.asarray(found[np.sort(first)])
+
+
+def signed_distance(points: Points, sides: Points) -> Points:
+    """How far points lie outside of all planes [m]; negative inside. Exact inside and near faces.
+
+    Args:
+        points: Points [m].
+        sides: Planes, from :func:`planes`.
+    """
+    result = np.empty(len(points))
+    step = max(1, 8_000_000 // max(1, len(sides)))
+    for begin in range(0, len(points), step):
+        some = points[begin : begin + step] @ sides[:, :3].T - sides[:, 3]
+        result[begin : begin + step] = some.max(axis=1)
+    return result
+
+
+def thickened(points: Points, thickness: float) -> Points:
+    """Points of a flat mesh, moved to either side of their plane.
+
+    Args:
+        points: Points [m] in or near a plane.
+        thickness: Distance [m] of the two sides.
+
+    Raises:
+        MeshError: They lie on a line.
+    """
+    middle = points.mean(axis=0)
+    _, sizes, axes = np.linalg.svd(points - middle, full_matrices=False)
+    if len(sizes) < 3 or sizes[1] <= 1e-9 * max(float(sizes[0]), 1e-300):
+        raise MeshError("the mesh has no area; all of its points lie on one line")
+    step = axes[2] * thickness / 2
+    return np.concatenate([points + step, points - step])

@@ -1,0 +1,132 @@
+"""Convex pieces by CoACD, kept at arm's length: a child process with a limit of time.
+
+CoACD's time grows fast with the number of triangles, and its pieces have as many as the cuts left
+them with. So the mesh is simplified first, and each piece is a hull of few vertices afterwards.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import signal
+import subprocess
+import sys
+
+import numpy as np
+
+from ..errors import MeshError, MissingDependency, UrdftoolError
+from ..meshes.mesh import Faces, Points
+from .convex import capped_hull
+from .piece import Piece, mesh_piece
+from .quadric import simplify
+from .surface import Prepared, prepare
+
+TRIANGLES = 1500
+"""Triangles that a mesh has at most when it is cut."""
+
+_SLOWEST = 4.0  # share of a processor that a child may be left with before the watch ends it
+
+
+class DecompositionError(UrdftoolError):
+    """CoACD ended without a result."""
+
+
+def decompose(
+    surface: Prepared,
+    threshold: float,
+    *,
+    max_hulls: int,
+    max_vertices: int,
+    time_limit: float,
+    tolerance: float = 0.0,
+) -> list[Piece]:
+    """Convex pieces that together are near to a surface.
+
+    Args:
+        surface: The mesh.
+        threshold: Concavity at which CoACD stops to cut, relative to half the longest side.
+        max_hulls: Pieces it may make; -1 is any number.
+        max_vertices: Vertices each may have.
+        time_limit: Processor time [s] it may take.
+        tolerance: Distance [m] that vertices of a piece may be left out.
+
+    Raises:
+        DecompositionError: It died, took too long, or gave nothing.
+        MissingDependency: coacd is not installed.
+    """
+    vertices, faces = simplify(surface.vertices, surface.faces, TRIANGLES)
+    made = prepare(vertices, faces)
+    if made is not None:
+        vertices, faces = made.vertices, made.faces
+    options = {
+        "threshold": float(np.clip(threshold, 0.01, 1.0)),
+        "max_convex_hull": max_hulls,
+        "mcts_iterations": 20,
+        "mcts_nodes": 10,
+        "mcts_max_depth": 1,
+        "resolution": 500,
+        "preprocess_resolution": 50,
+        "seed": 0,
+        "time_limit": time_limit,
+    }
+    return _hulls(run_child(vertices, faces, options), max_vertices, tolerance)
+
+
+def _hulls(parts: list[Points], max_vertices: int, tolerance: float) -> list[Piece]:
+    pieces = []
+    for points in parts:
+        try:
+            vertices, faces = capped_hull(points, max_vertices, tolerance)
+        except MeshError:  # a sliver of a cut
+            continue
+        pieces.append(mesh_piece(vertices, faces))
+    if not pieces:
+        raise DecompositionError("CoACD gave no piece with a volume")
+    # an order that does not hang on the search
+    pieces.sort(key=lambda piece: (-len(piece.faces), *piece.vertices.mean(axis=0).round(9)))
+    return pieces
+
+
+def run_child(vertices: Points, faces: Faces, options: dict[str, float]) -> list[Points]:
+    """The points of each piece, as the child process found them."""
+    stream = io.BytesIO()
+    text = np.frombuffer(json.dumps(options).encode(), dtype=np.uint8)
+    np.savez(stream, vertices=vertices, faces=faces, options=text)
+    limit = options["time_limit"]
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": "1"}
+    child = subprocess.Popen(
+        [sys.executable, "-m", "urdftool.collision.coacd_child"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env=environment,
+    )
+    try:
+        out, err = child.communicate(stream.getvalue(), timeout=limit * _SLOWEST + 10)
+    except subprocess.TimeoutExpired:
+        raise DecompositionError(f"CoACD took longer than {limit:g} s") from None
+    finally:
+        if child.poll() is None:
+            child.kill()
+            child.communicate()
+    if child.returncode:
+        raise _death(child.returncode, err.decode("utf-8", "replace"), limit)
+    try:
+        with np.load(io.BytesIO(out)) as found:
+            return [found[f"v{index}"] for index in range(len(found.files) // 2)]
+    except (OSError, ValueError, KeyError) as error:
+        raise DecompositionError("CoACD ended without a result") from error
+
+
+def _death(code: int, err: str, limit: float) -> UrdftoolError:
+    if code < 0 and -code in (getattr(signal, "SIGXCPU", 0), signal.SIGKILL):
+        return DecompositionError(f"CoACD took longer than {limit:g} s")
+    lines = [line for line in err.strip().splitlines() if line.strip()]
+    last = lines[-1].strip() if lines else ""
+    if "No module named 'coacd'" in last:
+        return MissingDependency("coacd is not installed; pip install 'urdftool[collision]'")
+    how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
+    if "Assertion" in err:
+        last = "an assertion of its own failed"
+    return DecompositionError(f"CoACD died ({how}{': ' + last[:120] if last else ''})")

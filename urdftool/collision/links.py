@@ -1,0 +1,202 @@
+"""Which links of a robot get a new collision geometry, and from which meshes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any
+
+from ..errors import ConfigError, MeshError, UrdftoolError
+from ..model.elements import Collision, Link, Mesh, Robot, UnknownShape, Visual
+from .compute import Task
+from .settings import METHODS, Settings
+
+Shape = Visual | Collision
+
+_NUMBERS = ("max-error", "threshold", "time-limit")
+_COUNTS = ("max-hulls", "max-vertices", "max-triangles")
+
+
+@dataclass(frozen=True, eq=False)
+class Use:
+    """A shape that a collision is made of: a mesh with its task, or a primitive as it is."""
+
+    shape: Shape
+    task: Task | None
+
+
+@dataclass(eq=False)
+class LinkPlan:
+    """What becomes of a link.
+
+    Attributes:
+        index: Its number among the robot's links.
+        link: The link.
+        source: ``"visual"`` or ``"collision"``, where its shapes are from.
+        uses: The shapes its collision is made of.
+        replaced: Numbers of the collisions that go, among the link's own.
+    """
+
+    index: int
+    link: Link
+    source: str
+    uses: list[Use]
+    replaced: list[int] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What is asked of a robot.
+
+    Attributes:
+        settings: For every link.
+        source: ``"visual"``, ``"collision"``, or None: visuals, and collisions without those.
+        only: Links to work on; empty is all.
+        skip: Links to leave alone.
+        keep_primitives: Leave collisions that are primitives as they are.
+        table: The configuration's ``collision`` table.
+        path: The file that table is from.
+    """
+
+    settings: Settings = field(default_factory=Settings)
+    source: str | None = None
+    only: tuple[str, ...] = ()
+    skip: tuple[str, ...] = ()
+    keep_primitives: bool = True
+    table: Mapping[str, Any] = field(default_factory=dict)
+    path: str | None = None
+    given: tuple[str, ...] = ()
+    """Settings that the command line gives, which count more than the configuration's."""
+
+
+def plan(robot: Robot, wishes: Wishes) -> tuple[list[LinkPlan], list[UrdftoolError]]:
+    """What is to be done, and the meshes that stand in the way.
+
+    Raises:
+        ConfigError: A link that is named does not exist, or a setting does not.
+    """
+    check_names(robot, (*wishes.only, *wishes.skip))
+    plans: list[LinkPlan] = []
+    problems: list[UrdftoolError] = []
+    for index, link in enumerate(robot.links):
+        if (wishes.only and link.name not in wishes.only) or link.name in wishes.skip:
+            continue
+        settings, skipped = _settings_for(link.name, wishes)
+        if skipped:
+            continue
+        found = _link_plan(index, link, wishes)
+        if found is None:
+            continue
+        source, shapes, replaced = found
+        uses = []
+        for shape in shapes:
+            try:
+                uses.append(Use(shape, _task(robot, shape, settings)))
+            except UrdftoolError as error:
+                problems.append(error)
+        plans.append(LinkPlan(index, link, source, uses, replaced))
+    return plans, problems
+
+
+def _link_plan(
+    index: int, link: Link, wishes: Wishes
+) -> tuple[str, Sequence[Shape], list[int]] | None:
+    """Source, shapes, and which collisions go; None where the link stays as it is."""
+    meshes = [n for n, shape in enumerate(link.collisions) if isinstance(shape.geometry, Mesh)]
+    others = [n for n in range(len(link.collisions)) if n not in meshes]
+    has_visual = any(isinstance(shape.geometry, Mesh) for shape in link.visuals)
+    source = wishes.source or ("visual" if has_visual else "collision")
+    if wishes.keep_primitives and others and not meshes:
+        return None
+    if source == "visual":
+        if not has_visual:
+            return None
+        shapes: Sequence[Shape] = [s for s in link.visuals if _is_known(s)]
+        replaced = meshes if wishes.keep_primitives else list(range(len(link.collisions)))
+        return source, shapes, replaced
+    if not meshes:
+        return None
+    return source, [link.collisions[n] for n in meshes], meshes
+
+
+def _is_known(shape: Shape) -> bool:
+    return shape.geometry is not None and not isinstance(shape.geometry, UnknownShape)
+
+
+def _task(robot: Robot, shape: Shape, settings: Settings) -> Task | None:
+    mesh = shape.geometry
+    if not isinstance(mesh, Mesh):
+        return None
+    place = mesh.element.attribute_place("filename")
+    if not mesh.filename:
+        raise MeshError("the mesh has no filename", at=place)
+    assert robot.source is not None
+    try:
+        path = robot.source.resolve(mesh.filename)
+    except UrdftoolError as error:
+        raise MeshError(error.message, at=place, notes=error.notes) from error
+    if not path.is_file():
+        raise MeshError(f"there is no mesh file {path}", at=place)
+    if not all(mesh.scale):
+        raise MeshError(
+            "the scale of the mesh has a zero in it; three factors other than zero are wanted",
+            at=mesh.element.attribute_place("scale"),
+        )
+    return Task(Path(path), mesh.scale, settings)
+
+
+def check_names(robot: Robot, names: Iterable[str]) -> None:
+    """Refuse names of links that there are none of."""
+    for name in names:
+        if name not in robot.link:
+            from difflib import get_close_matches
+
+            near = get_close_matches(name, list(robot.link), 1)
+            hint = f"; did you mean '{near[0]}'?" if near else ""
+            raise ConfigError(f"the robot has no link '{name}'{hint}")
+
+
+def _settings_for(name: str, wishes: Wishes) -> tuple[Settings, bool]:
+    """The settings of a link, and whether it is skipped."""
+    table: dict[str, Any] = {}
+    for key, value in wishes.table.items():
+        if key != "links":
+            table[key] = value
+    links = wishes.table.get("links", {})
+    if not isinstance(links, dict):
+        raise ConfigError(
+            "collision.links wants tables such as [collision.links.base_link]", path=wishes.path
+        )
+    own: dict[str, Any] = {}
+    for pattern, values in links.items():
+        if not isinstance(values, dict):
+            raise ConfigError(f"collision.links.{pattern} wants to be a table", path=wishes.path)
+        if fnmatchcase(name, pattern):
+            own.update(values)
+    skipped = own.pop("skip", False) is True
+    general = {k: v for k, v in _checked(table, wishes.path).items() if k not in wishes.given}
+    changes = {**general, **_checked(own, wishes.path)}
+    return wishes.settings.changed(changes), skipped
+
+
+def _checked(table: Mapping[str, Any], path: str | None) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        if key == "method":
+            if value not in METHODS:
+                raise ConfigError(
+                    f"collision.method is '{value}'; there are {', '.join(METHODS)}", path=path
+                )
+        elif key in _NUMBERS or key in _COUNTS:
+            whole = key in _COUNTS
+            if isinstance(value, bool) or not isinstance(value, int if whole else (int, float)):
+                raise ConfigError(f"collision.{key} wants a number", path=path)
+            if value <= 0 or (key == "max-vertices" and value < 4):
+                raise ConfigError(f"collision.{key} is {value}, which is too small", path=path)
+        else:
+            known = ", ".join(("method", *_NUMBERS, *_COUNTS, "links"))
+            raise ConfigError(f"no option is called collision.{key}; there are {known}", path=path)
+        found[key.replace("-", "_")] = value
+    return found

@@ -1,0 +1,220 @@
+"""How good a collision geometry is: distances, volumes and counts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..inertia.sampling import spread_points
+from ..inertia.winding import boxes_of, winding_numbers
+from ..meshes.mesh import Points
+from . import convex, primitives
+from .distance import Samples, Surface, spread
+from .piece import Piece
+from .surface import Prepared
+from .touchable import Flood, flood
+
+SAMPLES = 20_000
+"""Points on each surface between which distances are measured."""
+
+MARGIN = 0.001
+"""Depth, relative to the part's size, up to which a point counts as on a surface."""
+
+_DENSE = 80_000
+_SEAM = 0.004  # pieces that meet at a cut leave gaps of a part of this, relative to the size
+
+
+@dataclass(frozen=True)
+class Measures:
+    """A collision geometry against the visual it stands for.
+
+    Distances are two-sided, between what can be touched of the two: enclosed surfaces of the
+    visual, and faces of a piece within another, are left out.
+    """
+
+    size: float
+    """Diagonal of the visual's bounding box [m]; ``error`` is relative to it."""
+    hausdorff: float
+    """Largest distance [m] from a point of either surface to the other."""
+    mean: float
+    """Mean distance [m], of both directions."""
+    visual_to_collision: float
+    """Largest distance [m] from the visual to the collision."""
+    collision_to_visual: float
+    """Largest distance [m] from the collision to the visual."""
+    volume: float
+    """Volume [m³] of the collision; space that pieces share counts once."""
+    volume_ratio: float
+    """That volume over the visual's."""
+    outside: float
+    """Share of the visual's touchable area that lies outside the collision, by over 0.1 %."""
+    enclosed: float
+    """Share of the visual's area that cannot be touched, and was not measured."""
+    pieces: int
+    triangles: int
+    vertices: int
+
+    @property
+    def error(self) -> float:
+        """The Hausdorff distance relative to the size."""
+        return self.hausdorff / self.size
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it, with the relative error."""
+        return {"error": self.error, **asdict(self)}
+
+
+class Target:
+    """A visual surface, with all that is needed to measure collisions against it."""
+
+    def __init__(self, surface: Prepared) -> None:
+        """Keep it; nothing is computed before it is asked for."""
+        self.surface = surface
+        self.size = surface.size
+
+    @cached_property
+    def corners(self) -> Points:
+        """Its triangles [m]."""
+        return self.surface.corners
+
+    @cached_property
+    def flood(self) -> Flood:
+        """The space around it."""
+        return flood(self.corners)
+
+    @cached_property
+    def _all(self) -> tuple[Points, npt.NDArray[np.bool_]]:
+        points = spread(self.corners, SAMPLES).points
+        ends = self.surface.vertices
+        ends = ends[:: max(1, len(ends) // SAMPLES)]
+        both = np.concatenate([points, ends])
+        return both, self.flood.touches(both)
+
+    @cached_property
+    def touchable(self) -> Points:
+        """Points [m] of what can be touched, spread evenly, and then its vertices."""
+        points, reached = self._all
+        return points[reached] if reached.any() else points
+
+    @cached_property
+    def even(self) -> Points:
+        """Those of them that are spread evenly."""
+        points, reached = self._all
+        even = points[:SAMPLES][reached[:SAMPLES]]
+        return even if len(even) else points[:SAMPLES]
+
+    @cached_property
+    def enclosed(self) -> float:
+        """Share of its area that cannot be touched."""
+        return float(1 - self._all[1][:SAMPLES].mean())
+
+    @cached_property
+    def nearest(self) -> Surface:
+        """Answers how far points are from it."""
+        return Surface(self.corners, spread(self.corners, _DENSE))
+
+    @cached_property
+    def volume(self) -> float:
+        """What it encloses [m³]: exact for one closed body, by cells for anything else."""
+        volume = self.surface.volume
+        by_cells = self.flood.volume
+        if self.surface.closed and volume > 0 and abs(volume - by_cells) < 0.1 * by_cells:
+            return volume
+        return by_cells
+
+
+def measure(target: Target, pieces: Sequence[Piece]) -> Measures:
+    """How good some pieces are for a visual."""
+    outer = [_outer(index, pieces, target) for index in range(len(pieces))]
+    points = np.concatenate([samples.points for samples in outer])
+    collision = _surface_of(pieces, outer)
+    forth = collision.distance(target.touchable)
+    back = target.nearest.distance(points)
+    mean = (float(collision.distance(target.even).mean()) + float(back.mean())) / 2
+    depth = depths(target.even, pieces)
+    volume = volume_of(pieces)
+    return Measures(
+        size=target.size,
+        hausdorff=float(max(forth.max(), back.max())),
+        mean=mean,
+        visual_to_collision=float(forth.max()),
+        collision_to_visual=float(back.max()),
+        volume=volume,
+        volume_ratio=volume / target.volume if target.volume > 0 else float("inf"),
+        outside=float(np.mean(depth > MARGIN * target.size)),
+        enclosed=target.enclosed,
+        pieces=len(pieces),
+        triangles=sum(len(piece.faces) for piece in pieces if not piece.is_primitive),
+        vertices=sum(len(piece.vertices) for piece in pieces if not piece.is_primitive),
+    )
+
+
+def _outer(index: int, pieces: Sequence[Piece], target: Target) -> Samples:
+    """Points on a piece that lie in no other, and that can be touched."""
+    piece = pieces[index]
+    share = max(SAMPLES // len(pieces), 400)
+    samples = spread(piece.corners, share)
+    if piece.kind == "mesh":
+        return samples.only(flood(piece.corners).touches(samples.points))
+    others = [other for other in pieces if other is not piece and other.kind != "mesh"]
+    if not others:
+        return samples
+    buried = depths(samples.points, others) < _SEAM * target.size
+    return samples.only(~buried)
+
+
+def _surface_of(pieces: Sequence[Piece], outer: Sequence[Samples]) -> Surface:
+    """The surface of all pieces, without what lies in another."""
+    corners, points, owners = [], [], []
+    first = 0
+    for piece, seen in zip(pieces, outer, strict=True):
+        triangles = piece.corners
+        dense = spread(triangles, max(_DENSE // len(pieces), 800))
+        alone = len(pieces) == 1
+        if not alone and piece.kind != "mesh":
+            others = [other for other in pieces if other is not piece and other.kind != "mesh"]
+            dense = dense.only(depths(dense.points, others) >= -1e-9) if others else dense
+        corners.append(triangles)
+        points += [dense.points, seen.points]
+        owners += [dense.owners + first, seen.owners + first]
+        first += len(triangles)
+    return Surface(np.concatenate(corners), Samples(np.concatenate(points), np.concatenate(owners)))
+
+
+def depths(points: Points, pieces: Sequence[Piece]) -> Points:
+    """How far points lie outside all pieces [m]; negative where they are in one.
+
+    Exact in sign; near a convex piece's edges the distance is somewhat too small.
+    """
+    result = np.full(len(points), np.inf)
+    for piece in pieces:
+        result = np.minimum(result, _depth(points, piece))
+    return result
+
+
+def _depth(points: Points, piece: Piece) -> Points:
+    if piece.is_primitive:
+        return primitives.signed_distance(piece, points)
+    if piece.kind == "convex":
+        return convex.signed_distance(points, convex.planes(piece.vertices, piece.faces))
+    corners = piece.corners
+    inside = np.abs(winding_numbers(points, boxes_of(corners))) > 0.5
+    off = Surface(corners, spread(corners, SAMPLES)).distance(points)
+    return np.where(inside, -off, off)
+
+
+def volume_of(pieces: Sequence[Piece]) -> float:
+    """The volume [m³] of pieces together; exact for one, by points for several."""
+    if len(pieces) == 1:
+        a, b, c = (pieces[0].corners[:, k] - pieces[0].vertices.mean(axis=0) for k in range(3))
+        return abs(float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6))
+    low = np.min([piece.vertices.min(axis=0) for piece in pieces], axis=0)
+    high = np.max([piece.vertices.max(axis=0) for piece in pieces], axis=0)
+    points = spread_points(SAMPLES, low, high)
+    inside = depths(points, pieces) < 0
+    return float(np.prod(high - low) * inside.mean())

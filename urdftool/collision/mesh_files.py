@@ -1,0 +1,126 @@
+"""Pieces as mesh files: binary STL and OBJ, the same bytes each time, and known as ours."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import OutputError
+from .piece import Piece
+
+MARK = b"collision geometry by urdftool"
+
+_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+
+
+def mesh_bytes(pieces: Sequence[Piece], suffix: str) -> bytes:
+    """A mesh file of pieces, in metres.
+
+    Args:
+        pieces: What is in it; an OBJ file has an object for each.
+        suffix: ``".stl"`` or ``".obj"``.
+    """
+    return _obj(pieces) if suffix == ".obj" else _stl(pieces)
+
+
+def _stl(pieces: Sequence[Piece]) -> bytes:
+    corners = np.concatenate([piece.corners for piece in pieces])
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    records = np.zeros(len(corners), dtype=_RECORD)
+    records["normal"] = normals / np.where(lengths > 0, lengths, 1.0)
+    records["corners"] = corners
+    head = MARK.ljust(80, b"\0")
+    return head + len(corners).to_bytes(4, "little") + records.tobytes()
+
+
+def _obj(pieces: Sequence[Piece]) -> bytes:
+    lines = [f"# {MARK.decode()}"]
+    first = 1
+    for index, piece in enumerate(pieces):
+        lines.append(f"o piece_{index}")
+        lines += [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in (piece.vertices + 0.0).tolist()]
+        lines += [f"f {a} {b} {c}" for a, b, c in (piece.faces + first).tolist()]
+        first += len(piece.vertices)
+    return ("\n".join(lines) + "\n").encode()
+
+
+def write_all(
+    files: Mapping[Path, bytes], *, overwrite: bool = False, inputs: Iterable[str | Path] = ()
+) -> None:
+    """Write files together: all beside their places first, then each moved there, in order.
+
+    Args:
+        files: Content by path; the last is the one that refers to the others.
+        overwrite: Replace also mesh files that are not ours.
+        inputs: Files that were read, which must not be replaced.
+
+    Raises:
+        OutputError: One cannot be written; what was there is as it was.
+    """
+    read = {os.path.realpath(name) for name in inputs}
+    staged: list[tuple[Path, Path]] = []
+    folders: list[Path] = []
+    done = False
+    try:
+        for path, data in files.items():
+            if os.path.realpath(path) in read:
+                raise OutputError("is read as an input; write elsewhere", path=path)
+            _check(path, overwrite)
+            _make_folder(path.parent, folders)
+            real = Path(os.path.realpath(path))
+            neighbour = real.with_name(f".{real.name}.{os.getpid()}.tmp")
+            staged.append((neighbour, real))
+            with open(neighbour, "wb") as stream:
+                stream.write(data)
+            if real.exists():
+                os.chmod(neighbour, real.stat().st_mode & 0o777)
+        for neighbour, real in staged:
+            os.replace(neighbour, real)
+        done = True
+    except OSError as error:
+        raise OutputError(
+            f"cannot be written: {error.strerror or error}", path=error.filename or path
+        ) from None
+    finally:
+        for neighbour, _ in staged:
+            neighbour.unlink(missing_ok=True)
+        if not done:
+            for folder in reversed(folders):
+                _remove_if_empty(folder)
+
+
+def _check(path: Path, overwrite: bool) -> None:
+    if path.is_dir():
+        raise OutputError("is a folder; the name of a file is wanted", path=path)
+    if path.exists() and not os.access(path, os.W_OK):
+        raise OutputError("may not be written (it is read-only)", path=path)
+    if overwrite or path.suffix.lower() not in (".stl", ".obj") or not path.is_file():
+        return
+    with open(path, "rb") as stream:
+        if MARK not in stream.read(80):
+            raise OutputError(
+                "is there and was not written by urdftool; keep it with another --mesh-dir, or "
+                "replace it with --overwrite",
+                path=path,
+            )
+
+
+def _make_folder(folder: Path, made: list[Path]) -> None:
+    missing = []
+    while not folder.exists():
+        missing.append(folder)
+        folder = folder.parent
+    for place in reversed(missing):
+        place.mkdir()
+        made.append(place)
+
+
+def _remove_if_empty(folder: Path) -> None:
+    try:
+        folder.rmdir()
+    except OSError:  # someone else put something into it
+        return

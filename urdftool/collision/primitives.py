@@ -1,0 +1,260 @@
+"""The box, cylinder, capsule or sphere that is nearest to a surface.
+
+Each is fitted by least squares of the signed distances of points of the surface, so that noise
+averages out instead of growing the shape, from several first guesses of its axes. A second fit
+weighs large distances more, for surfaces that only resemble the shape.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from ..errors import MeshError
+from ..meshes.mesh import Points
+from .convex import hull
+from .piece import Piece
+from .tessellate import primitive
+
+POINTS = 1500
+"""Points that a shape is fitted to."""
+
+SHARP = 4.0
+"""Exponent of the second fit."""
+
+_STARTS = 3
+_DIGITS = 7
+_UPRIGHT = 2e-3  # turns [rad] that are noise
+
+
+def box_distance(points: Points, size: Points) -> Points:
+    """Signed distance [m] of points to a box about the origin."""
+    beyond = np.abs(points) - np.asarray(size) / 2
+    return np.asarray(
+        np.linalg.norm(np.maximum(beyond, 0), axis=1) + np.minimum(beyond.max(axis=1), 0)
+    )
+
+
+def cylinder_distance(points: Points, size: Points) -> Points:
+    """Signed distance [m] of points to a cylinder about z; ``size`` is radius and length."""
+    beyond = np.stack(
+        [
+            np.hypot(points[:, 0], points[:, 1]) - size[0],
+            np.abs(points[:, 2]) - size[1] / 2,
+        ],
+        axis=1,
+    )
+    return np.asarray(
+        np.linalg.norm(np.maximum(beyond, 0), axis=1) + np.minimum(beyond.max(axis=1), 0)
+    )
+
+
+def capsule_distance(points: Points, size: Points) -> Points:
+    """Signed distance [m] of points to a capsule about z; ``size`` is radius and length."""
+    half = size[1] / 2
+    z = points[:, 2] - np.clip(points[:, 2], -half, half)
+    return np.asarray(np.sqrt(points[:, 0] ** 2 + points[:, 1] ** 2 + z**2) - size[0])
+
+
+def sphere_distance(points: Points, size: Points) -> Points:
+    """Signed distance [m] of points to a sphere about the origin."""
+    return np.asarray(np.linalg.norm(points, axis=1) - size[0])
+
+
+DISTANCES: dict[str, Callable[[Points, Points], Points]] = {
+    "box": box_distance,
+    "cylinder": cylinder_distance,
+    "capsule": capsule_distance,
+    "sphere": sphere_distance,
+}
+
+
+def signed_distance(piece: Piece, points: Points) -> Points:
+    """Signed distance [m] of points to a primitive."""
+    return DISTANCES[piece.kind](piece.local(points), np.array(piece.size))
+
+
+def fit_primitives(points: Points, kinds: tuple[str, ...] = tuple(DISTANCES)) -> list[Piece]:
+    """The nearest shape of each kind, once by least squares and once with a sharper measure.
+
+    Args:
+        points: Points spread evenly over the surface [m].
+        kinds: The kinds of interest.
+    """
+    some = points[:: max(1, len(points) // POINTS)]
+    middle = (some.max(axis=0) + some.min(axis=0)) / 2
+    scale = float(np.linalg.norm(np.ptp(some, axis=0))) or 1.0
+    unit = (some - middle) / scale
+    frames = list(_frames(unit))
+    found = []
+    for kind in kinds:
+        for rotation, centre, size in _fits(kind, unit, frames):
+            if min(size) > 1e-6:
+                found.append(_neat(kind, rotation, centre * scale + middle, size * scale, scale))
+    return found
+
+
+def _fits(
+    kind: str, points: Points, frames: list[Points]
+) -> Iterator[tuple[Points, Points, Points]]:
+    distance = DISTANCES[kind]
+    starts: list[tuple[float, int, Points, Points, Points]] = []
+    for frame in _starts(kind, frames):
+        local = points @ frame
+        low, high = local.min(axis=0), local.max(axis=0)
+        size = _first_size(kind, high - low)
+        centre = frame @ ((low + high) / 2)
+        score = float(np.mean(distance((points - centre) @ frame, size) ** 2))
+        starts.append((score, len(starts), frame, centre, size))
+    starts.sort(key=lambda start: start[:2])
+    plain = [
+        _refined(distance, points, frame, centre, size, kind == "sphere")
+        for _, _, frame, centre, size in starts[: _STARTS if kind != "sphere" else 1]
+    ]
+    best = min(plain, key=lambda fit: fit[0])
+    yield best[1:]
+    yield _refined(distance, points, *best[1:], kind == "sphere", power=SHARP)[1:]
+
+
+def _refined(
+    distance: Callable[[Points, Points], Points],
+    points: Points,
+    frame: Points,
+    centre: Points,
+    size: Points,
+    round_: bool,
+    power: float = 2.0,
+) -> tuple[float, Points, Points, Points]:
+    from scipy.optimize import least_squares
+    from scipy.spatial.transform import Rotation
+
+    turns = 0 if round_ else 3
+    smallest = 1e-4
+
+    def parts(values: Points) -> tuple[Points, Points, Points]:
+        turned = frame if round_ else frame @ Rotation.from_rotvec(values[:3]).as_matrix()
+        return turned, values[turns : turns + 3], np.maximum(values[turns + 3 :], smallest)
+
+    def residuals(values: Points) -> Points:
+        turned, middle, lengths = parts(values)
+        off = distance((points - middle) @ turned, lengths)
+        return off if power == 2.0 else np.abs(off) ** (power / 2) * 10
+
+    start = np.concatenate([np.zeros(turns), centre, size])
+    found = least_squares(residuals, start, method="trf", x_scale=0.1, max_nfev=40)
+    turned, middle, lengths = parts(found.x)
+    return float(found.cost), turned, middle, lengths
+
+
+def _first_size(kind: str, extent: Points) -> Points:
+    across = (extent[0] + extent[1]) / 4
+    if kind == "box":
+        return np.asarray(np.maximum(extent, 1e-3))
+    if kind == "sphere":
+        return np.array([extent.mean() / 2])
+    length = extent[2] if kind == "cylinder" else max(extent[2] - 2 * across, 1e-3)
+    return np.array([max(across, 1e-3), max(length, 1e-3)])
+
+
+def _frames(points: Points) -> Iterator[Points]:
+    """Axes along which a shape may lie: as the mesh's, of its spread, of its tightest box."""
+    yield np.eye(3)
+    centred = points - points.mean(axis=0)
+    _, axes = np.linalg.eigh(centred.T @ centred)
+    yield _right_handed(axes)
+    try:
+        yield _tight_frame(points)
+    except MeshError:  # flat: the two others are as good
+        return
+
+
+def _tight_frame(points: Points) -> Points:
+    """Axes of the smallest box with a side on a face of the hull, of two hundred faces at most."""
+    vertices, faces = hull(points)
+    corners = vertices[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.linalg.norm(normals, axis=1)
+    unit = normals / np.maximum(areas, 1e-300)[:, None]
+    best, least = np.eye(3), np.inf
+    for index in np.argsort(-areas, kind="stable")[:200]:
+        z = unit[index]
+        x = np.cross(z, np.eye(3)[int(np.argmin(np.abs(z)))])
+        x /= np.linalg.norm(x)
+        y = np.cross(z, x)
+        flat = np.stack([vertices @ x, vertices @ y], axis=1)
+        angles = np.linspace(0, np.pi / 2, 46)[:-1]
+        turn = np.stack([np.cos(angles), np.sin(angles)])
+        widths = np.ptp(flat @ turn, axis=0)
+        heights = np.ptp(flat @ np.stack([-turn[1], turn[0]]), axis=0)
+        smallest = int(np.argmin(widths * heights))
+        volume = float(widths[smallest] * heights[smallest] * np.ptp(vertices @ z))
+        if volume < least:
+            cos, sin = turn[:, smallest]
+            least, best = volume, np.stack([cos * x + sin * y, cos * y - sin * x, z], axis=1)
+    return _right_handed(best)
+
+
+def _starts(kind: str, frames: list[Points]) -> Iterator[Points]:
+    """The frames, and for round shapes each of their axes as the shape's own."""
+    if kind == "sphere":
+        yield np.eye(3)
+        return
+    for frame in frames:
+        if kind == "box":
+            yield frame
+            continue
+        for axis in range(3):
+            yield frame[:, [(axis + 1) % 3, (axis + 2) % 3, axis]]
+
+
+def _right_handed(axes: Points) -> Points:
+    turned = axes.copy()
+    if np.linalg.det(turned) < 0:
+        turned[:, 0] = -turned[:, 0]
+    return turned
+
+
+def _neat(kind: str, rotation: Points, centre: Points, size: Points, scale: float) -> Piece:
+    """The shape with the smallest turn that means the same, its numbers rounded."""
+    if kind == "sphere":
+        rotation = np.eye(3)
+    elif kind == "box":
+        rotation, size = _least_turned_box(rotation, size)
+    else:
+        rotation = _shortest_turn(rotation[:, 2])
+    digits = max(0, _DIGITS - int(np.ceil(np.log10(scale)))) - 1
+    lengths = tuple(float(np.round(length, digits)) for length in size)
+    return primitive(kind, lengths, rotation, np.round(centre, digits))
+
+
+def _least_turned_box(rotation: Points, size: Points) -> tuple[Points, Points]:
+    best, found = -np.inf, (rotation, size)
+    for order in ((0, 1, 2), (0, 2, 1), (1, 0, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0)):
+        axes = rotation[:, list(order)]
+        axes = axes * np.where(np.diag(axes) < 0, -1.0, 1.0)
+        if np.linalg.det(axes) > 0 and np.trace(axes) > best:
+            best, found = float(np.trace(axes)), (axes, size[list(order)])
+    axes, size = found
+    turn = float(np.arccos(np.clip((np.trace(axes) - 1) / 2, -1, 1)))
+    return (np.eye(3) if turn < _UPRIGHT else axes), size
+
+
+def _shortest_turn(axis: Points) -> Points:
+    """The smallest rotation that brings z to an axis; which end is up does not matter."""
+    z = axis / np.linalg.norm(axis)
+    nearest = int(np.argmax(np.abs(z)))
+    if np.linalg.norm(np.delete(z, nearest)) < _UPRIGHT:
+        z = np.eye(3)[nearest] * np.sign(z[nearest])
+    if z[2] < 0 or (z[2] == 0 and z[int(np.argmax(np.abs(z)))] < 0):
+        z = -z
+    x, y, c = z
+    if c > 1 - 1e-12:
+        return np.eye(3)
+    return np.array(
+        [
+            [1 - x * x / (1 + c), -x * y / (1 + c), x],
+            [-x * y / (1 + c), 1 - y * y / (1 + c), y],
+            [-x, -y, c],
+        ]
+    )

@@ -1,0 +1,291 @@
+"""A robot's source with new collisions in it; every other byte as it was."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+
+from ..errors import SourceError
+from ..model.elements import Mesh, Robot
+from ..model.pose import Pose, pose_of, rpy_of_rotation
+from ..model.read import read_robot
+from ..source import edit
+from ..source.document import Element
+from ..source.location import SourceFile
+from ..source.packages import own_package
+from .compute import Result, Task
+from .links import LinkPlan, Shape
+from .mesh_files import mesh_bytes
+from .piece import Piece
+
+_LITERAL = re.compile(r"\$\(find [^)$]*\)")
+
+
+@dataclass
+class Layout:
+    """Where the files of a robot go, and how it names them.
+
+    Attributes:
+        target: The description that is written.
+        mesh_dir: The folder of the pieces.
+        uri: ``"package"``, ``"relative"`` or ``"file"``.
+        suffix: ``".stl"`` or ``".obj"``.
+        capsules: Whether the robot's version of URDF has capsules.
+    """
+
+    target: Path
+    mesh_dir: Path
+    uri: str
+    suffix: str = ".stl"
+    capsules: bool = False
+    files: dict[Path, bytes] = field(default_factory=dict)
+    """Content of the mesh files, by path."""
+    names: dict[int, list[str]] = field(default_factory=dict)
+    """URIs of a result's pieces, by the identity of the result; empty for a primitive."""
+
+
+def layout_for(robot: Robot, target: Path, mesh_dir: Path | None, uri: str, suffix: str) -> Layout:
+    """The layout that fits a robot.
+
+    Args:
+        robot: The robot.
+        target: The description that is written.
+        mesh_dir: The folder of the pieces; None is one beside the target.
+        uri: ``"auto"`` names files as the robot names its own.
+        suffix: Of the pieces.
+
+    Raises:
+        SourceError: ``package`` is asked for, and the folder is in no package.
+    """
+    folder = Path(os.path.abspath(mesh_dir or target.parent / f"{_plain(target)}_collision"))
+    package = own_package(folder / "piece")
+    if uri == "auto":
+        names = [s.geometry.filename for _, s in robot.shapes if isinstance(s.geometry, Mesh)]
+        own = sum(name.startswith(("package://", "model://")) for name in names)
+        uri = "package" if package is not None and 2 * own >= len(names) else "relative"
+    if uri == "package" and package is None:
+        raise SourceError(
+            f"--uri package wants a folder of a ROS package, and {folder} is in none; "
+            "say where with --mesh-dir, or take --uri relative"
+        )
+    capsules = (robot.version or "1.0") not in ("1.0", "1")
+    return Layout(Path(os.path.abspath(target)), folder, uri, suffix, capsules)
+
+
+def _plain(path: Path) -> str:
+    name = path.name
+    for ending in (".xacro", ".urdf"):
+        name = name.removesuffix(ending)
+    return name or "robot"
+
+
+def name_pieces(layout: Layout, results: Mapping[Task, Result]) -> None:
+    """Give each piece that is a mesh a file and a URI: after its mesh, numbered where many."""
+    taken: dict[str, int] = {}
+    for task, result in results.items():
+        if id(result) in layout.names:
+            continue
+        stem = re.sub(r"[^A-Za-z0-9_.-]", "_", task.path.stem) or "mesh"
+        taken[stem.casefold()] = count = taken.get(stem.casefold(), 0) + 1
+        if count > 1:
+            stem = f"{stem}-{count}"
+        meshes = [piece for piece in result.pieces if not piece.is_primitive]
+        uris = []
+        for piece in result.pieces:
+            if piece.is_primitive:
+                uris.append("")
+                continue
+            number = f"_{len([u for u in uris if u])}" if len(meshes) > 1 else ""
+            path = layout.mesh_dir / f"{stem}{number}{layout.suffix}"
+            layout.files[path] = mesh_bytes([piece], layout.suffix)
+            uris.append(uri_of(path, layout))
+        layout.names[id(result)] = uris
+
+
+def uri_of(path: Path, layout: Layout) -> str:
+    """How the robot names a file."""
+    if layout.uri == "file":
+        return path.as_uri()
+    if layout.uri == "package":
+        package = own_package(path)
+        assert package is not None
+        return f"package://{package[0]}/{path.relative_to(package[1]).as_posix()}"
+    return Path(os.path.relpath(path, layout.target.parent)).as_posix()
+
+
+def rewritten(
+    robot: Robot,
+    plans: Sequence[LinkPlan],
+    results: Mapping[Task, Result],
+    layout: Layout,
+) -> bytes:
+    """The robot's text, of xacro the expanded one, with new collisions.
+
+    Where it goes into another folder, relative names of other files are changed to fit.
+    """
+    assert robot.source is not None
+    file = robot.source.files[0]
+    if robot.source.expansion is not None:
+        file = SourceFile(file.path, robot.source.expansion.text.encode())
+    source = edit.parsed(file)
+    again = read_robot(source.document.root)
+    edits = []
+    gone: set[int] = set()
+    for item in plans:
+        link = again.links[item.index]
+        blocks = _blocks(item, results, layout)
+        old = [link.collisions[number].element for number in item.replaced]
+        gone.update(id(element) for element in old)
+        edits += link_edits(source, link.element, old, blocks)
+    if os.path.realpath(layout.target.parent) != os.path.realpath(_folder(robot)):
+        edits += _moved(robot, again, source, layout, gone)
+    return edit.apply(source.file, edits)
+
+
+def link_edits(
+    source: edit.Source, link: Element, old: Sequence[Element], blocks: Sequence[Sequence[str]]
+) -> list[edit.Edit]:
+    """The edits that give a link its collisions, in the place of the old or after its visuals."""
+    if old:
+        first = edit.replace_element(source, old[0], blocks)
+        return [first, *(edit.remove_element(source, element) for element in old[1:])]
+    after = None
+    for tag in ("visual", "inertial", "collision"):
+        found = list(link.all(tag))
+        if found:
+            after = found[-1]
+            break
+    return [edit.insert_child(source, link, _joined(blocks), after=after)]
+
+
+def _joined(blocks: Sequence[Sequence[str]]) -> list[str]:
+    return [line for block in blocks for line in block]
+
+
+def _blocks(item: LinkPlan, results: Mapping[Task, Result], layout: Layout) -> list[list[str]]:
+    blocks: list[list[str]] = []
+    for use in item.uses:
+        if use.task is None:
+            blocks.append(_carried(use.shape))
+            continue
+        result = results[use.task]
+        blocks += piece_blocks(use.shape, result, layout)
+    return blocks
+
+
+def piece_blocks(shape: Shape, result: Result, layout: Layout) -> list[list[str]]:
+    """A ``<collision>`` for each piece of a mesh, as lines."""
+    blocks = []
+    for piece, uri in zip(result.pieces, layout.names[id(result)], strict=True):
+        if piece.is_primitive:
+            for part in _parts(piece, layout.capsules):
+                blocks.append(_primitive_block(shape, part))
+        else:
+            blocks.append(_block(_origin_as_written(shape), f"<mesh filename={_quoted(uri)}/>"))
+    return blocks
+
+
+def _parts(piece: Piece, capsules: bool) -> list[Piece]:
+    """A capsule as a cylinder and two spheres, where URDF has none."""
+    if piece.kind != "capsule" or capsules:
+        return [piece]
+    from .tessellate import primitive
+
+    radius, length = piece.size
+    reach = piece.rotation[:, 2] * length / 2
+    upright = np.eye(3)
+    return [
+        primitive("cylinder", (radius, length), piece.rotation, piece.centre),
+        primitive("sphere", (radius,), upright, piece.centre + reach),
+        primitive("sphere", (radius,), upright, piece.centre - reach),
+    ]
+
+
+def _primitive_block(shape: Shape, piece: Piece) -> list[str]:
+    x, y, z = piece.rotation.tolist()
+    a, b, c = piece.centre.tolist()
+    pose = pose_of(shape.origin) @ Pose((tuple(x), tuple(y), tuple(z)), (a, b, c))
+    xyz, rpy = _numbers(pose.translation), _numbers(rpy_of_rotation(pose.rotation))
+    origin = "" if xyz == rpy == "0 0 0" else f'<origin xyz="{xyz}" rpy="{rpy}"/>'
+    return _block(origin, geometry_tag(piece))
+
+
+def geometry_tag(piece: Piece) -> str:
+    """The shape element of a primitive."""
+    if piece.kind == "box":
+        return f'<box size="{_numbers(piece.size)}"/>'
+    if piece.kind == "sphere":
+        return f'<sphere radius="{_numbers(piece.size)}"/>'
+    radius, length = map(_number, piece.size)
+    return f'<{piece.kind} radius="{radius}" length="{length}"/>'
+
+
+def _carried(shape: Shape) -> list[str]:
+    """A visual primitive as a collision."""
+    assert shape.geometry is not None
+    element = shape.geometry.element
+    words = "".join(f" {name}={_quoted(value)}" for name, value in element.attributes.items())
+    return _block(_origin_as_written(shape), f"<{element.tag}{words}/>")
+
+
+def _origin_as_written(shape: Shape) -> str:
+    if shape.origin is None:
+        return ""
+    words = shape.origin.element.attributes.items()
+    return "<origin" + "".join(f" {name}={_quoted(value)}" for name, value in words) + "/>"
+
+
+def _block(origin: str, geometry: str) -> list[str]:
+    lines = ["<collision>", "\t<geometry>", f"\t\t{geometry}", "\t</geometry>", "</collision>"]
+    if origin:
+        lines.insert(1, f"\t{origin}")
+    return [line.encode("ascii", "xmlcharrefreplace").decode() for line in lines]
+
+
+def _quoted(value: str) -> str:
+    return quoteattr(value, {'"': "&quot;", "\n": "&#10;", "\t": "&#9;"})
+
+
+def _numbers(values: Sequence[float]) -> str:
+    return " ".join(map(_number, values))
+
+
+def _number(value: float) -> str:
+    rounded = round(float(value), 9) + 0.0
+    return f"{rounded:.9g}"
+
+
+def _folder(robot: Robot) -> str:
+    assert robot.source is not None
+    return str(robot.source.packages.file.parent)
+
+
+def _moved(
+    robot: Robot, again: Robot, source: edit.Source, layout: Layout, gone: set[int]
+) -> list[edit.Edit]:
+    """Relative names of files, seen from where the description is going to be."""
+    assert robot.source is not None
+    edits = []
+    kept = [shape for _, shape in again.shapes if id(shape.element) not in gone]
+    for element in [
+        *(s.geometry.element for s in kept if isinstance(s.geometry, Mesh)),
+        *(e for e in again.element.walk() if e.tag == "texture"),
+    ]:
+        name = element.get("filename") or ""
+        if not name or "://" in name or os.path.isabs(name):
+            continue
+        path = robot.source.resolve(name)
+        moved = Path(os.path.relpath(path, layout.target.parent)).as_posix()
+        edits.append(edit.set_attribute(source, element, "filename", moved))
+    return edits
+
+
+def is_literal(text: str) -> bool:
+    """Whether text of a xacro file means the same in every expansion."""
+    return "$" not in _LITERAL.sub("", text)

@@ -1,0 +1,113 @@
+"""A mesh made ready: read as it is meant, its points once, its faces sound."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import MeshError
+from ..inertia.repair import drop_duplicates, orient
+from ..meshes.load import load_mesh
+from ..meshes.mesh import Faces, Points
+from ..meshes.solid import collapsed, edges_of, weld
+
+SLIVER = 1e-14
+"""Area of a face, relative to the square of the mesh's size, at which it is degenerate."""
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """A mesh as the methods take it, and what was done to it.
+
+    Attributes:
+        vertices: Points [m], each once.
+        faces: Triangles that have an area; outwards where the mesh is closed.
+        triangles: How many the file has.
+        points: How many different vertices the file has.
+        closed: Whether the surface bounds a solid.
+        size: Diagonal [m] of the bounding box, which errors are relative to.
+        notes: What was found and mended; complete sentences.
+    """
+
+    vertices: Points
+    faces: Faces
+    triangles: int
+    points: int
+    closed: bool
+    size: float
+    notes: tuple[str, ...]
+
+    @property
+    def corners(self) -> Points:
+        """The triangles [m], shape (m, 3, 3)."""
+        return self.vertices[self.faces]
+
+    @property
+    def volume(self) -> float:
+        """What a closed surface encloses [m³]."""
+        a, b, c = (self.corners[:, k] - self.vertices.mean(axis=0) for k in range(3))
+        return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+def read_surface(path: str | Path, scale: Sequence[float] = (1.0, 1.0, 1.0)) -> Prepared:
+    """A mesh file, scaled, and made ready.
+
+    Raises:
+        MeshError: It cannot be read, or has no face with an area.
+    """
+    mesh = load_mesh(path, scale)
+    prepared = prepare(mesh.vertices, mesh.faces, notes=mesh.notes)
+    if prepared is None:
+        raise MeshError("all faces of the mesh are degenerate; none has an area", path=path)
+    return prepared
+
+
+def prepare(vertices: Points, faces: Faces, *, notes: Sequence[str] = ()) -> Prepared | None:
+    """Merge points, drop faces without an area or written twice, turn what looks inwards.
+
+    Returns:
+        None where no face has an area.
+    """
+    said = list(notes)
+    triangles = len(faces)
+    points, merged, _ = weld(vertices, faces)
+    count = len(points)
+    sound = ~collapsed(merged)
+    corners = points[merged]
+    areas = np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
+    extent = float(np.ptp(points, axis=0).max())
+    if not (sound & (areas > SLIVER * extent**2)).any():
+        return None
+    # faces on a line hold a closed surface together, so only collapsed ones go
+    dropped = int(np.count_nonzero(~sound))
+    kept = drop_duplicates(merged[sound])
+    twice = int(np.count_nonzero(sound)) - len(kept)
+    if not len(kept):
+        kept, twice = merged[sound], 0
+    kept, turned = orient(points, kept)
+    edges = edges_of(kept)
+    closed = edges.cycle
+    if dropped:
+        said.append(f"{dropped} degenerate faces were dropped.")
+    if twice:
+        said.append(f"{twice} faces written twice were dropped.")
+    if turned:
+        said.append(f"{turned} faces were turned to agree with their neighbours.")
+    used = np.unique(kept)
+    number = np.full(len(points), -1)
+    number[used] = np.arange(len(used))
+    points, kept = points[used], number[kept].astype(np.int64)
+    prepared = Prepared(
+        points, kept, triangles, count, closed, float(np.linalg.norm(np.ptp(points, axis=0))), ()
+    )
+    if closed and prepared.volume < 0:
+        kept = np.ascontiguousarray(kept[:, ::-1])
+        said.append("The mesh is inside out; it was turned.")
+    if not closed:
+        said.append(f"The mesh is open ({edges.open_count} edges have an odd number of faces).")
+    return Prepared(points, kept, triangles, count, closed, prepared.size, tuple(said))

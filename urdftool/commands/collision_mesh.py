@@ -1,0 +1,150 @@
+"""``urdftool collision mesh``: one mesh file simplified."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..console import Console
+from .collision_options import (
+    cache_of,
+    checked_picture,
+    one_thread_each,
+    settings_of,
+    settings_options,
+)
+
+if TYPE_CHECKING:
+    from ..collision.compute import Result
+
+SUFFIXES = (".stl", ".obj")
+
+
+def _factors(
+    ctx: click.Context, parameter: click.Parameter, value: str
+) -> tuple[float, float, float]:
+    try:
+        words = [float(word) for word in value.replace(",", " ").split()]
+    except ValueError:
+        words = []
+    if len(words) not in (1, 3):
+        raise click.BadParameter(f"'{value}' is neither one factor nor three", ctx, parameter)
+    x, y, z = words * 3 if len(words) == 1 else words
+    return x, y, z
+
+
+@click.command("mesh")
+@click.argument("file", metavar="IN")
+@click.option("-o", "--output", metavar="OUT", help="An .stl or .obj file; without it, none.")
+@click.option(
+    "--scale",
+    default="1",
+    callback=_factors,
+    metavar="S | 'SX SY SZ'",
+    help="Factors, as URDF's <mesh scale>; negative ones mirror.",
+)
+@settings_options
+@click.pass_obj
+def command(
+    console: Console,
+    /,
+    file: str,
+    output: str | None,
+    scale: tuple[float, float, float],
+    **values: Any,
+) -> int:
+    """Simplify the mesh IN: STL, OBJ, DAE, PLY, glTF or GLB.
+
+    OUT gets all pieces; where there are several, each gets a file of its own as well, numbered
+    beside OUT, since most engines take the hull of all that is in one file.
+
+    \b
+        urdftool collision mesh gripper.stl -o gripper_col.obj --method coacd --max-hulls 16
+        urdftool collision mesh wheel.dae --method primitive
+    """  # noqa: D301 -- \b is a character that click looks for
+    checked_picture(values["picture"])
+    if output is not None and not output.lower().endswith(SUFFIXES):
+        raise click.UsageError(f"OUT wants to end in .stl or .obj; '{output}' does not")
+    one_thread_each()
+    from ..collision.cache import key_of
+    from ..collision.compute import Task, attempt, result_of
+    from ..errors import UrdftoolError
+    from ..report import collision as report
+
+    task = Task(Path(file), scale, settings_of(values))
+    cache = cache_of(values)
+    key = key_of(task)
+    result = cache.read(key) if key is not None else None
+    if result is None:
+        outcome = attempt(task)
+        if isinstance(outcome, UrdftoolError):
+            raise outcome
+        if key is not None:
+            cache.write(key, outcome)
+        result = result_of(outcome)
+    files = _write(file, result, output, values["overwrite"])
+    row = report.Row(Path(file).name, file, scale, result, task.settings.max_error, files)
+    found = report.Report(file, output or "", [row])
+    style = values["style"]
+    click.echo(report.as_json([found]) if style == "json" else report.table([row]), nl=False)
+    if values["picture"]:
+        _draw(task, result, values["picture"])
+    if style == "table":
+        for piece in result.pieces:
+            if piece.is_primitive:
+                click.echo(_primitive(piece))
+    for line in report.remarks([row]):
+        console.say(line)
+    for line in report.failures([row]):
+        console.say(line)
+    for line in report.notes([row]):
+        console.note(line, level=1)
+    if len(files) > 1 and files[0] != files[1]:
+        console.note(f"{output} has all pieces; {files[0]} … {Path(files[-1]).name} one each")
+    if cache.trouble:
+        console.note(f"the result could not be kept in the cache: {cache.trouble}")
+    return 0
+
+
+def _primitive(piece: Any) -> str:
+    from ..collision.rewrite import geometry_tag
+    from ..model.pose import rpy_of_rotation
+
+    xyz = " ".join(f"{value:.6g}" for value in piece.centre)
+    x, y, z = piece.rotation.tolist()
+    rpy = " ".join(f"{value + 0.0:.6g}" for value in rpy_of_rotation((x, y, z)))
+    return f'<origin xyz="{xyz}" rpy="{rpy}"/> <geometry>{geometry_tag(piece)}</geometry>'
+
+
+def _write(file: str, result: Result, output: str | None, overwrite: bool) -> tuple[str, ...]:
+    """Write the pieces; the names of their files, in their order."""
+    if output is None:
+        return ()
+    from ..collision.mesh_files import mesh_bytes, write_all
+
+    suffix = Path(output).suffix.lower()
+    target = Path(output)
+    files: dict[Path, bytes] = {}
+    names = [output]
+    if len(result.pieces) > 1:
+        names = []
+        for index, piece in enumerate(result.pieces):
+            path = target.with_name(f"{target.stem}_{index}{target.suffix}")
+            files[path] = mesh_bytes([piece], suffix)
+            names.append(str(path))
+    files[target] = mesh_bytes(result.pieces, suffix)
+    if not target.resolve().parent.is_dir():
+        from ..errors import OutputError
+
+        raise OutputError(f"the folder {target.parent} does not exist", path=output)
+    write_all(files, overwrite=overwrite, inputs=[file])
+    return tuple(names)
+
+
+def _draw(task: Any, result: Result, picture: str) -> None:
+    from ..collision.picture import mesh_picture
+    from ..output import write_file
+
+    write_file(picture, mesh_picture(task, result))

@@ -1,0 +1,189 @@
+"""What ``urdftool collision`` and ``urdftool collision mesh`` have in common."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from ..console import Console
+
+if TYPE_CHECKING:
+    from ..collision.cache import Cache
+    from ..collision.settings import Settings
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+METHODS = ("auto", "primitive", "hull", "coacd", "simplify")
+_PATIENCE = 1.0  # seconds
+_NAMES = (
+    "method",
+    "max_error",
+    "max_hulls",
+    "max_vertices",
+    "max_triangles",
+    "threshold",
+    "time_limit",
+)
+
+
+def _positive(ctx: click.Context, parameter: click.Parameter, value: float) -> float:
+    if not 0 < value < float("inf"):
+        raise click.BadParameter(f"{value:g} is not above zero", ctx, parameter)
+    return value
+
+
+def settings_options(function: F) -> F:
+    """The choices of ``Settings``, and those about speed and reports."""
+    for option in reversed(_OPTIONS):
+        function = option(function)
+    return function
+
+
+_OPTIONS = (
+    click.option(
+        "--method",
+        type=click.Choice(METHODS),
+        default="auto",
+        show_default=True,
+        help="How meshes are simplified; auto takes the cheapest within --max-error.",
+    ),
+    click.option(
+        "--max-error",
+        type=float,
+        default=0.01,
+        show_default=True,
+        callback=_positive,
+        metavar="E",
+        help="Largest distance of mesh and collision, relative to the diagonal of the part's box.",
+    ),
+    click.option(
+        "--max-hulls",
+        type=click.IntRange(1),
+        metavar="N",
+        help="Convex pieces a mesh may become; without it 32 for auto, any number for coacd.",
+    ),
+    click.option(
+        "--max-vertices",
+        type=click.IntRange(4),
+        default=64,
+        show_default=True,
+        metavar="N",
+        help="Vertices a convex piece may have.",
+    ),
+    click.option(
+        "--max-triangles",
+        type=click.IntRange(4),
+        default=1000,
+        show_default=True,
+        metavar="N",
+        help="Triangles that simplify leaves.",
+    ),
+    click.option(
+        "--threshold",
+        type=click.FloatRange(0.01, 1.0),
+        default=0.05,
+        show_default=True,
+        metavar="T",
+        help="CoACD's concavity at which --method coacd stops to cut.",
+    ),
+    click.option(
+        "--time-limit",
+        type=float,
+        default=120.0,
+        show_default=True,
+        callback=_positive,
+        metavar="S",
+        help="Processor time of one run of CoACD [s].",
+    ),
+    click.option("--cache-dir", metavar="DIR", help="Where results are kept for the next time."),
+    click.option("--no-cache", is_flag=True, help="Compute all anew, and keep nothing."),
+    click.option(
+        "--picture", metavar="FILE.png", help="Draw what was there beside what there is now."
+    ),
+    click.option(
+        "--format",
+        "style",
+        type=click.Choice(["table", "json"]),
+        default="table",
+        help="How the result is told.",
+    ),
+    click.option("--overwrite", is_flag=True, help="Replace mesh files that are not ours."),
+)
+
+
+def settings_of(values: dict[str, Any]) -> Settings:
+    """The settings that the options say."""
+    from ..collision.settings import Settings
+
+    return Settings(**{name: values[name] for name in _NAMES})
+
+
+def given_names(ctx: click.Context) -> tuple[str, ...]:
+    """The settings that stand on the command line."""
+    source = click.core.ParameterSource.COMMANDLINE
+    return tuple(name for name in _NAMES if ctx.get_parameter_source(name) == source)
+
+
+def cache_of(values: dict[str, Any]) -> Cache:
+    """The cache that the options say.
+
+    Raises:
+        click.UsageError: Two options contradict each other.
+    """
+    from ..collision.cache import Cache, default_folder
+
+    if values["no_cache"]:
+        if values["cache_dir"]:
+            raise click.UsageError("--cache-dir and --no-cache exclude each other")
+        return Cache(None)
+    return Cache(values["cache_dir"] or default_folder())
+
+
+def one_thread_each() -> None:
+    """Keep the numerical libraries from starting threads of their own beside our processes."""
+    for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ.setdefault(name, "1")
+
+
+def checked_picture(picture: str | None) -> None:
+    """Refuse a picture that cannot be written before the work is done."""
+    if picture is None:
+        return
+    if not picture.lower().endswith(".png"):
+        raise click.UsageError(f"--picture wants a name that ends in .png, not {picture}")
+    if not Path(picture).resolve().parent.is_dir():
+        raise click.UsageError(f"the folder of {picture} does not exist")
+
+
+class Progress:
+    """A line on stderr while meshes are simplified, once that takes a while and at a terminal."""
+
+    def __init__(self, console: Console) -> None:
+        """Begin to count the time."""
+        self.begin = monotonic()
+        self.wanted = sys.stderr.isatty() and not console.quiet
+        self.shown = False
+
+    def __enter__(self) -> Progress:
+        """Nothing is shown yet."""
+        return self
+
+    def __call__(self, done: int, count: int, names: Sequence[str]) -> None:
+        """Show how far it is, and what is worked on."""
+        if self.wanted and (done == 0 or monotonic() - self.begin > _PATIENCE):
+            self.shown = True
+            filled = 24 * done // max(count, 1)
+            bar = "#" * filled + "." * (24 - filled)
+            running = ", ".join(names)[:60]
+            click.echo(f"\r\033[K[{bar}] {done}/{count}  {running}", err=True, nl=False)
+
+    def __exit__(self, *_: object) -> None:
+        """Wipe the line."""
+        if self.shown:
+            click.echo("\r\033[K", err=True, nl=False)

@@ -1,0 +1,211 @@
+"""Collision geometries said aloud: a table and JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..collision.compute import Result, shown_scale
+from ..collision.rewrite import geometry_tag
+
+_HEAD = (
+    "method",
+    "pieces",
+    "vertices",
+    "triangles",
+    "hausdorff",
+    "mean",
+    "volume",
+    "outside",
+    "seconds",
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """A mesh of a link, or a mesh alone, with what became of it.
+
+    Attributes:
+        name: The link, or the mesh file.
+        mesh: The mesh file.
+        scale: Factors it was scaled by.
+        result: What was computed.
+        max_error: What its error is judged by.
+        files: Names of its pieces' files; empty for a primitive.
+        source: ``"visual"`` or ``"collision"``; empty for a mesh alone.
+    """
+
+    name: str
+    mesh: str
+    scale: tuple[float, ...]
+    result: Result
+    max_error: float
+    files: tuple[str, ...] = ()
+    source: str = ""
+
+    @property
+    def within(self) -> bool:
+        """Whether the error is as small as it was asked for."""
+        return self.result.error <= self.max_error
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON form."""
+        result = self.result
+        found: dict[str, Any] = {"link": self.name, "source": self.source} if self.source else {}
+        return {
+            **found,
+            "mesh": self.mesh,
+            "scale": list(self.scale),
+            "method": result.method,
+            "max_error": self.max_error,
+            "within": self.within,
+            "before": result.before,
+            "measures": result.measures,
+            "pieces": [
+                _piece(result, index, self.files[index] if self.files else "")
+                for index in range(len(result.pieces))
+            ],
+            "seconds": round(result.seconds, 3),
+            "cached": result.cached,
+            "notes": list(result.notes),
+        }
+
+
+@dataclass(frozen=True)
+class Report:
+    """All rows of a robot or of a mesh.
+
+    Attributes:
+        path: The file that was simplified.
+        output: What was written; empty where nothing was.
+        rows: A row for each mesh.
+        left: Links left as they are.
+    """
+
+    path: str
+    output: str
+    rows: Sequence[Row]
+    left: Sequence[str] = field(default_factory=list)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The JSON form."""
+        return {
+            "input": self.path,
+            "output": self.output,
+            "parts": [row.as_dict() for row in self.rows],
+            "left": list(self.left),
+        }
+
+
+def as_json(reports: Sequence[Report]) -> str:
+    """One object for all of it."""
+    found = [report.as_dict() for report in reports]
+    return json.dumps({"version": 1, "results": found}, indent=2) + "\n"
+
+
+def table(rows: Sequence[Row]) -> str:
+    """What was there and what is, a line a mesh."""
+    if not rows:
+        return ""
+    lines: list[Sequence[str]] = [("", *_HEAD)]
+    lines += [(_label(row), *_cells(row)) for row in rows]
+    return aligned(lines)
+
+
+def aligned(lines: Sequence[Sequence[str]]) -> str:
+    """Columns as wide as they have to be: the first to the left, the others to the right."""
+    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
+    return "".join(
+        "  ".join(
+            cell.ljust(width) if k < 2 else cell.rjust(width)
+            for k, (cell, width) in enumerate(zip(line, widths, strict=True))
+        ).rstrip()
+        + "\n"
+        for line in lines
+    )
+
+
+def remarks(rows: Iterable[Row]) -> Iterable[str]:
+    """What should be known beside the table: parts that miss the error, and what was met."""
+    for row in rows:
+        if not row.within:
+            yield (
+                f"{_label(row)}: error {row.result.error:.2%} of its size, "
+                f"not within {row.max_error:.2%}"
+            )
+
+
+def notes(rows: Iterable[Row]) -> Iterable[str]:
+    """What was found of the meshes and mended, and methods that failed."""
+    for row in rows:
+        for note in row.result.notes:
+            yield f"{_label(row)}: {note}"
+
+
+def failures(rows: Iterable[Row]) -> Iterable[str]:
+    """Notes of CoACD's failures, and of what was done instead."""
+    for row in rows:
+        for note in row.result.notes:
+            if note.startswith(("CoACD", "One convex", "The mesh is flat")):
+                yield f"{_label(row)}: {note}"
+
+
+def summary(report: Report) -> str:
+    """One line."""
+    rows = report.rows
+    pieces = sum(len(row.result.pieces) for row in rows)
+    missed = sum(not row.within for row in rows)
+    cached = sum(row.result.cached for row in rows)
+    words = [f"{len(rows)} mesh{'es' * (len(rows) != 1)} to {pieces} piece{'s' * (pieces != 1)}"]
+    if missed:
+        words.append(f"{missed} not within the error")
+    if cached:
+        words.append(f"{cached} from the cache")
+    where = f" -> {report.output}" if report.output else ""
+    return f"{report.path}{where}: {', '.join(words)}"
+
+
+def _label(row: Row) -> str:
+    if not row.source:
+        return row.name
+    scale = shown_scale(row.scale)
+    return f"{row.name} {Path(row.mesh).name}{' ' + scale if scale else ''}"
+
+
+def _cells(row: Row) -> tuple[str, ...]:
+    result, measures = row.result, row.result.measures
+    kinds = {piece.kind for piece in result.pieces}
+    what = kinds.pop() if result.method == "primitive" else result.method
+    seconds = "cached" if result.cached else f"{result.seconds:.1f}"
+    return (
+        what,
+        str(len(result.pieces)),
+        f"{result.before['vertices']} → {measures['vertices']}",
+        f"{result.before['triangles']} → {measures['triangles']}",
+        f"{measures['hausdorff'] * 1000:.3g} mm {result.error:.2%}",
+        f"{measures['mean'] / measures['size']:.2%}",
+        f"{measures['volume_ratio']:.3f}",
+        f"{measures['outside']:.1%}",
+        seconds,
+    )
+
+
+def _piece(result: Result, index: int, file: str) -> dict[str, Any]:
+    piece = result.pieces[index]
+    if not piece.is_primitive:
+        return {
+            "kind": piece.kind,
+            "file": file or None,
+            "vertices": len(piece.vertices),
+            "triangles": len(piece.faces),
+        }
+    return {
+        "kind": piece.kind,
+        "size": list(piece.size),
+        "centre": piece.centre.tolist(),
+        "rotation": piece.rotation.tolist(),
+        "urdf": geometry_tag(piece),
+    }

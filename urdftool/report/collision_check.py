@@ -1,0 +1,75 @@
+"""What a check of a robot's collisions found, as a table and JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from ..collision.check import Checked
+from .collision import aligned
+
+
+def is_good(item: Checked, limit: float) -> bool:
+    """Whether a link's collision is there, and near enough to its visual."""
+    return item.measures is not None and item.measures["error"] <= limit
+
+
+def as_dict(path: str, found: Sequence[Checked], limit: float) -> dict[str, Any]:
+    """One object."""
+    return {
+        "version": 1,
+        "input": path,
+        "max_error": limit,
+        "links": [
+            {
+                "link": item.link,
+                "within": is_good(item, limit),
+                "measures": item.measures,
+                "concave_meshes": item.hulled,
+                "trouble": item.trouble,
+            }
+            for item in found
+        ],
+    }
+
+
+def table(found: Sequence[Checked], limit: float) -> str:
+    """A line a link."""
+    if not found:
+        return ""
+    lines: list[Sequence[str]] = [
+        ("", "", "pieces", "triangles", "hausdorff", "mean", "volume", "outside")
+    ]
+    for item in found:
+        verdict = "ok" if is_good(item, limit) else "BAD"
+        m = item.measures
+        if m is None:
+            lines.append((item.link, verdict, "-", "-", "-", "-", "-", "-"))
+            continue
+        lines.append(
+            (
+                item.link,
+                verdict,
+                str(m["pieces"]),
+                str(m["triangles"]),
+                f"{m['hausdorff'] * 1000:.3g} mm {m['error']:.2%}",
+                f"{m['mean'] / m['size']:.2%}",
+                f"{m['volume_ratio']:.3f}",
+                f"{m['outside']:.1%}",
+            )
+        )
+    return aligned(lines)
+
+
+def remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
+    """What is wrong, a line a link."""
+    for item in found:
+        if item.trouble:
+            yield f"link '{item.link}': {item.trouble}"
+        elif item.measures is not None and item.measures["error"] > limit:
+            yield f"link '{item.link}': error {item.measures['error']:.2%} of its size"
+        if item.hulled:
+            yield (
+                f"link '{item.link}': {item.hulled} collision mesh{'es' * (item.hulled > 1)} not "
+                "convex; PyBullet and MuJoCo take the hull"
+            )
