@@ -18,6 +18,9 @@ PLACED = frozenset(
 )
 """Elements of a link that have a pose in it."""
 
+NAMED = frozenset(("frame", "link", "joint", "model", "gripper", "particle_emitter", "battery"))
+"""Elements that no reader takes without a name."""
+
 OWN_FRAMES = frozenset(("frame", "link", "model", "joint"))
 """Elements of a model that have a frame of their name."""
 
@@ -43,6 +46,10 @@ def blob(
     """
     if not _is_known(str(node.tag), element):
         _lose(node, t, element, about)
+        return None
+    if element.tag in NAMED and not (element.get("name") or "").strip():
+        text = f"<{element.tag}> of a <gazebo> block has no name; it is left out"
+        t.lose("element", text, element, about)
         return None
     if wanted(element):
         text = f"<{element.tag}> is '{element.text.strip()}', not {wanted(element)}"

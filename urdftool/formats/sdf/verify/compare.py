@@ -251,7 +251,8 @@ def _limits(pair: Pair) -> Check:
         for name, value in joint.limits.items():
             found = other.limits[name]
             one, two = (np.sign(x) * np.inf if abs(x) >= 1e15 else x for x in (value, found))
-            off = 0.0 if one == two else abs(one - two) / max(abs(one), 1e-30)
+            apart = np.inf if np.isinf(one) or np.isinf(two) else abs(one - two)
+            off = 0.0 if one == two else apart / max(min(abs(one), 1e300), 1e-30)
             text = f"{joint.name}: {name} is {found:g}, not {value:g}"
             check.compare(float(off), text, known=joint.name in pair.excuses.limits)
     return check

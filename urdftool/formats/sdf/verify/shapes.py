@@ -53,7 +53,8 @@ def compare_colors(pair: Pair) -> Check:
     here = _places(pair, pair.source, pair.source.visuals, [{}], renamed=False)
     there = _places(pair, pair.made, pair.made.visuals, [{}], renamed=True)
     left = list(range(len(pair.made.visuals)))
-    for index, shape in enumerate(pair.source.visuals):
+    told_last = sorted(enumerate(pair.source.visuals), key=lambda pair: pair[1].rgba is None)
+    for index, shape in told_last:
         nearest = _nearest(shape, here[index], pair.made.visuals, there, left)
         if nearest is None:
             continue
