@@ -1,6 +1,7 @@
 import json
 import subprocess
 import sys
+import xml.etree.ElementTree as ElementTree
 from html import unescape
 from pathlib import Path
 
@@ -109,13 +110,34 @@ def test_the_name_of_a_file_is_one(urdftool, write, tmp_path, name, stem):
     assert {p.name for p in tmp_path.iterdir()} == {"x.urdf", f"{stem}.gv", f"{stem}.pdf"}
 
 
-def test_findings_are_marked_and_exit_1(urdftool, tmp_path, monkeypatch):
+def node_texts(svg):
+    """All text of each node of an SVG, by the node's key."""
+    name = "{http://www.w3.org/2000/svg}"
+    nodes = [g for g in ElementTree.parse(svg).iter(f"{name}g") if g.get("class") == "node"]
+    return {
+        node.find(f"{name}title").text: ["".join(t.itertext()) for t in node.iter(f"{name}text")]
+        for node in nodes
+    }
+
+
+def test_findings_are_marked_where_they_are_and_exit_1(urdftool, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     result = urdftool("graph", ARM, "--lint", "--style", "detailed", "-o", "arm.svg")
     assert result.code == 1
-    report = json.loads(urdftool("lint", ARM, "--format", "json").out)
+    marks = {
+        key: {text for text in texts if text.startswith(("error", "warning", "info"))}
+        for key, texts in node_texts("arm.svg").items()
+    }
+    assert {key: found for key, found in marks.items() if found} == {
+        "link:shoulder": {"error: inertia-triangle-inequality"},
+        "link:upper_arm": {"error: inertia-triangle-inequality"},
+        "link:forearm": {"error: inertia-triangle-inequality"},
+        "joint:elbow": {"error: unknown-attribute"},
+        "link:flange": {"warning: missing-inertial"},
+        "link:tool": {"error: mesh-not-found", "info: missing-collision"},
+    }
     svg = unescape(Path("arm.svg").read_text("utf-8"))
-    for finding in report["findings"]:
+    for finding in json.loads(urdftool("lint", ARM, "--format", "json").out)["findings"]:
         assert finding["rule"] in svg
 
 
