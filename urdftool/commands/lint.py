@@ -38,6 +38,8 @@ LEVELS = ("error", "warning", "info")
     show_default=True,
     help="Exit 1 from this severity on.",
 )
+@click.option("--baseline", metavar="FILE", help="Pass over the findings that FILE has.")
+@click.option("--write-baseline", metavar="FILE", help="Write the findings to FILE, as a baseline.")
 @click.option("-j", "--jobs", type=click.IntRange(1), metavar="N", help="Processes to use.")
 @click.option("--explain", metavar="RULE", help="Show a rule's page and stop.")
 @click.option("--list-rules", is_flag=True, help="List all rules and stop.")
@@ -55,6 +57,8 @@ def command(
     statistics: bool,
     exit_zero: bool,
     fail_on: str,
+    baseline: str | None,
+    write_baseline: str | None,
     jobs: int | None,
     explain: str | None,
     list_rules: bool,
@@ -73,12 +77,14 @@ def command(
         urdftool lint src/ --target gz --format concise
         urdftool lint --explain zero-axis
 
-    Exit 1 if there are findings of --fail-on or above, 2 if a file cannot be read.
+    Exit 1 if there are findings of --fail-on or above that the baseline does not have, 2 if a file
+    cannot be read.
     """  # noqa: D301 -- click reads the escape
     from ..lint.discover import find_descriptions
     from ..lint.outcome import Options
     from ..lint.parallel import lint_files
     from ..lint.settings import Settings, check_selectors, check_targets
+    from .lint_report import Wanted, report
 
     if explain or list_rules:
         return _show_rules(explain)
@@ -95,69 +101,9 @@ def command(
         targets=check_targets(target),
     )
     options = Options(settings, arguments, package, package_path, console.config)
-    reports = list(lint_files(files, options, jobs))
-    return _report(console, reports, style, output_file, statistics, exit_zero, fail_on)
-
-
-def _report(
-    console: Console,
-    reports: list,  # type: ignore[type-arg]
-    style: str,
-    output_file: str | None,
-    statistics: bool,
-    exit_zero: bool,
-    fail_on: str,
-) -> int:
-    from ..finding import Severity
-    from ..lint.merge import gather
-    from ..output import write_result
-    from ..report.findings import summary
-    from ..report.findings_formats import as_text
-
-    outcome = gather(reports)
-    threshold = Severity[fail_on.upper()]
-    to_file = output_file not in (None, "-")
-    text = as_text(
-        outcome,
-        style,
-        colors=console.colors(to_file=to_file),
-        fail_on=threshold,
-        statistics=statistics,
-    )
-    inputs = [report.path for report in reports if report.path != "-"] if to_file else []
-    write_result(text, output_file, inputs=inputs)
-    broken = _say_the_rest(console, reports)
-    checked = [report for report in reports if report.checked]
-    if checked:
-        targets = {name for report in checked for name in report.targets}
-        hidden = sum(report.suppressed for report in reports)
-        console.note(summary(outcome.findings, len(checked), targets, hidden))
-    if broken:
-        return broken
-    worst = max((f.severity for f in outcome.findings), default=None)
-    failed = worst is not None and worst >= threshold
-    return int(failed and not exit_zero)
-
-
-def _say_the_rest(console: Console, reports: list) -> int:  # type: ignore[type-arg]
-    """Skipped files, unreadable ones, and rules that broke; the exit code these ask for."""
-    from .. import __version__
-    from ..cli import REPORT_BUGS
-
-    code = 0
-    for report in reports:
-        if report.skipped:
-            console.note(f"{report.path}: skipped, {report.skipped}", level=1)
-        if report.error is not None:
-            console.error(report.error)
-            code = max(code, 2)
-        for rule, reason in report.failed_rules.items():
-            console.say(
-                f"{report.path}: the rule {rule} broke, which is a bug in urdftool {__version__} "
-                f"({reason}); the others have run. Please report it at {REPORT_BUGS}"
-            )
-            code = 3
-    return code
+    reports = lint_files(files, options, jobs)
+    wanted = Wanted(style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline)
+    return report(console, reports, settings, wanted)
 
 
 def _show_rules(explain: str | None) -> int:

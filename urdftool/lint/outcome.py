@@ -39,6 +39,7 @@ class Report:
         findings: What is wrong with it.
         targets: The targets it was checked for.
         ignored: Findings that comments cover, each with the reason its comment gives.
+        files: The files of its source that were read.
         skipped: Why it was not checked; empty if it was.
         error: What kept it from being read.
         failed_rules: Rules that broke, which is a bug of ours, with what they raised.
@@ -48,6 +49,7 @@ class Report:
     findings: list[Finding] = field(default_factory=list)
     targets: frozenset[str] = frozenset()
     ignored: list[tuple[Finding, str]] = field(default_factory=list)
+    files: tuple[str, ...] = ()
     skipped: str = ""
     error: UrdftoolError | None = None
     failed_rules: dict[str, str] = field(default_factory=dict)
@@ -71,8 +73,15 @@ class Outcome:
         reports: A report for each description.
         findings: Their findings, merged, in the order of the source.
         ignored: Findings that comments cover, each with the reason its comment gives.
+        known: Findings that the baseline has, which are not among the others.
     """
 
     reports: list[Report]
     findings: list[Finding]
     ignored: list[tuple[Finding, str]] = field(default_factory=list)
+    known: list[Finding] = field(default_factory=list)
+
+    @property
+    def complete(self) -> bool:
+        """Whether all files were read and no rule broke."""
+        return all(report.error is None and not report.failed_rules for report in self.reports)

@@ -159,6 +159,7 @@ def _check_description(
     else:
         targets = frozenset()
     report.targets = targets
+    report.files = tuple(file.path for file in description.files)
     rules = _rules(settings, targets, description)
     documents = list(_documents(description))
     findings = [_of_failure(failure, settings) for failure in failures]

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 import click
 
 from ..finding import Finding, Severity
+from ..lint.outcome import Outcome
 from .findings_words import call_lines, remarks, sentence
 from .findings_words import clean as clean
 
@@ -115,19 +116,22 @@ def statistics(findings: Iterable[Finding]) -> Iterator[str]:
         yield f"{count:>6}  {severity.label:<8} {rule}"
 
 
-def summary(
-    findings: Iterable[Finding], files: int, targets: Iterable[str], suppressed: int = 0
-) -> str:
+def summary(outcome: Outcome) -> str:
     """One line: how many of each severity, in how many files, for which targets."""
+    checked = [report for report in outcome.reports if report.checked]
+    files = len(checked)
+    targets = {name for report in checked for name in report.targets}
+    suppressed = sum(report.suppressed for report in outcome.reports)
     counts = dict.fromkeys(reversed(Severity), 0)
-    for finding in findings:
+    for finding in outcome.findings:
         counts[finding.severity] += 1
     said = [
         f"{count} {severity.label}{'s' if count != 1 and severity is not Severity.INFO else ''}"
         for severity, count in counts.items()
         if count
     ]
-    what = ", ".join(said) or "no findings"
+    what = ", ".join(said) or ("no new findings" if outcome.known else "no findings")
+    known = f", {len(outcome.known)} in the baseline" if outcome.known else ""
     hidden = f", {suppressed} ignored by comments" if suppressed else ""
     names = ", ".join(sorted(targets)) or "any reader of URDF"
-    return f"{what}{hidden} in {files} file{'s' * (files != 1)} (targets: {names})"
+    return f"{what}{hidden}{known} in {files} file{'s' * (files != 1)} (targets: {names})"

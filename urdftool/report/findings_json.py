@@ -14,7 +14,7 @@ def to_json(outcome: Outcome) -> str:
     """A run as one object."""
     reports, findings = outcome.reports, outcome.findings
     counts = {severity: sum(f.severity is severity for f in findings) for severity in Severity}
-    table = {
+    table: dict[str, Any] = {
         "version": 1,
         "findings": [finding_record(finding) for finding in findings],
         "summary": {
@@ -30,6 +30,8 @@ def to_json(outcome: Outcome) -> str:
             ],
         },
     }
+    if outcome.known:
+        table["summary"]["baselined"] = len(outcome.known)
     return json.dumps(table, indent=1, ensure_ascii=False) + "\n"
 
 

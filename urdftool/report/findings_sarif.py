@@ -22,8 +22,9 @@ _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: 
 
 
 def to_sarif(outcome: Outcome) -> str:
-    """A run, with the findings that comments excuse as suppressed results."""
+    """A run, with what comments excuse and what the baseline has as suppressed results."""
     excused = [(finding, _in_source(reason)) for finding, reason in outcome.ignored]
+    excused += [(finding, {"kind": "external"}) for finding in outcome.known]
     found: list[tuple[Finding, list[dict[str, Any]]]] = [
         *((finding, []) for finding in outcome.findings),
         *((finding, [suppression]) for finding, suppression in excused),

@@ -1,0 +1,150 @@
+"""What ``urdftool lint`` says at the end: findings, baseline, summary, exit code."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..console import Console
+
+if TYPE_CHECKING:
+    from ..lint.baseline import Baseline, Entry
+    from ..lint.outcome import Outcome, Report
+    from ..lint.settings import Settings
+
+_MOST_ENTRIES = 3
+
+
+@dataclass
+class Wanted:
+    """How findings are to be shown, and which of them fail.
+
+    Attributes:
+        style: The format.
+        output_file: Where they go, instead of standard output.
+        statistics: Whether they are counted by rule instead.
+        exit_zero: Whether findings leave the exit code 0.
+        fail_on: The severity from which on they do not.
+        baseline: A file of findings that were there before.
+        write_baseline: A file to write the findings to.
+    """
+
+    style: str
+    output_file: str | None
+    statistics: bool
+    exit_zero: bool
+    fail_on: str
+    baseline: str | None
+    write_baseline: str | None
+
+
+def report(console: Console, reports: Iterable[Report], settings: Settings, wanted: Wanted) -> int:
+    """Show a run; gives the exit code."""
+    from ..finding import Severity
+    from ..lint.merge import gather
+    from ..output import write_result
+    from ..report.findings import summary
+    from ..report.findings_formats import as_text
+
+    outcome = gather(reports)
+    if wanted.baseline or wanted.write_baseline:
+        outcome = _with_baseline(console, outcome, settings, wanted)
+    threshold = Severity[wanted.fail_on.upper()]
+    to_file = wanted.output_file not in (None, "-")
+    text = as_text(
+        outcome,
+        wanted.style,
+        colors=console.colors(to_file=to_file),
+        fail_on=threshold,
+        statistics=wanted.statistics,
+    )
+    write_result(text, wanted.output_file, inputs=_inputs(outcome) if to_file else [])
+    broken = _say_the_rest(console, outcome.reports)
+    if any(report.checked for report in outcome.reports):
+        console.note(summary(outcome))
+    if broken:
+        return broken
+    worst = max((f.severity for f in outcome.findings), default=None)
+    failed = worst is not None and worst >= threshold
+    return int(failed and not wanted.exit_zero)
+
+
+def _inputs(outcome: Outcome) -> list[str]:
+    return [report.path for report in outcome.reports if report.path != "-"]
+
+
+def _with_baseline(
+    console: Console, outcome: Outcome, settings: Settings, wanted: Wanted
+) -> Outcome:
+    """The run without what the baseline has, after writing it where that is wanted."""
+    from ..lint.baseline import compare, read_baseline
+    from ..lint.stale import looked_for
+
+    old = read_baseline(wanted.baseline) if wanted.baseline else None
+    if wanted.write_baseline:
+        written = _write(console, outcome, settings, wanted.write_baseline)
+        if written is not None:
+            return compare(outcome, written)[0]
+    if old is None:
+        return outcome
+    outcome, unmatched = compare(outcome, old)
+    stale = looked_for(unmatched, old, outcome, settings)
+    if stale:
+        console.note(_said(old, stale))
+    return outcome
+
+
+def _write(console: Console, outcome: Outcome, settings: Settings, path: str) -> Baseline | None:
+    """Write a baseline; entries of another that this run has not looked for stay in it."""
+    import os
+
+    from ..lint.baseline import baseline_of, read_baseline, to_text
+    from ..lint.stale import looked_for
+    from ..output import write_result
+
+    if not outcome.complete:
+        console.say(f"{path}: is not written, because not all files could be checked")
+        return None
+    kept = {}
+    if os.path.exists(path):
+        old = read_baseline(path)
+        gone = set(looked_for(old.counts, old, outcome, settings))
+        kept = {entry: count for entry, count in old.counts.items() if entry not in gone}
+    written = baseline_of(path, outcome.findings, kept)
+    write_result(to_text(written), path, inputs=_inputs(outcome))
+    number = len(written.counts)
+    console.note(f"{path}: written, {number} {'entry' if number == 1 else 'entries'}")
+    return written
+
+
+def _said(baseline: Baseline, stale: list[Entry]) -> str:
+    """That entries match nothing any more, with some of them."""
+    some = [f"{e.path}: {e.rule} of {e.kind} '{e.name}'" for e in stale[:_MOST_ENTRIES]]
+    more = ["…"] if len(stale) > _MOST_ENTRIES else []
+    what = "1 entry matches" if len(stale) == 1 else f"{len(stale)} entries match"
+    return (
+        f"{baseline.path}: {what} nothing any more ({'; '.join(some + more)}); "
+        f"--write-baseline {baseline.path} takes them out"
+    )
+
+
+def _say_the_rest(console: Console, reports: Iterable[Report]) -> int:
+    """Skipped files, unreadable ones, and rules that broke; the exit code these ask for."""
+    from .. import __version__
+    from ..cli import REPORT_BUGS
+
+    code = 0
+    for report in reports:
+        if report.skipped:
+            console.note(f"{report.path}: skipped, {report.skipped}", level=1)
+        if report.error is not None:
+            console.error(report.error)
+            code = max(code, 2)
+        for rule, reason in report.failed_rules.items():
+            console.say(
+                f"{report.path}: the rule {rule} broke, which is a bug in urdftool {__version__} "
+                f"({reason}); the others have run. Please report it at {REPORT_BUGS}"
+            )
+            code = 3
+    return code

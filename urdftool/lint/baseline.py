@@ -1,0 +1,158 @@
+"""Findings that were there before: a file of them, so that only new ones fail.
+
+An entry knows its finding by :func:`fingerprint`, never by its line, and its file relative to the
+folder of the baseline. ``count`` is how many such findings there are in the file.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
+
+from ..errors import ConfigError
+from ..finding import Finding
+from .fingerprint import fingerprint
+from .outcome import Outcome
+
+_KEYS = {"path", "rule", "element", "fingerprint", "count"}
+
+
+class Entry(NamedTuple):
+    """What a finding is known by.
+
+    Attributes:
+        path: Its file, relative to the baseline's folder.
+        rule: Its rule.
+        kind: What it is about: ``link``, ``joint``, …
+        name: The name of that.
+        fingerprint: The fingerprint, which has the attributes too.
+    """
+
+    path: str
+    rule: str
+    kind: str
+    name: str
+    fingerprint: str
+
+
+@dataclass
+class Baseline:
+    """The findings that were there, and how many of each.
+
+    Attributes:
+        path: The file.
+        counts: How many findings there are of each entry.
+    """
+
+    path: str
+    counts: Mapping[Entry, int] = field(default_factory=dict)
+
+    def entry(self, finding: Finding) -> Entry:
+        """The entry that a finding has in this file."""
+        path = finding.place.path
+        if finding.place.file.path != "<stdin>":
+            folder = os.path.dirname(os.path.abspath(self.path))
+            path = os.path.relpath(os.path.abspath(path), folder).replace(os.sep, "/")
+        return Entry(path, finding.rule, finding.kind, finding.name, fingerprint(finding))
+
+    def file_of(self, entry: Entry) -> str:
+        """The file of an entry, as an absolute path."""
+        return os.path.abspath(
+            os.path.join(os.path.dirname(os.path.abspath(self.path)), entry.path)
+        )
+
+
+def read_baseline(path: str) -> Baseline:
+    """Read a baseline.
+
+    Raises:
+        ConfigError: It cannot be read, or is not what ``--write-baseline`` writes.
+    """
+    try:
+        with open(path, encoding="utf-8") as stream:
+            table = json.load(stream)
+    except OSError as error:
+        raise ConfigError(
+            f"cannot be read: {error.strerror}; --write-baseline writes one", path=path
+        ) from None
+    except json.JSONDecodeError as error:
+        where = f"line {error.lineno}, column {error.colno}"
+        raise ConfigError(f"is not valid JSON ({where}: {error.msg})", path=path) from None
+    except (UnicodeDecodeError, RecursionError):
+        raise ConfigError("is no baseline; --write-baseline writes one", path=path) from None
+    if not isinstance(table, dict) or not isinstance(table.get("findings"), list):
+        raise ConfigError("is no baseline; --write-baseline writes one", path=path)
+    if table.get("version") != 1:
+        said = table.get("version")
+        raise ConfigError(f"is a baseline of version {said!r}; version 1 is known", path=path)
+    counts: dict[Entry, int] = {}
+    for number, record in enumerate(table["findings"], start=1):
+        entry, count = _entry(record, number, path)
+        counts[entry] = max(count, counts.get(entry, 0))
+    return Baseline(path, counts)
+
+
+def _entry(record: Any, number: int, path: str) -> tuple[Entry, int]:
+    fault = f"entry {number} is not of path, rule, element, fingerprint and count"
+    if not isinstance(record, dict) or set(record) != _KEYS:
+        raise ConfigError(fault, path=path)
+    element, count = record["element"], record["count"]
+    if not isinstance(element, dict) or set(element) != {"kind", "name"}:
+        raise ConfigError(f"{fault}: an element is a kind and a name", path=path)
+    words = (record["path"], record["rule"], element["kind"], element["name"])
+    entry = Entry(*words, record["fingerprint"])
+    if not all(isinstance(word, str) for word in entry):
+        raise ConfigError(f"{fault}: all but the count are text", path=path)
+    if isinstance(count, bool) or not isinstance(count, int) or count < 1:
+        raise ConfigError(f"{fault}: the count is a number from 1 on", path=path)
+    return entry, count
+
+
+def compare(outcome: Outcome, baseline: Baseline) -> tuple[Outcome, list[Entry]]:
+    """A run with what the baseline has set apart, and the entries that nothing matches."""
+    left = Counter(baseline.counts)
+    new: list[Finding] = []
+    known: list[Finding] = []
+    matched: set[Entry] = set()
+    for finding in outcome.findings:
+        entry = baseline.entry(finding)
+        if left[entry] > 0:
+            left[entry] -= 1
+            matched.add(entry)
+            known.append(finding)
+        else:
+            new.append(finding)
+    unmatched = [entry for entry in baseline.counts if entry not in matched]
+    return replace(outcome, findings=new, known=known), unmatched
+
+
+def baseline_of(path: str, findings: Iterable[Finding], kept: Mapping[Entry, int]) -> Baseline:
+    """A baseline for a file of that path.
+
+    Args:
+        path: Where it will be written.
+        findings: What there is now.
+        kept: Entries that stay, with their counts.
+    """
+    counts = Counter(map(Baseline(path).entry, findings))
+    return Baseline(path, {**kept, **counts})
+
+
+def to_text(baseline: Baseline) -> str:
+    """A baseline as it is written: an entry a line, sorted, so that changes merge well."""
+    lines = []
+    for entry, count in sorted(baseline.counts.items()):
+        record = {
+            "path": entry.path,
+            "rule": entry.rule,
+            "element": {"kind": entry.kind, "name": entry.name},
+            "fingerprint": entry.fingerprint,
+            "count": count,
+        }
+        lines.append("  " + json.dumps(record))
+    inside = "\n" + ",\n".join(lines) + "\n " if lines else ""
+    return f'{{\n "version": 1,\n "findings": [{inside}]\n}}\n'

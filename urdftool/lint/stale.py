@@ -1,0 +1,55 @@
+"""Which entries of a baseline a run has looked for, so that their absence says something."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+
+from ..rules import FAMILY_OF, get_rule
+from .baseline import Baseline, Entry
+from .discover import ENDINGS
+from .outcome import Outcome
+from .settings import Settings
+
+
+def looked_for(
+    entries: Iterable[Entry], baseline: Baseline, outcome: Outcome, line: Settings
+) -> list[Entry]:
+    """The entries whose file was read and whose rule has run, or whose file is gone.
+
+    Args:
+        entries: Some entries of the baseline.
+        baseline: The baseline.
+        outcome: The run.
+        line: What the command line says of rules.
+    """
+    checked = [report for report in outcome.reports if report.checked]
+    files = {os.path.abspath(path) for report in checked for path in report.files}
+    targets = frozenset(name for report in checked for name in report.targets)
+    selected = set(line.names())
+    return [
+        entry
+        for entry in entries
+        if _was_read(baseline.file_of(entry), files)
+        and _has_run(entry.rule, selected, targets, line)
+    ]
+
+
+def _was_read(file: str, files: set[str]) -> bool:
+    """Whether a file is one of these, or stands above one and is no description, or is gone."""
+    if file in files or not os.path.exists(file):
+        return True
+    if file.endswith((*ENDINGS, ".xacro")):
+        return False
+    folder = os.path.join(os.path.dirname(file), "")
+    return any(path.startswith(folder) for path in files)
+
+
+def _has_run(name: str, selected: set[str], targets: frozenset[str], line: Settings) -> bool:
+    if name not in FAMILY_OF:
+        return True
+    if name not in selected:
+        return False
+    rule = get_rule(name)
+    named = name in (line.select or ()) or name in line.extend_select
+    return named or (rule.default and rule.is_on_for(targets))
