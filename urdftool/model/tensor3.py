@@ -10,7 +10,11 @@ from .pose import UPRIGHT, Rotation, matrix_product, transpose
 
 Six = tuple[float, float, float, float, float, float]
 
+SMALLEST_RADIUS = 1e-5
+"""The smallest radius of gyration [m] that is told from none: below it moments are noise."""
+
 _CLOSE = 1e-6
+_SMALL = 1e-60
 
 
 @lru_cache(maxsize=4096)
@@ -25,6 +29,10 @@ def eigenvalues(tensor: Six) -> Vector:
     if off == 0.0:
         low, middle, high = sorted((xx, yy, zz))
         return low, middle, high
+    size = max(map(abs, tensor))
+    if 0.0 < size <= _SMALL or 1 / _SMALL <= size < math.inf:  # its cube would leave the range
+        low, middle, high = eigenvalues(tuple([part / size for part in tensor]))
+        return low * size, middle * size, high * size
     mean = (xx + yy + zz) / 3
     a, b, c = xx - mean, yy - mean, zz - mean
     spread = math.sqrt((a * a + b * b + c * c + 2 * off) / 6)

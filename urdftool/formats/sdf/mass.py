@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from ...model.elements import Inertia, Link, Vector
 from ...model.pose import UPRIGHT, Pose, Rotation, matrix_product, pose_of, transpose
+from ...model.tensor3 import SMALLEST_RADIUS
 
 ROUNDING = 0.01
 """How far moments may miss the triangle inequality, relative to the largest, by rounding."""
@@ -113,10 +114,6 @@ def principal(tensor: Rotation) -> tuple[Vector, Rotation]:
     return moments, tuple(tuple(axes[k]) for k in order)  # type: ignore[return-value]
 
 
-SMALLEST = 1e-5
-"""The smallest radius of gyration [m] that is told from none: below it moments are noise."""
-
-
 def shortfall(tensor: Rotation, mass: float = 0.0) -> float:
     """How far a tensor is from being possible, relative to its largest moment; at most 0 if it is.
 
@@ -127,7 +124,7 @@ def shortfall(tensor: Rotation, mass: float = 0.0) -> float:
         mass: The body's mass [kg]; moments that are nothing to it count as rounding.
     """
     low, middle, high = principal(tensor)[0]
-    scale = max(abs(low), abs(high), mass * SMALLEST**2)
+    scale = max(abs(low), abs(high), mass * SMALLEST_RADIUS**2)
     if scale == 0.0:
         return 0.0
     return max(high - middle - low, -low) / scale

@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from ...model.elements import Link, Robot
 from ...model.tensor3 import Six
 from ..rule import INFO, WARNING, Problem, rule
+from .proposals import remedy_text
 from .solids import box_of, solid_moments, solid_text, spread_ratio
-from .tensors import is_positive, moments_of, tensors
+from .tensors import is_positive, is_zero, moments_of, tensors
 
 
 @rule(
@@ -73,7 +74,7 @@ def inertia_exceeds_geometry(
         yield Problem(
             link,
             f"inertia of link '{link.name}' spreads its mass along {'xyz'[axis]} more than its "
-            f"shapes allow, by a factor of {ratio:.2g}{solid_text(link)}",
+            f"shapes allow, by a factor of {ratio:.2g}{remedy_text(link, inertial, six)}",
             at=inertial.inertia,
         )
 
@@ -153,7 +154,7 @@ def radius_of_gyration(
     """
     for link, inertial, six in tensors(robot):
         mass = link.mass
-        if mass <= 0 or not any(six) or _is_placeholder(link, six):
+        if mass <= 0 or is_zero(six, mass) or _is_placeholder(link, six):
             continue
         if inertial.mass is None or box_of(link) is not None:
             continue

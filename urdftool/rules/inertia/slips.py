@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
-from ...model.elements import Inertial, Link, Robot, Vector
+from ...model.elements import Inertial, Link, Robot
+from ...model.inertia_slips import Proposal, is_possible
 from ...model.tensor3 import Six
 from ..rule import ERROR, WARNING, Problem, rule
-from .solids import solid_moments
-from .tensors import SIX, is_possible, tensors
-
-_DIAGONAL = (0, 3, 5)
+from .proposals import attributes_text, proposal_of
+from .tensors import SIX, is_zero, tensors
 
 
 @rule(
@@ -28,13 +27,12 @@ def inertia_component_slip(robot: Robot) -> Iterator[Problem]:
     they are fine.
     """
     for link, inertial, six in tensors(robot):
-        meant = reordered(six)
-        if meant is not None:
-            shown = " ".join(f'{n}="{v:g}"' for n, v in zip(SIX, meant, strict=True))
+        slip = slip_of(link, inertial, six)
+        if slip is not None and slip.kind == "order":
             yield Problem(
                 link,
                 f"the numbers of the inertia of link '{link.name}' are in the wrong order; "
-                f"write {shown}",
+                f"write {attributes_text(slip.tensor)}",
                 at=inertial.inertia,
             )
 
@@ -47,67 +45,31 @@ def inertia_component_slip(robot: Robot) -> Iterator[Problem]:
     },
 )
 def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
-    """One moment of an inertia is off by a power of ten.
+    """One number of an inertia is off by a power of ten.
 
-    As written no rigid body has the three; with the decimal point of just one of them moved, and in
+    As written no rigid body has the six; with the decimal point of just one of them moved, and in
     one way only, a body of the link's size does.
     """
     for link, inertial, six in tensors(robot):
-        if reordered(six) is not None:
-            continue
-        slip = shifted(link, six)
-        if slip is not None and inertial.inertia is not None:
-            name, value = slip
+        slip = slip_of(link, inertial, six)
+        if slip is not None and slip.kind == "decimal" and inertial.inertia is not None:
+            value = slip.tensor[SIX.index(slip.name)]
             yield Problem(
                 link,
-                f"{name} of link '{link.name}' is off by a power of ten, so no rigid body has this "
-                f"inertia; write {value:g}",
-                at=inertial.inertia.element.attribute_place(name),
+                f"{slip.name} of link '{link.name}' is off by a power of ten, so no rigid body has "
+                f"this inertia; write {value:.12g}",
+                at=inertial.inertia.element.attribute_place(slip.name),
             )
 
 
-def slip_of(link: Link, inertial: Inertial, six: Six) -> bool:
-    """Whether one of these slips explains an impossible tensor."""
-    return reordered(six) is not None or shifted(link, six) is not None
-
-
-def reordered(six: Six) -> Six | None:
-    """The numbers in the order that was meant; None where that is not clear."""
-    xx, xy, xz, yy, yz, zz = six
-    if is_possible(six, 0.01) or min(xx, xy, xz) <= 0:
+def slip_of(link: Link, inertial: Inertial, six: Six) -> Proposal | None:
+    """The slip that explains a tensor no body has, if it is one of these."""
+    if is_zero(six, link.mass) or is_possible(six):
         return None
-    moments_first = (xx, yy, yz, xy, zz, xz)
-    return moments_first if is_possible(moments_first) else None
-
-
-def shifted(link: Link, six: Six) -> tuple[str, float] | None:
-    """The one moment to move the decimal point of, and what it is then; None where unclear.
-
-    Where the link has one solid shape, what comes out has to be its moment within a quarter, and
-    the other two within a factor of two.
-    """
-    if is_possible(six, 0.01) or min(six[i] for i in _DIAGONAL) <= 0:
+    proposal = proposal_of(link, inertial, six)
+    if proposal is None or proposal.kind not in ("order", "decimal"):
         return None
-    found = []
-    solid = solid_moments(link)
-    for place, i in enumerate(_DIAGONAL):
-        for power in (-6, -5, -4, -3, -2, -1, 1, 2, 3, 4, 5, 6):
-            value = float(f"{six[i]:.17g}") * 10.0**power
-            changed = [*six]
-            changed[i] = value
-            if not is_possible((*changed,)):  # type: ignore[arg-type]
-                continue
-            if solid is not None and not _is_near(changed, solid, place):
-                continue
-            found.append((SIX[i], float(f"{value:.12g}")))
-    return found[0] if len(found) == 1 else None
-
-
-def _is_near(six: Sequence[float], solid: Vector, place: int) -> bool:
-    if 0.0 in solid:
-        return False
-    ratios = [six[i] / moment for i, moment in zip(_DIAGONAL, solid, strict=True)]
-    return all(0.5 <= ratio <= 2 for ratio in ratios) and 0.8 <= ratios[place] <= 1.25
+    return proposal
 
 
 @rule(

@@ -18,8 +18,8 @@ from ...model.elements import (
     Vector,
     Visual,
 )
-from ...model.pose import pose_of
-from ...model.tensor3 import turned
+from ...model.pose import matrix_product, pose_of, transpose
+from ...model.tensor3 import Six, turned
 
 
 def box_of(link: Link) -> Bounds | None:
@@ -61,6 +61,24 @@ def solid_moments(link: Link) -> Vector | None:
     if pose_of(inertial.origin).rotation != pose_of(shape.origin).rotation:
         return None
     return _moments(shape.geometry, inertial.mass)
+
+
+def solid_tensor(link: Link) -> Six | None:
+    """The tensor [kg·m²] of a link's one shape, were it solid, along the axes of its inertial.
+
+    None where the link has several shapes, or none that is a primitive.
+    """
+    inertial, shape = link.inertial, _only_shape(link)
+    if inertial is None or shape is None or not inertial.mass:
+        return None
+    moments = _moments(shape.geometry, inertial.mass)
+    if moments is None:
+        return None
+    x, y, z = moments
+    there, here = pose_of(shape.origin).rotation, pose_of(inertial.origin).rotation
+    if there == here:
+        return x, 0.0, 0.0, y, 0.0, z
+    return turned((x, 0.0, 0.0, y, 0.0, z), matrix_product(transpose(here), there))
 
 
 def _only_shape(link: Link) -> Visual | Collision | None:

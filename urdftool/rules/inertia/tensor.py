@@ -9,6 +9,7 @@ from ...model.tensor3 import Six
 from ...source.location import Place
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from .bodies import bodies, mass_of
+from .proposals import remedy_text
 from .slips import slip_of
 from .solids import solid_text
 from .tensors import SIX, is_positive, is_zero, moments_of, tensors
@@ -30,12 +31,14 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
     """
     for link, inertial, six in tensors(robot):
         moments = moments_of(six)
-        if is_zero(six) or is_positive(moments, tolerance) or slip_of(link, inertial, six):
+        if is_zero(six, link.mass) or is_positive(moments, tolerance):
+            continue
+        if slip_of(link, inertial, six) is not None:
             continue
         yield Problem(
             link,
             f"inertia of link '{link.name}' has a negative principal moment ({_shown(moments)}); "
-            f"all three must be positive{solid_text(link)}",
+            f"all three must be positive{remedy_text(link, inertial, six)}",
             at=_component(inertial, six, min(six[0], six[3], six[5])),
         )
 
@@ -54,12 +57,12 @@ def inertia_triangle_inequality(
         moments = low, middle, high = moments_of(six)
         if low + middle >= high * (1 - rounding) or not is_positive(moments, tolerance):
             continue
-        if slip_of(link, inertial, six):
+        if is_zero(six, link.mass) or slip_of(link, inertial, six) is not None:
             continue
         yield Problem(
             link,
             f"inertia of link '{link.name}' belongs to no rigid body: principal moment "
-            f"{high:.4g} is larger than {low:.4g} + {middle:.4g}{solid_text(link)}",
+            f"{high:.4g} is larger than {low:.4g} + {middle:.4g}{remedy_text(link, inertial, six)}",
             at=_component(inertial, six, max(six[0], six[3], six[5])),
         )
 
@@ -106,13 +109,14 @@ def zero_inertia(robot: Robot) -> Iterator[Problem]:
     """A link has a mass and no inertia: all six numbers are 0.
 
     That is a point. The slightest torque turns it infinitely fast, so a joint that turns it shakes
-    or blows up.
+    or blows up. What is below the mass times (10 µm)² is rounding, and counts as 0.
     """
     for link, inertial, six in tensors(robot):
-        if is_zero(six):
+        if is_zero(six, link.mass):
+            nothing = "as good as zero" if any(six) else "zero"
             yield Problem(
                 link,
-                f"inertia of link '{link.name}' is zero, though it weighs {link.mass:g} kg"
+                f"inertia of link '{link.name}' is {nothing}, though it weighs {link.mass:g} kg"
                 f"{solid_text(link) or '; urdftool inertia computes it'}",
                 at=inertial.inertia,
             )
@@ -127,7 +131,12 @@ def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Proble
     """
     for link, inertial, six in tensors(robot):
         moments = low, middle, high = moments_of(six)
-        if is_zero(six) or high <= 0 or low > smallest * high or not is_positive(moments):
+        if (
+            is_zero(six, link.mass)
+            or high <= 0
+            or low > smallest * high
+            or not is_positive(moments)
+        ):
             continue
         if low + middle < high * 0.99:
             continue

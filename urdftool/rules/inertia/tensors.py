@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Inertia, Inertial, Link, Robot, Vector
 from ...model.read import number
-from ...model.tensor3 import Six, eigenvalues
+from ...model.tensor3 import SMALLEST_RADIUS, Six, eigenvalues
 
 SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
@@ -40,18 +40,17 @@ def moments_of(six: Six) -> Vector:
     return eigenvalues(six)
 
 
-def is_zero(six: Six) -> bool:
-    """Whether all six are 0, but for the noise of whatever computed them [kg·m²]."""
-    return max(map(abs, six)) < 1e-18
+def is_zero(six: Six, mass: float) -> bool:
+    """Whether all six are 0, but for the noise of whatever computed them.
+
+    Args:
+        six: The six numbers [kg·m²].
+        mass: The body's mass [kg]; what is below it times (10 µm)² is noise.
+    """
+    return max(map(abs, six)) <= abs(mass) * SMALLEST_RADIUS**2
 
 
 def is_positive(moments: Vector, tolerance: float = 1e-6) -> bool:
     """Whether no principal moment is negative, but for rounding."""
     low, _, high = moments
     return low >= -tolerance * max(abs(low), abs(high))
-
-
-def is_possible(six: Six, tolerance: float = 0.0) -> bool:
-    """Whether some rigid body has this tensor."""
-    low, middle, high = eigenvalues(six)
-    return high > 0 and low >= 0 and low + middle >= high * (1 - tolerance)

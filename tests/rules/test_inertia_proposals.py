@@ -1,0 +1,82 @@
+"""What the rules of inertia propose, in their messages."""
+
+import pytest
+
+from tests.conftest import FIXTURES
+from urdftool.lint.outcome import Options
+from urdftool.lint.run import lint_file
+from urdftool.lint.settings import Settings
+
+ARM = FIXTURES / "robots" / "ros2_arm" / "urdf" / "robot2_base_inertia.urdf.xacro"
+
+LINK = """<robot name="r"><link name="base">
+<inertial><origin xyz="{xyz}" rpy="{rpy}"/><mass value="2"/>
+<inertia ixx="{0}" ixy="{1}" ixz="{2}" iyy="{3}" iyz="{4}" izz="{5}"/></inertial>
+<collision><origin xyz="{xyz}"/><geometry>{shape}</geometry></collision>
+</link></robot>
+"""
+BOX = '<box size="0.1 0.2 0.4"/>'
+MESH = '<mesh filename="part.stl"/>'
+
+
+def messages(path):
+    report = lint_file(path, Options(Settings(select=("inertia",))))
+    assert not report.failed_rules
+    return {finding.rule: finding.message for finding in report.findings}
+
+
+def of_link(tmp_path, *six, xyz="0 0 0", rpy="0 0 0", shape=BOX):
+    path = tmp_path / "r.urdf"
+    path.write_text(LINK.format(*six, xyz=xyz, rpy=rpy, shape=shape))
+    return messages(path)
+
+
+def test_a_moment_copied_to_all_axes():
+    assert "106.667, 106.667, 170.667" in messages(ARM)["inertia-exceeds-geometry"]
+
+
+def test_a_sign(tmp_path):
+    found = of_link(tmp_path, 0.0333, 0, 0, -0.0283, 0, 0.00833)
+    assert "; iyy = 0.0283 with the other sign" in found["inertia-not-positive-definite"]
+
+
+def test_square_millimetres(tmp_path):
+    found = of_link(tmp_path, 33333, 0, 0, 28333, 0, 8333)
+    text = found["inertia-exceeds-geometry"]
+    assert "kg·mm² instead of kg·m²" in text
+    assert 'write ixx="0.033333" ixy="0" ixz="0" iyy="0.028333" iyz="0" izz="0.008333"' in text
+
+
+def test_about_the_origin(tmp_path):
+    found = of_link(tmp_path, 2.0333, 0, 0, 2.0283, 0, 0.00833, xyz="0 0 1")
+    text = found["inertia-exceeds-geometry"]
+    assert "about the link's origin" in text
+    assert 'ixx="0.0333" ' in text
+
+
+def test_an_inertial_on_its_side(tmp_path):
+    found = of_link(tmp_path, 0.00833, 0, 0, 0.0283, 0, 3.33, rpy="0 1.5707963 0")
+    assert found["inertia-off-by-power-of-ten"].endswith("write 0.0333")
+
+
+@pytest.mark.parametrize("shape", [BOX, MESH])
+def test_the_order_needs_no_shape(tmp_path, shape):
+    found = of_link(tmp_path, 0.0333, 0.0283, 0.00833, 0, 0, 0, shape=shape)
+    assert 'iyy="0.0283" iyz="0" izz="0.00833"' in found["inertia-component-slip"]
+
+
+def test_what_nothing_explains_is_told_with_the_solid(tmp_path):
+    found = of_link(tmp_path, 1, 0, 0, 2, 0, 40)
+    assert "a solid box of 2 kg has ixx 0.03333" in found["inertia-triangle-inequality"]
+
+
+@pytest.mark.parametrize("size", ["1e-12", "-1e-13"])
+def test_noise_is_no_inertia(tmp_path, size):
+    found = of_link(tmp_path, size, 0, 0, "1e-13", 0, "1e-14")
+    assert "as good as zero, though it weighs 2 kg" in found["zero-inertia"]
+    assert not found.keys() & {"inertia-triangle-inequality", "inertia-not-positive-definite"}
+
+
+@pytest.mark.parametrize("size", ["1e-110", "1e110", "1e300"])
+def test_numbers_of_no_robot(tmp_path, size):
+    of_link(tmp_path, size, size, 0, size, 0, "-" + size)
