@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..console import Console
 from .export_report import put_files, say_refused, say_written
 from .options import package_options, robot_argument
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..formats.mjcf.cut import Cut
 
 FILES = (".xml", ".mjcf")
 """Suffixes of an output that is one file."""
@@ -50,6 +55,9 @@ FILES = (".xml", ".mjcf")
     show_default=True,
     help="Folder of the meshes, beside the model.",
 )
+@click.option(
+    "--decompose", is_flag=True, help="Cut meshes that collide and are not convex into pieces."
+)
 @click.option("--overwrite", is_flag=True, help="Replace also what urdftool did not write.")
 @click.option("--strict", is_flag=True, help="What cannot be carried is an error.")
 @click.option("--force", is_flag=True, help="Go on past errors where a robot is left.")
@@ -65,6 +73,7 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
     mesh_dir: str,
+    decompose: bool,
     overwrite: bool,
     strict: bool,
     verified: bool,
@@ -102,7 +111,8 @@ def command(
     )
     file = Path(output).name if output and Path(output).suffix.lower() in FILES else ""
     folder = Path(mesh_dir).as_posix()
-    options = Options(mesh_dir="" if folder == "." else folder, file=file, **choices)
+    cutter = cut_meshes if decompose else None
+    options = Options(mesh_dir="" if folder == "." else folder, file=file, cutter=cutter, **choices)
     try:
         written = write(robot_of(description), options)
         if strict and (lost := said.strict(written.losses)):
@@ -117,3 +127,31 @@ def command(
         written, target, single=bool(file), overwrite=overwrite, inputs=inputs, as_json=as_json
     )
     return say_written(console, written, checks, target, as_json=as_json)
+
+
+def cut_meshes(paths: Sequence[Path]) -> dict[Path, Cut | str]:
+    """The convex pieces of meshes, as ``urdftool collision`` finds them with CoACD.
+
+    Raises:
+        MissingDependency: A library that it needs is not installed.
+    """
+    from ..collision.cache import Cache, default_folder
+    from ..collision.compute import Result, Task
+    from ..collision.parallel import compute_all
+    from ..collision.settings import FEW_HULLS, Settings
+    from ..errors import MissingDependency
+    from ..formats.mjcf.cut import Cut
+
+    settings = Settings(method="coacd", max_hulls=FEW_HULLS)
+    tasks = {path: Task(path, settings=settings) for path in paths}
+    found = compute_all(list(tasks.values()), Cache(default_folder()))
+    cuts: dict[Path, Cut | str] = {}
+    for path, task in tasks.items():
+        result = found[task]
+        if isinstance(result, MissingDependency):
+            raise result
+        if isinstance(result, Result):
+            cuts[path] = Cut([(p.vertices, p.faces) for p in result.pieces], result.error)
+        else:
+            cuts[path] = result.message
+    return cuts

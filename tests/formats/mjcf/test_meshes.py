@@ -8,10 +8,11 @@ import pytest
 from tests.conftest import FIXTURES
 from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.convert import convert
+from urdftool.formats.mjcf.cut import Cut
 from urdftool.formats.mjcf.obj import obj_bytes
 from urdftool.meshes.load import load_mesh
 
-from .robots import export, link, robot, rules, tree
+from .robots import INERTIAL, export, link, robot, rules, tree
 
 MESHES = FIXTURES / "meshes"
 
@@ -193,6 +194,53 @@ def test_hull_is_said_where_it_is_larger(write, mesh):
     assert "lossy-nonconvex" in rules(written)
     written = export(write("s.urdf", robot(link("a", shape("collision", mesh("cube.stl"))))))
     assert "lossy-nonconvex" not in rules(written)
+
+
+CUBE = (
+    np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float),
+    np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]),
+)
+
+
+def test_a_mesh_is_cut_into_pieces(write, mesh):
+    asked = []
+
+    def cutter(paths):
+        asked.extend(paths)
+        return {path: Cut([CUBE, (CUBE[0] + 2, CUBE[1])], 0.01) for path in paths}
+
+    shapes = [
+        shape("visual", mesh("two_cubes.stl")),
+        shape("collision", "two_cubes.stl"),
+        shape("collision", mesh("cube.stl")),
+        shape("collision", mesh("flat.stl")),
+    ]
+    path = write("r.urdf", robot(link("a", INERTIAL + "".join(shapes))))
+    written = export(path, cutter=cutter)
+    assert [file.name for file in asked] == ["two_cubes.stl"]  # a cube is its hull
+    collisions = [
+        geom.get("mesh") for geom in tree(written).iter("geom") if geom.get("class") == "collision"
+    ]
+    assert collisions == ["two_cubes_collision_0", "two_cubes_collision_1", "cube", "flat"]
+    (said,) = (loss for loss in written.losses if loss.rule == "lossy-convex")
+    assert "2 convex pieces" in said.message
+    assert "1.00%" in said.message
+
+
+def test_a_mesh_that_cannot_be_cut_stays_whole(write, mesh):
+    path = write("r.urdf", robot(link("a", shape("collision", mesh("two_cubes.stl")))))
+    written = export(path, cutter=lambda paths: dict.fromkeys(paths, "it took too long"))
+    assert assets(written) == [{"file": "two_cubes.stl"}]
+    assert any("it took too long" in loss.message for loss in written.losses)
+
+
+def test_decompose_of_the_command(urdftool, write, mesh, tmp_path):
+    pytest.importorskip("coacd")
+    pytest.importorskip("mujoco")
+    path = write("r.urdf", robot(link("a", INERTIAL + shape("collision", mesh("two_cubes.stl")))))
+    result = urdftool("export", "mjcf", path, "-o", tmp_path / "out", "--decompose", "--verify")
+    assert result.code == 0, result.err
+    assert len(list((tmp_path / "out" / "assets").iterdir())) == 2
 
 
 @pytest.mark.parametrize(

@@ -37,6 +37,9 @@ SHAPES = (
 )  # fmt: skip
 """A shape is dropped or changed."""
 
+CUT = ("lossy-convex",)
+"""A mesh that collides is cut into pieces."""
+
 LOOKS = ("lossy-material", "lossy-texture")
 """A colour is."""
 

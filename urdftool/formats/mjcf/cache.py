@@ -10,7 +10,7 @@ from pathlib import Path
 
 from .convert import Converted, Piece, conversion
 
-_VERSION = 4
+_VERSION = 5
 _BIG = 400_000
 
 
@@ -83,7 +83,7 @@ def _read(key: str, path: Path) -> Converted | None:
                     if len(texture) != facts["image"]:
                         return None
                 pieces.append(Piece(data, rgba, texture, facts["shell"]))
-            return Converted(pieces, head["hull"], head["notes"])
+            return Converted(pieces, head["hull"], head["notes"], head["thick"])
     except (OSError, ValueError, KeyError, TypeError):
         return None
 
@@ -92,6 +92,7 @@ def _write(key: str, made: Converted, path: Path) -> None:
     head = {
         "hull": made.hull,
         "notes": made.notes,
+        "thick": made.thick,
         "pieces": [
             {
                 "bytes": None if piece.data is None else len(piece.data),

@@ -55,11 +55,13 @@ class Converted:
         pieces: One for what collides; one for each material of what is seen.
         hull: Volume of the convex hull over that of the mesh; None where the mesh has none.
         notes: What should be said of it, in sentences.
+        thick: Whether it was flat, and is thickened.
     """
 
     pieces: list[Piece]
     hull: float | None = None
     notes: list[str] = field(default_factory=list)
+    thick: bool = False
 
 
 def convert(path: Path, *, collides: bool) -> Converted:
@@ -100,7 +102,7 @@ def _collision(mesh: Mesh, copied: bool, notes: list[str]) -> Converted:
             "The mesh is flat, and MuJoCo collides bodies with volume; it is thickened to "
             f"{THICKENED:.1%} of its size."
         )
-        return Converted([Piece(_thick_obj(corners))], None, notes)
+        return Converted([Piece(_thick_obj(corners))], None, notes, thick=True)
     data = None if copied else obj_bytes(mesh.vertices, mesh.faces)
     shell = _is_shell(mesh.vertices, mesh.faces)
     return Converted([Piece(data, shell=shell)], _hull_ratio(mesh), notes)

@@ -57,7 +57,8 @@ ROBOT: tuple[Row, ...] = (
     (
         "`mesh` that collides",
         CLOSE,
-        "MuJoCo collides the hull; said where its volume is over 1.05 times",
+        "MuJoCo collides the hull, said where its volume is over 1.05 times; or convex pieces "
+        "(`--decompose`)",
     ),
     ("`mesh` flat, that collides", CLOSE, "thickened to 0.1 % of its size"),
     ("`mesh@scale`", EXACT, "`mesh@scale`, mirrored ones too"),

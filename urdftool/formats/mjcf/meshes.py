@@ -16,7 +16,10 @@ from ..defects import defect
 from ..numbers import numbers_text
 from ..written import Written
 from .convert import Converted, Image, Piece, Rgba
+from .cut import Cut, Cutter
 from .names import Names, file_name
+from .obj import obj_bytes
+from .options import Options
 
 ONE: Vector = (1.0, 1.0, 1.0)
 
@@ -49,7 +52,7 @@ class Assets:
     sources: list[Path]
 
 
-def mesh_assets(robot: Robot, written: Written, mesh_dir: str) -> tuple[Assets, list[Finding]]:
+def mesh_assets(robot: Robot, written: Written, options: Options) -> tuple[Assets, list[Finding]]:
     """The mesh assets, with their files put into ``written``; and what is wrong with meshes."""
     uses, wrong = _uses(robot)
     jobs = list(dict.fromkeys((path, collides) for path, collides, _ in uses))
@@ -62,8 +65,10 @@ def mesh_assets(robot: Robot, written: Written, mesh_dir: str) -> tuple[Assets, 
                 made[job] = result
             else:
                 wrong.extend(_unreadable(uses, job, result))
+    if options.cutter is not None:
+        _cut(options.cutter, uses, made, written)
     _say_notes(uses, made, written)
-    files = _Files(written, mesh_dir)
+    files = _Files(written, options.mesh_dir)
     pieces: dict[int, list[MeshPiece]] = {}
     known: dict[tuple[str, Vector], str] = {}
     elements: dict[bool, list[etree._Element]] = {True: [], False: []}
@@ -133,6 +138,38 @@ def _unreadable(uses: list[_Use], job: tuple[Path, bool], message: str) -> Itera
     yield defect("corrupt-mesh", f"mesh {path}: {message}", place, "link", name)
 
 
+def _cut(
+    cutter: Cutter, uses: list[_Use], made: dict[tuple[Path, bool], Converted], written: Written
+) -> None:
+    """Put convex pieces in the place of the meshes that collide and are not convex."""
+    places = {path: _mesh(shape).element for path, collides, shape in uses if collides}
+    wanted = [
+        path
+        for path in places
+        if (path, True) in made and not made[path, True].thick
+        if (ratio := made[path, True].hull) is None or ratio > HULL
+    ]
+    for path, result in cutter(wanted).items() if wanted else ():
+        old = made[path, True]
+        if isinstance(result, Cut):
+            pieces = [Piece(obj_bytes(*piece)) for piece in result.pieces]
+            made[path, True] = Converted(pieces, None, old.notes)
+            count = "1 convex piece" if len(pieces) == 1 else f"{len(pieces)} convex pieces"
+            text = f"collides as {count}, whose surface is within {result.error:.2%} of its size"
+            severity = Severity.INFO
+        else:
+            text = f"is not cut into convex pieces: {result}"
+            severity = Severity.WARNING
+        written.lose(
+            "convex",
+            f"{path.name} {text}",
+            places[path].attribute_place("filename"),
+            kind="mesh",
+            name=path.name,
+            severity=severity,
+        )
+
+
 def _say_notes(
     uses: list[_Use], made: dict[tuple[Path, bool], Converted], written: Written
 ) -> None:
@@ -164,7 +201,7 @@ def _say_notes(
                 place,
                 kind="mesh",
                 name=path.name,
-                hint="convex pieces collide as they are",
+                hint="--decompose cuts it into convex pieces",
             )
 
 
@@ -186,7 +223,7 @@ class _Files:
             folder = file_name(path.parent.name)
             end = "" if index is None else f"_{index}"
             if collides and stem.casefold() in self._seen:
-                candidates = [f"{stem}_collision", f"{stem}_{folder}_collision"]
+                candidates = [f"{stem}_collision{end}", f"{stem}_{folder}_collision{end}"]
             else:
                 candidates = [f"{stem}{end}", f"{stem}_{folder}{end}"]
             if not collides:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from .cut import Cutter
+
 Actuators = Literal["auto", "none", "position", "velocity", "motor"]
 Base = Literal["auto", "fixed", "free"]
 FixInertia = Literal["none", "lift", "balance", "box"]
@@ -28,6 +30,7 @@ class Options:
         force: Go past defects of the source where a robot is left.
         mesh_dir: Folder of the meshes, relative to the model.
         file: Name of the model's file; empty for the robot's with ``scene.xml`` beside it.
+        cutter: Cuts meshes that collide and are not convex into pieces; None leaves them whole.
     """
 
     actuators: Actuators = "auto"
@@ -38,3 +41,4 @@ class Options:
     force: bool = False
     mesh_dir: str = "assets"
     file: str = ""
+    cutter: Cutter | None = None

@@ -25,7 +25,7 @@ from ...model.elements import (
 )
 from ..check import Check
 from ..mechanics import Array, Mechanics, origin_matrix
-from .announced import LOOKS, SHAPES, TORN, Said
+from .announced import CUT, LOOKS, SHAPES, TORN, Said
 from .compiled import Compiled
 from .convert import Image, part_image
 
@@ -48,7 +48,7 @@ def collision_check(
         compiled.pose(positions)
         for link in robot.links:
             geoms = list(_geoms(compiled, link, 3))
-            known = said.of(SHAPES, *_about(link)) or said.any(*TORN)
+            known = said.of((*SHAPES, *CUT), *_about(link)) or said.any(*TORN)
             if len(geoms) != len(link.collisions):
                 text = f"link '{link.name}': {len(geoms)} collisions of {len(link.collisions)}"
                 check.compare(math.inf, text, known=known)

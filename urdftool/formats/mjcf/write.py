@@ -57,7 +57,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     structure = structure_of(robot, options.base, srdf.virtual_joint if srdf else None)
     found += _too_deep(structure)
     masses, wrong = inertials(structure, options.fix_inertia, written, force=options.force)
-    assets, missing = mesh_assets(robot, written, options.mesh_dir)
+    assets, missing = mesh_assets(robot, written, options)
     refuse([*found, *wrong, *missing], force=options.force)
     for finding in (*found, *wrong, *missing):
         written.losses.append(finding)
