@@ -42,6 +42,7 @@ class Finding:
         others: The instances of one macro are one finding; these are the names of the others and
             the calls they came through.
         expansions: How many instances there are.
+        variants: The sets of xacro arguments it is there with; empty means all that were tried.
     """
 
     rule: str
@@ -55,6 +56,7 @@ class Finding:
     hint: str = ""
     others: list[tuple[str, tuple[Call, ...]]] = field(default_factory=list)
     expansions: int = 1
+    variants: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         """``FILE:LINE:COLUMN: severity: message [rule]``, with the number of instances."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ from .outcome import Options, Report
 from .settings import Settings, check_selectors, check_targets, settings_for
 from .suppress import read_suppressions, suppress, unused
 from .targets import infer_targets
+from .variants import as_one, label, variants_for
 
 
 def check(
@@ -78,9 +80,23 @@ def lint_file(path: str | Path, options: Options) -> Report:
     Raises:
         ConfigError: The configuration is wrong.
     """
-    report = Report(str(path))
     configuration = find_configuration(path, options.config)
     settings = settings_for(path, configuration, options.settings)
+    if configuration.lint.get("variants") is not None:
+        variants = variants_for(path, configuration)
+        if variants and not options.arguments:
+            with_each = {label(v): replace(options, arguments=v) for v in variants}
+            return as_one(
+                {k: _lint_once(path, o, configuration, settings) for k, o in with_each.items()}
+            )
+    return _lint_once(path, options, configuration, settings)
+
+
+def _lint_once(
+    path: str | Path, options: Options, configuration: Configuration, settings: Settings
+) -> Report:
+    """Check a description with one set of xacro arguments."""
+    report = Report(str(path))
     try:
         file = read_file(path)
     except SourceError as error:

@@ -56,6 +56,8 @@ def finding_record(finding: Finding) -> dict[str, Any]:
         "hint": finding.hint or None,
         "fix": None,
     }
+    if finding.variants:
+        record["variants"] = list(finding.variants)
     return record
 
 

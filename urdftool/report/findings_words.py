@@ -18,9 +18,10 @@ def clean(text: str) -> str:
 
 
 def sentence(finding: Finding) -> str:
-    """The message, with how many instances there are."""
+    """The message, with how many instances there are, and in which variants alone."""
     times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
-    return f"{clean(finding.message)}{times}"
+    only = f" (only with {clean('; '.join(finding.variants))})" if finding.variants else ""
+    return f"{clean(finding.message)}{times}{only}"
 
 
 def remarks(finding: Finding) -> Iterator[str]:

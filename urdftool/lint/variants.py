@@ -1,0 +1,119 @@
+"""``[[lint.variants]]``: several sets of xacro arguments for one file, with one set of findings."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ..configuration import Configuration
+from ..errors import ConfigError
+from ..finding import Finding
+from .merge import in_order
+from .outcome import Report
+from .settings import nearest
+
+_KEYS = ("file", "args")
+
+
+def variants_for(file: str | Path, configuration: Configuration) -> list[dict[str, str]]:
+    """The sets of arguments that the configuration has for a file.
+
+    Raises:
+        ConfigError: A variant has an unknown key, a wrong value or a file that is not there.
+    """
+    table, path = configuration.lint.get("variants", []), configuration.path
+    if not isinstance(table, list):
+        raise ConfigError("lint.variants wants to be written [[lint.variants]]", path=path)
+    folder = os.path.dirname(os.path.abspath(path)) if path else os.getcwd()
+    wanted = os.path.realpath(file)
+    found: list[dict[str, str]] = []
+    for number, variant in enumerate(table, start=1):
+        name, arguments = _read(variant, number, path)
+        described = os.path.realpath(os.path.join(folder, name))
+        if not os.path.isfile(described):
+            raise ConfigError(f"lint.variants {number}: there is no file {name}", path=path)
+        if described == wanted and arguments not in found:
+            found.append(arguments)
+    return found
+
+
+def _read(variant: Any, number: int, path: str | None) -> tuple[str, dict[str, str]]:
+    where = f"lint.variants {number}"
+    if not isinstance(variant, dict) or not isinstance(variant.get("file"), str):
+        raise ConfigError(f"{where} wants a file and its args", path=path)
+    for key in variant:
+        if key not in _KEYS:
+            hint = nearest(key, _KEYS) or "; there are file and args"
+            raise ConfigError(f"{where} has no option '{key}'{hint}", path=path)
+    arguments = variant.get("args", {})
+    if not isinstance(arguments, dict):
+        raise ConfigError(f"{where}: args wants to be a table, {{name = 'value'}}", path=path)
+    return variant["file"], {k: _text(v, f"{where}: {k}", path) for k, v in arguments.items()}
+
+
+def _text(value: Any, where: str, path: str | None) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str | int | float):
+        return str(value)
+    raise ConfigError(f"{where} wants a text, a number, true or false", path=path)
+
+
+def label(arguments: Mapping[str, str]) -> str:
+    """A set of arguments in words: ``prefix=left_ gripper=true``."""
+    return " ".join(f"{name}={value}" for name, value in arguments.items()) or "no arguments"
+
+
+def as_one(reports: Mapping[str, Report]) -> Report:
+    """The reports of a file's variants, by label, as one.
+
+    A finding that some variants do not have says which have it. What is unused in some and used in
+    others is not unused.
+    """
+    checked = {name: report for name, report in reports.items() if report.checked}
+    if not checked:
+        return next(iter(reports.values()))
+    findings = _merged({name: report.findings for name, report in checked.items()}, len(reports))
+    reasons = {_key(f): reason for report in checked.values() for f, reason in report.ignored}
+    first = next(iter(checked.values()))
+    hidden = _merged(
+        {name: [finding for finding, _ in report.ignored] for name, report in checked.items()},
+        len(reports),
+    )
+    return replace(
+        first,
+        findings=in_order(f for f in findings if not (f.variants and f.rule.startswith("unused-"))),
+        targets=frozenset().union(*(report.targets for report in checked.values())),
+        ignored=[(finding, reasons[_key(finding)]) for finding in hidden],
+        files=tuple(dict.fromkeys(f for report in checked.values() for f in report.files)),
+        failed_rules={k: v for r in checked.values() for k, v in r.failed_rules.items()},
+    )
+
+
+def _key(finding: Finding) -> tuple[str, str, int, int]:
+    place = finding.place
+    return finding.rule, place.file.path, place.start, place.end
+
+
+def _merged(by_variant: Mapping[str, Sequence[Finding]], number: int) -> list[Finding]:
+    """Findings of one rule at one place as one, though arguments may be in their messages."""
+    groups: dict[tuple[str, str, int, int], list[tuple[Finding, list[str]]]] = {}
+    for name, findings in by_variant.items():
+        for finding in findings:
+            group = groups.setdefault(_key(finding), [])
+            open_ones = [pair for pair in group if name not in pair[1]]
+            same = [pair for pair in open_ones if pair[0].message == finding.message]
+            chosen = next(iter(same or open_ones), None)
+            if chosen is None:
+                group.append((replace(finding), [name]))
+            else:
+                chosen[1].append(name)
+                chosen[0].severity = max(chosen[0].severity, finding.severity)
+    merged = []
+    for finding, names in (pair for group in groups.values() for pair in group):
+        finding.variants = tuple(names) if len(names) < number else ()
+        merged.append(finding)
+    return merged
