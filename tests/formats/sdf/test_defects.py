@@ -201,6 +201,8 @@ def test_a_pose_that_is_none_is_left_out_when_forced():
     "said",
     [
         "<gravity>down</gravity>",
+        "<visual><material><diffuse>down</diffuse></material></visual>",
+        '<light name="l" type="point"><specular>x</specular></light>',
         "<collision><surface><friction><ode><mu>x</mu></ode></friction></surface></collision>",
         '<sensor name="s" type="imu"><always_on>sometimes</always_on></sensor>',
         '<sensor name="s" type="imu"><imu><noise><rate><mean>x</mean></rate></noise></imu>'

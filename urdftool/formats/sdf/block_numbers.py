@@ -29,6 +29,12 @@ FLAGS = frozenset(
 COLORS = frozenset(("ambient", "diffuse", "specular", "emissive"))
 """Elements in a material or light that hold a colour, with or without its opacity."""
 
+WORDS = {
+    ("force_torque", "frame"): ("parent", "child", "sensor"),
+    ("force_torque", "measure_direction"): ("parent_to_child", "child_to_parent"),
+}
+"""Elements, with what they are in, that hold one of a few words."""
+
 _NUMBERS = {"sensor": SENSOR_NUMBERS, "collision": SHAPE_NUMBERS, "visual": SHAPE_NUMBERS}
 
 
@@ -40,6 +46,9 @@ def wanted(element: Element) -> str:
     if element.tag == "pose":
         count = 7 if element.get("rotation_format") == "quat_xyzw" else 6
         return f"{count} finite numbers" if text and numbers(text, count) is None else ""
+    words = WORDS.get((element.parent.tag if element.parent else "", element.tag), ())
+    if words and text not in words:
+        return " or ".join(words)
     if element.tag in COLORS and _inside(element) != "sensor":
         right = any(numbers(text, count) for count in (3, 4))
         return "" if right else "3 or 4 finite numbers"
