@@ -162,7 +162,7 @@ def test_hostile_names_are_escaped(lint, write, name, text):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="names are not bytes there")
-@pytest.mark.parametrize("style", ["full", "concise", "json", "sarif", "github", "junit"])
+@pytest.mark.parametrize("style", ["full", "concise", "json", "sarif", "github", "junit", "html"])
 def test_a_name_that_is_no_utf_8(lint, write, style):
     path = write(os.fsdecode(b"caf\xe9.urdf"), NAMELESS)
     assert lint(style, path).code == 1
@@ -173,3 +173,18 @@ def test_no_findings_are_a_valid_report(lint, write):
     assert sarif(lint("sarif", path, "--select", "zero-axis"))["results"] == []
     assert lint("github", path, "--select", "zero-axis").out == ""
     assert ElementTree.fromstring(lint("junit", path).out).get("failures") == "0"
+
+
+def test_html_is_one_page_that_asks_for_nothing_else(lint, xacro_file):
+    page = lint("html", xacro_file("r.urdf.xacro", WHEELS), "--select", "zero-axis").out
+    assert not re.search(r"(src|href|url)\s*[=(]", page)
+    assert "axis of joint &#x27;left_joint&#x27; is zero" in page
+    assert "<mark>xyz=&quot;0 0 0&quot;</mark>" in page
+    assert "macro &#x27;wheel&#x27; side=right" in page
+
+
+@pytest.mark.parametrize("name", HOSTILE_NAMES)
+def test_html_escapes_what_is_hostile(lint, write, name):
+    page = lint("html", write(name, HOSTILE.format("<link/>"))).out
+    assert page.count("<script>") == 1
+    assert "\x1b" not in page

@@ -9,7 +9,7 @@ import click
 from ..console import Console
 from .options import package_options, split_arguments
 
-FORMATS = ("full", "concise", "json", "sarif", "github", "junit")
+FORMATS = ("full", "concise", "json", "sarif", "github", "junit", "html")
 LEVELS = ("error", "warning", "info")
 
 

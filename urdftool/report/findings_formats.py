@@ -21,7 +21,7 @@ def as_text(
 
     Args:
         outcome: The run.
-        style: ``full``, ``concise``, ``json``, ``sarif``, ``github`` or ``junit``.
+        style: ``full``, ``concise``, ``json``, ``sarif``, ``github``, ``junit`` or ``html``.
         colors: Whether text is coloured.
         fail_on: From which severity on a finding fails the run.
         statistics: Count findings by rule instead.
@@ -45,6 +45,10 @@ def _in_style(outcome: Outcome, style: str, colors: bool, fail_on: Severity) -> 
         from .findings_junit import to_junit
 
         return to_junit(outcome, fail_on)
+    if style == "html":
+        from .findings_html import to_html
+
+        return to_html(outcome)
     if style == "github":
         from .findings_github import github
 

@@ -1,0 +1,106 @@
+"""Findings as one page that needs nothing else: no network, no other files."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from html import escape
+from pathlib import Path
+from string import Template
+
+from ..finding import Finding, Severity
+from ..lint.outcome import Outcome
+from .findings import summary
+from .findings_words import call_lines, clean, remarks, sentence
+
+_PAGE = Path(__file__).with_name("findings_page.html")
+_MOST_LINES = 6
+_LONGEST_LINE = 400
+
+
+def to_html(outcome: Outcome) -> str:
+    """A run as a page: findings by file, which severity and rule filter."""
+    by_file: dict[str, list[Finding]] = {}
+    for finding in outcome.findings:
+        by_file.setdefault(finding.place.path, []).append(finding)
+    files = [_file(path, findings) for path, findings in by_file.items()]
+    return Template(_PAGE.read_text("utf-8")).substitute(
+        summary=_text(summary(outcome)),
+        filters=_filters(outcome),
+        files="\n".join(files) or "<p>Nothing was found.</p>",
+    )
+
+
+def _text(text: str) -> str:
+    return escape(clean(text))
+
+
+def _filters(outcome: Outcome) -> str:
+    """A box for each severity, and the rules with how often they fired."""
+    levels = Counter(finding.severity for finding in outcome.findings)
+    rules = Counter(finding.rule for finding in outcome.findings)
+    boxes = [
+        f'<label class="{s.label}"><input type="checkbox" value="{s.label}" checked> '
+        f'<span class="level">{levels[s]} {s.label}</span></label>'
+        for s in reversed(Severity)
+    ]
+    options = [
+        f'<option value="{escape(rule)}">{escape(rule)} ({count})</option>'
+        for rule, count in rules.most_common()
+    ]
+    chooser = f'<select aria-label="rule"><option value="">all rules</option>{"".join(options)}'
+    return "\n".join([*boxes, f"{chooser}</select>"])
+
+
+def _file(path: str, findings: list[Finding]) -> str:
+    shown = "\n".join(_finding(finding) for finding in findings)
+    return f"<section>\n<h2>{_text(path)}</h2>\n{shown}\n</section>"
+
+
+def _finding(finding: Finding) -> str:
+    level, rule = finding.severity.label, escape(finding.rule)
+    rows = "".join(f"<dt>{_text(a)}</dt><dd>{_text(b)}</dd>" for a, b in _rows(finding))
+    place = f"{finding.place.line}:{finding.place.column}"
+    return (
+        f'<article class="{level}" data-rule="{rule}">\n'
+        f'<p><span class="level">{level}</span> {_text(sentence(finding))}</p>\n'
+        f'<p class="soft"><code>{place} {rule}</code></p>\n'
+        f"{_source(finding)}<dl>{rows}</dl>\n</article>"
+    )
+
+
+def _rows(finding: Finding) -> Iterator[tuple[str, str]]:
+    """What readers do, the hint, the calls it came through, the other instances."""
+    for remark in remarks(finding):
+        label, _, text = remark.partition(": ")
+        yield label, text
+    for line in call_lines(finding.place.calls):
+        yield "from", line
+    for name, calls in finding.others:
+        yield "also", ", ".join([name, *call_lines(calls[:1])])
+
+
+def _source(finding: Finding) -> str:
+    """The lines it is about, with the bytes marked."""
+    place = finding.place
+    if not place.file.data:
+        return ""
+    first, column = place.file.position(place.start)
+    last, end_column = place.end_position
+    lines = []
+    for number in range(first, min(last, first + _MOST_LINES - 1) + 1):
+        text = place.file.line_text(number)
+        begin = column - 1 if number == first else len(text) - len(text.lstrip())
+        end = end_column - 1 if number == last else len(text.rstrip())
+        start = max(0, begin - 40) if len(text) > _LONGEST_LINE else 0
+        stop = start + _LONGEST_LINE
+        before, marked = text[start:begin], text[begin : min(end, stop)]
+        after = text[end:stop]
+        lines.append(
+            f"<i>{number:>4} </i>{_code(before)}<mark>{_code(marked)}</mark>{_code(after)}"
+        )
+    return f"<pre>{chr(10).join(lines)}</pre>\n"
+
+
+def _code(text: str) -> str:
+    return _text(text.expandtabs(4))
