@@ -29,11 +29,15 @@ def test_help_is_complete(urdftool, command):
 def test_every_option_says_what_it_does(command):
     import click
 
-    context = click.Context(cli.main)
-    found = cli.main.get_command(context, command)
-    for parameter in found.params:
-        if isinstance(parameter, click.Option):
-            assert parameter.help, parameter.name
+    found = cli.main.get_command(click.Context(cli.main), command)
+    below = [found]
+    if isinstance(found, click.Group):
+        context = click.Context(found)
+        below += [found.get_command(context, name) for name in found.list_commands(context)]
+    for one in below:
+        for parameter in one.params:
+            if isinstance(parameter, click.Option):
+                assert parameter.help, f"{one.name} {parameter.name}"
 
 
 def test_a_mistyped_command_is_recognised(urdftool):
