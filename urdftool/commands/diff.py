@@ -29,7 +29,13 @@ Side = tuple[str, dict[str, str]]
     help="Numbers that differ by less are equal: relative, and for origins in metres and radians. "
     "[default: 1e-9]",
 )
-@click.option("--format", "style", type=click.Choice(["text", "json", "markdown"]), default="text")
+@click.option(
+    "--format",
+    "style",
+    type=click.Choice(["text", "json", "markdown"]),
+    default="text",
+    help="How the result is shown.",
+)
 @package_options
 @click.pass_obj
 def command(

@@ -62,7 +62,13 @@ FILES = (".xml", ".mjcf")
 @click.option("--strict", is_flag=True, help="What cannot be carried is an error.")
 @click.option("--force", is_flag=True, help="Go on past errors where a robot is left.")
 @click.option("--verify", "verified", is_flag=True, help="Compile it in MuJoCo and compare.")
-@click.option("--format", "style", type=click.Choice(("text", "json")), default="text")
+@click.option(
+    "--format",
+    "style",
+    type=click.Choice(("text", "json")),
+    default="text",
+    help="How the result is shown.",
+)
 @package_options
 @click.pass_obj
 def command(

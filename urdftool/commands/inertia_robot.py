@@ -76,7 +76,13 @@ def _pairs(
     metavar="JOINT=VALUE",
     help="With --lump: where a joint is [rad or m]. Repeatable.",
 )
-@click.option("--format", "style", type=click.Choice(["table", "json"]), default="table")
+@click.option(
+    "--format",
+    "style",
+    type=click.Choice(["table", "json"]),
+    default="table",
+    help="How the result is shown.",
+)
 @click.option("-j", "--jobs", type=click.IntRange(1), metavar="N", help="Processes to use.")
 @package_options
 @click.pass_obj

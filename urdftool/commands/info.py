@@ -15,7 +15,13 @@ from .options import output_option, package_options, robot_argument
 @click.command("info")
 @robot_argument
 @output_option("Write it there; without it, to standard output.")
-@click.option("--format", "style", type=click.Choice(["table", "json"]), default="table")
+@click.option(
+    "--format",
+    "style",
+    type=click.Choice(["table", "json"]),
+    default="table",
+    help="How the result is shown.",
+)
 @package_options
 @click.pass_obj
 def command(
