@@ -16,7 +16,7 @@ from ..meshes.solid import body_labels, edges_of
 from .convex import capped_hull, thickened
 from .decompose import DecompositionError, decompose
 from .measure import Measures, Target, measure
-from .piece import Piece, mesh_piece
+from .piece import PRIMITIVES, Piece, mesh_piece
 from .primitives import fit_primitives, signed_distance
 from .quadric import simplify
 from .settings import FEW_HULLS, Settings
@@ -28,12 +28,13 @@ LADDER = (0.2, 0.08, 0.04)
 PLATE = 0.002
 """Thickness, relative to its size, that a flat mesh is given."""
 
-TRIMMED = 0.003
+TRIMMED = 0.005
 """Distance, relative to the size, that vertices of CoACD's pieces may be left out."""
 
 _MEASURED = 3  # primitives that are measured: those that fit best
 _SHARE = 0.3  # part of the error that leaving out vertices of a hull may take
 _COARSER = 3.0
+_SIMPLER = 0.05  # part of the mean distance by which a dearer primitive has to be better
 
 
 @dataclass(frozen=True)
@@ -78,10 +79,17 @@ def choose(surface: Prepared, settings: Settings) -> Choice:
                 if step is not _primitives:
                     break
         if fits:
-            best = min(fits, key=lambda choice: choice.measures.mean)
+            best = min(fits, key=_dearness)
             return Choice(best.method, best.pieces, best.measures, tuple(notes))
     best = min(tried, key=_regret)
     return Choice(best.method, best.pieces, best.measures, tuple(notes))
+
+
+def _dearness(choice: Choice) -> float:
+    """The mean distance; between shapes that are about as near, the one cheaper to collide."""
+    kind = choice.pieces[0].kind
+    rank = PRIMITIVES.index(kind) if kind in PRIMITIVES else 0
+    return choice.measures.mean * (1 + _SIMPLER * rank)
 
 
 def _regret(choice: Choice) -> float:

@@ -11,6 +11,8 @@ from ..meshes.mesh import Points
 
 _GOLDEN = 1.324717957244746  # the real root of x³ = x + 1
 _NEIGHBOURS = 6
+_FEW = 24  # triangles all of which are tried
+_COARSE = 1000  # triangles below which more neighbours are looked at
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +89,11 @@ class Surface:
         """
         if not len(points):
             return np.zeros(0)
-        near = min(_NEIGHBOURS, len(self.samples))
+        if len(self.corners) <= _FEW:
+            each = [to_triangles(points, triangle[None]) for triangle in self.corners]
+            return np.asarray(np.min(each, axis=0))
+        wanted = _NEIGHBOURS * (2 if len(self.corners) < _COARSE else 1)
+        near = min(wanted, len(self.samples))
         found, index = self.tree.query(points, k=near)
         if near == 1:
             found, index = found[:, None], index[:, None]

@@ -133,9 +133,12 @@ def measure(target: Target, pieces: Sequence[Piece]) -> Measures:
     outer = [_outer(index, pieces, target) for index in range(len(pieces))]
     points = np.concatenate([samples.points for samples in outer])
     collision = _surface_of(pieces, outer)
-    forth = collision.distance(target.touchable)
     back = target.nearest.distance(points)
-    mean = (float(collision.distance(target.even).mean()) + float(back.mean())) / 2
+    if len(pieces) == 1 and pieces[0].is_primitive:
+        forth = np.abs(primitives.signed_distance(pieces[0], target.touchable))
+    else:
+        forth = collision.distance(target.touchable)
+    mean = (float(forth[: len(target.even)].mean()) + float(back.mean())) / 2
     depth = depths(target.even, pieces)
     volume = volume_of(pieces)
     return Measures(

@@ -192,7 +192,7 @@ def _tight_frame(points: Points) -> Points:
         if volume < least:
             cos, sin = turn[:, smallest]
             least, best = volume, np.stack([cos * x + sin * y, cos * y - sin * x, z], axis=1)
-    return _right_handed(best)
+    return _right_handed(np.asarray(best))
 
 
 def _starts(kind: str, frames: list[Points]) -> Iterator[Points]:
@@ -212,7 +212,7 @@ def _right_handed(axes: Points) -> Points:
     turned = axes.copy()
     if np.linalg.det(turned) < 0:
         turned[:, 0] = -turned[:, 0]
-    return turned
+    return np.asarray(turned)
 
 
 def _neat(kind: str, rotation: Points, centre: Points, size: Points, scale: float) -> Piece:

@@ -33,7 +33,7 @@ class Settings:
     max_hulls: int | None = None
     max_vertices: int = 64
     max_triangles: int = 1000
-    threshold: float = 0.05
+    threshold: float = 0.08
     time_limit: float = 120.0
 
     def changed(self, table: Mapping[str, Any]) -> Settings:

@@ -87,7 +87,7 @@ _OPTIONS = (
     click.option(
         "--threshold",
         type=click.FloatRange(0.01, 1.0),
-        default=0.05,
+        default=0.08,
         show_default=True,
         metavar="T",
         help="CoACD's concavity at which --method coacd stops to cut.",

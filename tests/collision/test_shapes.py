@@ -1,0 +1,145 @@
+"""Shapes that are known come back, and distances that are known are measured."""
+
+import numpy as np
+import pytest
+
+from tests.collision.shapes import SIZES, finer, l_profile, noisy, turned
+from urdftool.collision.choose import choose
+from urdftool.collision.convex import capped_hull, planes, signed_distance
+from urdftool.collision.distance import to_triangles
+from urdftool.collision.measure import Target, measure
+from urdftool.collision.piece import mesh_piece
+from urdftool.collision.quadric import simplify
+from urdftool.collision.settings import Settings
+from urdftool.collision.surface import prepare
+from urdftool.collision.tessellate import primitive
+from urdftool.meshes.solid import edges_of
+
+
+@pytest.mark.parametrize(
+    ("kind", "noise"),
+    [
+        ("box", 0.0),
+        ("cylinder", 0.002),
+        ("sphere", 0.002),
+        *(pytest.param(kind, 0.002, marks=pytest.mark.slow) for kind in ("box", "capsule")),
+    ],
+)
+def test_auto_finds_the_primitive_again(kind, noise):
+    rotation = turned(np.random.default_rng(3))
+    mesh = noisy(kind, SIZES[kind], noise=noise, rotation=rotation, centre=(0.1, -0.2, 0.3))
+    choice = choose(prepare(*mesh), Settings())
+    (piece,) = choice.pieces
+    assert (choice.method, piece.kind) == ("primitive", kind)
+    assert sorted(piece.size) == pytest.approx(sorted(SIZES[kind]), rel=0.01)
+    assert piece.centre == pytest.approx((0.1, -0.2, 0.3), abs=1e-3)
+    assert choice.measures.error < 0.011
+    assert choice.measures.volume_ratio == pytest.approx(1, abs=0.02)
+
+
+@pytest.mark.slow
+def test_an_upright_box_is_not_turned():
+    choice = choose(prepare(*noisy("box", (0.3, 0.2, 0.1), noise=0.001)), Settings())
+    assert (choice.pieces[0].rotation == np.eye(3)).all()
+    assert choice.pieces[0].size == pytest.approx((0.3, 0.2, 0.1), rel=0.01)
+
+
+def test_the_distance_to_a_triangle_is_exact():
+    corner = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], dtype=float)
+    for point, distance in [
+        ((0.2, 0.2, 0.5), 0.5),
+        ((-1, 0.5, 0), 1),
+        ((-3, -4, 0), 5),
+        ((1, 1, 0), 2**-0.5),
+    ]:
+        assert to_triangles(np.array([point], dtype=float), corner)[0] == pytest.approx(distance)
+
+
+def test_a_box_that_is_too_large_is_measured_as_such():
+    target = Target(prepare(*noisy("box", (0.2, 0.2, 0.2))))
+    larger = primitive("box", (0.22, 0.2, 0.2), np.eye(3), (0, 0, 0))
+    found = measure(target, [larger])
+    assert found.hausdorff == pytest.approx(0.01, rel=0.02)
+    assert found.volume_ratio == pytest.approx(1.1, rel=1e-6)
+    assert found.outside == 0
+    smaller = primitive("box", (0.18, 0.2, 0.2), np.eye(3), (0, 0, 0))
+    assert measure(target, [smaller]).outside == pytest.approx(1 / 3, abs=0.1)
+
+
+def test_what_is_enclosed_is_not_measured():
+    outer, faces = noisy("box", (0.2, 0.2, 0.2))
+    inner, more = noisy("sphere", (0.05,))
+    both = prepare(np.concatenate([outer, inner]), np.concatenate([faces, more + len(outer)]))
+    found = measure(Target(both), [primitive("box", (0.2, 0.2, 0.2), np.eye(3), (0, 0, 0))])
+    assert found.error < 2e-3
+    assert found.enclosed == pytest.approx(0.0314 / (0.24 + 0.0314), abs=0.01)
+
+
+def test_two_pieces_of_a_bracket_leave_nothing_out():
+    surface = prepare(*l_profile())
+    legs = [
+        primitive("box", (0.2, 0.05, 0.1), np.eye(3), (0.1, 0.025, 0.05)),
+        primitive("box", (0.05, 0.15, 0.1), np.eye(3), (0.025, 0.125, 0.05)),
+    ]
+    found = measure(Target(surface), legs)
+    assert found.error < 2e-3
+    assert found.volume_ratio == pytest.approx(1, abs=0.03)
+    assert found.outside < 0.001
+
+
+def test_a_capped_hull_keeps_to_its_vertices_and_to_its_tolerance():
+    points = primitive("sphere", (1.0,), np.eye(3), (0, 0, 0)).vertices
+    vertices, faces = capped_hull(points, 24)
+    assert len(vertices) <= 24
+    assert edges_of(faces).cycle
+    vertices, faces = capped_hull(points, 500, 0.05)
+    assert signed_distance(points, planes(vertices, faces)).max() <= 0.05
+
+
+def test_simplified_stays_closed():
+    vertices, faces = noisy("sphere", (0.1,), noise=0.0005)
+    fewer, triangles = simplify(vertices, faces, 200)
+    assert len(triangles) <= 200
+    assert edges_of(triangles).cycle
+    error = measure(Target(prepare(vertices, faces)), [mesh_piece(fewer, triangles, convex=False)])
+    assert error.error < 0.03
+
+
+@pytest.mark.slow
+def test_a_bracket_is_cut_in_two():
+    vertices, faces = l_profile()
+    for _ in range(3):
+        vertices, faces = finer(vertices, faces)
+    choice = choose(prepare(vertices, faces), Settings())
+    assert choice.method == "coacd"
+    assert len(choice.pieces) <= 4
+    assert choice.measures.error <= 0.01
+
+
+def test_coacd_that_dies_is_replaced_and_said(monkeypatch):
+    from urdftool.collision import choose as module
+    from urdftool.collision.decompose import DecompositionError
+
+    def dies(*_, **__):
+        raise DecompositionError("CoACD died (SIGABRT)")
+
+    monkeypatch.setattr(module, "decompose", dies)
+    choice = choose(prepare(*l_profile()), Settings(method="coacd"))
+    assert choice.method == "hull"
+    assert "CoACD died" in choice.notes[0]
+    assert "hull was taken instead" in choice.notes[-1]
+
+
+def test_a_child_that_takes_too_long_is_ended():
+    from urdftool.collision.decompose import DecompositionError, run_child
+
+    vertices, faces = noisy("sphere", (0.1,), noise=0.02)
+    with pytest.raises(DecompositionError, match="took longer than"):
+        run_child(vertices, faces, {"threshold": 0.01, "time_limit": 0.1})
+
+
+def test_inside_out_and_doubled_meshes_are_mended():
+    vertices, faces = noisy("box", (0.2, 0.2, 0.2))
+    surface = prepare(vertices, np.concatenate([faces[:, ::-1], faces[:10, ::-1]]))
+    assert surface.volume == pytest.approx(0.008, rel=1e-6)
+    assert any("turned" in note for note in surface.notes)

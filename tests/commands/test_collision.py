@@ -1,0 +1,289 @@
+"""``urdftool collision`` on meshes and robots: what is written, and what is refused."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import jsonschema
+import pytest
+
+from tests.collision.shapes import l_profile, noisy, stl
+from tests.conftest import FIXTURES, ROOT
+
+MESHES = FIXTURES / "meshes"
+
+LINK = """  <link name="{name}">
+    <visual>
+      <origin xyz="0 0 1"/>
+      <geometry><mesh filename="{mesh}"{more}/></geometry>
+    </visual>
+  </link>
+"""
+
+
+def robot(*links):
+    joints = "".join(
+        f'  <joint name="j{n}" type="fixed"><parent link="a"/><child link="{name}"/></joint>\n'
+        for n, (name, *_) in enumerate(links[1:])
+    )
+    parts = "".join(LINK.format(name=name, mesh=mesh, more=more) for name, mesh, more in links)
+    return f'<?xml version="1.0"?>\n<robot name="r">\n{parts}{joints}</robot>\n'
+
+
+@pytest.fixture
+def box(write):
+    return write("meshes/box.stl", stl(*noisy("box", (0.3, 0.2, 0.1))))
+
+
+@pytest.fixture
+def bracket(write):
+    return write("meshes/bracket.stl", stl(*l_profile()))
+
+
+def test_a_mesh_is_measured_and_told_as_json(urdftool, box):
+    done = urdftool("collision", "mesh", box, "--no-cache", "--format", "json")
+    assert done.code == 0, done.err
+    found = json.loads(done.out)
+    schema = json.loads((ROOT / "docs/schemas/collision.json").read_text())
+    jsonschema.validate(found, schema)
+    (part,) = found["results"][0]["parts"]
+    assert part["pieces"][0]["urdf"] == '<box size="0.3 0.2 0.1"/>'
+    assert part["within"]
+
+
+def test_several_pieces_get_a_file_each(urdftool, write, tmp_path):
+    done = urdftool("collision", "mesh", MESHES / "two_cubes.stl", "-o", tmp_path / "out.obj",
+                    "--no-cache")  # fmt: skip
+    assert done.code == 0, done.err
+    assert sorted(os.listdir(tmp_path)) == ["out.obj", "out_0.obj", "out_1.obj"]
+    assert (tmp_path / "out.obj").read_text().count("\no piece_") == 2
+
+
+@pytest.mark.parametrize(
+    ("name", "word"),
+    [
+        ("empty.stl", "empty"),
+        ("truncated.stl", "truncated"),
+        ("lfs_pointer.stl", "git-LFS"),
+        ("nan.stl", "NaN"),
+        ("broken.dae", "cannot be read"),
+        ("no_such.stl", "no such"),
+    ],
+)
+def test_a_bad_mesh_is_one_message(urdftool, tmp_path, name, word):
+    done = urdftool("collision", "mesh", MESHES / name, "-o", tmp_path / "out.stl")
+    assert done.code == 2
+    assert len(done.err.splitlines()) == 1
+    assert word in done.err
+    assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize("name", ["flat.stl", "inside_out.stl"])
+def test_a_poor_mesh_is_used_nevertheless(urdftool, tmp_path, name):
+    done = urdftool("collision", "mesh", MESHES / name, "--method", "hull", "--no-cache",
+                    "-o", tmp_path / "out.stl")  # fmt: skip
+    assert done.code == 0, done.err
+    assert (tmp_path / "out.stl").stat().st_size > 84
+
+
+def test_one_triangle_becomes_a_plate_and_a_line_is_refused(urdftool, write):
+    import numpy as np
+
+    flat = write(
+        "one.stl", stl(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2]]))
+    )
+    assert "is flat" in urdftool("collision", "mesh", flat, "--no-cache").err
+    line = write(
+        "line.stl", stl(np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0.0]]), np.array([[0, 1, 2]]))
+    )
+    done = urdftool("collision", "mesh", line, "--no-cache")
+    assert (done.code, len(done.err.splitlines())) == (2, 1)
+
+
+def test_only_the_links_change_and_shared_meshes_are_computed_once(urdftool, write, bracket, box):
+    text = robot(
+        ("a", "meshes/bracket.stl", ""),
+        ("left hand/é", "meshes/bracket.stl", ""),
+        ("c", "meshes/bracket.stl", ' scale="2 2 2"'),
+        ("d", "meshes/box.stl", ' scale="1 -1 1"'),
+    )
+    path = write("r.urdf", text)
+    words = ("collision", path, "-o", "out.urdf", "--method", "hull", "--no-cache")
+    done = urdftool(*words, "--skip-link", "d")
+    assert done.code == 0, done.err
+    assert sorted(os.listdir("out_collision")) == ["bracket-2.stl", "bracket.stl"]
+    new = open("out.urdf", encoding="utf-8").read()
+    assert new.count("<collision>") == 3
+    assert [line for line in text.splitlines() if line not in new.splitlines()] == []
+    assert new.count('filename="out_collision/bracket.stl"') == 2
+    assert new.count('<origin xyz="0 0 1"/>') == 7
+    first = open("out.urdf", "rb").read(), open("out_collision/bracket.stl", "rb").read()
+    assert urdftool(*words, "--skip-link", "d", "-j", "2").code == 0
+    assert first == (open("out.urdf", "rb").read(), open("out_collision/bracket.stl", "rb").read())
+
+
+def test_from_the_cache_it_is_the_same(urdftool, write, bracket, tmp_path):
+    path = write("r.urdf", robot(("a", "meshes/bracket.stl", "")))
+    words = ("collision", path, "-o", "out.urdf", "--method", "hull", "--cache-dir", "kept")
+    assert urdftool(*words).code == 0
+    first = open("out_collision/bracket.stl", "rb").read()
+    done = urdftool(*words)
+    assert "from the cache" in done.err
+    assert open("out_collision/bracket.stl", "rb").read() == first
+    (entry,) = [p for p in (tmp_path / "kept").rglob("*") if p.is_file()]
+    entry.write_bytes(entry.read_bytes()[:-40])  # damaged: computed anew
+    assert "from the cache" not in urdftool(*words).err
+
+
+def test_primitives_stay_unless_they_are_not_wanted(urdftool, write, box):
+    collision = "<collision><geometry><sphere radius='1'/></geometry></collision>\n  </link>"
+    path = write("r.urdf", robot(("a", "meshes/box.stl", "")).replace("</link>", collision))
+    assert urdftool("collision", path, "-o", "same.urdf", "--no-cache").code == 0
+    assert open("same.urdf").read() == open(path).read()
+    done = urdftool("collision", path, "-o", "new.urdf", "--replace-primitives", "--no-cache")
+    assert done.code == 0, done.err
+    new = open("new.urdf").read()
+    assert "sphere" not in new
+    assert '<box size="0.3 0.2 0.1"/>' in new
+    assert '<origin xyz="0 0 1" rpy="0 0 0"/>' in new
+
+
+def test_names_are_seen_from_where_the_robot_goes(urdftool, write, bracket):
+    path = write("r.urdf", robot(("a", "meshes/bracket.stl", "")))
+    os.mkdir("there")
+    done = urdftool("collision", path, "-o", "there/out.urdf", "--method", "hull", "--no-cache")
+    assert done.code == 0, done.err
+    new = open("there/out.urdf").read()
+    assert 'filename="../meshes/bracket.stl"' in new
+    assert 'filename="out_collision/bracket.stl"' in new
+
+
+def test_xacro_is_edited_where_it_is_literal(urdftool, write, bracket):
+    link = '<link name="{}"><visual><origin xyz="${{x}} 0 0"/><geometry><mesh filename="{}"/></geometry></visual></link>'
+    text = (
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+        '  <xacro:property name="x" value="0.5"/><!-- kept -->\n'
+        '  <xacro:macro name="side" params="n">\n'
+        f"    {link.format('${n}', 'meshes/bracket.stl')}\n"
+        "  </xacro:macro>\n"
+        '  <xacro:side n="l"/><xacro:side n="r"/>\n'
+        f"  {link.format('c', 'meshes/${'b' + 'racket'}.stl')}\n"
+        "</robot>\n"
+    )
+    path = write("r.urdf.xacro", text)
+    done = urdftool("collision", path, "--in-place", "--method", "hull", "--no-cache")
+    assert done.code == 0, done.err
+    new = open(path).read()
+    assert "link 'c' is left as it is" in done.err
+    assert new.count("<collision>") == 1
+    assert new.count('<origin xyz="${x} 0 0"/>') == 3
+    assert '"r_collision/bracket.stl"' in new
+    assert "<!-- kept -->" in new
+
+
+def test_a_mesh_that_is_missing_stops_it_and_nothing_is_written(urdftool, write, box):
+    links = (
+        ("a", "meshes/box.stl", ""),
+        ("b", "meshes/none.stl", ""),
+        ("c", "meshes/box.stl", ' scale="0 1 1"'),
+    )
+    path = write("r.urdf", robot(*links))
+    done = urdftool("collision", path, "-o", "out.urdf", "--no-cache")
+    assert done.code == 2
+    assert "no mesh file" in done.err
+    assert "zero" in done.err
+    assert not os.path.exists("out.urdf")
+    assert not os.path.exists("out_collision")
+
+
+def test_a_mesh_of_somebody_else_is_not_replaced(urdftool, write, bracket):
+    path = write("r.urdf", robot(("a", "meshes/bracket.stl", "")))
+    before = open("meshes/bracket.stl", "rb").read()
+    done = urdftool("collision", path, "-o", "out.urdf", "--method", "hull", "--mesh-dir", "meshes",
+                    "--no-cache")  # fmt: skip
+    assert done.code == 2
+    assert open("meshes/bracket.stl", "rb").read() == before
+    assert not os.path.exists("out.urdf")
+
+
+def test_check_says_how_good_collisions_are(urdftool, write, box):
+    good = '<collision><origin xyz="0 0 1"/><geometry><box size="0.3 0.2 0.1"/></geometry></collision>\n  </link>'
+    path = write("r.urdf", robot(("a", "meshes/box.stl", "")).replace("</link>", good))
+    done = urdftool("collision", path, "--check")
+    assert done.code == 0, done.err
+    write("r.urdf", open(path).read().replace('size="0.3', 'size="0.4'))
+    done = urdftool("collision", path, "--check", "--format", "json")
+    assert done.code == 1
+    assert json.loads(done.out)["links"][0]["measures"]["error"] == pytest.approx(0.1336, abs=0.01)
+
+
+def test_settings_of_a_link_come_from_the_configuration(urdftool, write, bracket):
+    write("urdftool.toml", '[collision]\nmethod = "hull"\n[collision.links.b]\nskip = true\n')
+    path = write("r.urdf", robot(("a", "meshes/bracket.stl", ""), ("b", "meshes/bracket.stl", "")))
+    done = urdftool("collision", path, "-o", "out.urdf", "--no-cache", "--format", "json")
+    (part,) = json.loads(done.out)["results"][0]["parts"]
+    assert (part["link"], part["method"]) == ("a", "hull")
+    write("urdftool.toml", '[collision]\nmetod = "hull"\n')
+    from urdftool import configuration
+
+    for kept in vars(configuration).values():
+        if isinstance(kept, dict) and kept.keys() & {os.getcwd()}:
+            kept.clear()
+    assert urdftool("collision", path, "-o", "out.urdf").code == 2
+
+
+def test_a_picture_is_a_png(urdftool, box, tmp_path):
+    done = urdftool("collision", "mesh", box, "--method", "hull", "--no-cache",
+                    "--picture", tmp_path / "p.png")  # fmt: skip
+    assert done.code == 0, done.err
+    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_folder_of_robots_goes_into_a_folder(urdftool, write, bracket):
+    for name in ("one", "two"):
+        write(f"fleet/{name}/{name}.urdf", robot(("a", "../../meshes/bracket.stl", "")))
+    done = urdftool("collision", "fleet", "-o", "out", "--method", "hull", "--no-cache")
+    assert done.code == 0, done.err
+    assert os.path.exists("out/one/one.urdf")
+    assert os.path.exists("out/two/two_collision/bracket.stl")
+
+
+def test_an_unknown_link_is_refused_with_the_nearest(urdftool, write, box):
+    path = write("r.urdf", robot(("base_link", "meshes/box.stl", "")))
+    done = urdftool("collision", path, "-o", "o.urdf", "--link", "base_lnk")
+    assert (done.code, "'base_link'" in done.err) == (2, True)
+
+
+@pytest.mark.slow
+def test_ctrl_c_leaves_nothing_behind(write):
+    path = write("meshes/rough.stl", stl(*noisy("sphere", (0.1,), noise=0.03)))
+    write("r.urdf", robot(("a", path, "")))
+    words = ["collision", "r.urdf", "-o", "out.urdf", "--method", "coacd", "--threshold", "0.01"]
+    child = subprocess.Popen(
+        [sys.executable, "-m", "urdftool", *words, "--no-cache"], stderr=subprocess.PIPE
+    )
+    time.sleep(4)
+    child.send_signal(signal.SIGINT)
+    _, err = child.communicate(timeout=20)
+    assert child.returncode == 130, err
+    assert not os.path.exists("out.urdf")
+
+
+@pytest.mark.slow
+def test_a_cluster_gives_the_same_bytes(urdftool, write, bracket, box):
+    distributed = pytest.importorskip("distributed")
+    path = write("r.urdf", robot(("a", "meshes/bracket.stl", ""), ("b", "meshes/box.stl", "")))
+    alone = urdftool("collision", path, "-o", "alone.urdf", "--mesh-dir", "m1", "--no-cache")
+    assert alone.code == 0, alone.err
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None
+    ) as cluster:
+        done = urdftool("collision", path, "-o", "many.urdf", "--mesh-dir", "m2", "--no-cache",
+                        "--scheduler", cluster.scheduler_address)  # fmt: skip
+    assert done.code == 0, done.err
+    assert open("alone.urdf").read().replace("m1/", "m2/") == open("many.urdf").read()
+    for name in os.listdir("m1") if os.path.exists("m1") else ():
+        assert open(f"m1/{name}", "rb").read() == open(f"m2/{name}", "rb").read()
