@@ -81,7 +81,7 @@ def main(
 
 def run(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit code."""
-    gc.set_threshold(100_000, 50, 50)  # trees of many small objects, and then the process ends
+    gc.set_threshold(500_000, 50, 50)  # trees of many small objects, and then the process ends
     code = call(arguments)
     try:
         sys.stdout.flush()

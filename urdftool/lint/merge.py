@@ -13,6 +13,7 @@ from .outcome import Outcome, Report
 def merge(findings: Iterable[Finding]) -> list[Finding]:
     """Findings with the instances of one macro as one, in the order they came."""
     merged: dict[tuple[Any, ...], Finding] = {}
+    copied: set[tuple[Any, ...]] = set()
     for finding in findings:
         place = finding.place
         key: tuple[Any, ...] = (finding.rule, place.file.path, place.start, place.end)
@@ -20,8 +21,11 @@ def merge(findings: Iterable[Finding]) -> list[Finding]:
             key += (finding.message,)
         first = merged.get(key)
         if first is None:
-            merged[key] = replace(finding, others=list(finding.others))
+            merged[key] = finding
         elif place.calls and place.calls != first.place.calls:
+            if key not in copied:  # the findings that came in stay as they are
+                copied.add(key)
+                first = merged[key] = replace(first, others=list(first.others))
             first.expansions += finding.expansions
             first.severity = max(first.severity, finding.severity)
             first.others += [(finding.name, place.calls), *finding.others]

@@ -18,9 +18,9 @@ def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) 
     Args:
         paths: The descriptions.
         options: What the command line says.
-        jobs: Processes to use; None is one per core where it is worth it.
+        jobs: Processes to use; None is one per idle core where it is worth it.
     """
-    wanted = jobs or (_cores() if len(paths) >= WORTH_IT else 1)
+    wanted = jobs or (_idle_cores() if len(paths) >= WORTH_IT else 1)
     workers = min(wanted, len(paths))
     if workers <= 1 or "-" in paths:
         for path in paths:
@@ -28,16 +28,21 @@ def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) 
         return
     import multiprocessing
 
+    yield lint_file(paths[0], options)  # imports the rules, which forked workers then have
     method = "fork" if "fork" in multiprocessing.get_all_start_methods() else None
     chunk = max(1, min(16, len(paths) // (workers * 4)))
     with multiprocessing.get_context(method).Pool(workers, _ignore_interrupts) as pool:
-        yield from pool.imap(partial(lint_file, options=options), paths, chunk)
+        yield from pool.imap(partial(lint_file, options=options), paths[1:], chunk)
 
 
-def _cores() -> int:
+def _idle_cores() -> int:
+    """Cores that are not at work already, and one at least."""
     if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+        cores = len(os.sched_getaffinity(0))
+    else:
+        cores = os.cpu_count() or 1
+    busy = os.getloadavg()[0] if hasattr(os, "getloadavg") else 0.0
+    return max(1, cores - int(busy))
 
 
 def _ignore_interrupts() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 
 
 def nearest(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
@@ -10,9 +11,14 @@ def nearest(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
 
     Names that differ only in case, ``_`` and ``-`` are nearest.
     """
+    return _nearest(name, tuple(dict.fromkeys(known)), cutoff)
+
+
+@lru_cache(4096)  # robots of one family have the same slips
+def _nearest(name: str, known: tuple[str, ...], cutoff: float) -> str:
     from difflib import get_close_matches
 
-    names = [other for other in dict.fromkeys(known) if other and other != name]
+    names = [other for other in known if other and other != name]
     folded = fold(name)
     for other in names:
         if fold(other) == folded:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -31,13 +32,19 @@ def missing_mesh_dependency(robot: Robot, description: Description) -> Iterator[
         if use.path is None or not use.exists or use.uri in told or use.collides:
             continue
         told.add(use.uri)
-        missing = list(_look(use.path))
+        missing = _missing(use.path)
         if missing:
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' refers to {quoted(missing)}, which is not beside it",
                 at=use.mesh.element.attribute_place("filename"),
             )
+
+
+@cache
+def _missing(path: Path) -> tuple[str, ...]:
+    """What a mesh refers to and is not there; looked up once for a run."""
+    return tuple(_look(path))
 
 
 def _look(path: Path) -> Iterator[str]:
