@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import jsonschema
 import pytest
@@ -92,13 +93,10 @@ def test_a_poor_mesh_is_used_nevertheless(urdftool, tmp_path, name):
 def test_one_triangle_becomes_a_plate_and_a_line_is_refused(urdftool, write):
     import numpy as np
 
-    flat = write(
-        "one.stl", stl(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2]]))
-    )
+    points, face = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2]])
+    flat = write("one.stl", stl(points, face))
     assert "is flat" in urdftool("collision", "mesh", flat, "--no-cache").err
-    line = write(
-        "line.stl", stl(np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0.0]]), np.array([[0, 1, 2]]))
-    )
+    line = write("line.stl", stl(points[[0, 1, 1]] * [[1], [1], [2]], face))
     done = urdftool("collision", "mesh", line, "--no-cache")
     assert (done.code, len(done.err.splitlines())) == (2, 1)
 
@@ -115,24 +113,24 @@ def test_only_the_links_change_and_shared_meshes_are_computed_once(urdftool, wri
     done = urdftool(*words, "--skip-link", "d")
     assert done.code == 0, done.err
     assert sorted(os.listdir("out_collision")) == ["bracket-2.stl", "bracket.stl"]
-    new = open("out.urdf", encoding="utf-8").read()
+    new = Path("out.urdf").read_text("utf-8")
     assert new.count("<collision>") == 3
     assert [line for line in text.splitlines() if line not in new.splitlines()] == []
     assert new.count('filename="out_collision/bracket.stl"') == 2
     assert new.count('<origin xyz="0 0 1"/>') == 7
-    first = open("out.urdf", "rb").read(), open("out_collision/bracket.stl", "rb").read()
+    first = Path("out.urdf").read_bytes(), Path("out_collision/bracket.stl").read_bytes()
     assert urdftool(*words, "--skip-link", "d", "-j", "2").code == 0
-    assert first == (open("out.urdf", "rb").read(), open("out_collision/bracket.stl", "rb").read())
+    assert first == (Path("out.urdf").read_bytes(), Path("out_collision/bracket.stl").read_bytes())
 
 
 def test_from_the_cache_it_is_the_same(urdftool, write, bracket, tmp_path):
     path = write("r.urdf", robot(("a", "meshes/bracket.stl", "")))
     words = ("collision", path, "-o", "out.urdf", "--method", "hull", "--cache-dir", "kept")
     assert urdftool(*words).code == 0
-    first = open("out_collision/bracket.stl", "rb").read()
+    first = Path("out_collision/bracket.stl").read_bytes()
     done = urdftool(*words)
     assert "from the cache" in done.err
-    assert open("out_collision/bracket.stl", "rb").read() == first
+    assert Path("out_collision/bracket.stl").read_bytes() == first
     (entry,) = [p for p in (tmp_path / "kept").rglob("*") if p.is_file()]
     entry.write_bytes(entry.read_bytes()[:-40])  # damaged: computed anew
     assert "from the cache" not in urdftool(*words).err
@@ -142,10 +140,10 @@ def test_primitives_stay_unless_they_are_not_wanted(urdftool, write, box):
     collision = "<collision><geometry><sphere radius='1'/></geometry></collision>\n  </link>"
     path = write("r.urdf", robot(("a", "meshes/box.stl", "")).replace("</link>", collision))
     assert urdftool("collision", path, "-o", "same.urdf", "--no-cache").code == 0
-    assert open("same.urdf").read() == open(path).read()
+    assert Path("same.urdf").read_text() == Path(path).read_text()
     done = urdftool("collision", path, "-o", "new.urdf", "--replace-primitives", "--no-cache")
     assert done.code == 0, done.err
-    new = open("new.urdf").read()
+    new = Path("new.urdf").read_text()
     assert "sphere" not in new
     assert '<box size="0.3 0.2 0.1"/>' in new
     assert '<origin xyz="0 0 1" rpy="0 0 0"/>' in new
@@ -156,27 +154,31 @@ def test_names_are_seen_from_where_the_robot_goes(urdftool, write, bracket):
     os.mkdir("there")
     done = urdftool("collision", path, "-o", "there/out.urdf", "--method", "hull", "--no-cache")
     assert done.code == 0, done.err
-    new = open("there/out.urdf").read()
+    new = Path("there/out.urdf").read_text()
     assert 'filename="../meshes/bracket.stl"' in new
     assert 'filename="out_collision/bracket.stl"' in new
 
 
 def test_xacro_is_edited_where_it_is_literal(urdftool, write, bracket):
-    link = '<link name="{}"><visual><origin xyz="${{x}} 0 0"/><geometry><mesh filename="{}"/></geometry></visual></link>'
+    link = (
+        '<link name="{}"><visual><origin xyz="${{x}} 0 0"/>'
+        '<geometry><mesh filename="{}"/></geometry></visual></link>'
+    )
     text = (
         '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
-        '  <xacro:property name="x" value="0.5"/><!-- kept -->\n'
+        '  <xacro:property name="x" value="0.5"/><!-- kept -->'
+        '<xacro:property name="name" value="bracket"/>\n'
         '  <xacro:macro name="side" params="n">\n'
         f"    {link.format('${n}', 'meshes/bracket.stl')}\n"
         "  </xacro:macro>\n"
         '  <xacro:side n="l"/><xacro:side n="r"/>\n'
-        f"  {link.format('c', 'meshes/${'b' + 'racket'}.stl')}\n"
+        f"  {link.format('c', 'meshes/${name}.stl')}\n"
         "</robot>\n"
     )
     path = write("r.urdf.xacro", text)
     done = urdftool("collision", path, "--in-place", "--method", "hull", "--no-cache")
     assert done.code == 0, done.err
-    new = open(path).read()
+    new = Path(path).read_text()
     assert "link 'c' is left as it is" in done.err
     assert new.count("<collision>") == 1
     assert new.count('<origin xyz="${x} 0 0"/>') == 3
@@ -201,20 +203,23 @@ def test_a_mesh_that_is_missing_stops_it_and_nothing_is_written(urdftool, write,
 
 def test_a_mesh_of_somebody_else_is_not_replaced(urdftool, write, bracket):
     path = write("r.urdf", robot(("a", "meshes/bracket.stl", "")))
-    before = open("meshes/bracket.stl", "rb").read()
+    before = Path("meshes/bracket.stl").read_bytes()
     done = urdftool("collision", path, "-o", "out.urdf", "--method", "hull", "--mesh-dir", "meshes",
                     "--no-cache")  # fmt: skip
     assert done.code == 2
-    assert open("meshes/bracket.stl", "rb").read() == before
+    assert Path("meshes/bracket.stl").read_bytes() == before
     assert not os.path.exists("out.urdf")
 
 
 def test_check_says_how_good_collisions_are(urdftool, write, box):
-    good = '<collision><origin xyz="0 0 1"/><geometry><box size="0.3 0.2 0.1"/></geometry></collision>\n  </link>'
+    good = (
+        '<collision><origin xyz="0 0 1"/><geometry><box size="0.3 0.2 0.1"/></geometry>'
+        "</collision>\n  </link>"
+    )
     path = write("r.urdf", robot(("a", "meshes/box.stl", "")).replace("</link>", good))
     done = urdftool("collision", path, "--check")
     assert done.code == 0, done.err
-    write("r.urdf", open(path).read().replace('size="0.3', 'size="0.4'))
+    write("r.urdf", Path(path).read_text().replace('size="0.3', 'size="0.4'))
     done = urdftool("collision", path, "--check", "--format", "json")
     assert done.code == 1
     assert json.loads(done.out)["links"][0]["measures"]["error"] == pytest.approx(0.1336, abs=0.01)
@@ -284,6 +289,6 @@ def test_a_cluster_gives_the_same_bytes(urdftool, write, bracket, box):
         done = urdftool("collision", path, "-o", "many.urdf", "--mesh-dir", "m2", "--no-cache",
                         "--scheduler", cluster.scheduler_address)  # fmt: skip
     assert done.code == 0, done.err
-    assert open("alone.urdf").read().replace("m1/", "m2/") == open("many.urdf").read()
+    assert Path("alone.urdf").read_text().replace("m1/", "m2/") == Path("many.urdf").read_text()
     for name in os.listdir("m1") if os.path.exists("m1") else ():
-        assert open(f"m1/{name}", "rb").read() == open(f"m2/{name}", "rb").read()
+        assert Path(f"m1/{name}").read_bytes() == Path(f"m2/{name}").read_bytes()

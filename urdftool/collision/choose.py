@@ -28,8 +28,11 @@ LADDER = (0.2, 0.08, 0.04)
 PLATE = 0.002
 """Thickness, relative to its size, that a flat mesh is given."""
 
-TRIMMED = 0.005
-"""Distance, relative to the size, that vertices of CoACD's pieces may be left out."""
+TRIMMED = (0.005, 0.008)
+"""Distances, relative to the size, that vertices of CoACD's pieces may be left out: the second
+where the first leaves more than ``MANY`` triangles."""
+
+MANY = 1000
 
 _MEASURED = 3  # primitives that are measured: those that fit best
 _SHARE = 0.3  # part of the error that leaving out vertices of a hull may take
@@ -184,14 +187,20 @@ def _coacd(target: Target, settings: Settings, notes: list[str]) -> Iterator[Cho
     """CoACD at its threshold; coarser where it fails, and one hull where that fails, too."""
     for threshold in (settings.threshold, settings.threshold * _COARSER):
         try:
-            pieces = _cut(target, settings, threshold, TRIMMED * target.size)
+            pieces = _cut(target, settings, threshold, TRIMMED[0] * target.size)
         except DecompositionError as error:
             notes.append(f"{error.message}, at a threshold of {threshold:g}.")
             continue
+        if sum(len(piece.faces) for piece in pieces) > MANY:
+            pieces = [_trimmed(piece, settings, TRIMMED[1] * target.size) for piece in pieces]
         yield Choice("coacd", pieces, measure(target, pieces))
         return
     notes.append("One convex hull was taken instead.")
     yield from _hulls(target, settings, notes)
+
+
+def _trimmed(piece: Piece, settings: Settings, tolerance: float) -> Piece:
+    return mesh_piece(*capped_hull(piece.vertices, settings.max_vertices, tolerance))
 
 
 def _cut(target: Target, settings: Settings, threshold: float, tolerance: float) -> list[Piece]:

@@ -28,7 +28,7 @@ def on_cluster(tasks: Sequence[Task], address: str) -> Iterator[tuple[int, bytes
         ) from error
     try:
         library: Any = distributed
-        client: Any = library.Client(address, timeout=10, set_as_default=False)
+        client: Any = library.Client(address, timeout=10)
     except (OSError, ValueError, TimeoutError) as error:
         raise UrdftoolError(
             f"no Dask scheduler answers at {address}; start one with `dask scheduler`"
