@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from functools import partial
+from typing import TYPE_CHECKING
 
 from .outcome import Options, Report
 from .run import lint_file
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
 
 WORTH_IT = 40  # below so many files, starting workers takes longer than they save
 
@@ -18,31 +21,62 @@ def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) 
     Args:
         paths: The descriptions.
         options: What the command line says.
-        jobs: Processes to use; None is one per idle core where it is worth it.
+        jobs: Processes to use; None is one per core where it is worth it.
     """
-    wanted = jobs or (_idle_cores() if len(paths) >= WORTH_IT else 1)
+    wanted = jobs or (_cores() if len(paths) >= WORTH_IT else 1)
     workers = min(wanted, len(paths))
     if workers <= 1 or "-" in paths:
         for path in paths:
             yield lint_file(path, options)
         return
+    yield lint_file(paths[0], options)  # imports the rules, which forked workers then have
+    yield from _together(paths[1:], options, workers)
+
+
+def _together(paths: Sequence[str], options: Options, workers: int) -> Iterator[Report]:
+    """Each worker takes every so-many-th description; their reports come in the order of paths.
+
+    A pool of multiprocessing takes a tenth of a second to end, which is a third of the work.
+    """
     import multiprocessing
 
-    yield lint_file(paths[0], options)  # imports the rules, which forked workers then have
-    method = "fork" if "fork" in multiprocessing.get_all_start_methods() else None
-    chunk = max(1, min(16, len(paths) // (workers * 4)))
-    with multiprocessing.get_context(method).Pool(workers, _ignore_interrupts) as pool:
-        yield from pool.imap(partial(lint_file, options=options), paths[1:], chunk)
+    method = "fork" if "fork" in multiprocessing.get_all_start_methods() else "spawn"
+    context = multiprocessing.get_context(method)
+    receivers, processes = [], []
+    try:
+        for number in range(workers):
+            receiver, sender = context.Pipe(duplex=False)
+            process = context.Process(  # type: ignore[attr-defined]
+                target=_work, args=(paths[number::workers], options, sender), daemon=True
+            )
+            process.start()
+            sender.close()
+            receivers.append(receiver)
+            processes.append(process)
+        for number in range(len(paths)):
+            result = receivers[number % workers].recv()
+            if isinstance(result, Exception):
+                raise result
+            yield result
+    finally:
+        for process in processes:
+            process.terminate()
 
 
-def _idle_cores() -> int:
-    """Cores that are not at work already, and one at least."""
+def _work(paths: Sequence[str], options: Options, sender: Connection) -> None:
+    """Send a report for each description, or what kept it from being made."""
+    _ignore_interrupts()
+    for path in paths:
+        try:
+            sender.send(lint_file(path, options))
+        except Exception as error:
+            sender.send(error)
+
+
+def _cores() -> int:
     if hasattr(os, "sched_getaffinity"):
-        cores = len(os.sched_getaffinity(0))
-    else:
-        cores = os.cpu_count() or 1
-    busy = os.getloadavg()[0] if hasattr(os, "getloadavg") else 0.0
-    return max(1, cores - int(busy))
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def _ignore_interrupts() -> None:
