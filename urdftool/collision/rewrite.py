@@ -37,6 +37,7 @@ class Layout:
         uri: ``"package"``, ``"relative"`` or ``"file"``.
         suffix: ``".stl"`` or ``".obj"``.
         capsules: Whether the robot's version of URDF has capsules.
+        whole: Whether the robot's other mesh files are named in the same way.
     """
 
     target: Path
@@ -44,6 +45,7 @@ class Layout:
     uri: str
     suffix: str = ".stl"
     capsules: bool = False
+    whole: bool = False
     files: dict[Path, bytes] = field(default_factory=dict)
     """Content of the mesh files, by path."""
     names: dict[int, list[str]] = field(default_factory=dict)
@@ -65,6 +67,7 @@ def layout_for(robot: Robot, target: Path, mesh_dir: Path | None, uri: str, suff
     """
     folder = Path(os.path.abspath(mesh_dir or target.parent / f"{_plain(target)}_collision"))
     package = own_package(folder / "piece")
+    whole = uri == "relative"
     if uri == "auto":
         names = [s.geometry.filename for _, s in robot.shapes if isinstance(s.geometry, Mesh)]
         own = sum(name.startswith(("package://", "model://")) for name in names)
@@ -75,7 +78,7 @@ def layout_for(robot: Robot, target: Path, mesh_dir: Path | None, uri: str, suff
             "say where with --mesh-dir, or take --uri relative"
         )
     capsules = (robot.version or "1.0") not in ("1.0", "1")
-    return Layout(Path(os.path.abspath(target)), folder, uri, suffix, capsules)
+    return Layout(Path(os.path.abspath(target)), folder, uri, suffix, capsules, whole)
 
 
 def _plain(path: Path) -> str:
@@ -143,7 +146,8 @@ def rewritten(
         old = [link.collisions[number].element for number in item.replaced]
         gone.update(id(element) for element in old)
         edits += link_edits(source, link.element, old, blocks)
-    if os.path.realpath(layout.target.parent) != os.path.realpath(_folder(robot)):
+    elsewhere = os.path.realpath(layout.target.parent) != os.path.realpath(_folder(robot))
+    if elsewhere or layout.whole:
         edits += _moved(robot, again, source, layout, gone)
     return edit.apply(source.file, edits)
 
@@ -278,7 +282,7 @@ def _moved(
         *(e for e in again.element.walk() if e.tag == "texture"),
     ]:
         name = element.get("filename") or ""
-        if not name or "://" in name or os.path.isabs(name):
+        if not name or (not layout.whole and ("://" in name or os.path.isabs(name))):
             continue
         path = robot.source.resolve(name)
         moved = Path(os.path.relpath(path, layout.target.parent)).as_posix()

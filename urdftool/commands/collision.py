@@ -54,7 +54,8 @@ class _OrMesh(click.Command):
     "--uri",
     type=click.Choice(["auto", "package", "relative", "file"]),
     default="auto",
-    help="How pieces are named; auto: as the robot names its own meshes.",
+    help="How pieces are named; auto: as the robot names its own meshes. relative holds for "
+    "its own, too, so that engines without ROS find them.",
 )
 @click.option(
     "--mesh-format", type=click.Choice(["stl", "obj"]), default="stl", help="Files of the pieces."
