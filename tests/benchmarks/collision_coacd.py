@@ -1,4 +1,4 @@
-"""``--method coacd`` beside CoACD with its defaults: ``python -m tests.benchmarks.collision_coacd``.
+"""The method coacd beside CoACD itself: ``python -m tests.benchmarks.collision_coacd FILE``.
 
 For each mesh that is named the seconds, triangles, pieces and the two-sided largest distance over
 all surfaces of all pieces, relative to the diagonal. CoACD's own runs take minutes, and some end
