@@ -4,6 +4,7 @@ PYTHON ?= python3
 VENV   ?= .venv
 BIN    := $(VENV)/bin
 DEMO   := fixtures/robots/demo_arm/urdf/arm.urdf.xacro
+SOUND  := fixtures/robots/demo_arm/urdf/arm_sound.urdf.xacro
 
 .PHONY: demo test test-all check format docs bench clean
 
@@ -22,6 +23,10 @@ demo: $(BIN)/urdftool
 	$(BIN)/urdftool expand $(DEMO) prefix:=left_ -o $(VENV)/left_arm.urdf
 	@echo "wrote $(VENV)/left_arm.urdf"
 	$(BIN)/urdftool lint $(DEMO) prefix:=left_; test $$? -eq 1
+	$(BIN)/urdftool info $(SOUND)
+	$(BIN)/urdftool graph $(SOUND) -o -
+	$(BIN)/urdftool inertia robot $(SOUND)
+	$(BIN)/urdftool export sdf $(SOUND) -o $(VENV)/demo_arm --verify
 
 test: $(VENV)/.dev
 	$(BIN)/python -m pytest -m "not slow"
