@@ -11,6 +11,7 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 # A room may import from the rooms below it, never from one above or beside.
 BELOW = {
     "errors": (),
+    "workers": (),
     "source": ("errors",),
     "model": ("source", "errors"),
     "finding": ("source",),
@@ -18,10 +19,10 @@ BELOW = {
     "console": ("errors",),
     "configuration": ("errors",),
     "meshes": ("errors",),
-    "inertia": ("meshes", "model", "source", "errors"),
-    "collision": ("meshes", "inertia", "model", "source", "errors"),
+    "inertia": ("meshes", "model", "source", "workers", "errors"),
+    "collision": ("meshes", "inertia", "model", "source", "workers", "errors"),
     "rules": ("finding", "model", "source", "meshes", "errors"),
-    "lint": ("rules", "finding", "model", "source", "configuration", "errors"),
+    "lint": ("rules", "finding", "model", "source", "configuration", "workers", "errors"),
     "formats": ("finding", "model", "source", "meshes", "inertia", "output", "errors"),
     "graph": ("finding", "model", "source", "errors"),
     "report": (

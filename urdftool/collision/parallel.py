@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 from ..errors import MeshError, UrdftoolError
+from ..workers import cores
 from .cache import Cache, key_of
 from .compute import Result, Task, attempt, result_of
 
@@ -56,7 +56,7 @@ def compute_all(
 
         outcomes = on_cluster(work, scheduler)
     else:
-        outcomes = _outcomes(work, jobs or _cores(), count, progress)
+        outcomes = _outcomes(work, jobs or cores(), count, progress)
     done = count - len(work)
     for index, outcome in outcomes:
         done += 1
@@ -137,12 +137,6 @@ def _pooled(
         pool.shutdown(wait=False, cancel_futures=True)
         raise
     pool.shutdown()
-
-
-def _cores() -> int:
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def _size(path: Path) -> int:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from ..errors import UrdftoolError
 from ..source.description import Description
+from ..workers import cores, ignore_interrupts
 from .bodies import MeshBody, mesh_body
 
 WORTH_IT = 4_000_000
@@ -62,7 +62,7 @@ def _bodies(paths: list[Path], jobs: int | None) -> Iterator[tuple[Path, MeshBod
     context = multiprocessing.get_context("fork" if "fork" in methods else None)
     # the slowest first, so that none is left alone at the end
     ordered = sorted(paths, key=_size, reverse=True)
-    with context.Pool(workers, _ignore_interrupts) as pool:
+    with context.Pool(workers, ignore_interrupts) as pool:
         yield from pool.imap_unordered(_named_body, ordered)
 
 
@@ -85,9 +85,7 @@ def _body(path: Path) -> MeshBody | UrdftoolError:
 def _worthwhile(paths: list[Path]) -> int:
     if len(paths) < 2 or sum(map(_size, paths)) < WORTH_IT:
         return 1
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    return cores()
 
 
 def _size(path: Path) -> int:
@@ -95,13 +93,6 @@ def _size(path: Path) -> int:
         return path.stat().st_size
     except OSError:
         return 0
-
-
-def _ignore_interrupts() -> None:
-    """Ctrl-C ends the parent, which ends its workers."""
-    import signal
-
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 class Meshes:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from ..workers import cores, ignore_interrupts
 from .outcome import Options, Report
 from .run import lint_file
 
@@ -23,7 +23,7 @@ def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) 
         options: What the command line says.
         jobs: Processes to use; None is one per core where it is worth it.
     """
-    wanted = jobs or (_cores() if len(paths) >= WORTH_IT else 1)
+    wanted = jobs or (cores() if len(paths) >= WORTH_IT else 1)
     workers = min(wanted, len(paths))
     if workers <= 1 or "-" in paths:
         for path in paths:
@@ -65,22 +65,9 @@ def _together(paths: Sequence[str], options: Options, workers: int) -> Iterator[
 
 def _work(paths: Sequence[str], options: Options, sender: Connection) -> None:
     """Send a report for each description, or what kept it from being made."""
-    _ignore_interrupts()
+    ignore_interrupts()
     for path in paths:
         try:
             sender.send(lint_file(path, options))
         except Exception as error:
             sender.send(error)
-
-
-def _cores() -> int:
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
-def _ignore_interrupts() -> None:
-    """Ctrl-C ends the parent, which ends its workers."""
-    import signal
-
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
