@@ -9,6 +9,7 @@ import numpy as np
 from ..errors import UrdftoolError
 from ..meshes.mesh import Points
 from ..model.elements import Robot
+from ..model.kinematics import link_poses
 from ..model.pose import IDENTITY, Pose, pose_of
 from .check import shape_pieces
 from .compute import Result, Task
@@ -97,18 +98,6 @@ def side_by_side(left: Colored, right: Colored) -> bytes:
         halves.append(render(corners, colors, axes, window, SIZE))
     line = np.full((height, 2, 3), 0.8)
     return png(np.concatenate([halves[0], line, halves[1]], axis=1))
-
-
-def link_poses(robot: Robot) -> dict[str, Pose]:
-    """The pose of every link in the root's frame, all joints at zero."""
-    poses: dict[str, Pose] = {}
-    for name in robot.tree.order:
-        joint = robot.tree.parent_joint(name)
-        if joint is None:
-            poses[name] = IDENTITY
-        else:
-            poses[name] = poses.get(joint.parent, IDENTITY) @ pose_of(joint.origin)
-    return poses
 
 
 def _placed(piece: Piece, pose: Pose) -> Points:

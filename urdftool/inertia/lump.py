@@ -6,15 +6,14 @@ link the others hang on. Those of the whole robot are in the frame of its root.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 
 import numpy as np
 
-from ..model.elements import Joint, Robot
-from ..model.pose import IDENTITY, Pose, pose_of
+from ..model.elements import Robot
+from ..model.kinematics import check_positions, limits_of, link_poses, with_mimics
+from ..model.pose import Pose
 from .inertia_error import InertiaError
 from .link_review import LinkReview
 from .tensor import Array, MassProperties, combine, rotate
@@ -69,7 +68,8 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
         names = ", ".join(link.name for link in robot.tree.roots) or "none"
         raise InertiaError(f"a robot with one root link is needed; its roots: {names}")
     root = robot.tree.roots[0].name
-    positions = joint_positions(robot, pose)
+    check_positions(robot, pose)
+    positions = with_mimics(robot, pose)
     notes = _beyond_limits(robot, positions)
     weights: dict[str, MassProperties] = {}
     for item in found:
@@ -108,77 +108,10 @@ def placed(body: MassProperties, pose: Pose) -> MassProperties:
     return MassProperties(body.mass, com, rotate(body.inertia, rotation))
 
 
-def joint_positions(robot: Robot, pose: Mapping[str, float]) -> dict[str, float]:
-    """The position of every joint that turns or slides; joints that mimic another follow it."""
-    movable = {
-        joint.name: joint
-        for joint in robot.joints
-        if joint.type in ("revolute", "continuous", "prismatic")
-    }
-    for name, value in pose.items():
-        if name not in movable:
-            if name in robot.joint:
-                kind = robot.joint[name].type
-                raise InertiaError(f"joint '{name}' is {kind} and has no single position")
-            near = get_close_matches(name, list(movable), 1, 0.5)
-            hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(movable)}"
-            raise InertiaError(f"the robot has no joint '{name}' that moves; {hint}")
-        if not math.isfinite(value):
-            raise InertiaError(f"the position of joint '{name}' is {value:g}, not a finite number")
-    return {name: _position(joint, movable, pose, set()) for name, joint in movable.items()}
-
-
-def _position(
-    joint: Joint, movable: Mapping[str, Joint], pose: Mapping[str, float], seen: set[str]
-) -> float:
-    mimic = joint.mimic
-    if joint.name in pose or mimic is None or mimic.joint not in movable or joint.name in seen:
-        return pose.get(joint.name, 0.0)
-    leader = _position(movable[mimic.joint], movable, pose, seen | {joint.name})
-    return mimic.multiplier * leader + mimic.offset
-
-
 def _beyond_limits(robot: Robot, positions: Mapping[str, float]) -> list[str]:
     notes = []
     for name, value in positions.items():
-        joint = robot.joint[name]
-        limit = joint.limit
-        if limit is None or joint.type == "continuous":
-            continue
-        low, high = limit.lower or 0.0, limit.upper or 0.0
+        low, high = limits_of(robot.joint[name])
         if low < high and not low <= value <= high:
             notes.append(f"joint '{name}' at {value:g} is beyond its limits, {low:g} to {high:g}")
     return notes
-
-
-def link_poses(robot: Robot, positions: Mapping[str, float]) -> dict[str, Pose]:
-    """The pose of each link in the frame of the root that it hangs on."""
-    poses: dict[str, Pose] = {}
-    for name in robot.tree.order:
-        joint = robot.tree.parent_joint(name)
-        if joint is None:
-            poses[name] = IDENTITY
-        elif joint.parent in poses:
-            motion = _motion(joint, positions.get(joint.name, 0.0))
-            poses[name] = poses[joint.parent] @ pose_of(joint.origin) @ motion
-    return poses
-
-
-def _motion(joint: Joint, value: float) -> Pose:
-    """What a joint at a position does to its child; by Rodrigues' formula where it turns."""
-    x, y, z = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
-    length = math.hypot(x, y, z)
-    if not value or not length:
-        return IDENTITY
-    x, y, z = x / length, y / length, z / length
-    if joint.type == "prismatic":
-        return Pose(translation=(x * value, y * value, z * value))
-    c, s = math.cos(value), math.sin(value)
-    k = 1 - c
-    return Pose(
-        (
-            (c + x * x * k, x * y * k - z * s, x * z * k + y * s),
-            (y * x * k + z * s, c + y * y * k, y * z * k - x * s),
-            (z * x * k - y * s, z * y * k + x * s, c + z * z * k),
-        )
-    )

@@ -9,8 +9,8 @@ from typing import Any
 from ..errors import UrdftoolError
 from ..model.bounds import Bounds, bounds_of
 from ..model.elements import Collision, Mesh, Origin, Robot, Vector, Visual
+from ..model.kinematics import link_poses
 from ..model.pose import Pose, pose_of, rpy_of_rotation
-from .zero_pose import zero_poses
 
 Progress = Callable[[int, int, str], None]
 
@@ -61,7 +61,7 @@ def measure(robot: Robot, progress: Progress = lambda *_: None) -> Measured:
         robot: The robot, read from a description, which finds its packages.
         progress: Told of each mesh before it is read: its number, how many, its URI.
     """
-    poses = zero_poses(robot)
+    poses = link_poses(robot)
     measured = Measured()
     boxes: list[Bounds] = []
     uses: dict[str, list[tuple[Pose | None, Visual | Collision]]] = {}

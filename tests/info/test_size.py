@@ -3,29 +3,6 @@ import pytest
 from tests.graph.robots import robot, tree
 from urdftool.info.counts import count
 from urdftool.info.size import measure
-from urdftool.info.zero_pose import zero_poses
-
-TURN = "0 0 1.5707963267948966"
-
-
-def test_poses_are_chained():
-    joint = (
-        '<joint name="{}" type="fixed"><parent link="{}"/><child link="{}"/>'
-        f'<origin xyz="1 0 0" rpy="{TURN}"/></joint>'
-    )
-    model = robot(
-        '<robot name="r"><link name="a"/><link name="b"/><link name="c"/>'
-        + joint.format("ab", "a", "b")
-        + joint.format("bc", "b", "c")
-        + "</robot>"
-    )
-    poses = zero_poses(model)
-    assert poses["c"].translation == pytest.approx((1, 1, 0))
-    assert poses["c"].transform((1, 0, 0)) == pytest.approx((0, 1, 0))
-
-
-def test_what_hangs_on_no_root_has_no_pose():
-    assert set(zero_poses(tree("abc", [("bc", "b", "c"), ("cb", "c", "b")]))) == {"a"}
 
 
 def test_the_size_goes_around_turned_primitives():
