@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..console import Console
+from .export_options import export_options
 from .export_report import put_files, say_refused, say_written
 from .options import package_options, robot_argument
+from .read_strict import read_strict
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -49,26 +51,9 @@ FILES = (".xml", ".mjcf")
     help="What to do with a tensor that no rigid body has; none: refuse it.",
 )
 @click.option(
-    "--mesh-dir",
-    metavar="DIR",
-    default="assets",
-    show_default=True,
-    help="Folder of the meshes, beside the model.",
-)
-@click.option(
     "--decompose", is_flag=True, help="Cut meshes that collide and are not convex into pieces."
 )
-@click.option("--overwrite", is_flag=True, help="Replace also what urdftool did not write.")
-@click.option("--strict", is_flag=True, help="What cannot be carried is an error.")
-@click.option("--force", is_flag=True, help="Go on past errors where a robot is left.")
-@click.option("--verify", "verified", is_flag=True, help="Compile it in MuJoCo and compare.")
-@click.option(
-    "--format",
-    "style",
-    type=click.Choice(("text", "json")),
-    default="text",
-    help="How the result is shown.",
-)
+@export_options(mesh_dir="assets", verify="Compile it in MuJoCo and compare.")
 @package_options
 @click.pass_obj
 def command(
@@ -95,30 +80,20 @@ def command(
         urdftool export mjcf panda.urdf -o panda/ --scene --verify
         urdftool export mjcf quadruped.urdf.xacro -o q/ --base free --actuators position
     """  # noqa: D301 -- click's mark for lines it must not wrap
-    from ..configuration import find_configuration
     from ..formats import said
     from ..formats.defects import Refused
     from ..formats.mjcf.options import Options
     from ..formats.mjcf.verify import verify_copy
     from ..formats.mjcf.write import write
     from ..model.load import robot_of
-    from ..source.description import read_description
 
-    if Path(mesh_dir).is_absolute() or ".." in Path(mesh_dir).parts:
-        raise click.UsageError("--mesh-dir is a folder beside the model, such as assets")
     as_json = style == "json"
-    path, arguments = robot
-    description = read_description(
-        path,
-        arguments,
-        packages=package,
-        package_paths=package_path,
-        configured=find_configuration(path, console.config).packages,
-    )
+    description = read_strict(console, robot, package, package_path)
     file = Path(output).name if output and Path(output).suffix.lower() in FILES else ""
-    folder = Path(mesh_dir).as_posix()
     cutter = cut_meshes if decompose else None
-    options = Options(mesh_dir="" if folder == "." else folder, file=file, cutter=cutter, **choices)
+    options = Options(
+        mesh_dir="" if mesh_dir == "." else mesh_dir, file=file, cutter=cutter, **choices
+    )
     try:
         written = write(robot_of(description), options)
         if strict and (lost := said.strict(written.losses)):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
+from ..report.counted import counted
 
 if TYPE_CHECKING:
     from ..finding import Finding
@@ -26,8 +27,7 @@ def say_refused(findings: Sequence[Finding], *, as_json: bool) -> int:
     said = list(lines(findings))
     for line in said:
         click.echo(line, err=True)
-    count = "1 error" if len(said) == 1 else f"{len(said)} errors"
-    click.echo(f"urdftool: nothing is written: {count}", err=True)
+    click.echo(f"urdftool: nothing is written: {counted(len(said), 'error')}", err=True)
     return 2
 
 
@@ -82,6 +82,7 @@ def say_written(
         if checks:
             click.echo(check_table(checks), nl=False, err=output == "-")
     if output != "-":
-        more = f", {hidden} notes (-v shows them)" if hidden else ""
-        console.note(f"{output}: {written.main}, {len(written.files)} files{more}")
+        more = f", {counted(hidden, 'note')} (-v shows them)" if hidden else ""
+        files = counted(len(written.files), "file")
+        console.note(f"{output}: {written.main}, {files}{more}")
     return 0 if is_faithful(checks) else 1

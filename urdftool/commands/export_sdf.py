@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..console import Console
+from .export_options import export_options
 from .options import package_options, robot_argument
+from .read_strict import read_strict
 
 if TYPE_CHECKING:
     from ..formats.check import Check
@@ -52,25 +54,8 @@ FILES = (".sdf", ".xml", ".world")
     type=click.Choice(("relative", "model", "package", "file")),
     help="How meshes are named; with package and file none is copied.",
 )
-@click.option(
-    "--mesh-dir",
-    metavar="DIR",
-    default="meshes",
-    show_default=True,
-    help="Folder of the meshes, beside the model.",
-)
 @click.option("--world", is_flag=True, help="Write a world with ground and sun around it.")
-@click.option("--overwrite", is_flag=True, help="Replace also what urdftool did not write.")
-@click.option("--strict", is_flag=True, help="What cannot be carried is an error.")
-@click.option("--force", is_flag=True, help="Go on past errors where a robot is left.")
-@click.option("--verify", "verified", is_flag=True, help="Read it back and compare.")
-@click.option(
-    "--format",
-    "style",
-    type=click.Choice(("text", "json")),
-    default="text",
-    help="How the result is shown.",
-)
+@export_options(mesh_dir="meshes", verify="Read it back and compare.")
 @package_options
 @click.pass_obj
 def command(
@@ -95,24 +80,15 @@ def command(
         urdftool export sdf arm.urdf.xacro -o arm/ --verify
         urdftool export sdf mira.urdf -o mira.sdf --target gazebo-classic
     """  # noqa: D301 -- click reads the escape
-    from ..configuration import find_configuration
     from ..formats import said
     from ..formats.defects import Refused
     from ..formats.sdf.write import write
     from ..model.load import robot_of
-    from ..source.description import read_description
     from .export_report import put_files, say_refused, say_written
 
     place = output or "-"
     options = _options(place, choices)
-    path, arguments = robot
-    description = read_description(
-        path,
-        arguments,
-        packages=package,
-        package_paths=package_path,
-        configured=find_configuration(path, console.config).packages,
-    )
+    description = read_strict(console, robot, package, package_path)
     model = robot_of(description)
     as_json = style == "json"
     try:
@@ -141,9 +117,6 @@ def _options(output: str, choices: dict[str, Any]) -> Options:
     if version and version not in VERSIONS[target]:
         known = ", ".join(VERSIONS[target])
         raise click.UsageError(f"{target} reads SDF {known}; {version} is for the other Gazebo")
-    meshes = Path(os.path.normpath(choices.pop("mesh_dir")))
-    if meshes.is_absolute() or ".." in meshes.parts:
-        raise click.UsageError("--mesh-dir is a folder beside the model, such as meshes")
     full = Path(os.path.abspath(output))
     single = output == "-" or full.suffix.lower() in FILES
     choices = {name: value or "" if value is None else value for name, value in choices.items()}
@@ -153,7 +126,6 @@ def _options(output: str, choices: dict[str, Any]) -> Options:
         version=version,
         folder=(full.parent if single else full).name,
         file=("model.sdf" if output == "-" else full.name) if single else "",
-        mesh_dir=meshes.as_posix(),
         **choices,
     )
 

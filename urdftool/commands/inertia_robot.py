@@ -11,6 +11,7 @@ import click
 
 from ..console import Console
 from .options import package_options, robot_argument
+from .read_strict import read_strict
 
 if TYPE_CHECKING:
     from ..inertia.link_review import LinkReview
@@ -120,24 +121,16 @@ def command(
     Exit 1 if something written cannot be.
     """  # noqa: D301 -- \b is a character that click looks for
     _check_options(density, total, write, lump, pose, output)
-    from ..configuration import find_configuration
     from ..inertia.mass_file import read_masses
     from ..inertia.masses import Masses, check_masses
     from ..inertia.review import review
     from ..model.load import robot_of
-    from ..source.description import read_description
 
-    path, arguments = robot
+    path = robot[0]
     if write and path == "-" and output is None:
         raise click.UsageError("standard input cannot be edited in place; --write wants -o OUT")
     by_link = {**(read_masses(mass_file) if mass_file else {}), **masses}
-    description = read_description(
-        path,
-        arguments,
-        packages=package,
-        package_paths=package_path,
-        configured=find_configuration(path, console.config).packages,
-    )
+    description = read_strict(console, robot, package, package_path)
     model = robot_of(description)
     names = [link.name for link in model.links]
     check_masses(Masses(dict.fromkeys(only, 1.0)), names)

@@ -9,6 +9,7 @@ from itertools import groupby
 from typing import Any
 
 from ..compare.change import Change
+from .counted import counted
 from .findings import Painter, clean
 
 _COLORS = {"added": "green", "removed": "red"}
@@ -91,8 +92,7 @@ def summary(names: tuple[str, str], changes: Sequence[Change]) -> str:
     if not changes:
         return f"{pair}: the same robot"
     parts = {(change.kind, change.name) for change in changes}
-    count = f"{len(changes)} change{'s' * (len(changes) != 1)}"
-    return f"{pair}: {count} in {len(parts)} part{'s' * (len(parts) != 1)}"
+    return f"{pair}: {counted(len(changes), 'change')} in {counted(len(parts), 'part')}"
 
 
 def _by_part(changes: Iterable[Change]) -> Iterator[tuple[str, Iterator[Change]]]:

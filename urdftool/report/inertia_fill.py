@@ -9,6 +9,7 @@ from typing import Any
 from ..inertia.fill import Filling, Refusal
 from ..inertia.tensor import six_numbers
 from ..model.elements import Robot
+from .counted import counted
 from .findings import clean
 from .inertia_robot import place_dict
 
@@ -53,7 +54,7 @@ def remarks(filling: Filling) -> Iterator[str]:
 def summary(filling: Filling, files: Sequence[str]) -> str:
     """Counts, and the files that changed."""
     count = len(filling.written)
-    parts = [f"{count} link{'s' * (count != 1)} written"]
+    parts = [f"{counted(count, 'link')} written"]
     if filling.unchanged:
         parts.append(f"{len(filling.unchanged)} as they were")
     if filling.left:

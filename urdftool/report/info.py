@@ -11,6 +11,7 @@ from typing import Any
 from ..info.counts import Counts, Named
 from ..info.size import Measured
 from ..model.elements import Robot
+from .counted import counted
 from .findings import Painter, clean
 
 _MOST = 6
@@ -33,18 +34,18 @@ def table(robot: Robot, counts: Counts, measured: Measured, *, colors: bool = Fa
 def _rows(robot: Robot, counts: Counts, measured: Measured) -> Iterator[tuple[str, str]]:
     yield "robot", clean(robot.name) or "no name"
     bodies = counts.links - counts.frames
-    frames = f": {bodies} with mass or shape, {_many(counts.frames, 'mere frame')}"
+    frames = f": {bodies} with mass or shape, {counted(counts.frames, 'mere frame')}"
     yield "links", f"{counts.links}{frames if counts.frames else ''}"
     types = ", ".join(f"{n} {clean(kind) or 'without type'}" for kind, n in counts.joints.items())
-    mimics = f"; {_many(counts.mimics, 'mimic')}" if counts.mimics else ""
+    mimics = f"; {counted(counts.mimics, 'mimic')}" if counts.mimics else ""
     yield "joints", f"{sum(counts.joints.values())}" + (f": {types}{mimics}" if types else "")
     yield "degrees of freedom", str(counts.freedom)
     if len(counts.roots) == 1:
-        yield "tree", f"from {clean(counts.roots[0])}, {_many(counts.depth, 'joint')} deep"
+        yield "tree", f"from {clean(counts.roots[0])}, {counted(counts.depth, 'joint')} deep"
     else:
         roots = _listed(counts.roots)
-        yield "tree", f"{_many(len(counts.roots), 'root')}{': ' * bool(roots)}{roots}"
-    without = f"; {_many(counts.massless, 'link')} without" if counts.massless else ""
+        yield "tree", f"{counted(len(counts.roots), 'root')}{': ' * bool(roots)}{roots}"
+    without = f"; {counted(counts.massless, 'link')} without" if counts.massless else ""
     yield "mass", f"{counts.mass:.6g} kg{without}"
     yield "size at zero pose", _size(counts, measured)
     yield "meshes", _meshes(measured)
@@ -65,7 +66,7 @@ def _size(counts: Counts, measured: Measured) -> str:
         return "no shape that could be read"
     size = " × ".join(f"{round(length, 6):.4g}" for length in measured.bounds.size)
     missing = sum(bool(mesh.reason) for mesh in measured.meshes)
-    lacks = f", without {_many(missing, 'mesh', 'meshes')}" if missing else ""
+    lacks = f", without {counted(missing, 'mesh', 'meshes')}" if missing else ""
     lowest = f"; lowest point at z = {round(measured.bounds.low[2], 6) + 0.0:.4g} m"
     return f"{size} m along the root's x, y, z{lowest}{lacks}"
 
@@ -73,7 +74,7 @@ def _size(counts: Counts, measured: Measured) -> str:
 def _meshes(measured: Measured) -> str:
     if not measured.meshes:
         return "none"
-    files = _many(len(measured.meshes), "file")
+    files = counted(len(measured.meshes), "file")
     shown, touched = measured.triangles("visuals"), measured.triangles("collisions")
     return f"{files}; {shown:,} triangles in visuals, {touched:,} in collisions"
 
@@ -83,10 +84,6 @@ def _named(things: Iterable[Named]) -> Iterator[str]:
         on = f" on {clean(thing.on)}" if thing.on is not None else ""
         what = f" ({clean(thing.what)})" if thing.what else ""
         yield f"{clean(thing.name) or 'no name'}{what}{on}"
-
-
-def _many(count: int, one: str, many: str = "") -> str:
-    return f"{count} {one if count == 1 else many or one + 's'}"
 
 
 def _listed(names: list[str]) -> str:

@@ -1,0 +1,42 @@
+"""A description as it is written, for commands that build on it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..console import Console
+
+if TYPE_CHECKING:
+    from ..source.description import Description
+
+
+def read_strict(
+    console: Console,
+    robot: tuple[str, Mapping[str, str]],
+    packages: Mapping[str, Path],
+    package_paths: Iterable[str],
+) -> Description:
+    """Read a description; what is wrong with its XML stops the command.
+
+    Args:
+        console: The configuration that was named.
+        robot: Its path, and values for its xacro arguments.
+        packages: Folders by package name, from the command line.
+        package_paths: Folders with packages below.
+
+    Raises:
+        SourceError: It cannot be read, parsed or expanded.
+    """
+    from ..configuration import find_configuration
+    from ..source.description import read_description
+
+    path, arguments = robot
+    return read_description(
+        path,
+        arguments,
+        packages=packages,
+        package_paths=package_paths,
+        configured=find_configuration(path, console.config).packages,
+    )
