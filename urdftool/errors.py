@@ -13,6 +13,7 @@ exit code in ``urdftool.cli`` alone::
     ├── MeshError              a mesh cannot be read, or has no volume where one is needed
     ├── ConfigError            an unknown rule, option or value
     ├── OutputError            the result cannot be written
+    ├── AddressError           a page cannot be served there
     └── MissingDependency      a library of an extra is not installed
 """
 
@@ -106,6 +107,10 @@ class ConfigError(UrdftoolError):
 
 class OutputError(UrdftoolError):
     """A result cannot be written."""
+
+
+class AddressError(UrdftoolError):
+    """A page cannot be served at an address."""
 
 
 class MissingDependency(UrdftoolError):  # noqa: N818

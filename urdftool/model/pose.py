@@ -95,6 +95,22 @@ def rotation_of_quaternion(quaternion: Quaternion) -> Rotation:
     )
 
 
+def quaternion_of_rotation(r: Rotation) -> Quaternion:
+    """The unit quaternion ``(w, x, y, z)`` of a rotation, by its largest part (Shepperd)."""
+    trace = r[0][0] + r[1][1] + r[2][2]
+    largest = max(range(4), key=lambda i: (trace, r[0][0], r[1][1], r[2][2])[i])
+    if largest == 0:
+        four = (1 + trace, r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1])
+    elif largest == 1:
+        four = (r[2][1] - r[1][2], 1 + 2 * r[0][0] - trace, r[0][1] + r[1][0], r[0][2] + r[2][0])
+    elif largest == 2:
+        four = (r[0][2] - r[2][0], r[0][1] + r[1][0], 1 + 2 * r[1][1] - trace, r[1][2] + r[2][1])
+    else:
+        four = (r[1][0] - r[0][1], r[0][2] + r[2][0], r[1][2] + r[2][1], 1 + 2 * r[2][2] - trace)
+    size = math.hypot(*four)
+    return four[0] / size, four[1] / size, four[2] / size, four[3] / size
+
+
 def rpy_of_rotation(rotation: Rotation) -> Vector:
     """URDF's rpy of a rotation [rad], exact also where the pitch is a right angle.
 

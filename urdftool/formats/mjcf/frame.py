@@ -7,7 +7,7 @@ import math
 from lxml import etree
 
 from ...model.elements import Origin
-from ...model.pose import Pose, Quaternion, Rotation, quaternion_of_rpy
+from ...model.pose import Pose, Quaternion, quaternion_of_rotation, quaternion_of_rpy
 from ..numbers import numbers_text
 
 _SAME = 1e-15
@@ -59,19 +59,3 @@ def plain(quaternion: Quaternion) -> Quaternion | None:
         parts = [-part for part in parts]
     w, x, y, z = parts
     return None if x == y == z == 0 else (w, x, y, z)
-
-
-def quaternion_of_rotation(r: Rotation) -> Quaternion:
-    """The unit quaternion of a rotation matrix, by its largest component (Shepperd's method)."""
-    trace = r[0][0] + r[1][1] + r[2][2]
-    largest = max(range(4), key=lambda i: (trace, r[0][0], r[1][1], r[2][2])[i])
-    if largest == 0:
-        four = (1 + trace, r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1])
-    elif largest == 1:
-        four = (r[2][1] - r[1][2], 1 + 2 * r[0][0] - trace, r[0][1] + r[1][0], r[0][2] + r[2][0])
-    elif largest == 2:
-        four = (r[0][2] - r[2][0], r[0][1] + r[1][0], 1 + 2 * r[1][1] - trace, r[1][2] + r[2][1])
-    else:
-        four = (r[1][0] - r[0][1], r[0][2] + r[2][0], r[1][2] + r[2][1], 1 + 2 * r[2][2] - trace)
-    size = math.hypot(*four)
-    return four[0] / size, four[1] / size, four[2] / size, four[3] / size

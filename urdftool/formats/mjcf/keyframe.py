@@ -5,11 +5,11 @@ from __future__ import annotations
 from lxml import etree
 
 from ...model.elements import Robot
+from ...model.pose import quaternion_of_rotation
 from ...model.read import number
 from ..numbers import numbers_text
 from .actuator import Drive
 from .equality import follows
-from .frame import quaternion_of_rotation
 from .joint import PLANAR_SUFFIXES
 from .structure import Structure
 

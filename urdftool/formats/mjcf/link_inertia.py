@@ -8,11 +8,11 @@ import numpy as np
 from lxml import etree
 
 from ...model.elements import Link, Origin, Vector
-from ...model.pose import pose_of
+from ...model.pose import pose_of, quaternion_of_rotation
 from ...source.location import Place
 from ..numbers import number_text, numbers_text
 from . import inertia as tensors
-from .frame import plain, quaternion_of, quaternion_of_rotation
+from .frame import plain, quaternion_of
 from .inertia import Array
 
 POINT = 1e-15
