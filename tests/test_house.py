@@ -12,17 +12,25 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 BELOW = {
     "errors": (),
     "workers": (),
-    "source": ("errors",),
+    "inputs": (),
+    "store": (),
+    "source": ("inputs", "errors"),
     "model": ("source", "errors"),
     "finding": ("source",),
     "output": ("errors",),
     "console": ("errors",),
     "configuration": ("errors",),
     "meshes": ("errors",),
+    "drawing": ("meshes", "model", "source", "errors"),
     "inertia": ("meshes", "model", "source", "workers", "errors"),
-    "collision": ("meshes", "inertia", "model", "source", "workers", "errors"),
-    "rules": ("finding", "model", "source", "meshes", "errors"),
-    "lint": ("rules", "finding", "model", "source", "configuration", "workers", "errors"),
+    "collision": (
+        *("store", "drawing", "meshes", "inertia", "model", "source", "workers", "errors"),
+    ),
+    "rules": ("finding", "model", "source", "meshes", "inputs", "errors"),
+    "lint": (
+        *("rules", "finding", "model", "source", "configuration", "workers"),
+        *("inputs", "store", "errors"),
+    ),
     "formats": ("finding", "model", "source", "meshes", "inertia", "output", "errors"),
     "graph": ("finding", "model", "source", "errors"),
     "report": (
@@ -43,11 +51,12 @@ DOORS = {
     "scipy": ("meshes/", "inertia/", "formats/", "collision/"),
     "click": ("cli.py", "console.py", "commands/", "report/findings.py"),
     "rich": ("report/", "commands/", "formats/"),
-    "numpy": ("meshes/", "inertia/", "formats/", "collision/"),
+    "numpy": ("meshes/", "drawing/", "inertia/", "formats/", "collision/"),
     "coacd": ("collision/coacd_child.py",),
     "meshoptimizer": ("collision/quadric.py",),
     "distributed": ("collision/cluster.py",),
     "mujoco": ("formats/mjcf/",),
+    "PIL": ("drawing/", "formats/mjcf/texture.py"),
     "pygraphviz": ("graph/draw.py",),
 }
 

@@ -1,4 +1,4 @@
-"""Primitives, and triangles fine enough to stand for them where distances are measured."""
+"""Primitives as pieces, with triangles fine enough to measure distances to."""
 
 from __future__ import annotations
 
@@ -6,11 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..meshes.mesh import Faces, Points
+from ..meshes.mesh import Points
+from ..meshes.tessellate import tessellate
 from .piece import Piece
-
-AROUND = 96
-"""Corners of a circle; its chords stay within 0.05 % of the radius."""
 
 
 def primitive(
@@ -24,57 +22,7 @@ def primitive(
         rotation: Its axes, as columns.
         centre: Its centre [m].
     """
-    vertices, faces = _box(size) if kind == "box" else _turned(_profile(kind, size))
+    vertices, faces = tessellate(kind, size)
     turned = np.asarray(rotation, dtype=np.float64)
     middle = np.asarray(centre, dtype=np.float64)
     return Piece(kind, tuple(size), turned, middle, vertices @ turned.T + middle, faces)
-
-
-def _box(size: Sequence[float]) -> tuple[Points, Faces]:
-    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    faces = [face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))]
-    return signs * np.asarray(size) / 2, np.array(faces, dtype=np.int64)
-
-
-def _profile(kind: str, size: Sequence[float]) -> Points:
-    """Radius and height of the rings from bottom to top; the first and last are points."""
-    radius = size[0]
-    if kind == "cylinder":
-        half = size[1] / 2
-        return np.array([[0, -half], [radius, -half], [radius, half], [0, half]])
-    half = size[1] / 2 if kind == "capsule" else 0.0
-    angles = np.linspace(-np.pi / 2, np.pi / 2, AROUND // 2 + 1)
-    rings = np.stack([radius * np.cos(angles), radius * np.sin(angles)], axis=1)
-    rings[[0, -1], 0] = 0.0
-    if not half:
-        return rings
-    middle = len(rings) // 2
-    lift = np.array([0.0, half])
-    return np.concatenate([rings[: middle + 1] - lift, rings[middle:] + lift])
-
-
-def _turned(profile: Points) -> tuple[Points, Faces]:
-    """The surface that a profile sweeps about z."""
-    angles = 2 * np.pi * np.arange(AROUND) / AROUND
-    circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    inner = profile[1:-1]
-    rings = np.concatenate(
-        [
-            np.concatenate([radius * circle, np.full((AROUND, 1), height)], axis=1)
-            for radius, height in inner
-        ]
-    )
-    ends = np.array([[0, 0, profile[0, 1]], [0, 0, profile[-1, 1]]])
-    here = np.arange(AROUND)
-    after = (here + 1) % AROUND
-    faces = []
-    for ring in range(len(inner) - 1):
-        low, high = ring * AROUND, (ring + 1) * AROUND
-        faces.append(np.stack([low + here, low + after, high + after], axis=1))
-        faces.append(np.stack([low + here, high + after, high + here], axis=1))
-    bottom, top = len(rings), len(rings) + 1
-    last = (len(inner) - 1) * AROUND
-    faces.append(np.stack([after, here, np.full(AROUND, bottom)], axis=1))
-    faces.append(np.stack([last + here, last + after, np.full(AROUND, top)], axis=1))
-    return np.concatenate([rings, ends]), np.concatenate(faces).astype(np.int64)

@@ -1,0 +1,57 @@
+"""Triangles on the picture, cut where they reach behind the camera."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .raster import Floats, Indices
+
+NEAREST = 1e-4
+"""Distance of the plane at which triangles are cut, relative to the farthest corner."""
+
+
+def clipped(
+    corners: Floats, reach: tuple[float, float], size: tuple[int, int]
+) -> tuple[Floats, Indices]:
+    """Triangles as :func:`raster.front` takes them, and the rows they come from.
+
+    Args:
+        corners: In the camera's axes, from the eye [m], shape (m, 3, 3); ahead is -z.
+        reach: Half the width and height of what is seen at a distance of one.
+        size: Columns and rows of samples.
+    """
+    depth = -corners[..., 2]
+    plane = max(float(depth.max(initial=0.0)) * NEAREST, 1e-300)
+    ahead = depth > plane
+    count = ahead.sum(axis=1)
+    whole = np.flatnonzero(count == 3)
+    triangles, rows = [corners[whole]], [whole]
+    for inside in (1, 2):
+        cut = np.flatnonzero(count == inside)
+        if not len(cut):
+            continue
+        # turned so that the corner that is alone on its side comes first
+        alone = np.argmax(ahead[cut] == (inside == 1), axis=1)
+        turned = (alone[:, None] + np.arange(3)) % 3
+        a, b, c = (corners[cut, turned[:, k]] for k in range(3))
+        ab, ac = _met(a, b, plane), _met(a, c, plane)
+        if inside == 1:
+            triangles.append(np.stack([a, ab, ac], axis=1))
+            rows.append(cut)
+        else:
+            triangles += [np.stack([ab, b, c], axis=1), np.stack([ab, c, ac], axis=1)]
+            rows += [cut, cut]
+    flat = np.concatenate(triangles)
+    away = np.maximum(-flat[..., 2], plane)
+    made = np.empty_like(flat)
+    made[..., 0] = (flat[..., 0] / away / reach[0] + 1) * (size[0] / 2)
+    made[..., 1] = (1 - flat[..., 1] / away / reach[1]) * (size[1] / 2)
+    made[..., 2] = plane / away
+    return made, np.concatenate(rows)
+
+
+def _met(one: Floats, other: Floats, plane: float) -> Floats:
+    """Where the edges between two rows of points meet the plane at a distance ahead."""
+    d0, d1 = -one[:, 2] - plane, -other[:, 2] - plane
+    part = d0 / (d0 - d1)
+    return np.asarray(one + (other - one) * part[:, None])

@@ -1,0 +1,164 @@
+"""Light on surfaces: a key light that throws shadows, a fill light, and the sky."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from .camera import View
+from .raster import Floats, front
+
+Colors = npt.NDArray[np.float32]
+"""Red, green and blue; linear light unless said otherwise."""
+
+GAMMA = 2.2
+
+_SKY, _EARTH = 0.50, 0.26
+_KEY, _FILL, _SHINE = 0.62, 0.16, 0.10
+_HARDNESS = 28.0
+_MAP = 1024
+_TAPS = ((0.0, 0.0), (-1.1, -0.4), (0.4, -1.1), (1.1, 0.4), (-0.4, 1.1))
+
+
+def to_linear(colors: npt.NDArray[np.floating]) -> Colors:
+    """Colours as files have them, in linear light."""
+    return np.asarray(np.power(np.maximum(colors, 0), GAMMA), dtype=np.float32)
+
+
+def to_screen(colors: npt.NDArray[np.floating]) -> npt.NDArray[np.uint8]:
+    """Linear light as eight bits a channel."""
+    shown = np.power(np.clip(colors, 0, 1), 1 / GAMMA)
+    return np.asarray(shown * 255 + 0.5).astype(np.uint8)
+
+
+@dataclass(frozen=True)
+class Lights:
+    """Unit vectors towards the lights, in the world."""
+
+    key: Floats
+    fill: Floats
+
+
+def lights_of(view: View) -> Lights:
+    """Lights that stand still relative to the camera: the key over its left shoulder."""
+    right, toward = view.axes[0], np.cross(view.axes[0], [0.0, 0.0, 1.0])
+    key = -0.55 * right + 0.55 * toward + np.array([0.0, 0.0, 1.05])
+    fill = 0.9 * right + 0.6 * toward + np.array([0.0, 0.0, 0.35])
+    return Lights(key / np.linalg.norm(key), fill / np.linalg.norm(fill))
+
+
+def shade(albedo: Colors, normals: Colors, to_eye: Colors, lit: Colors, lights: Lights) -> Colors:
+    """What light comes from points of surfaces.
+
+    Args:
+        albedo: Their colours, shape (n, 3).
+        normals: Unit normals on the side that is seen, shape (n, 3).
+        to_eye: Unit vectors to the eye, shape (n, 3).
+        lit: How much of the key light reaches each, shape (n,).
+        lights: The lights.
+    """
+    key, fill = lights.key.astype(np.float32), lights.fill.astype(np.float32)
+    toward = np.maximum(normals @ key, 0) * lit
+    sky = 0.5 + 0.5 * normals[:, 2]
+    light = _EARTH + (_SKY - _EARTH) * sky + _KEY * toward + _FILL * np.maximum(normals @ fill, 0)
+    half = to_eye + key
+    half /= np.maximum(np.linalg.norm(half, axis=1, keepdims=True), 1e-6)
+    glint = np.einsum("ij,ij->i", normals, half)
+    shine = _SHINE * np.power(np.maximum(glint, 0), _HARDNESS) * lit
+    return np.asarray(albedo * light[:, None] + shine[:, None], dtype=np.float32)
+
+
+class ShadowMap:
+    """What stands in the way of parallel light.
+
+    Attributes:
+        texel: Width of a sample of the map [m].
+    """
+
+    def __init__(self, corners: Floats, direction: Floats, resolution: int = _MAP) -> None:
+        """Draw triangles [m], shape (m, 3, 3), as they are seen from where the light comes."""
+        side = np.cross([0.0, 0.0, 1.0], direction)
+        length = float(np.linalg.norm(side))
+        side = side / length if length > 1e-9 else np.array([1.0, 0.0, 0.0])
+        self._axes = np.stack([side, np.cross(direction, side), direction])
+        seen = corners @ self._axes.T
+        low, high = seen.min(axis=(0, 1)), seen.max(axis=(0, 1))
+        self.texel = max(float((high - low)[:2].max()), 1e-12) / (resolution * 0.9)
+        self._corner = (low + high)[:2] / 2 - self.texel * resolution / 2
+        self._low, self._range = float(low[2]), max(float(high[2] - low[2]), 1e-12)
+        self._resolution = resolution
+        flat = np.concatenate(
+            [(seen[..., :2] - self._corner) / self.texel, self._near(seen[..., 2:])], axis=2
+        )
+        _, nearness = front(flat, (resolution, resolution))
+        self._nearness = nearness
+
+    def _near(self, along: Floats) -> Floats:
+        return np.asarray(1.0 + (along - self._low) / self._range)
+
+    @property
+    def covered(self) -> Colors:
+        """Where anything is in the way: 1, elsewhere 0; rows of the map."""
+        square = self._nearness.reshape(self._resolution, self._resolution)
+        return np.asarray(square > 0, dtype=np.float32)
+
+    def depths(self) -> Floats:
+        """How far along the light what it meets first lies [m]; rows of the map."""
+        square = self._nearness.reshape(self._resolution, self._resolution)
+        return np.asarray((square.astype(np.float64) - 1) * self._range + self._low)
+
+    def place(self, points: Floats) -> Floats:
+        """Columns and rows of points [m] in the map."""
+        return np.asarray((points @ self._axes[:2].T - self._corner) / self.texel)
+
+    def lit(self, points: Floats, normals: Floats) -> Colors:
+        """How much of the light reaches points [m] with unit normals: 0 … 1, shape (n,)."""
+        # lifted off the surface, which would shade itself where the map is coarse
+        lifted = points + normals * (1.6 * self.texel)
+        at = self.place(lifted)
+        own = self._near(lifted @ self._axes[2]) + 0.6 * self.texel / self._range
+        own = own.astype(np.float32)
+        total = np.zeros(len(points), dtype=np.float32)
+        for dx, dy in _TAPS:
+            column = np.clip((at[:, 0] + dx).astype(np.int64), 0, self._resolution - 1)
+            row = np.clip((at[:, 1] + dy).astype(np.int64), 0, self._resolution - 1)
+            total += self._nearness[row * self._resolution + column] <= own
+        return np.asarray(total / np.float32(len(_TAPS)))
+
+
+def blurred(values: Colors, radius: float) -> Colors:
+    """A square of values, smoothed thrice by a box, which is nearly a Gaussian."""
+    reach = max(1, round(radius))
+    for axis in (0, 1, 0, 1, 0, 1):
+        padding = [(0, 0), (0, 0)]
+        padding[axis] = (reach + 1, reach)
+        total = np.cumsum(np.pad(values, padding), axis=axis, dtype=np.float64)
+        ahead = np.take(total, range(2 * reach + 1, total.shape[axis]), axis=axis)
+        behind = np.take(total, range(total.shape[axis] - 2 * reach - 1), axis=axis)
+        values = ((ahead - behind) / (2 * reach + 1)).astype(np.float32)
+    return values
+
+
+def sampled(values: Colors, at: Floats) -> Colors:
+    """A map at columns and rows, mixed between the middles of its samples; 0 outside of it."""
+    height, width = values.shape
+    x, y = at[:, 0] - 0.5, at[:, 1] - 0.5
+    inside = (x >= 0) & (y >= 0) & (x < width - 1) & (y < height - 1)
+    x, y = np.where(inside, x, 0.0), np.where(inside, y, 0.0)
+    column, row = x.astype(np.int64), y.astype(np.int64)
+    right, down = (x - column).astype(np.float32), (y - row).astype(np.float32)
+    flat, here = values.reshape(-1), row * width + column
+    upper = flat[here] * (1 - right) + flat[here + 1] * right
+    here = np.minimum(here + width, len(flat) - 2)
+    lower = flat[here] * (1 - right) + flat[here + 1] * right
+    return np.asarray(np.where(inside, upper * (1 - down) + lower * down, 0), dtype=np.float32)
+
+
+def spacing(size: float) -> float:
+    """The width of a grid for something of a size [m]: 1, 2 or 5 times a power of ten."""
+    rough = max(size, 1e-12) / 4
+    power = 10.0 ** math.floor(math.log10(rough))
+    return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= rough * 1.0000001)

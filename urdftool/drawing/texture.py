@@ -1,0 +1,61 @@
+"""Images that lie on surfaces."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import MeshError
+from .raster import Floats
+
+Texels = npt.NDArray[np.uint8]
+"""Rows of red, green, blue and opacity, the lowest first: shape (height, width, 4)."""
+
+LARGEST = 2048
+"""Width and height in pixels to which larger images are reduced."""
+
+
+def read_texture(source: Path | bytes) -> Texels:
+    """An image file, or the bytes of one.
+
+    Raises:
+        MeshError: It is not there, or no image.
+    """
+    from PIL import Image
+
+    try:
+        with Image.open(BytesIO(source) if isinstance(source, bytes) else source) as image:
+            image.draft("RGB", (LARGEST, LARGEST))
+            if max(image.size) > LARGEST:
+                image.thumbnail((LARGEST, LARGEST))
+            pixels = np.asarray(image.convert("RGBA"))
+    # image readers meet damaged files with whatever their arithmetic raises
+    except Exception as error:
+        path = None if isinstance(source, bytes) else source
+        if isinstance(error, FileNotFoundError):
+            raise MeshError("there is no such image", path=path) from error
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise MeshError(f"the image cannot be read ({reason})", path=path) from error
+    return np.ascontiguousarray(pixels[::-1])
+
+
+def looked_up(texels: Texels, uv: Floats) -> Floats:
+    """The colours at points of an image, which is repeated beyond its edges, shape (n, 4).
+
+    Between the middles of four pixels they are mixed.
+    """
+    height, width = texels.shape[:2]
+    finite = np.where(np.isfinite(uv), uv, 0.0)
+    x = (finite[:, 0] % 1.0) * width - 0.5
+    y = (finite[:, 1] % 1.0) * height - 0.5
+    column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
+    right, up = (x - column)[:, None], (y - row)[:, None]
+    here, after = column % width, (column + 1) % width
+    low, high = row % height, (row + 1) % height
+    flat = texels.reshape(-1, 4)
+    lower = flat[low * width + here] * (1 - right) + flat[low * width + after] * right
+    upper = flat[high * width + here] * (1 - right) + flat[high * width + after] * right
+    return np.asarray((lower * (1 - up) + upper * up) / 255.0)
