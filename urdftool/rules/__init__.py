@@ -149,6 +149,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "size": (
             "placeholder-inertia",
             "inertia-exceeds-geometry",
+            "inertia-below-geometry",
             "com-outside-geometry",
             "inertial-not-at-com-suspect",
             "radius-of-gyration",

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
 from ...source.document import Element
+from ..mesh.outlines import reaches
 from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
 from .bodies import bodies, mass_of
-from .solids import box_of, solid_volume
+from .solids import solid_volume
 
 _SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
@@ -142,8 +144,9 @@ def implausible_mass(
 
     Masses are in kilograms. Grams make a robot a thousand times too heavy.
     """
+    reach = reaches(robot)
     for link, mass, element in _masses(robot):
-        if not lightest <= mass <= heaviest and _density(link, mass) is not None:
+        if not lightest <= mass <= heaviest and _density(reach.link(link), link, mass)[0]:
             continue  # its size tells more than its mass alone
         if mass > heaviest:
             what = f"{mass:g} kg; if that is grams, write {mass / 1000:g}"
@@ -167,48 +170,52 @@ def implausible_density(
     least_possible: float = 1.0,
     most_possible: float = 22600.0,
     small: float = 0.02,
+    most_of_box: float = 8000.0,
 ) -> Iterator[Problem]:
     """A link's mass does not go with its size.
 
     Between foam and lead lie 5 and 12,000 kg/m³, and nothing is denser than osmium with 22,600.
     Beyond that, a unit is wrong: grams, or millimetres. A shape of millimetres is mostly a mark for
-    a frame, and no more than a remark.
+    a frame, and no more than a remark. Of a mesh, or of several shapes, the box around them counts:
+    one that is all of steel has ``most_of_box``, and one lighter than air is hollow beyond belief.
     """
+    reach = reaches(robot)
     for link, mass, element in _masses(robot):
-        density = _density(link, mass)
-        if density is None or least <= density <= most:
+        density, in_box = _density(reach.link(link), link, mass)
+        if density is None or least <= density <= (most_of_box if in_box else most):
+            continue
+        if in_box and least_possible <= density < least:
             continue
         impossible = density > most_possible or density < least_possible
-        box = box_of(link)
+        box = reach.link(link)
         if box is None or max(box.size) < small:
             impossible = False
         yield Problem(
             link,
-            f"link '{link.name}' weighs {mass:g} kg and has a density of {density:.3g} kg/m³; "
-            "water has 1000",
+            f"link '{link.name}' weighs {mass:g} kg and has a density of {density:.3g} kg/m³"
+            f"{' in the box around it' if in_box else ''}; water has 1000",
             at=element.attribute_place("value"),
             severity=WARNING if impossible else INFO,
         )
 
 
-def _density(link: Link, mass: float) -> float | None:
-    """Density [kg/m³] of a link with one kind of shapes, all primitives; None where not known.
+def _density(box: Bounds | None, link: Link, mass: float) -> tuple[float | None, bool]:
+    """Density [kg/m³] of a link, and whether it is that in the box around its shapes.
 
-    One shape is taken solid. Several may overlap, so of them the box around counts, which makes the
-    density a lower bound.
+    One primitive is taken solid. Several may overlap, so of them the box counts, as for a mesh,
+    which makes the density a lower bound. None where it is not known.
     """
     if mass <= 0:
-        return None
+        return None, False
     if len(link.visuals) <= 1 and len(link.collisions) <= 1:
         volumes = [solid_volume(visual.geometry) for visual in link.visuals]
         volumes += [solid_volume(collision.geometry) for collision in link.collisions]
-        return mass / max(volumes) if volumes and min(volumes) > 0 else None
-    box = box_of(link)
+        if volumes and min(volumes) > 0:
+            return mass / max(volumes), False
     if box is None:
-        return None
+        return None, True
     volume = math.prod(box.size)
-    density = mass / volume if volume > 0 else 0.0
-    return density if density > 5.0 else None
+    return (mass / volume if volume > 0 else None), True
 
 
 def _masses(robot: Robot) -> Iterator[tuple[Link, float, Element]]:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ...model.elements import Link, Robot
+from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...model.tensor3 import Six
+from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
 from .proposals import remedy_text
-from .solids import box_of, solid_moments, solid_text, spread_ratio
+from .solids import solid_moments, solid_text, spread_ratio
 from .tensors import is_positive, is_zero, moments_of, tensors
 
 
@@ -54,29 +55,71 @@ def _is_placeholder(link: Link, six: Six) -> bool:
 
 @rule(WARNING, effects={"every simulator": "takes it: the link turns more sluggishly than it can"})
 def inertia_exceeds_geometry(
-    robot: Robot, *, allowed: float = 1.1, rounding: float = 0.01
+    robot: Robot, *, allowed: float = 1.1, rounding: float = 0.01, certain: float = 10.0
 ) -> Iterator[Problem]:
     """An inertia is larger than any body of the link's size can have.
 
     Mass is most spread out along an axis when it sits in two lumps at the ends of the shape, and
-    even that gives less. Square millimetres for square metres, grams for kilograms, or the moment
-    of one axis written for all three do it. Links with meshes are not looked at.
+    even that gives less. Square millimetres for square metres, grams for kilograms, a mass a tenth
+    of what it should be, or the moment of one axis written for all three do it. Of a mesh the box
+    around it counts; up to ``certain`` times too large is then no more than a remark, as the mesh
+    may leave out what is heavy.
     """
+    reach = reaches(robot)
     for link, inertial, six in tensors(robot):
         if link.mass <= 0 or _is_placeholder(link, six) or not is_positive(moments_of(six)):
             continue
         low, middle, high = moments_of(six)
         if low + middle < high * 0.99:
             continue
-        ratio, axis = spread_ratio(link, inertial, rounding)
+        ratio, axis = spread_ratio(reach.link(link), inertial, rounding)
         if ratio <= allowed:
             continue
+        remark = ratio <= certain and _has_mesh(link)
         yield Problem(
             link,
             f"inertia of link '{link.name}' spreads its mass along {'xyz'[axis]} more than its "
             f"shapes allow, by a factor of {ratio:.2g}{remedy_text(link, inertial, six)}",
             at=inertial.inertia,
+            severity=INFO if remark else None,
         )
+
+
+def _has_mesh(link: Link) -> bool:
+    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+    return any(isinstance(shape.geometry, Mesh) for shape in shapes)
+
+
+@rule(INFO, effects={"every simulator": "takes it: the link spins up too easily"})
+def inertia_below_geometry(robot: Robot, *, least: float = 0.12) -> Iterator[Problem]:
+    """An inertia is far smaller than that of a body of the link's size.
+
+    A solid box has the moments that its mass and size give; steel in its middle and plastic around
+    it halve them. An eighth means that the mass is ten times too large, that the inertia lost a
+    power of ten, or that the shape is larger than the body. ``least`` is the part of the solid
+    box's that is let pass.
+    """
+    reach = reaches(robot)
+    for link, inertial, six in tensors(robot):
+        mass = link.mass
+        if mass <= 0 or is_zero(six, mass) or not is_positive(moments_of(six)):
+            continue
+        box = reach.link(link)
+        if box is None:
+            continue
+        if _is_placeholder(link, six):
+            continue
+        solid = mass / 12 * sum(length * length for length in box.size)
+        written = sum(six[i] for i in (0, 3, 5)) / 2
+        if written < least * solid:
+            x, y, z = (f"{length:.3g}" for length in box.size)
+            yield Problem(
+                link,
+                f"inertia of link '{link.name}' is {written / solid:.2g} of that of a solid box "
+                f"of its {mass:g} kg and size, {x} × {y} × {z} m; is the mass or the inertia off "
+                "by a power of ten?",
+                at=inertial.inertia,
+            )
 
 
 @rule(WARNING, effects={"every simulator": "takes it; the link tips over or turns off centre"})
@@ -84,17 +127,19 @@ def com_outside_geometry(robot: Robot, *, margin: float = 0.02) -> Iterator[Prob
     """A link's centre of mass is outside the box around its shapes.
 
     The mean of a body's mass is inside its hull. Millimetres, or the pose of another frame, put it
-    elsewhere; the link then falls to a side it should not. Links with meshes are not looked at.
+    elsewhere; the link then falls to a side it should not. ``margin`` is the part of the box's
+    diagonal that is let pass, of a mesh twice that.
     """
+    reach = reaches(robot)
     for link in robot.links:
         inertial = link.inertial
         if inertial is None or not inertial.mass:
             continue
-        box = box_of(link)
+        box = reach.link(link)
         if box is None:
             continue
         lower, upper = box
-        slack = margin * math.dist(lower, upper)
+        slack = margin * math.dist(lower, upper) * (2 if _has_mesh(link) else 1)
         com = inertial.origin.xyz if inertial.origin is not None else (0.0, 0.0, 0.0)
         off = [
             (max(lower[i] - com[i], com[i] - upper[i]), i)
@@ -116,15 +161,16 @@ def inertial_not_at_com_suspect(robot: Robot, *, far: float = 0.2) -> Iterator[P
     """An ``<inertial>`` has no origin though the link's shapes lie to one side.
 
     The mass then sits at the frame of the link, that is on the axis of its joint, and gravity turns
-    nothing. Mostly the ``<origin>`` was forgotten. Links with meshes are not looked at.
+    nothing. Mostly the ``<origin>`` was forgotten.
     """
+    reach = reaches(robot)
     for link in robot.links:
         inertial = link.inertial
         if inertial is None or not inertial.mass:
             continue
         if inertial.origin is not None and any(inertial.origin.xyz):
             continue
-        box = box_of(link)
+        box = reach.link(link)
         if box is None:
             continue
         lower, upper = box
@@ -150,13 +196,14 @@ def radius_of_gyration(
 
     The root of the one over the other is how far from its centre the mass sits on average. A metre
     is more than most robots are long, a millimetre is a pinhead. Square millimetres for square
-    metres are the usual cause.
+    metres are the usual cause. Links whose size is known are left to ``inertia-exceeds-geometry``.
     """
+    reach = reaches(robot)
     for link, inertial, six in tensors(robot):
         mass = link.mass
         if mass <= 0 or is_zero(six, mass) or _is_placeholder(link, six):
             continue
-        if inertial.mass is None or box_of(link) is not None:
+        if inertial.mass is None or reach.link(link) is not None:
             continue
         high = moments_of(six)[2]
         if high <= 0:

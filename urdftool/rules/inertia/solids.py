@@ -110,15 +110,15 @@ def solid_text(link: Link) -> str:
     return f"; a solid {tag} of {link.mass:g} kg has ixx {x:.4g}, iyy {y:.4g}, izz {z:.4g}"
 
 
-def spread_ratio(link: Link, inertial: Inertial, rounding: float) -> tuple[float, int]:
-    """By how much the mass of a link is spread wider than its shapes allow, and along which axis.
+def spread_ratio(box: Bounds | None, inertial: Inertial, rounding: float) -> tuple[float, int]:
+    """By how much a mass is spread wider than the box around its shapes allows, and along which axis.
 
     Mass within an interval [lo, hi] with its mean at c has a variance of at most (hi − c)(c − lo)
     (Bhatia and Davis, "A Better Bound on the Variance", 2000). The variance along an axis is the
     second moment ½ tr(I) − Iₐₐ over the mass. Above 1 is impossible for a body inside its shapes.
     Of a plate the difference is small and lost in rounding, so that part of ½ tr(I) is allowed.
     """
-    box, tensor, mass = box_of(link), inertial.inertia, inertial.mass
+    tensor, mass = inertial.inertia, inertial.mass
     if box is None or tensor is None or not mass or mass < 0:
         return 0.0, 0
     pose = pose_of(inertial.origin)

@@ -1,0 +1,132 @@
+"""The positions of a COLLADA scene, without its faces, materials and skins."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+
+from .mesh import Points
+
+_MAX_DEPTH = 64
+_FACES = ("triangles", "polylist", "polygons", "trifans", "tristrips")
+
+
+def collada_points(path: Path) -> Points | None:
+    """All positions of the scene [m], in the axes of the file, shape (n, 3); None if it has none.
+
+    Raises:
+        ValueError: The file is no COLLADA file, or its nodes form a circle.
+    """
+    data = path.read_bytes()
+    if b"<!ENTITY" in data or "<!ENTITY".encode("utf-16-le") in data:
+        raise ValueError("entities")
+    try:
+        root = ElementTree.fromstring(data)
+    except ElementTree.ParseError as error:
+        raise ValueError(str(error)) from error
+    reader = _Reader(root)
+    unit = root.find(f"{reader.space}asset/{reader.space}unit")
+    factor = float(unit.get("meter", 1.0)) if unit is not None else 1.0
+    scene = root.find(f"{reader.space}scene/{reader.space}instance_visual_scene")
+    shown = reader.named.get((scene.get("url") or "")[1:]) if scene is not None else None
+    if shown is None:
+        return None
+    for child in shown:
+        if child.tag == f"{reader.space}node":
+            reader.walk(child, np.eye(4), 0)
+    return factor * np.concatenate(reader.found) if reader.found else None
+
+
+class _Reader:
+    """A scene on its way to being points; sources are read once."""
+
+    def __init__(self, root: Any) -> None:
+        self.space = root.tag.partition("}")[0] + "}" if root.tag.startswith("{") else ""
+        self.named = {element.get("id"): element for element in root.iter() if element.get("id")}
+        self.found: list[Points] = []
+        self.read: dict[str, Points] = {}
+
+    def walk(self, node: Any, above: Points, depth: int) -> None:
+        """Add the points of a node and of those below it."""
+        if depth > _MAX_DEPTH:
+            raise ValueError("nodes in a circle")
+        matrix, tag = above, len(self.space)
+        for child in node:
+            kind = child.tag[tag:]
+            if kind in _TRANSFORMS:
+                values = [float(word) for word in (child.text or "").split()]
+                matrix = matrix @ _TRANSFORMS[kind](values)
+            elif kind == "node":
+                self.walk(child, matrix, depth + 1)
+            elif kind == "instance_node" and (other := self.target(child)) is not None:
+                self.walk(other, matrix, depth + 1)
+            elif kind == "instance_geometry" and (other := self.target(child)) is not None:
+                self.add(other, matrix)
+            elif kind == "instance_controller" and (other := self.target(child)) is not None:
+                self.add_skin(other, matrix)
+
+    def target(self, element: Any) -> Any:
+        """What an instance is one of."""
+        return self.named.get((element.get("url") or "")[1:])
+
+    def add(self, geometry: Any, matrix: Points) -> None:
+        """Add the positions of a geometry; lines are nothing that is seen or touched."""
+        if not any(child.tag[len(self.space) :] in _FACES for child in geometry.iter()):
+            return
+        for entry in geometry.iterfind(f".//{self.space}vertices/{self.space}input"):
+            if entry.get("semantic") == "POSITION":
+                points = self.positions((entry.get("source") or "")[1:])
+                self.found.append(points @ matrix[:3, :3].T + matrix[:3, 3])
+
+    def add_skin(self, controller: Any, matrix: Points) -> None:
+        """Add the positions of a skin in its bind shape."""
+        skin = controller.find(f"{self.space}skin")
+        geometry = self.named.get((skin.get("source") or "")[1:]) if skin is not None else None
+        if skin is None or geometry is None:
+            return
+        bind = skin.find(f"{self.space}bind_shape_matrix")
+        if bind is not None and bind.text:
+            matrix = matrix @ _matrix([float(word) for word in bind.text.split()])
+        self.add(geometry, matrix)
+
+    def positions(self, source: str) -> Points:
+        """The rows of a ``<source>``."""
+        if source not in self.read:
+            element = self.named[source]
+            array = element.find(f"{self.space}float_array")
+            accessor = element.find(f".//{self.space}accessor")
+            stride = int(accessor.get("stride", 3)) if accessor is not None else 3
+            values = np.array((array.text or "").split(), dtype=bytes).astype(np.float64)
+            self.read[source] = values[: len(values) // stride * stride].reshape(-1, stride)[:, :3]
+        return self.read[source]
+
+
+def _matrix(values: list[float]) -> Points:
+    return np.array(values, dtype=np.float64).reshape(4, 4)
+
+
+def _translate(values: list[float]) -> Points:
+    matrix = np.eye(4)
+    matrix[:3, 3] = values
+    return matrix
+
+
+def _scale(values: list[float]) -> Points:
+    return np.diag([*values, 1.0])
+
+
+def _rotate(values: list[float]) -> Points:
+    axis, angle = np.array(values[:3]), math.radians(values[3])
+    length = float(np.linalg.norm(axis))
+    x, y, z = axis / length if length else (0.0, 0.0, 1.0)
+    skew = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    matrix = np.eye(4)
+    matrix[:3, :3] += math.sin(angle) * skew + (1 - math.cos(angle)) * skew @ skew
+    return matrix
+
+
+_TRANSFORMS = {"matrix": _matrix, "translate": _translate, "scale": _scale, "rotate": _rotate}

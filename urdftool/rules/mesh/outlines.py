@@ -1,0 +1,118 @@
+"""How far the shapes of a link reach, meshes included: their points are read once."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ...model.bounds import Bounds, bounds_of
+from ...model.elements import Collision, Link, Mesh, Robot, Visual
+from ...model.pose import pose_of
+from .uses import MeshUse, Stamp, mesh_uses, stamp
+
+if TYPE_CHECKING:
+    from ...meshes.mesh import Points
+
+LARGEST = 10.0  # [m] a mesh that is longer is in millimetres
+SMALLEST = 0.001
+
+_read: dict[Stamp, Points | None] = {}
+_MOST = 4000  # meshes that are remembered
+
+
+def outline_of(use: MeshUse) -> Points | None:
+    """The outermost points of a mesh in the frame of its file, unscaled; None if it has none."""
+    from ...meshes.outline import outline
+
+    if use.path is None or not use.exists:
+        return None
+    try:
+        key = stamp(use.path)
+    except OSError:
+        return None
+    if key not in _read:
+        if len(_read) > _MOST:
+            _read.clear()
+        _read[key] = outline(use.path)
+    return _read[key]
+
+
+def points_of(use: MeshUse) -> Points | None:
+    """The outermost points of a mesh as scaled, in the frame of its link [m]."""
+    points = outline_of(use)
+    if points is None:
+        return None
+    import numpy as np
+
+    pose = pose_of(use.shape.origin)
+    scaled = points * np.array(use.mesh.scale)
+    # einsum, as a product of matrices wakes the other cores for nothing
+    turned = np.einsum("ij,kj->ki", np.array(pose.rotation), scaled)
+    return np.asarray(turned + np.array(pose.translation))
+
+
+class Reaches:
+    """The boxes around the shapes of a robot's links, each worked out when it is asked for."""
+
+    def __init__(self, robot: Robot) -> None:
+        """Know where the meshes are, and read none yet."""
+        self.robot = robot
+        self._uses: dict[int, MeshUse] | None = None
+        self._boxes: dict[int, Bounds | None] = {}
+
+    def use_of(self, shape: Visual | Collision) -> MeshUse | None:
+        """The file of a shape that is a mesh."""
+        if self._uses is None:
+            source = self.robot.source
+            uses = mesh_uses(self.robot, source) if source is not None else []
+            self._uses = {id(use.shape): use for use in uses}
+        return self._uses.get(id(shape))
+
+    def shape(self, shape: Visual | Collision) -> Bounds | None:
+        """The box around one shape, in the frame of its link; None where it is not known."""
+        if not isinstance(shape.geometry, Mesh):
+            return bounds_of(shape)
+        if id(shape) not in self._boxes:
+            self._boxes[id(shape)] = self._mesh(shape)
+        return self._boxes[id(shape)]
+
+    def _mesh(self, shape: Visual | Collision) -> Bounds | None:
+        use = self.use_of(shape)
+        points = points_of(use) if use is not None else None
+        if points is None:
+            return None
+        x, y, z = points.min(axis=0).tolist()
+        a, b, c = points.max(axis=0).tolist()
+        box = Bounds((x, y, z), (a, b, c))
+        # one in another unit has findings of its own, and says nothing of the link
+        return box if SMALLEST < max(box.size) < LARGEST else None
+
+    def shapes(self, shapes: list[Visual] | list[Collision]) -> Bounds | None:
+        """The box around several; None where there is none, or one whose box is not known."""
+        box: Bounds | None = None
+        for shape in shapes:
+            other = self.shape(shape)
+            if other is None:
+                return None
+            box = other if box is None else box.joined(other)
+        return box
+
+    def link(self, link: Link) -> Bounds | None:
+        """The box around all that is seen of a link or touches; None where it is not known."""
+        boxes = [self.shapes(part) for part in (link.visuals, link.collisions) if part]
+        box: Bounds | None = None
+        for other in boxes:
+            if other is None:
+                return None
+            box = other if box is None else box.joined(other)
+        return box if box is not None and any(box.size) else None
+
+
+_last: Reaches | None = None
+
+
+def reaches(robot: Robot) -> Reaches:
+    """The boxes of a robot; the same for all rules that ask."""
+    global _last
+    if _last is None or _last.robot is not robot:
+        _last = Reaches(robot)
+    return _last
