@@ -1,0 +1,41 @@
+"""Pictures as files: refused before the work is done, written whole."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from ..model.elements import Robot
+
+
+def checked_picture(picture: str | None, option: str = "--picture") -> None:
+    """Refuse a picture that cannot be written before the work is done."""
+    if picture is None:
+        return
+    if not picture.lower().endswith(".png"):
+        raise click.UsageError(f"{option} wants a name that ends in .png, not {picture}")
+    if not Path(picture).resolve().parent.is_dir():
+        raise click.UsageError(f"the folder of {picture} does not exist")
+
+
+def write_picture(data: bytes, target: str, robot: Robot) -> None:
+    """Write a picture of a robot, which must not take the place of what it was read from.
+
+    Raises:
+        OutputError: It cannot be written, or would overwrite an input.
+    """
+    from ..errors import OutputError
+    from ..output import write_file
+
+    for file in robot.source.files if robot.source is not None else ():
+        if os.path.exists(target) and os.path.exists(file.path):
+            if os.path.samefile(file.path, target):
+                raise OutputError(
+                    f"is read as an input ({file.path}); write the output to another file",
+                    path=target,
+                )
+    write_file(target, data)

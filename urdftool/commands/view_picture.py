@@ -1,0 +1,219 @@
+"""Pictures of a robot without a browser: one, or a sheet of every joint at both its limits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from ..console import Console
+from .mesh_progress import MeshProgress
+from .picture_file import checked_picture, write_picture
+
+if TYPE_CHECKING:
+    from ..drawing.camera import Camera
+    from ..drawing.shapes import Shapes
+    from ..model.elements import Robot
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+LARGEST = 8192
+"""Width and height of a picture in pixels, at most."""
+
+
+def _size(
+    ctx: click.Context, parameter: click.Parameter, value: str | None
+) -> tuple[int, int] | None:
+    if value is None:
+        return None
+    width, times, height = value.lower().replace("×", "x").partition("x")
+    try:
+        size = int(width), int(height)
+    except ValueError:
+        size = 0, 0
+    if not times or not all(8 <= side <= LARGEST for side in size):
+        raise click.BadParameter(
+            f"'{value}' is not WIDTHxHEIGHT in pixels, each from 8 to {LARGEST}, such as 1280x960",
+            ctx,
+            parameter,
+        )
+    return size
+
+
+def _camera(
+    ctx: click.Context, parameter: click.Parameter, value: str | None
+) -> tuple[float, ...] | None:
+    if value is None:
+        return None
+    try:
+        numbers = tuple(float(word) for word in value.split(","))
+    except ValueError:
+        numbers = ()
+    if len(numbers) not in (2, 3) or not all(map(math.isfinite, numbers)):
+        raise click.BadParameter(
+            f"'{value}' is not AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres, such as 30,20",
+            ctx,
+            parameter,
+        )
+    if abs(numbers[1]) > 90:
+        raise click.BadParameter(
+            f"an elevation of {numbers[1]:g} is not within -90 … 90 degrees", ctx, parameter
+        )
+    if len(numbers) == 3 and numbers[2] <= 0:
+        raise click.BadParameter(
+            f"a distance of {numbers[2]:g} m is not above zero", ctx, parameter
+        )
+    return numbers
+
+
+def _pose(
+    ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
+) -> dict[str, float]:
+    positions: dict[str, float] = {}
+    for value in values:
+        name, equals, number = value.rpartition("=")
+        try:
+            position = float(number)
+        except ValueError:
+            position = math.nan
+        if not equals or not name or not math.isfinite(position):
+            raise click.BadParameter(
+                f"'{value}' is not JOINT=VALUE, a position in radians or metres", ctx, parameter
+            )
+        if name in positions:
+            raise click.BadParameter(f"joint '{name}' is given twice", ctx, parameter)
+        positions[name] = position
+    return positions
+
+
+_OPTIONS = (
+    click.option("--picture", metavar="FILE.png", help="Draw the robot there; no page is served."),
+    click.option(
+        "--contact-sheet",
+        metavar="FILE.png",
+        help="Draw every joint at both its limits there; no page is served.",
+    ),
+    click.option(
+        "--size",
+        metavar="WxH",
+        callback=_size,
+        help="Pixels of --picture, and of each cell of --contact-sheet.  [default: 1280x960]",
+    ),
+    click.option(
+        "--camera",
+        metavar="AZIMUTH,ELEVATION[,DISTANCE]",
+        callback=_camera,
+        help="Where the picture is taken from, in degrees and metres: 0,0 is in front of the "
+        "robot, 90,0 at its left. Without a distance all of it just fits.  [default: -40,22]",
+    ),
+    click.option(
+        "--pose",
+        metavar="JOINT=VALUE",
+        multiple=True,
+        callback=_pose,
+        help="Position of a joint [rad or m]; mimics follow, others are at zero. Repeatable.",
+    ),
+    click.option(
+        "--show",
+        type=click.Choice(["visual", "collision", "both"]),
+        default="visual",
+        show_default=True,
+        help="What is drawn; both shows the collisions see-through.",
+    ),
+)
+
+
+def picture_options(function: F) -> F:
+    """``picture``, ``contact_sheet``, ``size``, ``camera``, ``pose`` and ``show``."""
+    for option in reversed(_OPTIONS):
+        function = option(function)
+    return function
+
+
+def check_pictures(picture: str | None, contact_sheet: str | None) -> None:
+    """Refuse files that cannot be written before the robot is read."""
+    checked_picture(picture)
+    checked_picture(contact_sheet, "--contact-sheet")
+
+
+def write_pictures(
+    console: Console,
+    robot: Robot,
+    *,
+    picture: str | None,
+    contact_sheet: str | None,
+    size: tuple[int, int] | None = None,
+    camera: tuple[float, ...] | None = None,
+    pose: Mapping[str, float] | None = None,
+    show: str = "visual",
+) -> int:
+    """Write the pictures that are asked for.
+
+    What cannot be loaded is said and left out; the rest is drawn.
+
+    Returns:
+        The exit code: 1 where something was left out.
+
+    Raises:
+        ModelError: A position that was asked for, no joint can have; nothing can be drawn; or no
+            joint moves, and a contact sheet was asked for.
+        OutputError: A file cannot be written.
+    """
+    from ..drawing.picture import SIZE, draw, png
+    from ..drawing.shapes import robot_shapes
+    from ..errors import ModelError
+    from ..model.kinematics import check_positions, link_poses, with_mimics
+
+    check_pictures(picture, contact_sheet)
+    positions = dict(pose or {})
+    check_positions(robot, positions)
+    with MeshProgress(console) as progress:
+        shapes = robot_shapes(robot, show=show, progress=progress)
+    for problem in shapes.problems:
+        console.error(problem)
+    poses = link_poses(robot, with_mimics(robot, positions))
+    if not len(shapes):
+        what = "shape" if show == "both" else show
+        more = "; try --show both" if show != "both" and not shapes.problems else ""
+        raise ModelError(f"the robot has no {what} that could be drawn{more}", at=robot.place)
+    seen_from = _placed(camera)
+    if picture is not None:
+        image = draw(shapes, poses, camera=seen_from, size=size or SIZE)
+        write_picture(png(image), picture, robot)
+        console.note(f"wrote {picture}, {image.shape[1]} × {image.shape[0]} pixels")
+    if contact_sheet is not None:
+        _write_sheet(console, robot, shapes, contact_sheet, positions, seen_from, size)
+    return 1 if shapes.problems else 0
+
+
+def _placed(camera: tuple[float, ...] | None) -> Camera:
+    from ..drawing.camera import Camera
+
+    if camera is None:
+        return Camera()
+    distance = camera[2] if len(camera) == 3 else None
+    return Camera(math.radians(camera[0]), math.radians(camera[1]), distance)
+
+
+def _write_sheet(
+    console: Console,
+    robot: Robot,
+    shapes: Shapes,
+    target: str,
+    positions: Mapping[str, float],
+    camera: Camera,
+    cell: tuple[int, int] | None,
+) -> None:
+    from ..drawing.contact_sheet import contact_sheet, sweeps_of
+    from ..drawing.png_file import png
+    from ..errors import ModelError
+
+    sweeps = sweeps_of(robot)
+    if not sweeps:
+        raise ModelError("no joint of the robot moves; --picture draws it", at=robot.place)
+    image = contact_sheet(robot, shapes, positions=positions, camera=camera, cell=cell)
+    write_picture(png(image), target, robot)
+    count = f"{len(sweeps)} joint{'s' if len(sweeps) > 1 else ''}"
+    console.note(f"wrote {target}, {count}, {image.shape[1]} × {image.shape[0]} pixels")

@@ -1,0 +1,65 @@
+"""Words on pictures, in the font that Pillow carries: the same on every machine."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .png_file import Image
+
+Color = tuple[int, int, int]
+
+
+class Words(NamedTuple):
+    """A line of text.
+
+    Attributes:
+        text: What it says.
+        at: Column and row of its upper left corner.
+        width: Pixels it may take; a longer one loses its middle.
+        height: Of the letters, in pixels.
+        color: Red, green and blue, 0 … 255.
+    """
+
+    text: str
+    at: tuple[int, int]
+    width: int
+    height: int
+    color: Color = (40, 44, 52)
+
+
+def lettered(image: Image, lines: Iterable[Words]) -> Image:
+    """A picture with lines of text on it."""
+    from PIL import Image as Pillow
+    from PIL import ImageDraw, ImageFont
+
+    canvas = Pillow.fromarray(image)
+    pen = ImageDraw.Draw(canvas)
+    fonts: dict[int, Any] = {}
+    for line in lines:
+        font = fonts.setdefault(line.height, ImageFont.load_default(line.height))
+        text = shown(line.text)
+        kept = len(text)
+        while kept > 1 and pen.textlength(text, font=font) > line.width:
+            kept -= 1 if kept < 40 else kept // 8
+            text = _shortened(shown(line.text), kept)
+        pen.text(line.at, text, fill=line.color, font=font)
+    return np.array(canvas)
+
+
+def shown(text: str) -> str:
+    """A text in letters that can be drawn: accents are left out, controls are a middle dot."""
+    plain = "".join(
+        letter
+        for letter in unicodedata.normalize("NFKD", text)
+        if not unicodedata.combining(letter)
+    )
+    return "".join(letter if letter.isprintable() else "·" for letter in plain)
+
+
+def _shortened(text: str, kept: int) -> str:
+    head = (kept + 1) // 2
+    return f"{text[:head]}…{text[len(text) - (kept - head) :]}"
