@@ -12,6 +12,7 @@ from __future__ import annotations
 import json
 import math
 import struct
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -62,6 +63,15 @@ def extremes(points: Points) -> Points:
         if len(points) > 0.7 * sum(map(len, blocks)):
             break
     return _outermost(points) if len(points) <= _BLOCK else points
+
+
+def placed(
+    points: Points, scale: Sequence[float], rotation: Sequence[Sequence[float]], at: Sequence[float]
+) -> Points:
+    """Points that are scaled, turned and moved [m], by the factors and the pose of a shape."""
+    # einsum, as a product of matrices wakes the other cores for nothing
+    turned = np.einsum("ij,kj->ki", np.array(rotation), points * np.array(scale))
+    return np.asarray(turned + np.array(at))
 
 
 def _outermost(points: Points) -> Points:

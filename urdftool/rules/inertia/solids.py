@@ -111,7 +111,7 @@ def solid_text(link: Link) -> str:
 
 
 def spread_ratio(box: Bounds | None, inertial: Inertial, rounding: float) -> tuple[float, int]:
-    """By how much a mass is spread wider than the box around its shapes allows, and along which axis.
+    """By how much a mass is spread wider than the box around it allows, and along which axis.
 
     Mass within an interval [lo, hi] with its mean at c has a variance of at most (hi − c)(c − lo)
     (Bhatia and Davis, "A Better Bound on the Variance", 2000). The variance along an axis is the

@@ -41,13 +41,9 @@ def points_of(use: MeshUse) -> Points | None:
     points = outline_of(use)
     if points is None:
         return None
-    import numpy as np
+    from ...meshes.outline import placed
 
-    pose = pose_of(use.shape.origin)
-    scaled = points * np.array(use.mesh.scale)
-    # einsum, as a product of matrices wakes the other cores for nothing
-    turned = np.einsum("ij,kj->ki", np.array(pose.rotation), scaled)
-    return np.asarray(turned + np.array(pose.translation))
+    return placed(points, use.mesh.scale, *pose_of(use.shape.origin))
 
 
 class Reaches:
@@ -80,9 +76,8 @@ class Reaches:
         points = points_of(use) if use is not None else None
         if points is None:
             return None
-        x, y, z = points.min(axis=0).tolist()
-        a, b, c = points.max(axis=0).tolist()
-        box = Bounds((x, y, z), (a, b, c))
+        low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+        box = Bounds(tuple(low), tuple(high))
         # one in another unit has findings of its own, and says nothing of the link
         return box if SMALLEST < max(box.size) < LARGEST else None
 
