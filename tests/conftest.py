@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from urdftool import cli, configuration
-from urdftool.source import packages
+from urdftool import cli, configuration, inputs
 
 ROOT = Path(__file__).resolve().parents[1]
 FIXTURES = ROOT / "fixtures"
@@ -24,13 +23,12 @@ def pytest_collection_modifyitems(items):
 
 
 @pytest.fixture(autouse=True)
-def _fresh(monkeypatch):
+def _fresh(monkeypatch, tmp_path_factory):
     """Nothing that was found in one test is known in the next; no ROS of the machine is seen."""
     for name in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "NO_COLOR", "FORCE_COLOR"):
         monkeypatch.delenv(name, raising=False)
-    packages._below.clear()
-    packages._names.clear()
-    packages._owners.clear()
+    inputs.forget()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
     configuration._found.clear()
 
 

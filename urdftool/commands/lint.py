@@ -41,6 +41,8 @@ LEVELS = ("error", "warning", "info")
 @click.option("--baseline", metavar="FILE", help="Pass over the findings that FILE has.")
 @click.option("--write-baseline", metavar="FILE", help="Write the findings to FILE, as a baseline.")
 @click.option("-j", "--jobs", type=click.IntRange(1), metavar="N", help="Processes to use.")
+@click.option("--cache-dir", metavar="DIR", help="Where reports are kept for the next time.")
+@click.option("--no-cache", is_flag=True, help="Check all anew, and keep nothing.")
 @click.option("--explain", metavar="RULE", help="Show a rule's page and stop.")
 @click.option("--list-rules", is_flag=True, help="List all rules and stop.")
 @package_options
@@ -60,6 +62,8 @@ def command(
     baseline: str | None,
     write_baseline: str | None,
     jobs: int | None,
+    cache_dir: str | None,
+    no_cache: bool,
     explain: str | None,
     list_rules: bool,
     package: dict[str, Path],
@@ -80,10 +84,12 @@ def command(
     Exit 1 if there are findings of --fail-on or above that the baseline does not have, 2 if a file
     cannot be read.
     """  # noqa: D301 -- click reads the escape
+    from ..lint.cache import Cache
     from ..lint.discover import find_descriptions
     from ..lint.outcome import Options
     from ..lint.parallel import lint_files
     from ..lint.settings import Settings, check_selectors, check_targets
+    from ..store import Store, cache_folder
     from .lint_report import Wanted, report
 
     if explain or list_rules:
@@ -100,7 +106,10 @@ def command(
         ignore=check_selectors(ignore),
         targets=check_targets(target),
     )
-    options = Options(settings, arguments, package, package_path, console.config)
+    if no_cache and cache_dir:
+        raise click.UsageError("--cache-dir and --no-cache exclude each other")
+    cache = None if no_cache else Cache(Store(cache_dir or cache_folder("lint")))
+    options = Options(settings, arguments, package, package_path, console.config, cache)
     reports = lint_files(files, options, jobs)
     wanted = Wanted(style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline)
     return report(console, reports, settings, wanted)

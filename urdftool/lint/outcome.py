@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..errors import UrdftoolError
 from ..finding import Finding
 from .settings import Settings
+
+if TYPE_CHECKING:
+    from .cache import Cache
 
 
 @dataclass
@@ -21,6 +25,7 @@ class Options:
         packages: Folders by package name.
         package_paths: Folders with packages below.
         config: A configuration file that was named.
+        cache: Where reports are kept for the next time; None keeps none.
     """
 
     settings: Settings = field(default_factory=Settings)
@@ -28,6 +33,7 @@ class Options:
     packages: Mapping[str, str | Path] = field(default_factory=dict)
     package_paths: Iterable[str | Path] = ()
     config: str | None = None
+    cache: Cache | None = None
 
 
 @dataclass

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..workers import cores, ignore_interrupts
 from .outcome import Options, Report
-from .run import lint_file
+from .run import known_report, lint_file
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
@@ -23,6 +23,20 @@ def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) 
         options: What the command line says.
         jobs: Processes to use; None is one per core where it is worth it.
     """
+    if options.cache is None:
+        yield from _check(paths, options, jobs)
+        return
+    known = {path: known_report(path, options) for path in paths}
+    missing = [path for path in paths if known[path] is None]
+    fresh = _check(missing, options, jobs)
+    for path in paths:
+        yield known[path] or next(fresh)
+    if missing:
+        options.cache.trim()
+
+
+def _check(paths: Sequence[str], options: Options, jobs: int | None) -> Iterator[Report]:
+    """A report for each description, whatever is known of it."""
     wanted = jobs or (cores() if len(paths) >= WORTH_IT else 1)
     workers = min(wanted, len(paths))
     if workers <= 1 or "-" in paths:

@@ -10,6 +10,7 @@ from typing import Any
 from ..configuration import Configuration, find_configuration
 from ..errors import ConfigError, SourceError, UrdftoolError
 from ..finding import Finding, Severity
+from ..inputs import listen
 from ..model.elements import Robot
 from ..model.read import read_robot
 from ..rules import ONLY_WITH, speaks_of
@@ -80,16 +81,57 @@ def lint_file(path: str | Path, options: Options) -> Report:
     Raises:
         ConfigError: The configuration is wrong.
     """
+    return _as_one([_checked(*question) for question in _questions(path, options)])
+
+
+def known_report(path: str | Path, options: Options) -> Report | None:
+    """What a cache knows of a description; None where it has to be checked.
+
+    Raises:
+        ConfigError: The configuration is wrong.
+    """
+    cache = options.cache
+    if cache is None or str(path) == "-":
+        return None
+    reports = []
+    for question in _questions(path, options):
+        report = cache.read(cache.key(*question))
+        if report is None:
+            return None
+        reports.append((label(question[1].arguments), report))
+    return _as_one(reports)
+
+
+_Question = tuple[str | Path, Options, Configuration, Settings]
+
+
+def _questions(path: str | Path, options: Options) -> list[_Question]:
+    """What is to be checked: a description with each set of arguments that it has."""
     configuration = find_configuration(path, options.config)
     settings = settings_for(path, configuration, options.settings)
+    each = [options]
     if configuration.lint.get("variants") is not None:
         variants = variants_for(path, configuration)
         if variants and not options.arguments:
-            with_each = {label(v): replace(options, arguments=v) for v in variants}
-            return as_one(
-                {k: _lint_once(path, o, configuration, settings) for k, o in with_each.items()}
-            )
-    return _lint_once(path, options, configuration, settings)
+            each = [replace(options, arguments=variant) for variant in variants]
+    return [(path, chosen, configuration, settings) for chosen in each]
+
+
+def _checked(
+    path: str | Path, options: Options, configuration: Configuration, settings: Settings
+) -> tuple[str, Report]:
+    """A report by the label of its arguments; it is kept where there is a cache."""
+    question = path, options, configuration, settings
+    if options.cache is None or str(path) == "-":
+        return label(options.arguments), _lint_once(*question)
+    with listen() as asked:
+        report = _lint_once(*question)
+    options.cache.write(options.cache.key(*question), report, asked)
+    return label(options.arguments), report
+
+
+def _as_one(reports: list[tuple[str, Report]]) -> Report:
+    return reports[0][1] if len(reports) == 1 else as_one(dict(reports))
 
 
 def _lint_once(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..inputs import Remembered
 from ..model.elements import Robot
 from ..source.description import Description
 from ..source.packages import own_package
@@ -27,8 +28,6 @@ _GZ_DEPENDENCIES = (
     "ros_ign_gazebo",
     "ros_gz_bridge",
 )
-
-_manifests: dict[str, frozenset[str]] = {}
 
 
 def infer_targets(robot: Robot, description: Description) -> frozenset[str]:
@@ -66,12 +65,10 @@ def _of_package(description: Description) -> frozenset[str]:
     own = own_package(description.packages.file)
     if own is None:
         return frozenset()
-    key = str(own[1])
-    if key not in _manifests:
-        _manifests[key] = _read_manifest(own[1] / "package.xml")
-    return _manifests[key]
+    return _read_manifest(own[1] / "package.xml")
 
 
+@Remembered
 def _read_manifest(path: Path) -> frozenset[str]:
     import re
 

@@ -16,6 +16,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from ..errors import PackageNotFound
+from ..inputs import Remembered
 from .install_rules import InstallRule, installed_path, read_install_rules
 
 _NAME = re.compile(rb"<name\s*>\s*([^<\s]+)\s*</name\s*>")
@@ -27,40 +28,35 @@ _MAX_DEPTH = 7
 _MAX_FOLDERS = 20_000
 _MAX_CLIMB = 6
 
-# What was found below a folder stays true for the run of one command.
-_below: dict[str, dict[str, Path]] = {}
-_names: dict[str, str | None] = {}
-_owners: dict[str, tuple[str, Path] | None] = {}
-
 
 def package_name(folder: Path) -> str | None:
     """The name in a folder's ``package.xml``; None where there is none."""
-    key = str(folder)
-    if key not in _names:
-        try:
-            text = (folder / "package.xml").read_bytes()
-        except OSError:
-            _names[key] = None
-        else:
-            match = _NAME.search(_XML_COMMENT.sub(b"", text))
-            _names[key] = match[1].decode("utf-8", "replace") if match else folder.name
-    return _names[key]
+    return _names(str(folder))
+
+
+@Remembered
+def _names(folder: str) -> str | None:
+    try:
+        with open(os.path.join(folder, "package.xml"), "rb") as stream:
+            text = stream.read()
+    except OSError:
+        return None
+    match = _NAME.search(_XML_COMMENT.sub(b"", text))
+    return match[1].decode("utf-8", "replace") if match else os.path.basename(folder)
 
 
 def own_package(path: Path) -> tuple[str, Path] | None:
     """Name and folder of the package a file belongs to: the nearest ``package.xml`` above it."""
-    return _package_of(os.path.dirname(path))
+    return _owners(os.path.dirname(path))
 
 
-def _package_of(folder: str) -> tuple[str, Path] | None:
-    if folder not in _owners:
-        parent = os.path.dirname(folder)
-        name = package_name(Path(folder))
-        if name is not None:
-            _owners[folder] = name, Path(folder)
-        else:
-            _owners[folder] = _package_of(parent) if parent != folder else None
-    return _owners[folder]
+@Remembered
+def _owners(folder: str) -> tuple[str, Path] | None:
+    name = _names(folder)
+    if name is not None:
+        return name, Path(folder)
+    parent = os.path.dirname(folder)
+    return _owners(parent) if parent != folder else None
 
 
 def packages_below(folder: Path) -> dict[str, Path]:
@@ -69,11 +65,13 @@ def packages_below(folder: Path) -> dict[str, Path]:
     Hidden folders, build output and folders with an ``…_IGNORE`` file are passed over, and a
     package is not searched for further packages.
     """
-    key = str(folder)
-    if key in _below:
-        return _below[key]
+    return _below(str(folder))
+
+
+@Remembered
+def _below(folder: str) -> dict[str, Path]:
     found: dict[str, Path] = {}
-    level = [key]
+    level = [folder]
     seen = 0
     for _ in range(_MAX_DEPTH):
         following: list[str] = []
@@ -90,7 +88,7 @@ def packages_below(folder: Path) -> dict[str, Path]:
             if names & _IGNORE_FILES:
                 continue
             if "package.xml" in names:
-                name = package_name(Path(place))
+                name = _names(place)
                 if name:
                     found.setdefault(name, Path(place))
                 continue
@@ -102,7 +100,6 @@ def packages_below(folder: Path) -> dict[str, Path]:
                 and _is_folder(entry)
             )
         level = sorted(following)
-    _below[key] = found
     return found
 
 

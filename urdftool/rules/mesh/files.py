@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from itertools import takewhile
 from pathlib import Path
 
+from ...inputs import Remembered
 from ...meshes.facts import LFS_MARK, stl_facts
 from ...model.elements import Robot
 from ...source.description import Description
@@ -14,10 +15,9 @@ from ...source.packages import own_package, shown_path
 from ..rule import ERROR, Problem, rule
 from ..words import nearest
 from .uris import malformation
-from .uses import MeshUse, Stamp, actual_case, mesh_uses, stamp
+from .uses import MeshUse, actual_case, mesh_uses
 
 _MAX_FILES = 5000
-_files_below: dict[Stamp, dict[str, str]] = {}
 
 
 @rule(
@@ -94,11 +94,13 @@ def _elsewhere(path: Path) -> str:
     if own is None:
         return ""
     folder = str(own[1])
-    key = stamp(own[1])
-    if key not in _files_below:
-        _files_below[key] = dict(_files(folder))
-    other = _files_below[key].get(path.name)
+    other = _files_below(folder).get(path.name)
     return f"; there is '{os.path.relpath(other, folder)}' in its package" if other else ""
+
+
+@Remembered
+def _files_below(folder: str) -> dict[str, str]:
+    return dict(_files(folder))
 
 
 def _files(folder: str) -> Iterator[tuple[str, str]]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...inputs import Remembered
 from ...model.bounds import Bounds, bounds_of
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...model.pose import pose_of
@@ -15,25 +17,22 @@ if TYPE_CHECKING:
 LARGEST = 10.0  # [m] a mesh that is longer is in millimetres
 SMALLEST = 0.001
 
-_read: dict[Stamp, Points | None] = {}
-_MOST = 4000  # meshes that are remembered
-
 
 def outline_of(use: MeshUse) -> Points | None:
     """The outermost points of a mesh in the frame of its file, unscaled; None if it has none."""
-    from ...meshes.outline import outline
-
     if use.path is None or not use.exists:
         return None
     try:
-        key = stamp(use.path)
+        return _outline(stamp(use.path))
     except OSError:
         return None
-    if key not in _read:
-        if len(_read) > _MOST:
-            _read.clear()
-        _read[key] = outline(use.path)
-    return _read[key]
+
+
+@Remembered
+def _outline(key: Stamp) -> Points | None:
+    from ...meshes.outline import outline
+
+    return outline(Path(key[0]))
 
 
 def points_of(use: MeshUse) -> Points | None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from functools import cache
 from pathlib import Path
 from urllib.parse import unquote
 
+from ...inputs import Remembered
 from ...model.elements import Robot
 from ...source.description import Description
 from ..rule import WARNING, Problem, rule
@@ -41,7 +41,7 @@ def missing_mesh_dependency(robot: Robot, description: Description) -> Iterator[
             )
 
 
-@cache
+@Remembered
 def _missing(path: Path) -> tuple[str, ...]:
     """What a mesh refers to and is not there; looked up once for a run."""
     return tuple(_look(path))

@@ -1,0 +1,256 @@
+"""Reports kept for the next time, with everything that they hang on.
+
+An entry is found by the question (the file, the settings, the arguments, the tool's own code) and
+counts only while all that was asked of the file system for it (:mod:`urdftool.inputs`) would be
+answered the same: a mesh that was missing and has come makes the report as old as one that changed.
+A file whose stamp is as it was is not read again, unless it was so young that its stamp may lie.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import pickle
+import sys
+from collections.abc import Iterable, Mapping
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from .. import __version__
+from ..configuration import Configuration
+from ..inputs import ABSENT, Asked, Question, Stamp, answer, is_settled, stamp_of, together
+from ..source.location import SourceFile
+from ..store import Store
+from .outcome import Options, Report
+from .settings import Settings
+
+_FORMAT = 1
+_DAYS = 30
+_MOST = 200 * 1024 * 1024
+
+Row = tuple[str, str, str, "Stamp | None"]
+"""A question, its answer, and the stamp that vouches for it; None where it has to be asked."""
+
+
+class Cache:
+    """Reports by question. One command has one; what it has looked at, it does not look at again.
+
+    Attributes:
+        store: Where they are.
+    """
+
+    def __init__(self, store: Store) -> None:
+        """Take the folder."""
+        self.store = store
+        self._code = _code()
+        self._stamps: dict[Question, Stamp | None] = {}
+        self._answers: dict[Question, tuple[str, Stamp | None]] = {}
+        self._sets: dict[str, str] = {}
+        self._valid: dict[str, bool] = {}
+
+    def key(
+        self,
+        path: str | Path,
+        options: Options,
+        configuration: Configuration,
+        settings: Settings,
+    ) -> str:
+        """The question, in one word."""
+        facts = [
+            *(_FORMAT, self._code, os.getcwd(), str(path), sorted(options.arguments.items())),
+            *(_folders(options.packages), [str(path) for path in options.package_paths]),
+            *(configuration.path, _folders(configuration.packages), _plain(settings)),
+            getattr(options, "fixes", False),
+            getattr(options, "fixes", False),
+        ]
+        return sha256(repr(facts).encode("utf-8", "surrogateescape")).hexdigest()
+
+    def read(self, key: str) -> Report | None:
+        """A report that would come out the same now; None where none is known."""
+        data = self.store.get(key)
+        if data is None:
+            return None
+        try:
+            rows, report = _Reader(io.BytesIO(data)).load()
+            if not all(self._holds(row) for row in rows):
+                return None
+            found = _Reader(io.BytesIO(report), self).load()
+        except _NOT_WHOLE:
+            return None
+        return found if isinstance(found, Report) else None
+
+    def write(self, key: str, report: Report, asked: Asked) -> None:
+        """Keep a report, unless something that it hangs on changed meanwhile."""
+        if report.error is not None or report.failed_rules:
+            return
+        try:
+            rows = self._rows(asked)
+            if rows is None:
+                return
+            stream = io.BytesIO()
+            _Writer(stream, {row[1]: row[2] for row in rows if row[0] == "file"}).dump(report)
+        except (OSError, ValueError, pickle.PicklingError):
+            return
+        self.store.put(key, pickle.dumps((rows, stream.getvalue()), 5))
+
+    def source(self, path: str, encoding: str, digest: str) -> SourceFile:
+        """A file as it was when it was checked.
+
+        Raises:
+            ValueError: It is not as it was.
+        """
+        with open(path, "rb") as stream:
+            data = stream.read()
+        if sha256(data).hexdigest() != digest:
+            raise ValueError(path)
+        return SourceFile(path, data, encoding)
+
+    def _rows(self, asked: Asked) -> list[Row] | None:
+        """What was asked, with the answers; None if a stamp is no longer what it was then."""
+        rows: list[Row] = []
+        for question, stamp in asked.items():
+            if question[0] == "many":
+                digest = self._set(question[1])
+                if digest is None:
+                    return None
+                rows.append(("many", digest, "", None))
+                continue
+            if question not in self._answers:
+                said = answer(question)
+                self._answers[question] = said, stamp_of(question)
+            said, now = self._answers[question]
+            if now != stamp and said != "folder":
+                return None
+            rows.append((*question, said, now if is_settled(now) and now else None))
+        return rows
+
+    def _set(self, number: str) -> str | None:
+        """The digest by which a set of questions is kept."""
+        if number not in self._sets:
+            rows = self._rows(together[int(number)])
+            if rows is None:
+                return None
+            data = pickle.dumps(rows, 5)
+            self._sets[number] = sha256(data).hexdigest()
+            self.store.put(self._sets[number], data)
+        return self._sets[number]
+
+    def _holds(self, row: Row) -> bool:
+        """Whether a question is answered as it was."""
+        kind, path, said, stamp = row
+        if kind == "many":
+            return self._set_holds(path)
+        question = kind, path
+        if question not in self._stamps:
+            self._stamps[question] = stamp_of(question)
+        now = self._stamps[question]
+        if kind != "env" and (now is None) == (said == ABSENT) and (now is None or now == stamp):
+            return True
+        if question not in self._answers:
+            self._answers[question] = answer(question), now
+        return self._answers[question][0] == said
+
+    def _set_holds(self, digest: str) -> bool:
+        if digest not in self._valid:
+            data = self.store.get(digest)
+            rows = [] if data is None else _Reader(io.BytesIO(data)).load()
+            self._valid[digest] = data is not None and all(self._holds(row) for row in rows)
+        return self._valid[digest]
+
+    def trim(self) -> None:
+        """Remove what has not been used for long."""
+        self.store.trim(days=_DAYS, most=_MOST)
+
+
+_NOT_WHOLE = (
+    *(OSError, ValueError, TypeError, AttributeError, KeyError, IndexError, EOFError),
+    *(ImportError, pickle.UnpicklingError),
+)
+
+
+class _Writer(pickle.Pickler):
+    """Writes reports; a file of the source by its path and digest, where it is as on the disk."""
+
+    def __init__(self, stream: io.BytesIO, digests: Mapping[str, str]) -> None:
+        super().__init__(stream, 5)
+        self.digests = digests
+        self.names: dict[int, tuple[str, str, str | bytes]] = {}
+
+    def persistent_id(self, value: Any) -> Any:
+        if not isinstance(value, SourceFile):
+            return None
+        if id(value) not in self.names:
+            digest = sha256(value.data).hexdigest()
+            whole = self.digests.get(os.path.join(os.getcwd(), value.path)) == digest
+            self.names[id(value)] = value.path, value.encoding, digest if whole else value.data
+        return self.names[id(value)]
+
+
+class _Reader(pickle.Unpickler):
+    """Reads reports, and refuses whatever is none of ours."""
+
+    def __init__(self, stream: io.BytesIO, cache: Cache | None = None) -> None:
+        super().__init__(stream)
+        self.cache = cache
+        self.files: dict[Any, SourceFile] = {}
+
+    def find_class(self, module: str, name: str) -> Any:
+        if module.startswith("urdftool.") or (module, name) in _BUILTINS:
+            found = super().find_class(module, name)
+            if isinstance(found, type):
+                return found
+        raise pickle.UnpicklingError(f"{module}.{name}")
+
+    def persistent_load(self, pid: Any) -> SourceFile:
+        path, encoding, content = pid
+        if pid not in self.files:
+            if isinstance(content, bytes):
+                self.files[pid] = SourceFile(path, content, encoding)
+            else:
+                assert self.cache is not None
+                self.files[pid] = self.cache.source(path, encoding, content)
+        return self.files[pid]
+
+
+_BUILTINS = {("builtins", "frozenset"), ("builtins", "set")}
+
+
+def _code() -> list[Any]:
+    """What stands for the code that would run: the tool's files, Python, what is installed."""
+    root = Path(__file__).parents[1]
+    folders = [str(root)]
+    files: list[tuple[str, int, int]] = []
+    for folder in folders:
+        with os.scandir(folder) as entries:
+            for entry in entries:
+                if entry.name.endswith((".py", ".html")):
+                    status = entry.stat()
+                    files.append((entry.path, status.st_size, status.st_mtime_ns))
+                elif "." not in entry.name and entry.name != "__pycache__" and entry.is_dir():
+                    folders.append(entry.path)
+    return [__version__, sys.version, sorted(files), list(_installed(sys.path))]
+
+
+def _installed(path: Iterable[str]) -> Iterable[tuple[str, int]]:
+    """The folders of libraries, with when something was installed in them."""
+    for folder in path:
+        if os.path.basename(folder) in ("site-packages", "dist-packages"):
+            try:
+                yield folder, os.stat(folder).st_mtime_ns
+            except OSError:
+                continue
+
+
+def _folders(packages: Mapping[str, str | Path]) -> list[tuple[str, str]]:
+    return sorted((name, str(folder)) for name, folder in packages.items())
+
+
+def _plain(settings: Settings) -> list[Any]:
+    """Settings without order where they have none."""
+    return [
+        *(settings.select, settings.extend_select, settings.ignore),
+        None if settings.targets is None else sorted(settings.targets),
+        sorted((name, level and level.label) for name, level in settings.severity.items()),
+        sorted((name, sorted(table.items())) for name, table in settings.thresholds.items()),
+    ]
