@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .camera import View
-from .light import Colors, Lights, ShadowMap, blurred, sampled, spacing, to_linear
+from .light import Colors, ShadowMap, blurred, sampled, spacing, to_linear
 from .raster import Floats
 
 BACKDROP = ((0.985, 0.987, 0.99), (0.87, 0.885, 0.905))
@@ -14,8 +14,9 @@ BACKDROP = ((0.985, 0.987, 0.99), (0.87, 0.885, 0.905))
 _FLOOR = (0.80, 0.815, 0.835)
 _LINE = (0.66, 0.68, 0.71)
 _SHADE, _CONTACT = 0.50, 0.45
-_SOFT, _NEAR = 9.0, 14.0
-_CONTACT_MAP = 512
+_SOFT, _NEAR = 0.010, 0.016  # of the width of the map
+_CONTACT_MAP = 256
+_FAR = 3.0
 
 
 def backdrop(size: tuple[int, int], color: tuple[float, float, float] | None) -> Colors:
@@ -29,84 +30,89 @@ def backdrop(size: tuple[int, int], color: tuple[float, float, float] | None) ->
 
 
 class Ground:
-    """A level floor.
+    """A level floor under a robot of size one about the origin.
 
     Attributes:
-        height: Of it [m].
+        height: Of it.
     """
 
     def __init__(
-        self, height: float, corners: Floats, shadow: ShadowMap | None, lights: Lights
+        self, height: float, corners: Floats, shadow: ShadowMap | None, scale: float
     ) -> None:
-        """A floor under triangles [m], shape (m, 3, 3), that throw the shadow."""
+        """A floor under triangles, shape (m, 3, 3), that throw the shadow.
+
+        Args:
+            height: Of the floor.
+            corners: The triangles.
+            shadow: What they keep from the light.
+            scale: Metres of one unit, for the grid.
+        """
         self.height = height
-        low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
-        self._middle = (low + high)[:2] / 2
-        self._size = max(float((high - low).max()), 1e-9)
-        self._shadow, self._lights = shadow, lights
-        self._soft = None if shadow is None else blurred(shadow.covered, _SOFT)
+        self._grid = spacing(scale) / scale
+        self._shadow = shadow
+        self._soft = None
+        if shadow is not None:
+            covered = shadow.covered()
+            self._soft = blurred(covered, _SOFT * len(covered))
         self._touch = self._contact(corners)
 
     def _contact(self, corners: Floats) -> tuple[ShadowMap, Colors] | None:
         """What is close to the floor, seen from below."""
-        reach = 0.10 * self._size
-        low = corners[..., 2].min(axis=1) < self.height + reach
-        if not low.any():
+        reach = 0.10
+        low = corners[corners[..., 2].min(axis=1) < self.height + reach]
+        if not len(low):
             return None
-        seen = ShadowMap(corners[low], np.array([0.0, 0.0, -1.0]), _CONTACT_MAP)
-        gap = np.maximum(seen.depths() * -1 - self.height, 0) / reach
-        close = np.where(seen.covered > 0, np.clip(1 - gap, 0, 1) ** 2, 0).astype(np.float32)
-        return seen, blurred(close, _NEAR * _CONTACT_MAP / 1024)
+        seen = ShadowMap(low, np.array([0.0, 0.0, -1.0]), _CONTACT_MAP)
+        gap = np.clip((-seen.depths() - self.height) / reach, 0, 1)
+        return seen, blurred(np.square(1 - gap), _NEAR * _CONTACT_MAP)
 
     def paint(self, pixels: Colors, view: View) -> None:
         """Draw it onto a backdrop, rows of pixels in linear light, as far as it is ahead."""
         if view.eye[2] <= self.height:
             return
         width, height = view.size
-        across = ((np.arange(width) + 0.5) / width * 2 - 1) * view.reach[0]
-        upward = (1 - (np.arange(height) + 0.5) / height * 2) * view.reach[1]
-        rays = (
-            across[None, :, None] * view.axes[0]
-            + upward[:, None, None] * view.axes[1]
-            - view.axes[2]
-        )
-        falls = rays[..., 2] < -1e-6
-        along = (self.height - view.eye[2]) / np.where(falls, rays[..., 2], -1.0)
-        at = view.eye[:2] + rays[..., :2] * along[..., None]
-        distance = np.linalg.norm(at - self._middle, axis=2) / self._size
-        there = falls & (distance < 3.0)
+        x = ((np.arange(width) + 0.5) / width * 2 - 1) * view.reach[0]
+        y = (1 - (np.arange(height) + 0.5) / height * 2) * view.reach[1]
+        right, up, back = view.axes
+        # upright, so each row of pixels has one slope
+        falls = np.flatnonzero(y * up[2] - back[2] < -1e-6)
+        along = (self.height - view.eye[2]) / (y[falls] * up[2] - back[2])
+        forward = view.eye[:2] + along[:, None] * (y[falls, None] * up[:2] - back[:2])
+        at = (forward[:, None] + (along[:, None] * x)[..., None] * right[:2]).astype(np.float32)
+        there = np.einsum("ijk,ijk->ij", at, at) < _FAR**2
         rows, columns = np.nonzero(there)
         if not len(rows):
             return
-        strength = np.clip((3.0 - distance[there]) / 2.4, 0, 1)
-        strength = (strength * strength * (3 - 2 * strength))[:, None].astype(np.float32)
         points = at[there]
-        # how much floor a pixel spans, by its height over the horizon
-        span = 2 * view.reach[1] / height * along[there] * np.linalg.norm(rays[there], axis=1)
-        lean = np.maximum(-rays[there][:, 2] / np.linalg.norm(rays[there], axis=1), 0.05)
-        line = self._lines(points, span / np.sqrt(lean))[:, None]
+        strength = np.clip((_FAR - np.hypot(points[:, 0], points[:, 1])) / 2.4, 0, 1)
+        strength = strength * strength * (3 - 2 * strength)
+        # how much floor a pixel spans: more where it is seen at a slant
+        lean = np.maximum((back[2] - y[falls] * up[2]) / np.sqrt(1 + y[falls] ** 2), 0.05)
+        span = (2 * view.reach[1] / height * along / np.sqrt(lean)).astype(np.float32)[rows]
+        line = self._lines(points, span)[:, None]
         floor = to_linear(np.array(_FLOOR))
         color = floor + (to_linear(np.array(_LINE)) - floor) * line
-        dark = self._darkness(points)[:, None]
-        pixels[rows, columns] += (color - pixels[rows, columns]) * strength * 0.85
-        pixels[rows, columns] *= 1 - dark * np.minimum(strength * 2, 1)
+        dark = self._darkness(points) * np.minimum(strength * 2, 1)
+        here = pixels[falls[rows], columns]
+        here += (color - here) * (strength * np.float32(0.85))[:, None]
+        pixels[falls[rows], columns] = here * (1 - dark)[:, None]
 
-    def _lines(self, points: Floats, span: Floats) -> Colors:
-        width = spacing(self._size)
-        near = np.abs(points / width - np.round(points / width)) * width
+    def _lines(self, points: Colors, span: Colors) -> Colors:
+        width = np.float32(self._grid)
+        near = np.abs(points - np.round(points / width) * width)
+        near = np.minimum(near[:, 0], near[:, 1])
         thick = 0.006 * width
         # a line thinner than a pixel is fainter instead
-        cover = np.clip((thick + span[:, None] / 2 - near) / span[:, None], 0, 1)
-        cover *= np.minimum(2 * thick / span[:, None] + 0.35, 1)
-        fine = np.clip(1.5 - span * 6 / width, 0, 1)
-        return np.asarray(cover.max(axis=1) * fine, dtype=np.float32)
+        cover = np.clip((thick + span / 2 - near) / span, 0, 1)
+        cover *= np.minimum(2 * thick / span + 0.35, 1)
+        return np.asarray(cover * np.clip(1.5 - span * 6 / width, 0, 1), dtype=np.float32)
 
-    def _darkness(self, points: Floats) -> Colors:
-        level = np.full((len(points), 1), self.height)
+    def _darkness(self, points: Colors) -> Colors:
+        level = np.full((len(points), 1), self.height, np.float32)
         on_floor = np.concatenate([points, level], axis=1)
         clear = np.ones(len(points), dtype=np.float32)
         if self._soft is not None and self._shadow is not None:
-            clear *= 1 - _SHADE * sampled(self._soft, self._shadow.place(on_floor))
+            clear *= 1 - _SHADE * sampled(self._soft, self._shadow.place(on_floor) * np.float32(0.5))
         if self._touch is not None:
             clear *= 1 - _CONTACT * sampled(self._touch[1], self._touch[0].place(on_floor))
         return 1 - clear

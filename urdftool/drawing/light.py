@@ -16,10 +16,9 @@ Colors = npt.NDArray[np.float32]
 
 GAMMA = 2.2
 
-_SKY, _EARTH = 0.50, 0.26
-_KEY, _FILL, _SHINE = 0.62, 0.16, 0.10
+_SKY, _EARTH = 0.47, 0.25
+_KEY, _FILL, _SHINE = 0.60, 0.16, 0.10
 _HARDNESS = 28.0
-_MAP = 1024
 _TAPS = ((0.0, 0.0), (-1.1, -0.4), (0.4, -1.1), (1.1, 0.4), (-0.4, 1.1))
 
 
@@ -75,57 +74,61 @@ class ShadowMap:
     """What stands in the way of parallel light.
 
     Attributes:
-        texel: Width of a sample of the map [m].
+        resolution: Rows and columns of samples.
+        texel: Width of a sample.
     """
 
-    def __init__(self, corners: Floats, direction: Floats, resolution: int = _MAP) -> None:
-        """Draw triangles [m], shape (m, 3, 3), as they are seen from where the light comes."""
+    def __init__(self, corners: Floats, direction: Floats, resolution: int) -> None:
+        """Draw triangles, shape (m, 3, 3), as they are seen from where the light comes."""
         side = np.cross([0.0, 0.0, 1.0], direction)
         length = float(np.linalg.norm(side))
         side = side / length if length > 1e-9 else np.array([1.0, 0.0, 0.0])
         self._axes = np.stack([side, np.cross(direction, side), direction])
-        seen = corners @ self._axes.T
-        low, high = seen.min(axis=(0, 1)), seen.max(axis=(0, 1))
-        self.texel = max(float((high - low)[:2].max()), 1e-12) / (resolution * 0.9)
+        seen = corners.reshape(-1, 3) @ self._axes.T
+        low, high = seen.min(axis=0), seen.max(axis=0)
+        self.resolution = resolution
+        self.texel = max(float((high - low)[:2].max()), 1e-12) / (resolution * 0.85)
         self._corner = (low + high)[:2] / 2 - self.texel * resolution / 2
         self._low, self._range = float(low[2]), max(float(high[2] - low[2]), 1e-12)
-        self._resolution = resolution
         flat = np.concatenate(
-            [(seen[..., :2] - self._corner) / self.texel, self._near(seen[..., 2:])], axis=2
+            [(seen[:, :2] - self._corner) / self.texel, self._near(seen[:, 2:])], axis=1
         )
-        _, nearness = front(flat, (resolution, resolution))
-        self._nearness = nearness
+        _, self._nearness = front(flat.reshape(-1, 3, 3), (resolution, resolution))
 
-    def _near(self, along: Floats) -> Floats:
-        return np.asarray(1.0 + (along - self._low) / self._range)
+    def _near(self, along: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
+        return 1.0 + (along - self._low) / self._range
 
-    @property
     def covered(self) -> Colors:
-        """Where anything is in the way: 1, elsewhere 0; rows of the map."""
-        square = self._nearness.reshape(self._resolution, self._resolution)
-        return np.asarray(square > 0, dtype=np.float32)
+        """How much of each sample is in shadow, for every second row and column of the map."""
+        half = self.resolution // 2
+        square = (self._nearness > 0).reshape(half, 2, half, 2)
+        return np.asarray(square.mean(axis=(1, 3)), dtype=np.float32)
 
-    def depths(self) -> Floats:
-        """How far along the light what it meets first lies [m]; rows of the map."""
-        square = self._nearness.reshape(self._resolution, self._resolution)
-        return np.asarray((square.astype(np.float64) - 1) * self._range + self._low)
+    def depths(self) -> Colors:
+        """How far along the light the first thing lies, rows of the map; -inf where none is."""
+        square = self._nearness.reshape(self.resolution, self.resolution)
+        along = (square - 1) * np.float32(self._range) + np.float32(self._low)
+        return np.asarray(np.where(square > 0, along, -np.inf), dtype=np.float32)
 
-    def place(self, points: Floats) -> Floats:
-        """Columns and rows of points [m] in the map."""
-        return np.asarray((points @ self._axes[:2].T - self._corner) / self.texel)
+    def place(self, points: Colors) -> Colors:
+        """Columns and rows of points in the map, shape (2, n)."""
+        axes = (self._axes[:2] / self.texel).astype(np.float32)
+        corner = (self._corner / self.texel).astype(np.float32)
+        return np.asarray(axes @ points.T - corner[:, None])
 
-    def lit(self, points: Floats, normals: Floats) -> Colors:
-        """How much of the light reaches points [m] with unit normals: 0 … 1, shape (n,)."""
+    def lit(self, points: Colors, normals: Colors) -> Colors:
+        """How much of the light reaches points with unit normals: 0 … 1, shape (n,)."""
         # lifted off the surface, which would shade itself where the map is coarse
-        lifted = points + normals * (1.6 * self.texel)
-        at = self.place(lifted)
-        own = self._near(lifted @ self._axes[2]) + 0.6 * self.texel / self._range
-        own = own.astype(np.float32)
+        lifted = points + normals * np.float32(1.6 * self.texel)
+        x, y = self.place(lifted)
+        own = self._near(lifted @ self._axes[2].astype(np.float32))
+        own = (own + 0.6 * self.texel / self._range).astype(np.float32)
         total = np.zeros(len(points), dtype=np.float32)
+        last = self.resolution - 1
         for dx, dy in _TAPS:
-            column = np.clip((at[:, 0] + dx).astype(np.int64), 0, self._resolution - 1)
-            row = np.clip((at[:, 1] + dy).astype(np.int64), 0, self._resolution - 1)
-            total += self._nearness[row * self._resolution + column] <= own
+            column = np.clip((x + np.float32(dx)).astype(np.int64), 0, last)
+            row = np.clip((y + np.float32(dy)).astype(np.int64), 0, last)
+            total += self._nearness[row * self.resolution + column] <= own
         return np.asarray(total / np.float32(len(_TAPS)))
 
 
@@ -142,10 +145,10 @@ def blurred(values: Colors, radius: float) -> Colors:
     return values
 
 
-def sampled(values: Colors, at: Floats) -> Colors:
-    """A map at columns and rows, mixed between the middles of its samples; 0 outside of it."""
+def sampled(values: Colors, at: Colors) -> Colors:
+    """A map at columns and rows, shape (2, n), mixed between its samples; 0 outside of it."""
     height, width = values.shape
-    x, y = at[:, 0] - 0.5, at[:, 1] - 0.5
+    x, y = at[0] - 0.5, at[1] - 0.5
     inside = (x >= 0) & (y >= 0) & (x < width - 1) & (y < height - 1)
     x, y = np.where(inside, x, 0.0), np.where(inside, y, 0.0)
     column, row = x.astype(np.int64), y.astype(np.int64)

@@ -57,77 +57,70 @@ def front(corners: Floats, size: tuple[int, int]) -> tuple[Owners, Nearness]:
 def covered(corners: Floats, size: tuple[int, int]) -> Iterator[Samples]:
     """The samples whose middle each triangle covers, some at a time; arguments as :func:`front`."""
     width, height = size
-    low = np.clip(np.ceil(corners[:, :, 1].min(axis=1) - 0.5), 0, height)
-    high = np.clip(np.floor(corners[:, :, 1].max(axis=1) - 0.5), -1, height - 1)
-    left, right = corners[:, :, 0].min(axis=1), corners[:, :, 0].max(axis=1)
-    rows = np.where((right > 0) & (left < width), np.maximum(high - low + 1, 0), 0)
-    rows = np.where(_thin(left, right), 0, rows).astype(np.int64)
-    used = np.flatnonzero(rows)
-    ends = np.cumsum(rows[used])
+    (ax, ay, _), (bx, by, _), (cx, cy, _) = np.ascontiguousarray(corners.transpose(1, 2, 0))
+    left, right = np.minimum(np.minimum(ax, bx), cx), np.maximum(np.maximum(ax, bx), cx)
+    top, bottom = np.minimum(np.minimum(ay, by), cy), np.maximum(np.maximum(ay, by), cy)
+    low = np.clip(np.ceil(top - 0.5), 0, height)
+    rows = np.clip(np.floor(bottom - 0.5), -1, height - 1) - low + 1
+    # between the middles of two columns there is no sample
+    seen = (rows > 0) & (right > 0) & (left < width) & (np.ceil(left - 0.5) <= right - 0.5)
+    used = np.flatnonzero(seen)
+    counts = rows[used].astype(np.int64)
+    ends = np.cumsum(counts)
     begin = 0
     while begin < len(used):
         done = ends[begin - 1] if begin else 0
         stop = max(begin + 1, int(np.searchsorted(ends, done + _ROWS_AT_ONCE, side="right")))
         some = used[begin:stop]
-        yield from _samples(some, corners[some], low[some].astype(np.int64), rows[some], width)
+        yield from _samples(some, corners[some], low[some], counts[begin:stop], width)
         begin = stop
 
 
-def _thin(left: Floats, right: Floats) -> npt.NDArray[np.bool_]:
-    """Triangles between the middles of two columns, which cover no sample."""
-    return np.asarray(np.ceil(left - 0.5) > np.floor(right - 0.5))
-
-
 def _samples(
-    triangles: Indices, corners: Floats, low: Indices, rows: Indices, width: int
+    triangles: Indices, corners: Floats, low: Floats, rows: Indices, width: int
 ) -> Iterator[Samples]:
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    """Rows to spans, and spans to samples."""
+    a, b, c = np.ascontiguousarray(corners.transpose(1, 2, 0))
     ab, ac = b - a, c - a
-    area = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
-    flat = area == 0
-    safe = np.where(flat, 1.0, area)
-    slope_x = (ab[:, 2] * ac[:, 1] - ac[:, 2] * ab[:, 1]) / safe
-    slope_y = (ac[:, 2] * ab[:, 0] - ab[:, 2] * ac[:, 0]) / safe
-    span = np.repeat(np.arange(len(rows)), np.where(flat, 0, rows))
+    area = ab[0] * ac[1] - ab[1] * ac[0]
+    rows = np.where(area == 0, 0, rows)
+    safe = np.where(area == 0, 1.0, area)
+    slope_x = (ab[2] * ac[1] - ac[2] * ab[1]) / safe
+    slope_y = (ac[2] * ab[0] - ab[2] * ac[0]) / safe
+    span = np.repeat(np.arange(len(rows)), rows)
     if not len(span):
         return
-    rows = np.where(flat, 0, rows)
-    y = low[span] + _within(rows) + 0.5
-    begin = np.full(len(span), -np.inf)
-    end = np.full(len(span), np.inf)
-    turn = np.sign(area)
+    line = low[span] + _within(rows)
+    y = line + 0.5
+    begin, end = np.full(len(span), -np.inf), np.full(len(span), np.inf)
     for one, other in ((a, b), (b, c), (c, a)):
-        dx, dy = (other - one)[:, 0] * turn, (other - one)[:, 1] * turn
-        level = (dy == 0)[span]
-        # inside is where dx (y - y0) - dy (x - x0) >= 0
-        steep = np.where(dy == 0, 1.0, dy)
-        at = one[span, 0] + (y - one[span, 1]) * (dx / steep)[span]
-        upper = (dy > 0)[span]
-        end = np.where(upper & ~level, np.minimum(end, at), end)
-        begin = np.where(~upper & ~level, np.maximum(begin, at), begin)
+        dx, dy = other[0] - one[0], other[1] - one[1]
+        # an edge bounds the span on the side that its direction says; a level one does not
+        side = np.where(area > 0, dy, -dy)
+        ratio = dx / np.where(dy == 0, 1.0, dy)
+        at = (one[0] - one[1] * ratio)[span] + y * ratio[span]
+        sides = side[span]
+        np.minimum(end, at, out=end, where=sides > 0)
+        np.maximum(begin, at, out=begin, where=sides < 0)
     first = np.clip(np.ceil(begin - 0.5), 0, width).astype(np.int64)
-    last = np.clip(np.floor(end - 0.5), -1, width - 1).astype(np.int64)
-    counts = np.maximum(last - first + 1, 0)
-    kept = np.flatnonzero(counts)
+    counts = np.clip(np.floor(end - 0.5), -1, width - 1).astype(np.int64) - first + 1
+    kept = np.flatnonzero(counts > 0)
     span, y, first, counts = span[kept], y[kept], first[kept], counts[kept]
-    line = (y - 0.5).astype(np.int64) * width
-    start = a[span, 2] + (y - a[span, 1]) * slope_y[span] + (0.5 - a[span, 0]) * slope_x[span]
+    start = a[2][span] + (y - a[1][span]) * slope_y[span] + (0.5 - a[0][span]) * slope_x[span]
+    start += slope_x[span] * first
     slope, owner = slope_x[span], triangles[span]
+    place = line[kept].astype(np.int64) * width + first
     ends = np.cumsum(counts)
-    at = 0
-    while at < len(counts):
-        done = ends[at - 1] if at else 0
-        stop = max(at + 1, int(np.searchsorted(ends, done + _SAMPLES_AT_ONCE, side="right")))
-        some = slice(at, stop)
-        repeats = counts[some]
-        column = np.repeat(first[some], repeats) + _within(repeats)
-        nearness = np.repeat(start[some], repeats) + np.repeat(slope[some], repeats) * column
-        yield Samples(
-            np.repeat(owner[some], repeats),
-            np.repeat(line[some], repeats) + column,
-            nearness.astype(np.float32),
-        )
-        at = stop
+    at_span = 0
+    while at_span < len(counts):
+        done = ends[at_span - 1] if at_span else 0
+        stop = max(at_span + 1, int(np.searchsorted(ends, done + _SAMPLES_AT_ONCE, side="right")))
+        some = slice(at_span, stop)
+        which = np.repeat(np.arange(at_span, stop), counts[some])
+        step = _within(counts[some])
+        nearness = start[which] + slope[which] * step
+        yield Samples(owner[which], place[which] + step, nearness.astype(np.float32))
+        at_span = stop
 
 
 def _within(counts: Indices) -> Indices:

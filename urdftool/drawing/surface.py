@@ -1,0 +1,124 @@
+"""What is seen at samples of surfaces: their point, normal, colour and light."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .camera import View
+from .light import Colors, Lights, ShadowMap, shade, to_linear
+from .raster import Floats, Indices
+from .shapes import Shapes
+from .texture import looked_up
+
+OPAQUE = 0.995
+"""Opacity from which on nothing is seen through."""
+
+
+@dataclass
+class Scene:
+    """Triangles in the world, and how they are seen.
+
+    Attributes:
+        shapes: What they are taken from.
+        view: The camera.
+        lights: The lights.
+        shadow: What is between the key light and what it lights.
+        rows: Their rows in ``shapes``.
+        corners: Their corners in the camera's axes, from the eye.
+        normals: Their normals at the corners, in the world.
+        size: Columns and rows of samples.
+    """
+
+    shapes: Shapes
+    view: View
+    lights: Lights
+    shadow: ShadowMap | None
+    rows: Indices
+    corners: Floats
+    normals: Floats
+    size: tuple[int, int]
+
+    def shaded(self, triangles: Indices, samples: Indices) -> tuple[Colors, Colors, Colors]:
+        """Light, opacity, and height in the world at samples that triangles cover.
+
+        A ray d from the eye meets the plane of a triangle a b c where its barycentric weights are
+        as d·(b×c), d·(c×a) and d·(a×b); their sum is d·n with n = (b-a)×(c-a).
+        """
+        used, row = _compact(triangles, len(self.corners))
+        a, b, c = (self.corners[used, k] for k in range(3))
+        areas = np.stack([_cross(b, c), _cross(c, a), _cross(a, b)], axis=1)
+        planes = _cross(b - a, c - a)
+        # scaled, so that single precision does not run out
+        largest = np.abs(areas).max(axis=(1, 2), initial=0.0)
+        largest = np.where(largest > 0, largest, 1.0)[:, None]
+        offsets = (np.einsum("ij,ij->i", a, planes)[:, None] / largest).astype(np.float32)[:, 0]
+        areas = (areas / largest[..., None]).astype(np.float32)
+        planes = (planes / largest).astype(np.float32)
+        rays = self._rays(samples)
+        weights = np.einsum("nij,nj->ni", areas[row], rays)
+        slant = np.einsum("ni,ni->n", planes[row], rays)
+        weights = np.clip(weights / np.where(slant == 0, 1, slant)[:, None], 0, 1)
+        weights /= np.maximum(weights.sum(axis=1, keepdims=True), np.float32(1e-9))
+        # just before an edge-on plane the ray goes on for ever; the corners say how far it may
+        depth = -self.corners[used, :, 2].astype(np.float32)
+        far = offsets[row] / np.where(slant == 0, 1, slant)
+        far = np.clip(far, depth.min(axis=1)[row], depth.max(axis=1)[row])
+        normals = np.einsum("ni,nij->nj", weights, self.normals[used].astype(np.float32)[row])
+        _unit(normals)
+        normals *= np.where(slant > 0, np.float32(-1), np.float32(1))[:, None]
+        axes = self.view.axes.astype(np.float32)
+        rays = rays @ axes
+        world = rays * far[:, None] + self.view.eye.astype(np.float32)
+        to_eye = -rays
+        _unit(to_eye)
+        lit = np.ones(len(world), dtype=np.float32)
+        if self.shadow is not None:
+            lit = self.shadow.lit(world, normals)
+        colors, opacity = self._colors(self.rows[used], row, weights)
+        return shade(colors, normals, to_eye, lit, self.lights), opacity, world[:, 2]
+
+    def _rays(self, samples: Indices) -> Colors:
+        """Rays from the eye through samples, in the camera's axes, one long towards -z."""
+        width, height = self.size
+        rays = np.empty((len(samples), 3), dtype=np.float32)
+        line, column = np.divmod(samples, width)
+        rays[:, 0] = ((column + 0.5) * (2 / width) - 1) * self.view.reach[0]
+        rays[:, 1] = (1 - (line + 0.5) * (2 / height)) * self.view.reach[1]
+        rays[:, 2] = -1
+        return rays
+
+    def _colors(self, used: Indices, row: Indices, weights: Colors) -> tuple[Colors, Colors]:
+        """Colours in linear light, and opacities; of images, that at the point."""
+        plain = self.shapes.colors[used]
+        colors = to_linear(plain[:, :3])[row]
+        images = self.shapes.image[used]
+        for number in np.unique(images[images >= 0]):
+            some = np.flatnonzero((images == number)[row])
+            uv = np.einsum("ni,nij->nj", weights[some], self.shapes.uv[used][row[some]])
+            texels = looked_up(self.shapes.images[number], uv)
+            colors[some] *= to_linear(texels[:, :3])
+        return colors, plain[:, 3].astype(np.float32)[row]
+
+
+def _compact(triangles: Indices, count: int) -> tuple[Indices, Indices]:
+    """The triangles that occur, in order, and for each sample the place of its own among them."""
+    there = np.zeros(count, dtype=bool)
+    there[triangles] = True
+    number = np.cumsum(there) - 1
+    return np.flatnonzero(there), number[triangles]
+
+
+def _cross(one: Floats, other: Floats) -> Floats:
+    """Cross products of rows; numpy's own is several times slower."""
+    made = np.empty_like(one)
+    for axis, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        made[:, axis] = one[:, i] * other[:, j] - one[:, j] * other[:, i]
+    return made
+
+
+def _unit(rows: Colors) -> None:
+    """Make rows one long, in place."""
+    length = np.sqrt(np.einsum("ni,ni->n", rows, rows))
+    rows /= np.maximum(length, np.float32(1e-9))[:, None]
