@@ -257,7 +257,7 @@ def test_other_code_settings_folders_and_arguments_are_other_questions(
     with monkeypatch.context() as patch:
         patch.chdir(tmp_path.parent)
         assert lint(os.path.relpath(tmp_path / path)).code == 3
-    monkeypatch.setattr(cache_module, "_code", lambda: ["another version"])
+    monkeypatch.setattr(cache_module, "_code", lambda: "another version")
     assert lint(path).code == 3
 
 

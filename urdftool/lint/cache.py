@@ -216,7 +216,7 @@ class _Reader(pickle.Unpickler):
 _BUILTINS = {("builtins", "frozenset"), ("builtins", "set")}
 
 
-def _code() -> list[Any]:
+def _code() -> str:
     """What stands for the code that would run: the tool's files, Python, what is installed."""
     root = Path(__file__).parents[1]
     folders = [str(root)]
@@ -229,7 +229,8 @@ def _code() -> list[Any]:
                     files.append((entry.path, status.st_size, status.st_mtime_ns))
                 elif "." not in entry.name and entry.name != "__pycache__" and entry.is_dir():
                     folders.append(entry.path)
-    return [__version__, sys.version, sorted(files), list(_installed(sys.path))]
+    facts = [__version__, sys.version, sorted(files), list(_installed(sys.path))]
+    return sha256(repr(facts).encode("utf-8", "surrogateescape")).hexdigest()
 
 
 def _installed(path: Iterable[str]) -> Iterable[tuple[str, int]]:
