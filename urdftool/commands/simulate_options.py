@@ -1,0 +1,194 @@
+"""The options of ``urdftool simulate`` that say how a robot is spawned."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable
+from time import monotonic
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from ..console import Console
+
+if TYPE_CHECKING:
+    from ..simulation.settings import Settings
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def _pairs(
+    ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
+) -> dict[str, float]:
+    found = {}
+    for value in values:
+        name, _, text = value.rpartition("=")
+        try:
+            found[name] = float(text)
+        except ValueError:
+            name = ""
+        if not name or not math.isfinite(found[name]):
+            raise click.BadParameter(f"'{value}' is not NAME=NUMBER", ctx, parameter)
+    return found
+
+
+def _finite(ctx: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
+    if value is not None and not math.isfinite(value):
+        raise click.BadParameter(f"'{value}' is not a finite number", ctx, parameter)
+    return value
+
+
+def _payloads(
+    ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
+) -> dict[str, float]:
+    found = _pairs(ctx, parameter, values)
+    if any(mass < 0 for mass in found.values()):
+        raise click.BadParameter("a payload weighs zero or more", ctx, parameter)
+    return found
+
+
+_OPTIONS = (
+    click.option(
+        "--duration",
+        type=click.FloatRange(0, 3600, min_open=True),
+        default=5.0,
+        show_default=True,
+        metavar="S",
+        help="The longest it is watched.",
+    ),
+    click.option(
+        "--timestep",
+        type=click.FloatRange(1e-5, 0.05),
+        default=0.002,
+        show_default=True,
+        metavar="S",
+        help="Of the engine.",
+    ),
+    click.option(
+        "--height",
+        type=float,
+        metavar="M",
+        callback=_finite,
+        help="Of the root above the plane; without it, the lowest point of what collides is just "
+        "above it.",
+    ),
+    click.option(
+        "--hold/--limp",
+        "hold",
+        default=None,
+        help="Hold every joint, within its effort, or none; without either, those that the file "
+        "actuates, or all where it actuates none.",
+    ),
+    click.option(
+        "--pose",
+        multiple=True,
+        metavar="JOINT=VALUE",
+        callback=_pairs,
+        help="Where a joint starts and is held, in rad or m. Repeatable.",
+    ),
+    click.option("--fixed-base", is_flag=True, help="Nail the root to the world."),
+    click.option(
+        "--payload",
+        multiple=True,
+        metavar="LINK=KG",
+        callback=_payloads,
+        help="Load a link, in its centre of mass. Repeatable.",
+    ),
+    click.option(
+        "--slope",
+        type=click.FloatRange(-60, 60),
+        default=0.0,
+        metavar="DEG",
+        help="Let the plane fall along x.",
+    ),
+    click.option(
+        "--friction",
+        type=click.FloatRange(0),
+        default=1.0,
+        show_default=True,
+        metavar="MU",
+        help="Where the file gives none.",
+    ),
+    click.option(
+        "--self-collision",
+        is_flag=True,
+        help="Let links push each other, other than the two of a joint.",
+    ),
+    click.option(
+        "--trials",
+        type=click.IntRange(1, 1000),
+        default=1,
+        show_default=True,
+        metavar="N",
+        help="Spawn it so often; all but the first time tilted and turned.",
+    ),
+    click.option("--seed", type=int, default=0, show_default=True, help="Of tilts and turns."),
+    click.option("--sweep", is_flag=True, help="Move each joint through its limits, too."),
+    click.option(
+        "--time-limit",
+        type=click.FloatRange(0.1, 86400),
+        default=60.0,
+        show_default=True,
+        metavar="S",
+        help="The longest the engine may work.",
+    ),
+)
+
+
+def settings_options(function: F) -> F:
+    """All of them; :func:`settings_of` takes their values."""
+    for option in reversed(_OPTIONS):
+        function = option(function)
+    return function
+
+
+def settings_of(values: dict[str, Any]) -> Settings:
+    """The settings that the options say."""
+    from ..simulation.settings import Settings
+
+    return Settings(
+        duration=values["duration"],
+        timestep=values["timestep"],
+        height=values["height"],
+        hold={None: "auto", True: "all", False: "none"}[values["hold"]],
+        pose=values["pose"],
+        fixed_base=values["fixed_base"],
+        payloads=values["payload"],
+        friction=values["friction"],
+        slope=math.radians(values["slope"]),
+        self_collision=values["self_collision"],
+        trials=values["trials"],
+        seed=values["seed"],
+        sweep=values["sweep"],
+        time_limit=values["time_limit"],
+    )
+
+
+_PATIENCE = 1.0  # seconds
+
+
+class Progress:
+    """A line on stderr while trials run, once that takes a while and at a terminal."""
+
+    def __init__(self, console: Console) -> None:
+        """Begin to wait."""
+        self.begin = monotonic()
+        self.wanted = sys.stderr.isatty() and not console.quiet
+        self.shown = False
+
+    def __call__(self, number: int, count: int) -> None:
+        """The trial that begins, of how many."""
+        if self.wanted and count > 1 and monotonic() - self.begin > _PATIENCE:
+            self.shown = True
+            bar = "#" * round(20 * (number - 1) / count)
+            click.echo(f"\r\033[Ktrial {number}/{count}  [{bar:<20}]", err=True, nl=False)
+
+    def __enter__(self) -> Progress:
+        """Itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Clear the line."""
+        if self.shown:
+            click.echo("\r\033[K", err=True, nl=False)

@@ -1,0 +1,163 @@
+"""A verdict in words, and as JSON; the schema is ``docs/schemas/simulate.json``."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+from ..model.elements import Robot
+from .findings import Painter, clean
+
+if TYPE_CHECKING:
+    from ..simulation.fault import Fault
+    from ..simulation.verdict import Verdict
+
+
+def text(robot: Robot, verdicts: Sequence[Verdict], *, colors: bool = False) -> str:
+    """What happened, in a table, and what went wrong, a paragraph each."""
+    paint = Painter(colors)
+    lines: list[str] = []
+    if len(verdicts) == 1:
+        lines += _one(robot, verdicts[0], paint)
+    else:
+        lines += _several(robot, verdicts, paint)
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _one(robot: Robot, verdict: Verdict, paint: Painter) -> Iterator[str]:
+    yield _headline(robot, verdict, paint)
+    rows = list(_rows(verdict))
+    width = max(len(label) for label, _ in rows)
+    for label, said in rows:
+        yield f"  {paint(f'{label:<{width}}', 'cyan')}  {said}"
+    yield from _faults(verdict.faults, paint)
+
+
+def _headline(robot: Robot, verdict: Verdict, paint: Painter) -> str:
+    name = clean(robot.name) or "the robot"
+    if verdict.stands:
+        return f"{name}: {paint('stands', 'green', bold=True)}"
+    kinds = ", ".join(dict.fromkeys(fault.kind for fault in verdict.faults if fault.fails))
+    return f"{name}: {paint('does not stand', 'red', bold=True)} ({kinds})"
+
+
+def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
+    run, rest = verdict.run, verdict.rest
+    recording, bodies = run.recording, run.bodies
+    held, limp = len(recording.held), len(recording.joints) - len(recording.held)
+    yield "engine", f"{recording.engine}, {recording.steps} steps of {run.settings.timestep:g} s"
+    root = "fixed to the world" if bodies.nailed else "free"
+    joints = f"{held} joints held, {limp} limp or following" if recording.joints else "no joints"
+    yield "robot", f"{bodies.mass:.4g} kg, {len(bodies.bodies)} bodies, {joints}; root {root}"
+    if rest.settled is None:
+        yield "at rest", f"not in {recording.times[-1]:.3g} s"
+    else:
+        yield "at rest", f"after {rest.settled:.2f} s"
+    if not bodies.nailed and math.isfinite(rest.drop):
+        yield (
+            "root",
+            f"sank {1000 * rest.drop:.1f} mm, moved {1000 * rest.drift:.1f} mm, "
+            f"tilted {math.degrees(rest.tilt):.1f}°",
+        )
+    if rest.supports and not bodies.nailed:
+        names = ", ".join(clean(name) for name in rest.supports[:6])
+        yield "stands on", names + (f", {len(rest.supports) - 6} more" * (len(rest.supports) > 6))
+        if rest.margin is not None:
+            yield (
+                "static margin",
+                f"{1000 * rest.margin:.1f} mm from the centre of mass to the nearest edge",
+            )
+
+
+def _faults(faults: Sequence[Fault], paint: Painter) -> Iterator[str]:
+    for fault in faults:
+        label, color = ("error", "red") if fault.fails else ("note", "blue")
+        place = f"{clean(str(fault.place))}: " if fault.place is not None else ""
+        yield ""
+        yield f"{paint(place, bold=True)}{paint(label, color, bold=True)}: {clean(fault.message)}"
+        if fault.cause:
+            yield f"   {paint('=', 'cyan')} {clean(fault.cause)}"
+        if fault.rule:
+            yield f"   {paint('=', 'cyan')} urdftool lint --explain {fault.rule}"
+
+
+def _several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -> Iterator[str]:
+    good = sum(verdict.stands for verdict in verdicts)
+    word = paint(f"{good} of {len(verdicts)}", "green" if good == len(verdicts) else "red")
+    yield f"{clean(robot.name) or 'the robot'}: stands in {word} trials"
+    seen: dict[tuple[str, str], tuple[Fault, list[int]]] = {}
+    for number, verdict in enumerate(verdicts, 1):
+        tilt = math.degrees(math.hypot(*verdict.run.settings.start_rpy[:2]))
+        kinds = ", ".join(dict.fromkeys(f.kind for f in verdict.faults if f.fails))
+        settled = "no rest" if verdict.rest.settled is None else f"{verdict.rest.settled:6.2f} s"
+        yield f"  trial {number:>3}  from {tilt:4.1f}°  {settled:>8}  {kinds or 'stands'}"
+        for fault in verdict.faults:
+            seen.setdefault((fault.kind, fault.name), (fault, []))[1].append(number)
+    yield from _faults([fault for fault, _ in seen.values()], paint)
+
+
+def to_json(robot: Robot, verdicts: Sequence[Verdict]) -> str:
+    """Everything, with the time series; metres, radians, kilograms, seconds."""
+    said: dict[str, Any] = {
+        "version": 1,
+        "name": robot.name,
+        "path": robot.source.path if robot.source is not None else None,
+        "stands": all(verdict.stands for verdict in verdicts),
+        "trials": [_trial(verdict) for verdict in verdicts],
+    }
+    return json.dumps(said, ensure_ascii=False) + "\n"
+
+
+def _trial(verdict: Verdict) -> dict[str, Any]:
+    run, rest = verdict.run, verdict.rest
+    recording = run.recording
+    return {
+        "stands": verdict.stands,
+        "faults": [_fault(fault) for fault in verdict.faults],
+        "settings": asdict(run.settings),
+        "engine": recording.engine,
+        "mass": run.bodies.mass,
+        "fixed": run.bodies.nailed,
+        "rest": {key: _plain(value) for key, value in asdict(rest).items()},
+        "held": {name: recording.targets[name] for name in recording.held},
+        "bodies": list(recording.bodies),
+        "joints": list(recording.joints),
+        "contacts": [asdict(contact) for contact in recording.contacts],
+        "steps": recording.steps,
+        "seconds": recording.seconds,
+        "series": {
+            name: _plain(getattr(recording, name).tolist())
+            for name in (
+                *("times", "poses", "velocities", "positions", "rates", "efforts"),
+                *("kinetic", "potential", "depths"),
+            )
+        },
+    }
+
+
+def _fault(fault: Fault) -> dict[str, Any]:
+    place = fault.place
+    return {
+        "kind": fault.kind,
+        "fails": fault.fails,
+        "message": fault.message,
+        "cause": fault.cause or None,
+        "rule": fault.rule or None,
+        "what": fault.what,
+        "name": fault.name,
+        "path": None if place is None else place.file.path,
+        "line": None if place is None else place.line,
+        "column": None if place is None else place.column,
+    }
+
+
+def _plain(value: Any) -> Any:
+    """A value with null for what is no finite number."""
+    if isinstance(value, (list, tuple)):
+        return [_plain(part) for part in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

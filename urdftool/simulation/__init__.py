@@ -1,0 +1,11 @@
+"""Does it stand? A robot spawned above a plane, left to itself, and judged.
+
+One module an idea, each imported on its own (this package loads nothing by itself):
+
+- ``settings``: how it is spawned and for how long;
+- ``bodies``, ``shapes``: the robot as rigid bodies, plain data that any engine can be fed with;
+- ``prepare``, ``urdf``: what is refused, and the folder an engine reads;
+- ``child``: an engine in a process of its own; ``bullet`` is one;
+- ``recording``: what an engine measured, whichever it was;
+- ``verdict`` and the ``judge_…`` beside it: what the recording says of the robot.
+"""

@@ -1,0 +1,314 @@
+"""The robot as rigid bodies: plain data that any engine can be fed with, and sent to a process."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..inertia.lump import placed as moved
+from ..inertia.tensor import MassProperties, combine, tensor_from_six
+from ..model.elements import Joint, Link, Robot
+from ..model.kinematics import limits_of, link_poses, with_mimics
+from ..model.pose import IDENTITY, Pose, pose_of, rotation_of_rpy
+from .settings import Settings
+from .shapes import Shape, shapes_of
+from .surface import Surface, surface_of
+
+ROOTED = "world"
+"""The name of a root link that Gazebo nails to the world."""
+
+
+@dataclass(frozen=True)
+class JointOf:
+    """The joint a body hangs on.
+
+    Attributes:
+        name: Its name.
+        kind: ``revolute``, ``continuous`` or ``prismatic``.
+        axis: Unit vector in the joint's frame.
+        lower: Limit [rad, m]; -inf where there is none.
+        upper: Limit [rad, m]; inf where there is none.
+        effort: The largest [N·m, N]; None where none is written, or zero is.
+        damping: [N·m·s/rad, N·s/m].
+        friction: [N·m, N].
+        leader: The joint that it mimics; None where it follows none.
+        multiplier: Of the leader's position.
+        offset: Added to that [rad, m].
+    """
+
+    name: str
+    kind: str
+    axis: tuple[float, float, float]
+    lower: float = -math.inf
+    upper: float = math.inf
+    effort: float | None = None
+    damping: float = 0.0
+    friction: float = 0.0
+    leader: str | None = None
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """Links joined by fixed joints; their frame is that of the topmost.
+
+    Attributes:
+        name: The topmost link.
+        links: All of them.
+        places: The pose of each in the body's frame.
+        properties: Mass, centre and tensor in the body's frame; None where nothing weighs.
+        shapes: What touches.
+        joint: What it hangs on; None for the root.
+        parent: Index of the body above; -1 for the root.
+        origin: The joint's frame in the parent's body frame.
+        surface: How it touches.
+    """
+
+    name: str
+    links: tuple[str, ...]
+    places: Mapping[str, Pose]
+    properties: MassProperties | None
+    shapes: tuple[Shape, ...]
+    joint: JointOf | None
+    parent: int
+    origin: Pose
+    surface: Surface
+
+    @property
+    def mass(self) -> float:
+        """What it weighs [kg]."""
+        return self.properties.mass if self.properties else 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Bodies:
+    """A robot's rigid bodies, each after the one it hangs on, and where they start.
+
+    Attributes:
+        bodies: The root first.
+        nailed: Whether the root is fixed to the world.
+        start: The pose of the root in the world.
+        positions: Where each joint starts [rad, m], by name, mimics followed.
+        held: Joints that are held, by name.
+        size: The largest extent of what collides, at the start [m].
+        moved_start: Joints that cannot be at zero and start at a limit, by name [rad, m].
+    """
+
+    bodies: tuple[Body, ...]
+    nailed: bool
+    start: Pose
+    positions: Mapping[str, float]
+    held: tuple[str, ...]
+    size: float
+    moved_start: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def joints(self) -> list[JointOf]:
+        """The joints, in the order of their bodies."""
+        return [body.joint for body in self.bodies if body.joint is not None]
+
+    @property
+    def mass(self) -> float:
+        """Of the whole robot [kg]."""
+        return math.fsum(body.mass for body in self.bodies)
+
+
+def bodies_of(robot: Robot, settings: Settings) -> Bodies:
+    """A sound robot as rigid bodies, put above the plane.
+
+    Raises:
+        UrdftoolError: A mesh cannot be read, a shape has no extent, a mass is below zero.
+    """
+    top = _top(robot)
+    made = _lumps(robot, settings, top)
+    nailed = settings.fixed_base or (top == ROOTED and not made[0].mass)
+    positions, clamped = start_positions(robot, settings)
+    positions = {b.joint.name: positions[b.joint.name] for b in made if b.joint is not None}
+    start, size = _spawn(robot, made, positions, settings, nailed and top == ROOTED, top)
+    return Bodies(
+        tuple(made), nailed, start, positions, held_joints(robot, made, settings), size, clamped
+    )
+
+
+def _top(robot: Robot) -> str:
+    """The root; below a frame from which the robot floats freely, the link that floats."""
+    assert robot.tree.root is not None
+    name = robot.tree.root.name
+    joints = robot.tree.child_joints(name)
+    free = len(joints) == 1 and joints[0].type == "floating" and not robot.link[name].collisions
+    return joints[0].child if free else name
+
+
+def _lumps(robot: Robot, settings: Settings, top: str) -> list[Body]:
+    poses = link_poses(robot)
+    order = [name for name in robot.tree.order if name == top or _below(robot, name, top)]
+    members: dict[str, list[str]] = {}
+    owner: dict[str, str] = {}
+    for name in order:
+        joint = robot.tree.parent_joint(name)
+        fixed = joint is not None and joint.is_fixed and name != top
+        owner[name] = owner[joint.parent] if joint is not None and fixed else name
+        members.setdefault(owner[name], []).append(name)
+    index = {name: number for number, name in enumerate(members)}
+    bodies: list[Body] = []
+    shape_count = 0
+    for name, links in members.items():
+        back = poses[name].inverse()
+        places = {link: back @ poses[link] if link != name else IDENTITY for link in links}
+        shapes: list[Shape] = []
+        for link in links:
+            shapes += shapes_of(robot, robot.link[link], places[link], shape_count)
+            shape_count += len(robot.link[link].collisions)
+        joint = robot.tree.parent_joint(name) if name != top else None
+        parent, origin = -1, IDENTITY
+        if joint is not None:
+            parent = index[owner[joint.parent]]
+            origin = bodies[parent].places[joint.parent] @ pose_of(joint.origin)
+        bodies.append(
+            Body(
+                name,
+                tuple(links),
+                places,
+                _properties(robot, places, settings.payloads),
+                tuple(shapes),
+                None if joint is None else joint_of(joint, robot),
+                parent,
+                origin,
+                surface_of(robot, links),
+            )
+        )
+    return bodies
+
+
+def _below(robot: Robot, name: str, top: str) -> bool:
+    root = robot.tree.root
+    return root is not None and (top == root.name or name != root.name)
+
+
+def mass_of(link: Link) -> MassProperties | None:
+    """Mass, centre and tensor of a link in its own frame, as written; None if it weighs nothing."""
+    inertial = link.inertial
+    if inertial is None or not link.mass:
+        return None
+    tensor = inertial.inertia
+    six = (0.0,) * 6 if tensor is None else (
+        tensor.ixx, tensor.ixy, tensor.ixz, tensor.iyy, tensor.iyz, tensor.izz
+    )  # fmt: skip
+    own = MassProperties(link.mass, np.zeros(3), tensor_from_six(*six))
+    pose = pose_of(inertial.origin)
+    return moved(own, pose)
+
+
+def _properties(
+    robot: Robot, places: Mapping[str, Pose], payloads: Mapping[str, float]
+) -> MassProperties | None:
+    parts = []
+    for name, pose in places.items():
+        own = mass_of(robot.link[name])
+        if payloads.get(name):
+            centre = np.zeros(3) if own is None else own.com
+            point = MassProperties(payloads[name], centre, np.zeros((3, 3)))
+            own = point if own is None else combine([own, point])
+        if own is not None:
+            parts.append(moved(own, pose))
+    return combine(parts) if parts else None
+
+
+def joint_of(joint: Joint, robot: Robot) -> JointOf:
+    """What an engine needs to know of a joint that has one position."""
+    axis = np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
+    x, y, z = (float(part) for part in axis / np.linalg.norm(axis))
+    lower, upper = limits_of(joint)
+    if lower > upper:
+        lower, upper = -math.inf, math.inf
+    effort = joint.limit.effort if joint.limit is not None else None
+    dynamics = joint.dynamics
+    mimic = joint.mimic
+    return JointOf(
+        joint.name,
+        joint.type,
+        (x, y, z),
+        lower,
+        upper,
+        effort if effort is not None and effort > 0 else None,
+        max(0.0, (dynamics.damping or 0.0) if dynamics else 0.0),
+        max(0.0, (dynamics.friction or 0.0) if dynamics else 0.0),
+        mimic.joint if mimic is not None else None,
+        mimic.multiplier if mimic is not None else 1.0,
+        mimic.offset if mimic is not None else 0.0,
+    )
+
+
+def start_positions(robot: Robot, settings: Settings) -> tuple[dict[str, float], dict[str, float]]:
+    """Where each joint starts [rad, m], and those of them that zero is no place for."""
+    wanted = dict(settings.pose)
+    clamped = {}
+    for joint in robot.joints:
+        lower, upper = limits_of(joint)
+        free = joint.name not in wanted and joint.mimic is None
+        if free and joint.is_limited and lower <= upper and not lower <= 0.0 <= upper:
+            wanted[joint.name] = clamped[joint.name] = lower if lower > 0 else upper
+    return with_mimics(robot, wanted), clamped
+
+
+def actuated_joints(robot: Robot) -> set[str]:
+    """Joints that the file drives: by a transmission, ros2_control, or a plugin that names them."""
+    named = {joint.name for part in robot.transmissions for joint in part.joints}
+    for control in robot.ros2_controls:
+        named |= {joint.name for joint in control.joints if joint.command_interfaces}
+    for plugin in robot.plugins:
+        if "state_publisher" in plugin.filename or "state_publisher" in plugin.name:
+            continue
+        named |= {element.text.strip() for element in plugin.element.walk()}
+    return named & set(robot.joint)
+
+
+def held_joints(robot: Robot, bodies: list[Body], settings: Settings) -> tuple[str, ...]:
+    """The joints that are held; those that mimic another follow it anyway."""
+    joints = [body.joint for body in bodies if body.joint is not None]
+    names = [joint.name for joint in joints if joint.leader is None]
+    if settings.hold == "none":
+        return ()
+    driven = actuated_joints(robot)
+    if settings.hold == "auto" and driven.intersection(names):
+        return tuple(name for name in names if name in driven)
+    return tuple(names)
+
+
+GAP = 1e-4
+"""How far above the plane the lowest point starts [m]."""
+
+
+def _spawn(
+    robot: Robot,
+    bodies: list[Body],
+    positions: Mapping[str, float],
+    settings: Settings,
+    rooted: bool,
+    top: str,
+) -> tuple[Pose, float]:
+    poses = link_poses(robot, positions)
+    back = poses[top].inverse()
+    turn = Pose(rotation_of_rpy(settings.start_rpy))
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for body in bodies:
+        if not body.shapes:
+            continue
+        pose = turn @ back @ poses[body.name]
+        rotation, at = np.array(pose.rotation), np.array(pose.translation)
+        for axis in range(3):
+            along = rotation.T @ np.eye(3)[axis]
+            low[axis] = min(low[axis], at[axis] - max(s.reach(-along) for s in body.shapes))
+            high[axis] = max(high[axis], at[axis] + max(s.reach(along) for s in body.shapes))
+    size = float((high - low).max()) if np.isfinite(low).all() else 0.0
+    if settings.height is not None:
+        height = settings.height
+    elif rooted or not math.isfinite(low[2]):
+        height = 0.0
+    else:
+        height = GAP - float(low[2])
+    return Pose(turn.rotation, (0.0, 0.0, height)), size

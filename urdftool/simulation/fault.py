@@ -1,0 +1,32 @@
+"""One thing that a verdict says of a robot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..source.location import Place
+
+
+@dataclass(frozen=True)
+class Fault:
+    """What went wrong, or is to be known.
+
+    Attributes:
+        kind: Such as ``fell-through``; ``docs/commands/simulate.md`` lists them.
+        message: One sentence: what was measured.
+        place: Where the link or joint is written.
+        what: ``link``, ``joint`` or ``robot``.
+        name: Of that.
+        cause: Why it probably is so; empty where the message says it.
+        rule: The lint rule that tells more; empty where there is none.
+        fails: Whether the robot does not stand because of it; otherwise it is a remark.
+    """
+
+    kind: str
+    message: str
+    place: Place | None
+    what: str = "robot"
+    name: str = ""
+    cause: str = ""
+    rule: str = ""
+    fails: bool = True

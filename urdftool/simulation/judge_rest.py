@@ -1,0 +1,262 @@
+"""How a robot came to rest: fallen, tipped, collapsed, slid, blown up, or never."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..model.elements import Robot
+from ..model.pose import IDENTITY, matrix_product, rotation_of_quaternion, transpose
+from .fault import Fault
+from .recording import GROUND, Array, Recording
+from .run import Run
+
+TIPPED = math.radians(30)
+LEANS = math.radians(10)
+FAR = 0.05
+"""A drop, drift or collapse worth a word, as a part of the robot's size."""
+
+GAIN = 0.5
+"""Energy gained, as a part of what lifting the robot by its size takes, that is no rounding."""
+
+
+@dataclass(frozen=True)
+class Rest:
+    """Where a run ended.
+
+    Attributes:
+        settled: When it came to rest [s]; None where it did not.
+        drop: How far the root sank [m].
+        drift: How far the root moved along the plane [m].
+        tilt: How far the root's upright axis turned from where it is at zero tilt [rad].
+        centre: Centre of mass in the world at the end [m]; None where nothing weighs.
+        margin: How far inside the support polygon the centre of mass is [m]; negative is outside;
+            None where nothing touches the plane.
+        supports: Links that touch the plane at the end.
+        gain: The most total energy above the start's [J].
+        fell: Whether it fell through the plane.
+    """
+
+    settled: float | None
+    drop: float
+    drift: float
+    tilt: float
+    centre: tuple[float, float, float] | None
+    margin: float | None
+    supports: tuple[str, ...]
+    gain: float
+    fell: bool
+
+
+def rest_of(run: Run) -> Rest:
+    """Measure the end of a run."""
+    recording, bodies = run.recording, run.bodies
+    root = recording.poses[:, 0, :]
+    good = np.isfinite(root).all(axis=1)
+    first, last = root[0], root[good][-1]
+    supports = tuple(dict.fromkeys(c.one for c in recording.contacts if c.other == GROUND))
+    centre = _centre(run)
+    gain = np.nan_to_num(recording.kinetic + recording.potential, nan=math.inf).max()
+    size = max(bodies.size, 1e-3)
+    lost = last[2] < first[2] - max(2 * size, 0.5) and not supports
+    return Rest(
+        recording.still_since,
+        float(first[2] - last[2]),
+        float(math.hypot(*(last[:2] - first[:2]))),
+        tilt_of(first, last, run),
+        centre,
+        None if centre is None else _margin(recording, centre, run.settings.slope),
+        supports,
+        float(gain),
+        bool(lost and not bodies.nailed),
+    )
+
+
+def tilt_of(first: Array, last: Array, run: Run) -> float:
+    """By how much the way up of a root that stands upright is turned at the end [rad]."""
+    x, y, z, w = last[3:]
+    now = rotation_of_quaternion((w, x, y, z))
+    upright = IDENTITY.rotation
+    turned = matrix_product(now, transpose(upright))
+    return math.acos(max(-1.0, min(1.0, turned[2][2])))
+
+
+def _centre(run: Run) -> tuple[float, float, float] | None:
+    total, moment = 0.0, np.zeros(3)
+    for body, pose in zip(run.bodies.bodies, run.recording.poses[-1], strict=True):
+        if body.properties is None:
+            continue
+        x, y, z, w = pose[3:]
+        turn = np.array(rotation_of_quaternion((w, x, y, z)))
+        moment += body.mass * (pose[:3] + turn @ body.properties.com)
+        total += body.mass
+    if not total or not np.isfinite(moment).all():
+        return None
+    a, b, c = (moment / total).tolist()
+    return a, b, c
+
+
+def _margin(recording: Recording, centre: tuple[float, float, float], slope: float) -> float | None:
+    """From the centre of mass, along gravity, to the nearest edge of the support polygon [m]."""
+    points = np.array(
+        [c.point[:2] for c in recording.contacts if c.other == GROUND and c.force > 0]
+    )
+    if not len(points):
+        return None
+    below = np.array([centre[0] + centre[2] * math.tan(slope), centre[1]])
+    return support_margin(points, below)
+
+
+def support_margin(points: Array, at: Array) -> float:
+    """How far a point of the plane is inside the convex hull of others [m]; negative is outside.
+
+    Args:
+        points: Shape (n, 2), at least one.
+        at: Shape (2,).
+    """
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        equations = ConvexHull(points).equations
+    except (QhullError, ValueError):  # a point or a line has no inside
+        along = points - points.mean(axis=0)
+        _, _, axes = np.linalg.svd(along, full_matrices=True)
+        lengths = along @ axes[0]
+        where = float(np.clip((at - points.mean(axis=0)) @ axes[0], lengths.min(), lengths.max()))
+        nearest = points.mean(axis=0) + where * axes[0]
+        return -float(np.linalg.norm(at - nearest))
+    return -float((equations[:, :2] @ at + equations[:, 2]).max())
+
+
+def judge_rest(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
+    """What is to be said of the end."""
+    recording, bodies = run.recording, run.bodies
+    size = max(bodies.size, 1e-3)
+    top = robot.link[bodies.bodies[0].name]
+    heavy = max(bodies.mass * run.settings.gravity * size, 1e-9)
+    blew = recording.ended == "lost" or rest.gain > GAIN * heavy + 1e-3
+    if blew and not rest.fell:
+        name = _fastest(run)
+        yield Fault(
+            "blew-up",
+            f"it blew up: its energy grew by {rest.gain:.3g} J at {_when(recording):.2f} s, "
+            f"most of it in link '{name}'",
+            robot.link[name].place,
+            "link",
+            name,
+            "parts that start in each other push each other off, or a link is far lighter, or its "
+            "inertia far smaller, than what hangs on it",
+            "tiny-moving-inertia",
+        )
+        return
+    if rest.fell:
+        touching = any(body.shapes for body in bodies.bodies)
+        yield Fault(
+            "fell-through",
+            "it fell through the floor",
+            top.place,
+            "link",
+            top.name,
+            "a part that could touch the floor was below it at the start"
+            if touching
+            else "no link has a <collision>, so nothing of it can touch",
+            "missing-collision",
+        )
+        return
+    if rest.settled is None:
+        name = _fastest(run)
+        joint = _fastest_joint(recording)
+        at = f"; joint '{joint[0]}' moves at {joint[1]:.3g}" if joint else ""
+        yield Fault(
+            "not-settled",
+            f"it did not come to rest in {recording.times[-1]:.3g} s; link '{name}' still moves at "
+            f"{_speed(run, name):.3g} m/s{at}",
+            robot.link[name].place,
+            "link",
+            name,
+            _why_moving(run),
+        )
+    if bodies.nailed:
+        return
+    if rest.tilt > LEANS:
+        fallen = rest.tilt > TIPPED
+        yield Fault(
+            "tipped-over" if fallen else "leans",
+            f"it {'tipped over' if fallen else 'leans'}: link '{top.name}' is tilted by "
+            f"{math.degrees(rest.tilt):.0f}°",
+            top.place,
+            "link",
+            top.name,
+            _why_tilted(rest),
+        )
+    elif rest.drift > FAR * size:
+        yield from _slid(robot, run, rest, size)
+
+
+def _slid(robot: Robot, run: Run, rest: Rest, size: float) -> Iterator[Fault]:
+    names = rest.supports or (run.bodies.bodies[0].name,)
+    slick = [
+        body.name
+        for body in run.bodies.bodies
+        if set(names) & set(body.links)
+        and body.surface.friction is not None
+        and body.surface.friction < math.tan(run.settings.slope)
+    ]
+    name = slick[0] if slick else names[0]
+    yield Fault(
+        "slid",
+        f"it moved {rest.drift:.3g} m along the floor, {rest.drift / size:.0%} of its size",
+        robot.link[name].place,
+        "link",
+        name,
+        f"the file gives '{name}' less friction than the slope needs"
+        if slick
+        else "nothing brakes its wheels"
+        if run.settings.slope
+        else "it was pushed, or rolls",
+        "implausible-friction" if slick else "",
+        fails=bool(run.settings.slope) or rest.drift > 0.5 * size,
+    )
+
+
+def _why_tilted(rest: Rest) -> str:
+    if rest.margin is not None and rest.margin < 0:
+        return "its centre of mass is not above where it touches the floor"
+    names = ", ".join(f"'{name}'" for name in rest.supports[:4])
+    return f"it lies on {names}" if names else "nothing under it touches the floor"
+
+
+def _why_moving(run: Run) -> str:
+    loose = [j.name for j in run.bodies.joints if j.name not in run.bodies.held and not j.leader]
+    if loose:
+        return f"nothing holds {len(loose)} of its joints and they have little damping"
+    return "parts push against each other, or it rolls"
+
+
+def _when(recording: Recording) -> float:
+    total = np.nan_to_num(recording.kinetic + recording.potential, nan=math.inf)
+    return float(recording.times[int(total.argmax())])
+
+
+def _speeds(run: Run) -> Array:
+    found: Array = np.linalg.norm(np.nan_to_num(run.recording.velocities[-1, :, :3]), axis=1)
+    return found
+
+
+def _fastest(run: Run) -> str:
+    return run.recording.bodies[int(_speeds(run).argmax())]
+
+
+def _speed(run: Run, name: str) -> float:
+    return float(_speeds(run)[run.recording.bodies.index(name)])
+
+
+def _fastest_joint(recording: Recording) -> tuple[str, float] | None:
+    if not recording.joints:
+        return None
+    rates = np.abs(np.nan_to_num(recording.rates[-1]))
+    number = int(rates.argmax())
+    return (recording.joints[number], float(rates[number])) if rates[number] > 0.01 else None

@@ -1,0 +1,86 @@
+"""Which robots no engine can be given, said with their places; the others as rigid bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..errors import ModelError
+from ..finding import Finding
+from ..formats.defects import FATAL, defect, defects, refuse
+from ..model.elements import Robot
+from ..model.kinematics import check_positions
+from .bodies import Bodies, bodies_of
+from .settings import Settings
+
+_FATAL = FATAL | {
+    "not-a-number",
+    "unknown-joint-type",
+    "zero-axis",
+    "self-mimic",
+    "mimic-cycle",
+    "planar-or-floating",
+    "negative-mass",
+}
+
+
+def prepare(robot: Robot, settings: Settings) -> Bodies:
+    """A robot as rigid bodies, at the start of a run.
+
+    Raises:
+        ModelError: It has defects past which no engine can be given it; or the settings name what
+            it does not have.
+        UrdftoolError: A mesh is not found or cannot be read.
+    """
+    refuse([*defects(robot), *_unable(robot)], force=True, fatal=_FATAL)
+    check_settings(robot, settings)
+    return bodies_of(robot, settings)
+
+
+def check_settings(robot: Robot, settings: Settings) -> None:
+    """Refuse a pose or a payload of what the robot does not have.
+
+    Raises:
+        ModelError: It has no such joint or link.
+    """
+    check_positions(robot, settings.pose)
+    for name in settings.payloads:
+        if name not in robot.link:
+            from difflib import get_close_matches
+
+            near = get_close_matches(name, list(robot.link), 1, 0.5)
+            hint = f"did you mean '{near[0]}'?" if near else "see 'urdftool graph'"
+            raise ModelError(f"the robot has no link '{name}' to load; {hint}")
+
+
+def _unable(robot: Robot) -> Iterator[Finding]:
+    root = robot.tree.root
+    for joint in robot.joints:
+        if joint.type not in ("planar", "floating"):
+            continue
+        if (
+            joint.type == "floating"
+            and root is not None
+            and joint.parent == root.name
+            and len(robot.tree.child_joints(root.name)) == 1
+            and not root.collisions
+        ):
+            continue
+        yield defect(
+            "planar-or-floating",
+            f"joint '{joint.name}' is {joint.type}, which no engine here simulates; model it by "
+            "prismatic and revolute joints"
+            + (", or let the root float" * (joint.type == "floating")),
+            joint.element.attribute_place("type"),
+            "joint",
+            joint.name,
+        )
+    for link in robot.links:
+        if link.mass < 0:
+            assert link.inertial is not None
+            yield defect(
+                "negative-mass",
+                f"link '{link.name}' weighs {link.mass:g} kg; a mass is above zero",
+                link.inertial.place,
+                "link",
+                link.name,
+            )

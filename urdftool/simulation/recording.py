@@ -1,0 +1,96 @@
+"""What an engine measured, whichever engine it was; verdicts read nothing else of a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+GROUND = ""
+"""The name of the plane, as one side of a contact."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Two bodies that touch.
+
+    Attributes:
+        one: The link of the robot.
+        other: The other link, or ``GROUND``.
+        depth: How deep they are in each other [m]; negative is a gap.
+        force: Along the normal [N].
+        point: Where, in the world [m].
+        normal: Away from ``other``, in the world.
+    """
+
+    one: str
+    other: str
+    depth: float
+    force: float
+    point: tuple[float, float, float]
+    normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class ReadBack:
+    """Something that the engine took for other than the file says."""
+
+    kind: str
+    name: str
+    what: str
+    said: str
+    got: str
+
+
+@dataclass(eq=False)
+class Recording:
+    """One run: n samples of b bodies and j joints; the first sample is the start.
+
+    Attributes:
+        engine: Its name and version.
+        bodies: The topmost link of each rigid body, the root first.
+        joints: The joints with one position, in the order of the file.
+        times: Shape (n,) [s].
+        poses: Shape (n, b, 7): position [m] and quaternion x, y, z, w of each body's link frame.
+        velocities: Shape (n, b, 6): of the centre of mass [m/s], and angular [rad/s], in the world.
+        positions: Shape (n, j) [rad, m].
+        rates: Shape (n, j) [rad/s, m/s].
+        efforts: Shape (n, j): what drives each joint [N·m, N].
+        kinetic: Shape (n,) [J].
+        potential: Shape (n,) [J], zero where the start is.
+        depths: Shape (n,): the deepest contact with the plane at each sample [m].
+        held: Names of the joints that are held.
+        targets: Where those are to be [rad, m].
+        start_contacts: Contacts before the first step, also of links of one joint.
+        contacts: Those of the last sample.
+        read_back: What the engine took for other than it was given.
+        still_since: From when on nothing moved [s]; None where it moved to the end.
+        ended: ``still``, ``time`` or ``lost`` (a number was no number, or ran away).
+        seconds: What the engine took for the steps [s].
+        steps: How many there were.
+    """
+
+    engine: str
+    bodies: tuple[str, ...]
+    joints: tuple[str, ...]
+    times: Array
+    poses: Array
+    velocities: Array
+    positions: Array
+    rates: Array
+    efforts: Array
+    kinetic: Array
+    potential: Array
+    depths: Array
+    held: tuple[str, ...] = ()
+    targets: dict[str, float] = field(default_factory=dict)
+    start_contacts: list[Contact] = field(default_factory=list)
+    contacts: list[Contact] = field(default_factory=list)
+    read_back: list[ReadBack] = field(default_factory=list)
+    still_since: float | None = None
+    ended: str = "time"
+    seconds: float = 0.0
+    steps: int = 0

@@ -1,0 +1,88 @@
+"""From a robot to recordings: prepared, given to an engine in its own process, watched."""
+
+from __future__ import annotations
+
+import math
+import random
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from time import perf_counter
+
+from ..model.elements import Robot
+from .bodies import Bodies
+from .child import Child
+from .prepare import prepare
+from .recording import Recording
+from .settings import Settings
+from .urdf import write_folder
+
+Progress = Callable[[int, int], None]
+
+LIBRARIES = {"bullet": "pybullet"}
+"""Modules with a function ``run(bodies, settings, folder)``, and the library each imports."""
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One trial.
+
+    Attributes:
+        settings: Of this trial.
+        bodies: The robot as it started.
+        recording: What the engine measured.
+    """
+
+    settings: Settings
+    bodies: Bodies
+    recording: Recording
+
+
+def simulate(
+    robot: Robot,
+    settings: Settings,
+    *,
+    engine: str = "bullet",
+    progress: Progress = lambda *_: None,
+) -> list[Run]:
+    """Spawn a robot and let it settle, as often as the settings say.
+
+    Args:
+        robot: Any robot, read from a description, which finds its meshes.
+        settings: How it is spawned.
+        engine: A key of ``LIBRARIES``.
+        progress: Told before each trial: its number, how many.
+
+    Raises:
+        ModelError: The robot is one that no engine can be given.
+        EngineDied: The engine crashed or took too long.
+        MissingDependency: It is not installed.
+    """
+    runs = []
+    ends = perf_counter() + settings.time_limit
+    for number, trial in enumerate(trials(settings), 1):
+        progress(number, settings.trials)
+        with (
+            Child(LIBRARIES[engine]) as child,
+            tempfile.TemporaryDirectory(prefix="urdftool-") as folder,
+        ):
+            bodies = prepare(robot, trial)
+            write_folder(bodies, Path(folder))
+            left = max(0.1, ends - perf_counter()) if number > 1 else settings.time_limit
+            recording = child.call(engine, "run", bodies, trial, Path(folder), time_limit=left)
+        runs.append(Run(trial, bodies, recording))
+    return runs
+
+
+def trials(settings: Settings) -> list[Settings]:
+    """The settings of each trial: the first upright, the others tilted and turned by the seed."""
+    chance = random.Random(settings.seed)
+    found = [settings]
+    for _ in range(settings.trials - 1):
+        toward = chance.uniform(-math.pi, math.pi)
+        tilt = settings.tilt * math.sqrt(chance.random())
+        yaw = chance.uniform(-math.pi, math.pi)
+        rpy = (tilt * math.cos(toward), tilt * math.sin(toward), yaw)
+        found.append(replace(settings, start_rpy=rpy))
+    return found

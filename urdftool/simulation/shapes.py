@@ -1,0 +1,185 @@
+"""What of a robot touches: convex pieces, in numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..errors import ModelError, UrdftoolError
+from ..meshes.load import load_mesh
+from ..meshes.mesh import Faces
+from ..meshes.mesh import Mesh as Triangles
+from ..model.elements import Box, Capsule, Collision, Cylinder, Link, Mesh, Robot, Sphere
+from ..model.pose import Pose, pose_of
+from .recording import Array
+
+MOST_PIECES = 32
+"""A mesh file of more objects than this collides as one hull."""
+
+MOST_VERTICES = 400
+"""Of a hull; a finer one is thinned to the corners that reach farthest."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """One collision element.
+
+    Attributes:
+        link: Its link.
+        index: Its number among all collision elements of the robot.
+        kind: ``box``, ``cylinder``, ``sphere``, ``capsule`` or ``mesh``.
+        size: Edges of a box, radius and length of what is round [m].
+        pieces: Corners of each convex piece of a mesh [m], in the shape's frame.
+        faces: Triangles of each piece.
+        pose: In the frame of its body.
+    """
+
+    link: str
+    index: int
+    kind: str
+    size: tuple[float, ...] = ()
+    pieces: tuple[Array, ...] = ()
+    faces: tuple[Faces, ...] = ()
+    pose: Pose = field(default_factory=Pose)
+
+    def reach(self, direction: Array) -> float:
+        """How far it reaches along a unit vector of its body's frame [m]."""
+        turn = np.array(self.pose.rotation)
+        along = turn.T @ direction
+        start = float(np.dot(self.pose.translation, direction))
+        if self.kind == "mesh":
+            return start + max(float((points @ along).max()) for points in self.pieces)
+        if self.kind == "box":
+            return start + float(np.abs(along) @ np.array(self.size)) / 2
+        if self.kind == "sphere":
+            return start + self.size[0]
+        radius, length = self.size
+        ends = abs(float(along[2])) * length / 2
+        if self.kind == "capsule":
+            return start + ends + radius
+        return start + ends + radius * float(np.hypot(along[0], along[1]))
+
+    def bounds(self) -> tuple[Array, Array]:
+        """Two corners of the box around it, along the axes of its body."""
+        axes = np.eye(3)
+        high = np.array([self.reach(axis) for axis in axes])
+        low = -np.array([self.reach(-axis) for axis in axes])
+        return low, high
+
+
+def shapes_of(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shape]:
+    """The shapes of a link whose frame is at a pose in its body.
+
+    Raises:
+        UrdftoolError: A mesh is not found or cannot be read, or a shape has no extent.
+    """
+    for number, collision in enumerate(link.collisions, first):
+        geometry = collision.geometry
+        pose = at @ pose_of(collision.origin)
+        if isinstance(geometry, Mesh):
+            pieces, faces = _pieces(robot, collision, geometry)
+            yield Shape(link.name, number, "mesh", (), pieces, faces, pose)
+            continue
+        size: tuple[float, ...]
+        if isinstance(geometry, Box):
+            kind, size = "box", geometry.size
+        elif isinstance(geometry, Sphere):
+            kind, size = "sphere", (geometry.radius,)
+        elif isinstance(geometry, (Cylinder, Capsule)):
+            kind = "cylinder" if isinstance(geometry, Cylinder) else "capsule"
+            size = (geometry.radius, geometry.length)
+        else:
+            raise ModelError(
+                f"a collision of link '{link.name}' has no shape that URDF knows; write a box, "
+                "cylinder, sphere, capsule or mesh",
+                at=collision.place,
+                rule="unsupported-shape",
+            )
+        if not min(size) > 0:
+            raise ModelError(
+                f"a {kind} of link '{link.name}' has a size of {min(size):g} m; nothing of it "
+                "could touch",
+                at=geometry.place,
+                rule="non-positive-dimension",
+            )
+        yield Shape(link.name, number, kind, tuple(size), pose=pose)
+
+
+def _pieces(
+    robot: Robot, collision: Collision, geometry: Mesh
+) -> tuple[tuple[Array, ...], tuple[Faces, ...]]:
+    try:
+        if robot.source is None:
+            raise ModelError("the robot was not read from a file, so its meshes are nowhere")
+        mesh = load_mesh(robot.source.resolve(geometry.filename), geometry.scale)
+    except UrdftoolError as error:
+        message = f"mesh '{geometry.filename}': {error.message}"
+        raise ModelError(message, at=geometry.place, notes=error.notes, rule=error.rule) from None
+    parts = list(_convex_parts(mesh))
+    return tuple(points for points, _ in parts), tuple(faces for _, faces in parts)
+
+
+def _convex_parts(mesh: Triangles) -> Iterator[tuple[Array, Faces]]:
+    """The hull of each object of a mesh, as engines make it."""
+    parts = [mesh.part_faces(part) for part in mesh.parts]
+    if mesh.format == "stl" or not 1 < len(parts) <= MOST_PIECES:
+        parts = [mesh.faces]
+    for faces in parts:
+        yield hull(mesh.vertices[np.unique(faces)])
+
+
+def hull(points: Array) -> tuple[Array, Faces]:
+    """Corners and triangles of the convex hull of points; of flat ones, the points themselves."""
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        found = ConvexHull(points)
+        if len(found.vertices) > MOST_VERTICES:
+            points = _thinned(points[found.vertices])
+            found = ConvexHull(points)
+    except (QhullError, ValueError):
+        points = _thinned(points) if len(points) > MOST_VERTICES else points
+        return points, _fan(len(points))
+    names = np.full(len(points), -1)
+    names[found.vertices] = np.arange(len(found.vertices))
+    corners = points[found.vertices]
+    faces = names[found.simplices]
+    normals = np.cross(
+        corners[faces[:, 1]] - corners[faces[:, 0]], corners[faces[:, 2]] - corners[faces[:, 0]]
+    )
+    inward = np.einsum("ij,ij->i", normals, found.equations[:, :3]) < 0
+    faces[inward] = faces[inward][:, ::-1]
+    return corners, faces
+
+
+def _fan(count: int) -> Faces:
+    """Triangles that name every one of some points."""
+    fan: Faces = np.array([(0, i, min(i + 1, count - 1)) for i in range(max(1, count - 1))])
+    return fan
+
+
+def _thinned(points: Array) -> Array:
+    """The points that reach farthest along directions spread evenly over the sphere."""
+    steps = np.arange(MOST_VERTICES) + 0.5
+    z = 1 - 2 * steps / MOST_VERTICES
+    angle = steps * np.pi * (1 + 5**0.5)
+    ring = np.sqrt(1 - z * z)
+    directions = np.stack([ring * np.cos(angle), ring * np.sin(angle), z])
+    axes = np.concatenate([np.eye(3), -np.eye(3)]).T
+    kept = np.unique((points @ np.concatenate([directions, axes], axis=1)).argmax(axis=0))
+    thinned: Array = points[kept]
+    return thinned
+
+
+def lowest(shapes: Sequence[Shape], turn: Array, at: Array) -> float:
+    """The height of the lowest point of shapes of a body that stands somewhere in the world.
+
+    Args:
+        shapes: Of one body.
+        turn: The body's rotation in the world, shape (3, 3).
+        at: Its origin in the world [m].
+    """
+    down = turn.T @ np.array([0.0, 0.0, -1.0])
+    return float(at[2]) - max(shape.reach(down) for shape in shapes)

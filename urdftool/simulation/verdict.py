@@ -1,0 +1,49 @@
+"""Does it stand? What a recording says of a robot, whichever engine made it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from ..model.elements import Robot
+from .fault import Fault
+from .judge_body import judge_bodies
+from .judge_contact import judge_contacts
+from .judge_joint import judge_joints
+from .judge_rest import Rest, judge_rest, rest_of
+from .run import Run
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """On one trial.
+
+    Attributes:
+        run: The trial.
+        rest: Where and how it came to rest.
+        faults: What went wrong first, remarks then.
+    """
+
+    run: Run
+    rest: Rest
+    faults: list[Fault] = field(default_factory=list)
+
+    @property
+    def stands(self) -> bool:
+        """Whether nothing went wrong."""
+        return not any(fault.fails for fault in self.faults)
+
+
+def judge(robot: Robot, run: Run) -> Verdict:
+    """Judge one trial."""
+    rest = rest_of(run)
+    faults = list(_faults(robot, run, rest))
+    faults.sort(key=lambda fault: not fault.fails)
+    return Verdict(run, rest, faults)
+
+
+def _faults(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
+    yield from judge_bodies(robot, run)
+    yield from judge_rest(robot, run, rest)
+    yield from judge_contacts(robot, run, rest)
+    yield from judge_joints(robot, run, rest)
