@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum
+from typing import NamedTuple
 
 from .source.location import Call, Place
 
@@ -25,6 +26,47 @@ class Severity(IntEnum):
         return self.name.lower()
 
 
+class Replacement(NamedTuple):
+    """Bytes of a source file that become others.
+
+    Attributes:
+        place: The bytes that go; where something is inserted, none.
+        data: The bytes that come.
+    """
+
+    place: Place
+    data: bytes
+
+    @property
+    def text(self) -> str:
+        """What comes, as text."""
+        return self.data.decode(self.place.file.encoding, "replace")
+
+
+class Fix(NamedTuple):
+    """What mends a finding.
+
+    Attributes:
+        safe: Whether the robot is the same afterwards to whatever read it before.
+        message: What is done, in words: ``write 0 0 1``.
+        replacements: The bytes that change, in the order of the source.
+    """
+
+    safe: bool
+    message: str
+    replacements: tuple[Replacement, ...]
+
+    @property
+    def applicability(self) -> str:
+        """``safe`` or ``unsafe``."""
+        return "safe" if self.safe else "unsafe"
+
+    @property
+    def option(self) -> str:
+        """What applies it on the command line."""
+        return "--fix" if self.safe else "--fix --unsafe-fixes"
+
+
 @dataclass(slots=True)
 class Finding:
     """One thing that is wrong, at one place of the source.
@@ -43,6 +85,7 @@ class Finding:
             the calls they came through.
         expansions: How many instances there are.
         variants: The sets of xacro arguments it is there with; empty means all that were tried.
+        fix: What mends it in the source, where that is known and was asked for.
     """
 
     rule: str
@@ -57,6 +100,7 @@ class Finding:
     others: list[tuple[str, tuple[Call, ...]]] = field(default_factory=list)
     expansions: int = 1
     variants: tuple[str, ...] = ()
+    fix: Fix | None = None
 
     def __str__(self) -> str:
         """``FILE:LINE:COLUMN: severity: message [rule]``, with the number of instances."""

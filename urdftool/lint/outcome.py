@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import UrdftoolError
 from ..finding import Finding
+from ..rules.fix_table import Weigh
 from .settings import Settings
 
 if TYPE_CHECKING:
@@ -26,6 +27,9 @@ class Options:
         package_paths: Folders with packages below.
         config: A configuration file that was named.
         cache: Where reports are kept for the next time; None keeps none.
+        fixes: Whether findings are to say what would mend them, in bytes.
+        weigh: What links weigh and how their mass lies, for fixes that fill in inertia: gives
+            (mass, centre, six numbers) by link, in the link frame, for a robot and link names.
     """
 
     settings: Settings = field(default_factory=Settings)
@@ -34,6 +38,8 @@ class Options:
     package_paths: Iterable[str | Path] = ()
     config: str | None = None
     cache: Cache | None = None
+    fixes: bool = False
+    weigh: Weigh | None = None
 
 
 @dataclass
@@ -49,6 +55,7 @@ class Report:
         skipped: Why it was not checked; empty if it was.
         error: What kept it from being read.
         failed_rules: Rules that broke, which is a bug of ours, with what they raised.
+        unmended: Findings whose fix cannot be made in the source, with the reason.
     """
 
     path: str
@@ -59,6 +66,7 @@ class Report:
     skipped: str = ""
     error: UrdftoolError | None = None
     failed_rules: dict[str, str] = field(default_factory=dict)
+    unmended: list[tuple[Finding, str]] = field(default_factory=list)
 
     @property
     def suppressed(self) -> int:

@@ -14,6 +14,7 @@ from ..inputs import listen
 from ..model.elements import Robot
 from ..model.read import read_robot
 from ..rules import ONLY_WITH, speaks_of
+from ..rules.fix_table import FIXABLE
 from ..rules.rule import Problem, Rule
 from ..source.description import Description, is_xacro, read_description
 from ..source.document import Document, Element, parse, read_file
@@ -66,7 +67,7 @@ def check(
         configuration = find_configuration(robot.source.path, config)
         settings = settings_for(robot.source.path, configuration, line)
         report = Report(robot.source.path)
-        _check_description(robot.source, robot, settings, report, [])
+        _check_description(robot.source, robot, settings, report, [], Options())
     else:
         options = Options(line, args or {}, packages or {}, tuple(package_paths), config)
         report = lint_file(robot, options)
@@ -160,7 +161,7 @@ def _lint_once(
             robot = read_robot(root)
             robot.source = description
     _check_description(
-        description or _unexpanded(file, failures), robot, settings, report, failures
+        description or _unexpanded(file, failures), robot, settings, report, failures, options
     )
     return report
 
@@ -209,6 +210,7 @@ def _check_description(
     settings: Settings,
     report: Report,
     failures: list[UrdftoolError],
+    options: Options,
 ) -> None:
     if settings.targets is not None:
         targets = settings.targets
@@ -227,6 +229,7 @@ def _check_description(
         "targets": targets,
     }
     ran: set[str] = set()
+    origins: dict[int, Any] = {}
     for rule in rules:
         if "robot" in rule.needs and robot is None:
             continue
@@ -234,8 +237,11 @@ def _check_description(
         for document in documents if "document" in rule.needs else [None]:
             subjects["document"] = document
             problems = _problems(rule, subjects, settings, report)
-            if problems:
-                findings += [_finding(rule, problem, settings, targets) for problem in problems]
+            for problem in problems:
+                finding = _finding(rule, problem, settings, targets)
+                findings.append(finding)
+                if options.fixes and rule.name in FIXABLE:
+                    origins[id(finding)] = problem, subjects["document"]
     suppressions, wrong = read_suppressions(documents)
     if suppressions or wrong:
         findings, report.ignored = suppress(findings, suppressions)
@@ -244,6 +250,11 @@ def _check_description(
         idle = {name for name in selected if not speaks_of(name, tags)}
         stale = unused(suppressions, ran | idle) if robot is not None else ()
         findings += [f for f in (*wrong, *stale) if f.rule in selected]
+    if options.fixes and any(finding.rule in FIXABLE for finding in findings):
+        from .fix import Origin, add_fixes
+
+        made = {number: Origin(*origin) for number, origin in origins.items()}
+        add_fixes(report, findings, made, robot, description, options)
     report.findings = in_order(merge(findings))
 
 

@@ -1,0 +1,86 @@
+"""What mends the findings of one description: proposals of the rules, as bytes of its source."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from importlib import import_module
+from typing import Any, NamedTuple
+
+from ..finding import Finding, Fix
+from ..model.elements import Robot
+from ..rules.fix_table import FIX_FILE, FIXABLE
+from ..rules.fixes.proposal import Around, Proposal
+from ..rules.rule import Problem
+from ..source.description import Description
+from ..source.document import Document
+from .fix_settle import RefusedError, Settler
+from .outcome import Options, Report
+
+
+class Origin(NamedTuple):
+    """Where a finding came from: the problem, and the file that was looked at, if it was one."""
+
+    problem: Problem
+    document: Document | None
+
+
+def add_fixes(
+    report: Report,
+    findings: Sequence[Finding],
+    origins: Mapping[int, Origin],
+    robot: Robot | None,
+    description: Description,
+    options: Options,
+) -> None:
+    """Give findings their fixes, before the instances of one macro are merged.
+
+    A fixer that breaks is a bug of ours: it is written down with its rule, and the others go on.
+
+    Args:
+        report: Where that is written down.
+        findings: What was found and is not excused.
+        origins: What each came from, by its identity; a file that could not be read has none.
+        robot: The robot, if it could be read.
+        description: The description.
+        options: What the command line says.
+    """
+    groups: dict[tuple[Any, ...], list[Finding]] = {}
+    for finding in findings:
+        if finding.rule in FIXABLE:
+            place = finding.place
+            key: tuple[Any, ...] = (finding.rule, place.path, place.start, place.end)
+            groups.setdefault(key if place.calls else (*key, finding.message), []).append(finding)
+    if not groups:
+        return
+    settler = Settler(description)
+    around = Around(robot or Robot(description.document.root), description, report.targets)
+    around.weigh = options.weigh
+    for group in groups.values():
+        name = group[0].rule
+        try:
+            proposals = [_proposal(finding, origins.get(id(finding)), around) for finding in group]
+            whole = [proposal for proposal in proposals if proposal is not None]
+            if len(whole) < len(proposals) or not whole:
+                continue
+            replacements = settler.settle(whole)
+        except RefusedError as error:
+            report.unmended.append((group[0], str(error)))
+            continue
+        except Exception as error:
+            report.failed_rules[name] = f"its fix: {type(error).__name__}: {error}"
+            continue
+        if replacements:
+            safe = all(proposal.safe for proposal in whole)
+            group[0].fix = Fix(safe, whole[0].message, replacements)
+
+
+def _proposal(finding: Finding, origin: Origin | None, around: Around) -> Proposal | None:
+    module = import_module(f"..rules.fixes.{FIX_FILE[finding.rule]}", __package__)
+    fixer = getattr(module, finding.rule.replace("-", "_"))
+    found: Proposal | None
+    if origin is None:
+        found = fixer(finding)
+    else:
+        around.document = origin.document
+        found = fixer(origin.problem, around)
+    return found

@@ -1,0 +1,216 @@
+"""Where in the source a change is made, and whether it may be.
+
+One place of a source may be many elements of the robot: what a macro writes appears once for each
+of its calls. A place is edited only if every element that comes from it is to change in the same
+way. A value that an expression computes is not overwritten, and files outside the description's
+package are not edited.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from xml.sax.saxutils import escape, unescape
+
+from ..errors import SourceError
+from ..finding import Replacement
+from ..rules.fixes.proposal import Change, Proposal, Span
+from ..source import edit
+from ..source.description import Description
+from ..source.document import STDIN, Element
+from ..source.location import Place, SourceFile
+from ..source.packages import own_package, shown_path
+
+_QUOTES = {"&quot;": '"', "&apos;": "'"}
+
+
+class RefusedError(Exception):
+    """A change that is not made; its text says why."""
+
+
+class Settler:
+    """Turns changes of one description's elements into bytes of its source."""
+
+    def __init__(self, description: Description) -> None:
+        """Look up which elements come from one place."""
+        self.description = description
+        self.main = description.files[0].path
+        self.sources: dict[str, edit.Source] = {}
+        self.users: dict[tuple[str, int], list[Element]] = {}
+        self.expanded: set[int] = set()
+        for element in description.document.root.walk():
+            self.users.setdefault((element.file.path, element.start), []).append(element)
+            self.expanded.add(id(element))
+
+    def settle(self, proposals: Sequence[Proposal]) -> tuple[Replacement, ...]:
+        """The bytes that change for the proposals of one finding, which has several instances.
+
+        Raises:
+            RefusedError: They cannot be made where they would have to be.
+        """
+        spans = [c for p in proposals for c in p.changes if isinstance(c, Span)]
+        found = [self._span(span) for span in dict.fromkeys(spans)]
+        by_element: dict[int, tuple[Element, dict[tuple[object, ...], Change]]] = {}
+        for proposal in proposals:
+            for change in proposal.changes:
+                if isinstance(change, Change):
+                    element = change.element
+                    _, wanted = by_element.setdefault(id(element), (element, {}))
+                    wanted[change.what] = change
+        done: set[tuple[str, int]] = set()
+        for element, wanted in by_element.values():
+            site = element.file.path, element.start
+            if id(element) in self.expanded:
+                for user in self.users[site]:
+                    if list(by_element.get(id(user), (None, {}))[1]) != list(wanted):
+                        raise RefusedError(
+                            "what it is written in appears elsewhere, too, where it is not to "
+                            f"change in this way ({_named(user)})"
+                        )
+            if site not in done:
+                done.add(site)
+                for change in wanted.values():
+                    found += self._edits(change)
+        found.sort(key=lambda r: (r.place.path, r.place.start, r.place.end))
+        for one, other in pairwise(found):
+            if one.place.path == other.place.path and other.place.start < one.place.end:
+                raise RefusedError("its parts overlap")
+        return tuple(found)
+
+    def _span(self, span: Span) -> Replacement:
+        self._check_file(span.file)
+        return Replacement(Place(span.file, span.start, span.end), span.data)
+
+    def _edits(self, change: Change) -> Iterator[Replacement]:
+        element = change.element
+        source = self._source(element.file)
+        raw = source.elements.get(element.start)
+        if raw is None or raw.tag != element.tag:
+            raise RefusedError("it is not written as an element of its own")
+        for one in _edits(source, raw, change):
+            yield Replacement(Place(element.file, one.start, one.end), one.text)
+
+    def _source(self, file: SourceFile) -> edit.Source:
+        if file.path not in self.sources:
+            self._check_file(file)
+            try:
+                self.sources[file.path] = edit.Source(file)
+            except SourceError as error:
+                raise RefusedError(error.message) from None
+        return self.sources[file.path]
+
+    def _check_file(self, file: SourceFile) -> None:
+        """Refuse files that are not the user's to edit."""
+        if file.path == self.main:
+            return
+        path = self.description.packages.file
+        own = own_package(path)
+        root = os.path.realpath(own[1] if own else path.parent)
+        if self.main == STDIN or not os.path.realpath(file.path).startswith(root + os.sep):
+            raise RefusedError(f"it is written in {file.path}, outside of {shown_path(root)}")
+
+
+def _edits(source: edit.Source, raw: Element, change: Change) -> Iterator[edit.Edit]:
+    """The edits of the source that make one change to an element as it is written."""
+    kind, name, value = change.kind, change.name, change.value
+    if kind == "set":
+        written = edit.literal(raw, name)
+        if written is None and change.element.get(name) is not None:
+            raise RefusedError(f"{name} is computed")
+        if written is not None and "$" in written:
+            raise RefusedError(f'{name}="{written}" is computed')
+        yield edit.set_attribute(source, raw, name, value)
+    elif kind == "sub":
+        written = edit.literal(raw, name) or ""
+        new = re.sub(change.pattern, value, written)
+        if new == written:
+            raise RefusedError(f'{name}="{written}" is computed')
+        yield edit.set_attribute(source, raw, name, new)
+    elif kind == "unset":
+        yield _without(source, raw, name)
+    elif kind == "rename":
+        begin, _ = _spans(raw, name)
+        yield edit.Edit(begin, begin + len(name.encode()), value.encode())
+    elif kind == "retag":
+        yield from _retagged(source, raw, value)
+    elif kind in ("text", "sub-text"):
+        yield _retold(source, raw, change)
+    elif kind == "remove":
+        yield _removed(source, raw)
+    elif kind == "replace":
+        yield edit.replace_element(source, raw, change.blocks)
+    else:
+        parent, behind = raw, raw.children[-1] if raw.children and kind == "insert" else None
+        if kind == "after":
+            if raw.parent is None:
+                raise RefusedError("nothing can stand behind it")
+            parent, behind = raw.parent, raw
+        for lines in change.blocks:
+            ascii_lines = [line.encode("ascii", "xmlcharrefreplace").decode() for line in lines]
+            yield edit.insert_child(source, parent, ascii_lines, after=behind)
+
+
+def _spans(raw: Element, name: str) -> tuple[int, int]:
+    span = raw.file.attribute_spans(raw.start).get(name)
+    if span is None:
+        raise RefusedError(f"{name} is not written there")
+    return span
+
+
+def _without(source: edit.Source, raw: Element, name: str) -> edit.Edit:
+    """An attribute taken away, with the blanks in front of it."""
+    begin, end = _spans(raw, name)
+    data = source.file.data
+    while data[begin - 1 : begin].isspace():
+        begin -= 1
+    return edit.Edit(begin, end, b"")
+
+
+def _removed(source: edit.Source, raw: Element) -> edit.Edit:
+    """An element taken away; a comment that stands behind it on its line moves up to its place."""
+    made = edit.remove_element(source, raw)
+    data = source.file.data
+    if made.end == raw.end and source.indentation(raw) is not None:
+        blanks = re.compile(rb"[ \t]*(?=<!--)").match(data, raw.end)
+        if blanks is not None:
+            return edit.Edit(made.start, blanks.end(), b"")
+    return made
+
+
+def _retagged(source: edit.Source, raw: Element, tag: str) -> Iterator[edit.Edit]:
+    data, old, new = source.file.data, raw.tag.encode(), tag.encode()
+    yield edit.Edit(raw.start + 1, raw.start + 1 + len(old), new)
+    tag_end = source.file.tag_end(raw.start)
+    if data[tag_end - 2 : tag_end] != b"/>":
+        close = data.rfind(b"</", 0, raw.end) + 2
+        yield edit.Edit(close, close + len(old), new)
+
+
+def _retold(source: edit.Source, raw: Element, change: Change) -> edit.Edit:
+    """Another text between two tags; the blanks around it stay."""
+    data = source.file.data
+    begin, end = source.file.tag_end(raw.start), data.rfind(b"</", 0, raw.end)
+    inner = data[begin:end]
+    if data[begin - 2 : begin] == b"/>" or b"<" in inner:
+        raise RefusedError("it is not written as plain text")
+    written = unescape(inner.decode(source.file.encoding), _QUOTES)
+    if change.kind == "sub-text":
+        new = re.sub(change.pattern, change.value, written)
+    elif "$" in written:
+        raise RefusedError(f"'{written.strip()}' is computed")
+    else:
+        stripped = written.strip()
+        head, _, tail = written.partition(stripped) if stripped else (written, "", "")
+        new = head + change.value + tail
+    if new == written:
+        raise RefusedError(f"'{written.strip()}' is computed")
+    return edit.Edit(begin, end, escape(new).encode("ascii", "xmlcharrefreplace"))
+
+
+def _named(element: Element) -> str:
+    parent: Element | None = element
+    while parent is not None and "name" not in parent.attributes:
+        parent = parent.parent
+    return f"{parent.tag} '{parent.get('name')}'" if parent is not None else element.tag

@@ -1,0 +1,207 @@
+"""Which rules have fixes, and where: what may be known of them without importing them.
+
+A fix is *safe* where everything that reads the robot sees the same kinematics, masses, collisions
+and control afterwards, or could not read it before. All others are *unsafe*: they invent or remove
+physics, or guess what was meant. Some rules have both, depending on the case.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..model.elements import Robot, Vector
+    from ..model.tensor3 import Six
+
+    Weigh = Callable[[Robot, Sequence[str]], "dict[str, tuple[float, Vector, Six]]"]
+else:
+    Weigh = Callable
+
+SAFE, UNSAFE, BOTH = "safe", "unsafe", "safe or unsafe"
+
+FIXES: dict[str, dict[str, str]] = {
+    "failures": {
+        "not-well-formed": SAFE,
+        "content-before-declaration": SAFE,
+        "missing-xmlns": SAFE,
+        "unknown-macro": UNSAFE,
+        "undeclared-arg": UNSAFE,
+        "include-not-found": BOTH,
+        "non-boolean-conditional": UNSAFE,
+        "unknown-rule": UNSAFE,
+        "unused-suppression": SAFE,
+    },
+    "xml": {
+        "missing-name": UNSAFE,
+        "unknown-element": BOTH,
+        "unknown-attribute": BOTH,
+        "wrong-case-keyword": SAFE,
+        "repeated-element": BOTH,
+        "several-shapes-in-geometry": UNSAFE,
+        "empty-geometry": UNSAFE,
+        "wrong-arity": SAFE,
+        "not-a-number": BOTH,
+        "tab-or-newline-in-vector": SAFE,
+        "padded-reference": SAFE,
+        "unsupported-urdf-version": UNSAFE,
+        "feature-needs-newer-version": UNSAFE,
+        "rpy-and-quat": UNSAFE,
+    },
+    "xacro": {
+        "nonstandard-xmlns": SAFE,
+        "unprefixed-xacro-tag": UNSAFE,
+        "unexpanded-expression": UNSAFE,
+        "bad-substitution-command": SAFE,
+        "deprecated-global-function": SAFE,
+        "unused-arg": UNSAFE,
+        "unused-property": UNSAFE,
+        "unused-macro": UNSAFE,
+    },
+    "tree": {
+        "unknown-parent-link": BOTH,
+        "unknown-child-link": UNSAFE,
+        "duplicate-joint-name": UNSAFE,
+        "link-joint-name-clash": UNSAFE,
+        "conflicting-material": SAFE,
+    },
+    "joint": {
+        "unknown-joint-type": UNSAFE,
+        "redundant-on-fixed": SAFE,
+        "axis-not-unit": SAFE,
+        "axis-omitted": SAFE,
+        "axis-nearly-canonical": UNSAFE,
+        "rpy-in-degrees": UNSAFE,
+        "missing-limit": UNSAFE,
+        "limit-without-effort-or-velocity": BOTH,
+        "limit-without-bounds": BOTH,
+        "continuous-with-bounds": UNSAFE,
+        "lower-above-upper": UNSAFE,
+        "locked-by-limits": UNSAFE,
+        "limit-in-degrees": UNSAFE,
+        "prismatic-in-millimetres": UNSAFE,
+        "limit-rounded-outward": UNSAFE,
+        "negative-limit": UNSAFE,
+        "negative-dynamics": UNSAFE,
+        "empty-dynamics": SAFE,
+        "dynamics-as-child-elements": SAFE,
+        "mimic-unknown-joint": UNSAFE,
+        "mimic-chain": SAFE,
+        "mimic-limits-inconsistent": UNSAFE,
+        "soft-limits-lock-joint": UNSAFE,
+        "soft-limits-outside-hard": UNSAFE,
+    },
+    "inertia": {
+        "missing-inertial": UNSAFE,
+        "massless-moving-body": UNSAFE,
+        "preserved-joint-massless": UNSAFE,
+        "root-link-has-inertia": UNSAFE,
+        "incomplete-inertial": UNSAFE,
+        "zero-mass": SAFE,
+        "negative-mass": UNSAFE,
+        "inertia-not-positive-definite": UNSAFE,
+        "inertia-triangle-inequality": UNSAFE,
+        "inertia-triangle-inequality-rounding": BOTH,
+        "zero-inertia": UNSAFE,
+        "singular-inertia": UNSAFE,
+        "inertia-component-slip": UNSAFE,
+        "inertia-off-by-power-of-ten": UNSAFE,
+        "redundant-inertia-attributes": SAFE,
+        "placeholder-inertia": UNSAFE,
+        "inertia-exceeds-geometry": UNSAFE,
+        "inertial-not-at-com-suspect": UNSAFE,
+        "radius-of-gyration": UNSAFE,
+    },
+    "shapes": {
+        "missing-collision": UNSAFE,
+        "missing-visual": UNSAFE,
+        "collision-off-visual": UNSAFE,
+        "unsupported-shape": UNSAFE,
+        "wheel-cylinder-axis": UNSAFE,
+        "invalid-color": UNSAFE,
+        "fully-transparent": UNSAFE,
+        "empty-material-name": SAFE,
+        "unused-material": SAFE,
+        "mesh-in-millimetres": UNSAFE,
+        "mesh-scaled-twice": UNSAFE,
+        "optical-frame-orientation": UNSAFE,
+    },
+    "mesh": {
+        "mesh-case-mismatch": SAFE,
+        "malformed-uri": SAFE,
+        "absolute-path": UNSAFE,
+        "relative-uri-in-ros": UNSAFE,
+        "wrong-package-in-uri": UNSAFE,
+        "package-uri-unresolvable": UNSAFE,
+        "mujoco-missing-compiler": UNSAFE,
+    },
+    "gazebo": {
+        "missing-gazebo-tags": UNSAFE,
+        "missing-gazebo-material": SAFE,
+        "missing-friction": UNSAFE,
+        "missing-contact-parameters": UNSAFE,
+        "dangling-reference": UNSAFE,
+        "misplaced-extension": UNSAFE,
+        "unknown-extension": UNSAFE,
+        "bad-extension-number": SAFE,
+        "half-friction": UNSAFE,
+        "deprecated-cfm-damping": SAFE,
+        "no-effect-in-gz": UNSAFE,
+        "lumped-joint-loses-content": UNSAFE,
+        "lumped-flag-leaks": UNSAFE,
+        "named-geometry-loses-extensions": SAFE,
+        "lumped-link-referenced": UNSAFE,
+        "surface-without-collision": UNSAFE,
+        "root-not-anchored": UNSAFE,
+        "missing-control-plugin": UNSAFE,
+        "unknown-sensor-type": UNSAFE,
+        "cpu-ray-in-gz": SAFE,
+        "ros-plugin-inside-sensor": UNSAFE,
+        "missing-gz-frame-id": SAFE,
+        "duplicate-sensor-name": UNSAFE,
+        "duplicate-plugin-name": UNSAFE,
+        "camera-sensor-not-optical": UNSAFE,
+    },
+    "plugins": {
+        "classic-plugin-in-gz": UNSAFE,
+        "ignition-name": SAFE,
+        "plugin-class-mismatch": SAFE,
+        "plugin-unknown-entity": UNSAFE,
+    },
+    "control": {
+        "transmission-unknown-joint": UNSAFE,
+        "unprefixed-hardware-interface": SAFE,
+        "missing-hardware-interface": UNSAFE,
+        "unknown-hardware-interface": UNSAFE,
+        "duplicate-transmission": UNSAFE,
+        "transmission-on-immovable-joint": UNSAFE,
+        "actuated-joint-without-transmission": UNSAFE,
+        "ros2-control-unknown-joint": UNSAFE,
+        "ros2-control-fixed-joint": SAFE,
+        "ros2-control-mimic": UNSAFE,
+        "ros2-control-legacy-mimic-param": BOTH,
+        "ros2-control-duplicate-interface": UNSAFE,
+        "nonstandard-interface-name": UNSAFE,
+        "command-without-state": UNSAFE,
+        "joint-outside-ros2-control": UNSAFE,
+        "ros2-control-invalid-tag": UNSAFE,
+        "ros2-control-nested": SAFE,
+        "ros2-control-wrong-sim-plugin": UNSAFE,
+        "ros2-control-unknown-imu-interface": UNSAFE,
+    },
+    "names": {
+        "colon-space-in-comment": SAFE,
+        "invalid-frame-name": UNSAFE,
+        "duplicate-geometry-name": UNSAFE,
+        "srdf-robot-name": SAFE,
+        "srdf-unknown-link": UNSAFE,
+        "srdf-unknown-joint": UNSAFE,
+    },
+}
+"""Applicability by rule, by the file in ``fixes``."""
+
+FIXABLE = {rule: how for rules in FIXES.values() for rule, how in rules.items()}
+"""Applicability by rule."""
+
+FIX_FILE = {rule: file for file, rules in FIXES.items() for rule in rules}
+"""The file in ``fixes`` by rule."""

@@ -1,0 +1,341 @@
+"""Fixes of mass and inertia."""
+
+from __future__ import annotations
+
+from ...model.elements import Inertial, Link
+from ...model.inertia_slips import is_possible
+from ...model.pose import pose_of, transpose
+from ...model.tensor3 import Six, eigenvalues, turned
+from ..inertia.proposals import proposal_of
+from ..inertia.slips import slip_of
+from ..inertia.solids import _only_shape, box_of, solid_tensor, solid_volume
+from ..inertia.tensors import SIX, is_zero, six_of
+from ..rule import Problem
+from .proposal import (
+    Around,
+    Change,
+    Proposal,
+    attribute_at,
+    drop,
+    figures,
+    first,
+    put,
+    quote,
+    remove,
+    safe,
+    unsafe,
+)
+
+DENSITY = 1000.0
+"""What a link is taken to weigh whose mass is not written: water [kg/m³]."""
+
+_SMALL = (0.01, 1e-6)
+"""Mass [kg] and moments [kg·m²] of a frame that a simulator wants to weigh something."""
+
+
+def _inertial(mass: float, centre: str, six: Six, rpy: str = "") -> tuple[str, ...]:
+    turn = f' rpy="{rpy}"' if rpy else ""
+    return (
+        "<inertial>",
+        *([f'\t<origin xyz="{centre}"{turn}/>'] if centre != "0 0 0" or turn else []),
+        f'\t<mass value="{mass:.6g}"/>',
+        f"\t<inertia {_six_text(six)}/>",
+        "</inertial>",
+    )
+
+
+def _six_text(six: Six) -> str:
+    return " ".join(f'{n}="{v + 0.0:.6g}"' for n, v in zip(SIX, six, strict=True))
+
+
+def missing_inertial(problem: Problem, around: Around) -> Proposal | None:
+    """What its shapes have at the density of water."""
+    link = around.link(problem)
+    lines = _of_shapes(link, around)
+    if lines is None:
+        return None
+    return unsafe(
+        f"add the <inertial> of its shapes at {DENSITY:g} kg/m³", first(link.element, *lines)
+    )
+
+
+def _of_shapes(link: Link, around: Around) -> tuple[str, ...] | None:
+    """The inertial of a link's shapes at the density of water; None where they do not tell."""
+    shape = _only_shape(link)
+    volume = solid_volume(shape.geometry) if shape is not None else 0.0
+    if shape is not None and volume > 0:
+        pose = pose_of(shape.origin)
+        made = Link(link.element, link.name, visuals=link.visuals, collisions=link.collisions)
+        made.inertial = Inertial(link.element, shape.origin, DENSITY * volume)
+        six = solid_tensor(made)
+        if six is None:
+            return None
+        rpy = figures(shape.origin.rpy) if shape.origin is not None else ""
+        turned_at_all = shape.origin is not None and any(shape.origin.rpy)
+        same = max(six[0], six[3], six[5]) == min(six[0], six[3], six[5])
+        rpy = rpy if turned_at_all and not same else ""
+        return _inertial(DENSITY * volume, figures(pose.translation), six, rpy)
+    found = _weighed(link, around)
+    if found is None:
+        return None
+    mass, centre, six = found
+    return _inertial(mass, figures(centre, 6), six)
+
+
+def _weighed(link: Link, around: Around) -> tuple[float, tuple[float, float, float], Six] | None:
+    """Mass, centre and tensor of a link in its frame, as its meshes have them."""
+    if around.weigh is None:
+        return None
+    if around.weighed is None:
+        around.weighed = around.weigh(around.robot, [one.name for one in around.robot.links])
+    return around.weighed.get(link.name)
+
+
+def massless_moving_body(problem: Problem, around: Around) -> Proposal | None:
+    """A few grams for the frame."""
+    return _give_a_little(around.link(problem))
+
+
+def preserved_joint_massless(problem: Problem, around: Around) -> Proposal | None:
+    """The same for each side of the joint that weighs nothing."""
+    child = around.robot.link.get(around.joint(problem).child)
+    if child is None or f"link '{child.name}' has no mass" not in problem.message:
+        return None
+    return _give_a_little(child)
+
+
+def _give_a_little(link: Link) -> Proposal | None:
+    if link.inertial is not None or not link.is_frame:
+        return None
+    mass, moment = _SMALL
+    lines = _inertial(mass, "0 0 0", (moment, 0.0, 0.0, moment, 0.0, moment))
+    return unsafe(f"give it {mass * 1000:g} g", first(link.element, *lines))
+
+
+def incomplete_inertial(problem: Problem, around: Around) -> Proposal | None:
+    """Products that are not written are 0."""
+    inertial = around.link(problem).inertial
+    inertia = inertial.element.child("inertia") if inertial is not None else None
+    if inertial is None or inertia is None or inertial.element.child("mass") is None:
+        return None
+    missing = [name for name in SIX if name not in inertia.attributes]
+    if not missing or not set(missing) <= {"ixy", "ixz", "iyz"}:
+        return None
+    zeros = " ".join(f'{name}="0"' for name in missing)
+    return unsafe(f"write {zeros}", *(put(inertia, name, "0") for name in missing))
+
+
+def zero_mass(problem: Problem, around: Around) -> Proposal | None:
+    """A frame on a fixed joint needs no inertial."""
+    link = around.link(problem)
+    joint = around.robot.tree.parent_joint(link.name)
+    if link.inertial is None or link.visuals or link.collisions:
+        return None
+    if joint is None or not joint.is_fixed or around.robot.extensions.get(link.name):
+        return None
+    return safe("take the <inertial> of the frame out", remove(link.inertial.element))
+
+
+def negative_mass(problem: Problem, around: Around) -> Proposal | None:
+    """Without its sign."""
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    text = (found[0].get(found[1]) or "").strip().removeprefix("-")
+    return unsafe(f'write value="{text}"', put(*found, text))
+
+
+def _rewritten(link: Link, six: Six, why: str) -> Proposal | None:
+    """The six numbers written anew, as far as they differ."""
+    inertial = link.inertial
+    if inertial is None or inertial.inertia is None or not is_possible(six):
+        return None
+    element = inertial.inertia.element
+    changes = [
+        put(element, name, f"{new + 0.0:.9g}")
+        for name, old, new in zip(SIX, six_of(inertial.inertia), six, strict=True)
+        if f"{new:.9g}" != f"{old:.9g}"
+    ]
+    return unsafe(why, *changes) if changes else None
+
+
+def _meant(problem: Problem, around: Around) -> Proposal | None:
+    """What was probably meant; else what the link's shapes have at its mass."""
+    link = around.link(problem)
+    inertial = link.inertial
+    if inertial is None or inertial.inertia is None:
+        return None
+    proposal = proposal_of(link, inertial, six_of(inertial.inertia))
+    if proposal is not None:
+        made = _rewritten(link, proposal.tensor, f"write {_six_text(proposal.tensor)}")
+        if made is not None:
+            return made
+    return _recomputed(problem, around)
+
+
+def _recomputed(problem: Problem, around: Around) -> Proposal | None:
+    """What the link's shapes have at its mass, about the centre of mass that is written."""
+    link = around.link(problem)
+    inertial = link.inertial
+    if inertial is None or not inertial.mass or inertial.mass <= 0:
+        return None
+    shape = _only_shape(link)
+    six = solid_tensor(link)
+    if six is not None and shape is not None and shape.geometry is not None:
+        what = f"of a solid {shape.geometry.element.tag}"
+        return _rewritten(link, six, f"write the inertia {what} of {inertial.mass:g} kg")
+    found = _weighed(link, around)
+    if found is None:
+        return None
+    mass, _, tensor = found
+    scale = inertial.mass / mass
+    here = turned(
+        tuple(value * scale for value in tensor),  # type: ignore[arg-type]
+        transpose(pose_of(inertial.origin).rotation),
+    )
+    return _rewritten(link, here, f"write the inertia of its shapes at {inertial.mass:g} kg")
+
+
+def inertia_not_positive_definite(problem: Problem, around: Around) -> Proposal | None:
+    """What was meant, or what its shapes have."""
+    return _meant(problem, around)
+
+
+def inertia_triangle_inequality(problem: Problem, around: Around) -> Proposal | None:
+    """What was meant, or what its shapes have."""
+    return _meant(problem, around)
+
+
+def inertia_exceeds_geometry(problem: Problem, around: Around) -> Proposal | None:
+    """What was meant, or what its shapes have."""
+    return _meant(problem, around)
+
+
+def zero_inertia(problem: Problem, around: Around) -> Proposal | None:
+    """What its shapes have."""
+    return _recomputed(problem, around)
+
+
+def singular_inertia(problem: Problem, around: Around) -> Proposal | None:
+    """What its shapes have."""
+    return _recomputed(problem, around)
+
+
+def placeholder_inertia(problem: Problem, around: Around) -> Proposal | None:
+    """What its shapes have."""
+    return _recomputed(problem, around)
+
+
+def inertia_triangle_inequality_rounding(problem: Problem, around: Around) -> Proposal | None:
+    """A little more about every axis: the excess on each moment, which keeps the principal axes."""
+    link = around.link(problem)
+    inertial = link.inertial
+    if inertial is None or inertial.inertia is None:
+        return None
+    six = list(six_of(inertial.inertia))
+    low, middle, high = eigenvalues(six_of(inertial.inertia))
+    excess = high - low - middle
+    for factor in (1.0, 1.5, 2.0, 4.0):
+        new = [
+            v + factor * (excess + 1e-9 * high) if i in (0, 3, 5) else v for i, v in enumerate(six)
+        ]
+        shown = [float(f"{value:.10g}") for value in new]
+        a, b, c = eigenvalues((shown[0], shown[1], shown[2], shown[3], shown[4], shown[5]))
+        if c <= a + b:
+            break
+    else:
+        return None
+    element = inertial.inertia.element
+    changes = [put(element, SIX[i], f"{new[i]:.10g}") for i in (0, 3, 5)]
+    small = excess < 1e-4 * high
+    make = safe if small else unsafe
+    return make(f"make each moment {factor * excess:.1g} larger", *changes)
+
+
+def inertia_component_slip(problem: Problem, around: Around) -> Proposal | None:
+    """In the order that URDF has."""
+    return _of_slip(problem, around)
+
+
+def inertia_off_by_power_of_ten(problem: Problem, around: Around) -> Proposal | None:
+    """With the decimal point where it belongs."""
+    return _of_slip(problem, around)
+
+
+def _of_slip(problem: Problem, around: Around) -> Proposal | None:
+    link = around.link(problem)
+    inertial = link.inertial
+    if inertial is None or inertial.inertia is None:
+        return None
+    slip = slip_of(link, inertial, six_of(inertial.inertia))
+    if slip is None:
+        return None
+    return _rewritten(link, slip.tensor, f"write {_six_text(slip.tensor)}")
+
+
+def redundant_inertia_attributes(problem: Problem, around: Around) -> Proposal | None:
+    """Without what is not read and says the same."""
+    found = attribute_at(problem)
+    if found is None or "take it out" not in problem.message:
+        return None
+    return safe(f"take {found[1]} out", drop(*found))
+
+
+def radius_of_gyration(problem: Problem, around: Around) -> Proposal | None:
+    """In kg·m², where it is in kg·mm²."""
+    link = around.link(problem)
+    inertial = link.inertial
+    if "kg·mm²" not in problem.message or inertial is None or inertial.inertia is None:
+        return None
+    six = six_of(inertial.inertia)
+    x, y, z, a, b, c = (value * 1e-6 for value in six)
+    if is_zero((x, y, z, a, b, c), link.mass):
+        return None
+    return _rewritten(link, (x, y, z, a, b, c), "divide it by 1e6")
+
+
+def inertial_not_at_com_suspect(problem: Problem, around: Around) -> Proposal | None:
+    """At the centre of its shapes."""
+    link = around.link(problem)
+    box = box_of(link)
+    if box is None or link.inertial is None:
+        return None
+    centre = figures(box.centre, 6)
+    origin = link.inertial.origin
+    if origin is None:
+        change = first(link.inertial.element, f'<origin xyz="{centre}"/>')
+    else:
+        change = put(origin.element, "xyz", centre)
+    return unsafe(f"put it at the centre of its shapes, {centre}", change)
+
+
+def root_link_has_inertia(problem: Problem, around: Around) -> Proposal | None:
+    """A link without mass above it, on a fixed joint."""
+    robot, link = around.robot, around.link(problem)
+    if link.name == "world" or link.element.parent is not robot.element:
+        return None
+    name = "base_footprint" if link.name == "base_link" else f"{link.name}_root"
+    taken = {*robot.link, *robot.joint}
+    joint = f"{name}_joint"
+    if name in taken or joint in taken:
+        name, joint = f"{link.name}_dummy", f"{link.name}_dummy_joint"
+        if name in taken or joint in taken:
+            return None
+    if around.targets & {"moveit"}:
+        return None  # the virtual joint and the groups of the SRDF name the root
+    changes: tuple[Change, ...] = (
+        Change(
+            "first",
+            robot.element,
+            blocks=(
+                (f'<link name="{quote(name)}"/>',),
+                (
+                    f'<joint name="{quote(joint)}" type="fixed">',
+                    f'\t<parent link="{quote(name)}"/>',
+                    f'\t<child link="{quote(link.name)}"/>',
+                    "</joint>",
+                ),
+            ),
+        ),
+    )
+    return unsafe(f"put a link '{name}' without mass above it, on a fixed joint", *changes)

@@ -1,0 +1,207 @@
+"""Fixes of what is seen and what touches."""
+
+from __future__ import annotations
+
+import math
+
+from ...model.elements import Box, Capsule, Cylinder, Mesh, Sphere
+from ...model.pose import norm
+from ...model.read import numbers
+from ..rule import Problem
+from .proposal import (
+    Around,
+    Change,
+    Proposal,
+    attribute_at,
+    drop,
+    element_at,
+    lines_of,
+    meant,
+    put,
+    remove,
+    replace,
+    retag,
+    safe,
+    unsafe,
+)
+
+_PRIMITIVES = (Box, Cylinder, Sphere, Capsule)
+
+
+def missing_collision(problem: Problem, around: Around) -> Proposal | None:
+    """A copy of each visual, where all are primitives."""
+    link = around.link(problem)
+    if not link.visuals or link.collisions:
+        return None
+    changes = []
+    for visual in link.visuals:
+        geometry = visual.geometry
+        if not isinstance(geometry, _PRIMITIVES):
+            return None
+        lines = (
+            "<collision>",
+            *(f"\t{line}" for origin in visual.element.all("origin") for line in lines_of(origin)),
+            "\t<geometry>",
+            *(f"\t\t{line}" for line in lines_of(geometry.element)),
+            "\t</geometry>",
+            "</collision>",
+        )
+        changes.append(Change("after", visual.element, blocks=(lines,)))
+    return unsafe("collide with the shape that is seen", *changes)
+
+
+def missing_visual(problem: Problem, around: Around) -> Proposal | None:
+    """A copy of each collision."""
+    link = around.link(problem)
+    changes = []
+    for collision in link.collisions:
+        if collision.geometry is None:
+            return None
+        lines = (
+            "<visual>",
+            *(f"\t{line}" for o in collision.element.all("origin") for line in lines_of(o)),
+            "\t<geometry>",
+            *(f"\t\t{line}" for line in lines_of(collision.geometry.element)),
+            "\t</geometry>",
+            "</visual>",
+        )
+        changes.append(Change("after", collision.element, blocks=(lines,)))
+    return unsafe("show the shape that collides", *changes)
+
+
+def collision_off_visual(problem: Problem, around: Around) -> Proposal | None:
+    """The origin of the visual, where both are one shape."""
+    link = around.link(problem)
+    if len(link.visuals) != 1 or len(link.collisions) != 1:
+        return None
+    seen, touches = link.visuals[0], link.collisions[0]
+    lines = tuple(line for origin in seen.element.all("origin") for line in lines_of(origin))
+    if touches.origin is None:
+        change = Change("first", touches.element, blocks=(lines,))
+    elif lines:
+        change = replace(touches.origin.element, lines)
+    else:
+        change = remove(touches.origin.element)
+    return unsafe("give it the <origin> of the visual", change)
+
+
+def unsupported_shape(problem: Problem, around: Around) -> Proposal | None:
+    """The shape that was meant."""
+    element = element_at(problem)
+    name = meant(problem, element.tag) if element is not None else ""
+    if element is None or not name:
+        return None
+    return unsafe(f"write <{name}>", retag(element, name))
+
+
+def wheel_cylinder_axis(problem: Problem, around: Around) -> Proposal | None:
+    """Turned so that its length lies along the axle."""
+    link = around.link(problem)
+    joint = around.robot.tree.parent_joint(link.name)
+    if joint is None or len(link.collisions) != 1:
+        return None
+    axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+    collision = link.collisions[0]
+    along = {1: "1.5707963267948966 0 0", 0: "0 1.5707963267948966 0"}
+    place = max(range(3), key=lambda i: abs(axis[i]))
+    if place not in along or abs(axis[place]) < 0.999 * norm(axis):
+        return None
+    rpy = along[place]
+    if collision.origin is not None:
+        change = put(collision.origin.element, "rpy", rpy)
+    else:
+        change = Change("first", collision.element, blocks=((f'<origin rpy="{rpy}"/>',),))
+    return unsafe(f'write rpy="{rpy}"', change)
+
+
+def invalid_color(problem: Problem, around: Around) -> Proposal | None:
+    """On a scale of 0 to 1."""
+    found = attribute_at(problem)
+    values = numbers(found[0].get(found[1]), 4) if found is not None else None
+    if found is None or values is None:
+        return None
+    if "scale of 0 to 255" in problem.message:
+        opacity = 1.0 if values[3] <= 1 and values[3] else values[3] / 255
+        text = " ".join(f"{value:.4g}" for value in (*(v / 255 for v in values[:3]), opacity))
+    else:
+        text = " ".join(f"{min(1.0, max(0.0, value)):.6g}" for value in values)
+    return unsafe(f'write rgba="{text}"', put(*found, text))
+
+
+def fully_transparent(problem: Problem, around: Around) -> Proposal | None:
+    """Opaque."""
+    found = attribute_at(problem, around.robot.element)
+    values = (found[0].get(found[1]) or "").split() if found is not None else []
+    if found is None or len(values) != 4:
+        return None
+    text = " ".join([*values[:3], "1"])
+    return unsafe(f'write rgba="{text}"', put(*found, text))
+
+
+def empty_material_name(problem: Problem, around: Around) -> Proposal | None:
+    """A name made of the colour."""
+    found = attribute_at(problem)
+    link = around.link(problem)
+    if found is None and not any(v.material and not v.material.name for v in link.visuals):
+        return None
+    changes = []
+    for visual in link.visuals:
+        material = visual.material
+        if material is None or material.name or (found and material.element is not found[0]):
+            continue
+        if material.color is None or any(not 0 <= part <= 1 for part in material.color):
+            return None
+        name = "rgba_" + "".join(f"{round(part * 255):02x}" for part in material.color)
+        known = {m.name: m.color for m in around.robot.materials}
+        if known.get(name, material.color) != material.color:
+            return None
+        changes.append(put(material.element, "name", name))
+    return safe("name it by its colour", *changes) if changes else None
+
+
+def unused_material(problem: Problem, around: Around) -> Proposal | None:
+    """Gone."""
+    return safe("take it out", remove(problem.element))
+
+
+def mesh_in_millimetres(problem: Problem, around: Around) -> Proposal | None:
+    """A thousandth, wherever the file is used without a scale."""
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    uri = found[0].get("filename")
+    changes = []
+    for _, shape in around.robot.shapes:
+        if isinstance(shape.geometry, Mesh) and shape.geometry.filename == uri:
+            if shape.geometry.element.get("scale"):
+                return None
+            changes.append(put(shape.geometry.element, "scale", "0.001 0.001 0.001"))
+    return unsafe('write scale="0.001 0.001 0.001"', *changes)
+
+
+def mesh_scaled_twice(problem: Problem, around: Around) -> Proposal | None:
+    """Without the scale, wherever the file is used with one of a thousandth."""
+    found = attribute_at(problem)
+    if found is None or "take the scale away" not in problem.message:
+        return None
+    uri = found[0].get("filename")
+    changes = []
+    for _, shape in around.robot.shapes:
+        if isinstance(shape.geometry, Mesh) and shape.geometry.filename == uri:
+            if any(not math.isclose(part, 0.001) for part in shape.geometry.scale):
+                return None
+            changes.append(drop(shape.geometry.element, "scale"))
+    return unsafe("take the scale away", *changes)
+
+
+def optical_frame_orientation(problem: Problem, around: Around) -> Proposal | None:
+    """Turned as a camera looks."""
+    joint = around.joint(problem)
+    rpy = "-1.5707963267948966 0 -1.5707963267948966"
+    if joint.origin is not None:
+        if "quat_xyzw" in joint.origin.element.attributes:
+            return None
+        change = put(joint.origin.element, "rpy", rpy)
+    else:
+        change = Change("first", joint.element, blocks=((f'<origin rpy="{rpy}"/>',),))
+    return unsafe(f'write rpy="{rpy}"', change)

@@ -1,0 +1,111 @@
+"""Fixes of links and joints by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...source.document import Element
+from ..rule import Problem
+from .proposal import (
+    Around,
+    Change,
+    Proposal,
+    attribute_at,
+    first,
+    meant,
+    put,
+    safe,
+    say,
+    unsafe,
+)
+
+_LINK_ATTRIBUTES = {"link": "name", "parent": "link", "child": "link"}
+
+
+def unknown_parent_link(problem: Problem, around: Around) -> Proposal | None:
+    """``world`` is declared; another is the one that was meant."""
+    joint = around.joint(problem)
+    if joint.parent == "world":
+        return safe('add <link name="world"/>', first(around.robot.element, '<link name="world"/>'))
+    return _other_link(problem)
+
+
+def unknown_child_link(problem: Problem, around: Around) -> Proposal | None:
+    """The link that was meant, if it is no joint's child yet."""
+    name = meant(problem, around.joint(problem).child)
+    if any(joint.child == name for joint in around.robot.joints):
+        return None
+    return _other_link(problem)
+
+
+def _other_link(problem: Problem) -> Proposal | None:
+    found = attribute_at(problem)
+    name = meant(problem, found[0].get(found[1]) or "") if found is not None else ""
+    if found is None or not name:
+        return None
+    return unsafe(f"write '{name}'", put(*found, name))
+
+
+def duplicate_joint_name(problem: Problem, around: Around) -> Proposal | None:
+    """A number behind the second."""
+    joint = around.joint(problem)
+    name = _free(joint.name, {*around.robot.joint, *around.robot.link})
+    return unsafe(f"call it '{name}'", put(joint.element, "name", name))
+
+
+def _free(name: str, taken: set[str]) -> str:
+    number = 2
+    while f"{name}_{number}" in taken:
+        number += 1
+    return f"{name}_{number}"
+
+
+def link_joint_name_clash(problem: Problem, around: Around) -> Proposal | None:
+    """The joint is called ``…_joint``, here and where it is named."""
+    joint = around.joint(problem)
+    new = f"{joint.name}_joint"
+    if new in around.robot.joint or new in around.robot.link:
+        return None
+    if around.robot.extensions.get(joint.name):
+        return None  # the link or the joint may be meant
+    changes = list(_renamed_joint(around.robot.element, joint.name, new))
+    return unsafe(f"call the joint '{new}', here and where it is named", *changes)
+
+
+def _renamed_joint(root: Element, name: str, new: str) -> Iterator[Change]:
+    for element in root.walk():
+        if element.tag == "joint" and element.get("name") == name:
+            yield put(element, "name", new)
+        elif element.tag == "mimic" and element.get("joint") == name:
+            yield put(element, "joint", new)
+        elif "oint" in element.tag and element.text.strip() == name and not element.children:
+            yield say(element, new)
+
+
+def renamed_link(root: Element, name: str, new: str) -> Iterator[Change]:
+    """A link by another name, here and where it is named."""
+    for element in root.walk():
+        attribute = _LINK_ATTRIBUTES.get(element.tag, "reference")
+        if attribute == "reference" and element.tag != "gazebo":
+            attribute = ""
+        if attribute and element.get(attribute) == name:
+            yield put(element, attribute, new)
+        elif not attribute and element.text.strip() == name and not element.children:
+            if "ame" in element.tag or "ink" in element.tag:
+                yield say(element, new)
+
+
+def conflicting_material(problem: Problem, around: Around) -> Proposal | None:
+    """The second of two that are equal goes."""
+    from .proposal import lines_of, remove
+
+    element = problem.element
+    if element.tag != "material" or element.parent is not around.robot.element:
+        return None
+    name = element.get("name")
+    firsts = [m.element for m in around.robot.materials if m.name == name]
+    if firsts[0] is element or list(lines_of(firsts[0])) != list(lines_of(element)):
+        return None
+    if (firsts[0].file.path, firsts[0].start) == (element.file.path, element.start):
+        return None  # one place that is included twice
+    return safe("keep the first, which is equal", remove(element))
