@@ -8,8 +8,9 @@ from typing import Any
 import click
 
 from ..console import Console
-from .collision_options import checked_picture, one_thread_each, settings_options
+from .collision_options import one_thread_each, settings_options
 from .options import package_options, split_arguments
+from .picture_file import checked_picture
 
 
 class _OrMesh(click.Command):

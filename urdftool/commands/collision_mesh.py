@@ -10,11 +10,11 @@ import click
 from ..console import Console
 from .collision_options import (
     cache_of,
-    checked_picture,
     one_thread_each,
     settings_of,
     settings_options,
 )
+from .picture_file import checked_picture
 
 if TYPE_CHECKING:
     from ..collision.compute import Result

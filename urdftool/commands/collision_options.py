@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -87,7 +86,7 @@ _OPTIONS = (
     click.option(
         "--threshold",
         type=click.FloatRange(0.01, 1.0),
-        default=0.08,
+        default=0.06,
         show_default=True,
         metavar="T",
         help="CoACD's concavity at which --method coacd stops to cut.",
@@ -149,16 +148,6 @@ def one_thread_each() -> None:
     """Keep the numerical libraries from starting threads of their own beside our processes."""
     for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(name, "1")
-
-
-def checked_picture(picture: str | None) -> None:
-    """Refuse a picture that cannot be written before the work is done."""
-    if picture is None:
-        return
-    if not picture.lower().endswith(".png"):
-        raise click.UsageError(f"--picture wants a name that ends in .png, not {picture}")
-    if not Path(picture).resolve().parent.is_dir():
-        raise click.UsageError(f"the folder of {picture} does not exist")
 
 
 class Progress:

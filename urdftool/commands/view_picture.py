@@ -178,7 +178,7 @@ def write_pictures(
         what = "shape" if show == "both" else show
         more = "; try --show both" if show != "both" and not shapes.problems else ""
         raise ModelError(f"the robot has no {what} that could be drawn{more}", at=robot.place)
-    seen_from = _placed(camera)
+    seen_from = None if camera is None else _placed(camera)
     if picture is not None:
         image = draw(shapes, poses, camera=seen_from, size=size or SIZE)
         write_picture(png(image), picture, robot)
@@ -188,11 +188,9 @@ def write_pictures(
     return 1 if shapes.problems else 0
 
 
-def _placed(camera: tuple[float, ...] | None) -> Camera:
+def _placed(camera: tuple[float, ...]) -> Camera:
     from ..drawing.camera import Camera
 
-    if camera is None:
-        return Camera()
     distance = camera[2] if len(camera) == 3 else None
     return Camera(math.radians(camera[0]), math.radians(camera[1]), distance)
 
@@ -203,7 +201,7 @@ def _write_sheet(
     shapes: Shapes,
     target: str,
     positions: Mapping[str, float],
-    camera: Camera,
+    camera: Camera | None,
     cell: tuple[int, int] | None,
 ) -> None:
     from ..drawing.contact_sheet import contact_sheet, sweeps_of

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..model.elements import Joint, Robot
 from ..model.kinematics import limits_of, link_poses, movable_joints, with_mimics
+from ..model.pose import Pose
 from .camera import Camera, View
 from .lettering import Words, lettered
 from .picture import draw, view_of
@@ -25,6 +26,7 @@ _PAPER = (250, 250, 251)
 _GREY, _FADED = np.array([0.80, 0.81, 0.82]), 0.82
 _CHILD, _AFTER = np.array([0.95, 0.42, 0.10]), np.array([0.97, 0.68, 0.42])
 _MARGIN, _GAP = 16, 6
+_ASIDE = 0.1  # of the robot's size
 _SHAPE = 1.35  # width over height that a sheet is to have
 
 
@@ -88,7 +90,8 @@ def contact_sheet(
         robot: The robot.
         shapes: Its shapes.
         positions: Where the other joints are [rad, m]; at zero without it. Mimics follow.
-        camera: Where the pictures are taken from.
+        camera: Where the pictures are taken from; without it, from the side of the robot on which
+            the links are that the joint moves.
         cell: Width and height of one picture in pixels; by the number of joints without it.
 
     Returns:
@@ -215,9 +218,42 @@ def _pair(
     for poses in at:
         corners, _, there = shapes.posed(poses)
         both.append(corners[there])
+    if camera is None:
+        camera = _facing(painted, at[0], robot, sweep)
     lowest = min((float(some[..., 2].min()) for some in both if len(some)), default=0.0)
     view: View = view_of(np.concatenate(both), camera, cell)
     return [draw(painted, poses, camera=view, ground=lowest) for poses in at]
+
+
+def _facing(shapes: Shapes, poses: Mapping[str, Pose], robot: Robot, sweep: Sweep) -> Camera:
+    """The camera on the side of the robot on which the links are that a joint moves."""
+    corners, _, there = shapes.posed(poses)
+    moved = np.zeros(len(shapes), dtype=bool)
+    moved[_rows(shapes, _moved(robot, sweep))] = True
+    camera = Camera()
+    if not (moved & there).any():
+        return camera
+    points = corners[there].reshape(-1, 3)
+    size = float(np.ptp(points, axis=0).max())
+    aside = corners[moved & there].reshape(-1, 3).mean(axis=0) - points.mean(axis=0)
+
+    def nearness(azimuth: float) -> float:
+        return math.cos(azimuth) * float(aside[0]) + math.sin(azimuth) * float(aside[1])
+
+    sides = (camera.azimuth, -camera.azimuth, math.pi + camera.azimuth, math.pi - camera.azimuth)
+    best = max(sides, key=nearness)
+    # only where it is clearly on another side
+    usual = nearness(best) - nearness(camera.azimuth) < _ASIDE * size
+    return camera if usual else replace(camera, azimuth=best)
+
+
+def _moved(robot: Robot, sweep: Sweep) -> set[str]:
+    """The links that a joint and its followers move."""
+    moved: set[str] = set()
+    for name in (sweep.joint.name, *sweep.followers):
+        child = robot.joint[name].child
+        moved |= {child, *robot.tree.descendants(child)}
+    return moved
 
 
 def _painted(robot: Robot, shapes: Shapes, sweep: Sweep) -> Shapes:
@@ -225,11 +261,7 @@ def _painted(robot: Robot, shapes: Shapes, sweep: Sweep) -> Shapes:
     own = shapes.colors[:, :3].mean(axis=1, keepdims=True)
     colors = shapes.colors.copy()
     colors[:, :3] = own * (1 - _FADED) + _GREY * _FADED
-    moved: set[str] = set()
-    for name in (sweep.joint.name, *sweep.followers):
-        child = robot.joint[name].child
-        moved |= {child, *robot.tree.descendants(child)}
-    for names, color in ((moved, _AFTER), ({sweep.joint.child}, _CHILD)):
+    for names, color in ((_moved(robot, sweep), _AFTER), ({sweep.joint.child}, _CHILD)):
         colors[_rows(shapes, names), :3] = color
     return shapes.painted(colors)
 

@@ -112,7 +112,9 @@ class Ground:
         on_floor = np.concatenate([points, level], axis=1)
         clear = np.ones(len(points), dtype=np.float32)
         if self._soft is not None and self._shadow is not None:
-            clear *= 1 - _SHADE * sampled(self._soft, self._shadow.place(on_floor) * np.float32(0.5))
+            clear *= 1 - _SHADE * sampled(
+                self._soft, self._shadow.place(on_floor) * np.float32(0.5)
+            )
         if self._touch is not None:
             clear *= 1 - _CONTACT * sampled(self._touch[1], self._touch[0].place(on_floor))
         return 1 - clear

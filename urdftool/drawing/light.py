@@ -19,6 +19,7 @@ GAMMA = 2.2
 _SKY, _EARTH = 0.47, 0.25
 _KEY, _FILL, _SHINE = 0.60, 0.16, 0.10
 _HARDNESS = 28.0
+_BLACK = np.float32(0.006)  # of light the blackest plastic throws back; it would have no form
 _TAPS = ((0.0, 0.0), (-1.1, -0.4), (0.4, -1.1), (1.1, 0.4), (-0.4, 1.1))
 
 
@@ -66,6 +67,7 @@ def shade(albedo: Colors, normals: Colors, to_eye: Colors, lit: Colors, lights: 
     half = to_eye + key
     half /= np.maximum(np.linalg.norm(half, axis=1, keepdims=True), 1e-6)
     glint = np.einsum("ij,ij->i", normals, half)
+    albedo = _BLACK + albedo * (1 - _BLACK)
     shine = _SHINE * np.power(np.maximum(glint, 0), _HARDNESS) * lit
     return np.asarray(albedo * light[:, None] + shine[:, None], dtype=np.float32)
 

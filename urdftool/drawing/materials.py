@@ -39,3 +39,9 @@ def clean(rgba: Rgba) -> Rgba:
     """A colour whose parts are in 0 … 1, and white where one is no number."""
     red, green, blue, alpha = (min(max(part, 0.0), 1.0) if part == part else 1.0 for part in rgba)
     return red, green, blue, alpha
+
+
+def from_linear(rgba: Rgba) -> Rgba:
+    """A colour of linear light as a screen has it; its opacity as it is."""
+    red, green, blue, alpha = clean(rgba)
+    return red ** (1 / 2.2), green ** (1 / 2.2), blue ** (1 / 2.2), alpha

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -25,7 +25,7 @@ from ..model.elements import (
 )
 from ..model.elements import Mesh as MeshGeometry
 from ..model.pose import Pose, pose_of
-from .materials import PLAIN, Materials, Rgba, clean
+from .materials import PLAIN, Materials, Rgba, clean, from_linear
 from .normals import corner_normals
 from .raster import Floats, Indices
 from .texture import Texels, read_texture
@@ -102,6 +102,30 @@ class Shapes:
             normals[some] = self.normals[some] @ rotation.T
             there[some] = True
         return corners, normals, there
+
+
+def bare_shapes(groups: Iterable[tuple[Points, Faces, Rgba]], link: str = "") -> Shapes:
+    """Triangles that are of no robot, as those of one link.
+
+    Args:
+        groups: Vertices [m], shape (n, 3), faces, shape (m, 3), and the colour of each group.
+        link: What the link is called.
+    """
+    corners, normals, colors = [np.zeros((0, 3, 3))], [np.zeros((0, 3, 3))], [np.zeros((0, 4))]
+    for vertices, faces, rgba in groups:
+        corners.append(vertices[faces])
+        normals.append(corner_normals(vertices, faces))
+        colors.append(np.tile(np.array(rgba), (len(faces), 1)))
+    count = sum(map(len, corners))
+    return Shapes(
+        (link,),
+        np.concatenate(corners),
+        np.concatenate(normals),
+        np.concatenate(colors),
+        np.zeros((count, 3, 2)),
+        np.full(count, -1, dtype=np.int64),
+        np.zeros(count, dtype=np.int64),
+    )
 
 
 @dataclass
@@ -278,20 +302,21 @@ def _look(
     some = slice(part.first, part.first + part.count)
     image = part.texture if part.image is None else part.image
     row = -1 if image is None else gathering.image(image, geometry)
+    linear = mesh.format in ("gltf", "glb")  # its factors are of linear light
+    rgba = from_linear(part.rgba) if part.rgba is not None and linear else part.rgba
     if part.uv is not None:
         surface.uv[some], surface.has_uv[some] = part.uv, True
     if row >= 0:
         # of an image only glTF says that the colour is multiplied with it
-        own = part.rgba if part.rgba is not None and mesh.format in ("gltf", "glb") else None
         opacity = 1.0 if part.rgba is None else part.rgba[3]
-        color = clean(own or (1.0, 1.0, 1.0, opacity))
+        color = clean(rgba if rgba is not None and linear else (1.0, 1.0, 1.0, opacity))
         if part.uv is None:
             color = _mean(gathering.images[row])
             row = -1
         surface.image[some], surface.colors[some] = row, color
         surface.colored[some] = True
-    elif part.rgba is not None:
-        surface.colors[some], surface.colored[some] = clean(part.rgba), True
+    elif rgba is not None:
+        surface.colors[some], surface.colored[some] = clean(rgba), True
 
 
 def _mean(texels: Texels) -> Rgba:
