@@ -70,12 +70,27 @@ class Commands(click.Group):
     metavar="FILE",
     help="The configuration, instead of the nearest pyproject.toml or urdftool.toml.",
 )
+@click.option(
+    "--trust",
+    is_flag=True,
+    help="Let xacro see the environment, and files outside packages and the project.",
+)
 @click.option("--debug", is_flag=True, help="Show the traceback of an error.")
 @click.pass_context
 def main(
-    ctx: click.Context, color: str, quiet: bool, verbose: int, config: str | None, debug: bool
+    ctx: click.Context,
+    color: str,
+    quiet: bool,
+    verbose: int,
+    config: str | None,
+    trust: bool,
+    debug: bool,
 ) -> None:
     """Work with robot descriptions: URDF and xacro, without ROS."""
+    if trust:
+        from .source.reach import trust_descriptions
+
+        trust_descriptions()
     ctx.obj = Console(color=color, verbosity=-1 if quiet else verbose, config=config, debug=debug)
 
 
@@ -98,8 +113,9 @@ def call(arguments: list[str] | None = None) -> int:
     """
     words = sys.argv[1:] if arguments is None else arguments
     debug = "--debug" in words
-    if debug:  # wherever it stands on the line
-        words = ["--debug", *(word for word in words if word != "--debug")]
+    for flag in ("--debug", "--trust"):  # wherever they stand on the line
+        if flag in words:
+            words = [flag, *(word for word in words if word != flag)]
     console = Console()
     try:
         result: Any = main.main(words, prog_name="urdftool", standalone_mode=False)

@@ -156,6 +156,10 @@ class Packages:
         """
         if name in self.used:
             return self.used[name]
+        if name in ("", ".", "..") or "/" in name or os.sep in name:
+            raise PackageNotFound(
+                f"'{name}' is no package name: names have no slashes", rule="package-not-found"
+            )
         searched: list[str] = []
         for said, folder in self._candidates(name):
             if folder is not None and folder.is_dir():

@@ -18,11 +18,13 @@ from typing import Any
 import xacro
 
 from ..errors import SourceError, UrdftoolError, XacroError
+from .bounded import MAX_LENGTH, check_size
 from .document import read_file
 from .expansion import Argument, Expansion, Warned
 from .expressions import BUILTINS, compile_expression
 from .location import Call, Place
 from .packages import Packages, shown_path
+from .reach import Reach, safe_eval
 from .xacro_parse import parse_xacro
 from .xacro_tree import Characters, Instances, XacroDocument, XacroElement
 
@@ -51,11 +53,13 @@ class Run:
     def __init__(self, result: Expansion, packages: Packages) -> None:
         self.result = result
         self.packages = packages
+        self.reach = Reach(packages, lambda path: str(xacro.abs_filename_spec(path)))
         self.instances = Instances()
         self.node: XacroElement | None = None
         self.failed_text: str | None = None
         self.include_calls: tuple[Call, ...] = ()
         self.elements = 0
+        self.produced = 0
         self.yaml_safe_load: Callable[..., Any] | None = None
 
     def expand(self) -> None:
@@ -78,6 +82,8 @@ class Run:
             "check_attrs": self.check_attrs(xacro.check_attrs),
             "abs_filename_spec": self.abs_filename_spec(xacro.abs_filename_spec),
             "_empty_text_node": Characters("\n\n"),
+            "_global_symbols": self.reach.symbols(xacro._global_symbols),
+            "safe_eval": safe_eval,
             "warning": self.warning,
             "print_location": lambda *_: None,
             "all_includes": [],
@@ -86,13 +92,22 @@ class Run:
         }
         saved = {name: getattr(xacro, name) for name in (*here, "filestack", "macrostack")}
         substitution = _substitution_args()
-        find, eval_find = substitution._eval_find, substitution._eval_dict["find"]
+        commands: dict[str, Any] = {
+            "find": self.find,
+            "env": self.reach.variable,
+            "optenv": self.reach.optional_variable,
+        }
+        functions: dict[str, Any] = {f"_eval_{name}": f for name, f in commands.items()}
+        functions["_eval"] = self.reach.old_evaluation(substitution)
+        saved_functions = {name: getattr(substitution, name) for name in functions}
+        saved_commands = {name: substitution._eval_dict[name] for name in commands}
         limit = sys.getrecursionlimit()
         try:
             for name, value in here.items():
                 setattr(xacro, name, value)
-            substitution._eval_find = self.find
-            substitution._eval_dict["find"] = self.find
+            for name, function in functions.items():
+                setattr(substitution, name, function)
+            substitution._eval_dict.update(commands)
             sys.setrecursionlimit(max(limit, _RECURSION_LIMIT))
             yield
             self.note_dependencies()
@@ -102,8 +117,9 @@ class Run:
                 sys.modules["yaml"].safe_load = self.yaml_safe_load  # type: ignore[attr-defined]
             for name, value in saved.items():
                 setattr(xacro, name, value)
-            substitution._eval_find = find
-            substitution._eval_dict["find"] = eval_find
+            for name, function in saved_functions.items():
+                setattr(substitution, name, function)
+            substitution._eval_dict.update(saved_commands)
             xacro.substitution_args_context.clear()
 
     # What xacro calls ------------------------------------------------------------------------
@@ -119,6 +135,7 @@ class Run:
             )
         file = self.result.files.get(path)
         if file is None:
+            self.reach.check_file(path, self.place)
             try:
                 file = read_file(path)
             except SourceError as error:
@@ -281,7 +298,13 @@ class Run:
                     raise
             else:
                 results.append(piece)
-        return results[0] if len(results) == 1 else "".join(map(str, results))
+        if len(results) == 1:
+            return results[0]
+        joined = "".join(map(str, results))
+        self.produced += len(joined)
+        if self.produced > 10 * MAX_LENGTH:
+            raise OverflowError("the text is longer than any robot needs")
+        return joined
 
     def evaluate(self, expression: str, symbols: Any) -> Any:
         """The value of what stands between ``${`` and ``}``."""
@@ -290,7 +313,9 @@ class Run:
             code = compile_expression(source)
             if not dict.__contains__(symbols, "__builtins__"):
                 symbols.update(__builtins__=BUILTINS)
-            return eval(code, symbols)
+            value = eval(code, symbols)
+            check_size(value)
+            return value
         except Exception as error:
             self.failed_text = self.failed_text or expression
             raise xacro.XacroException(

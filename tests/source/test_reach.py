@@ -1,0 +1,262 @@
+"""What a description from a stranger can reach: attempts, and what comes of them."""
+
+import re
+import time
+
+import pytest
+
+from urdftool import expand
+from urdftool.errors import UrdftoolError
+from urdftool.source.reach import TRUST
+
+XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">{}</robot>'
+
+
+@pytest.fixture
+def evaluate(tmp_path, monkeypatch):
+    """The value of a text in an attribute of a description."""
+    monkeypatch.delenv(TRUST, raising=False)
+    (tmp_path / "project" / "urdf").mkdir(parents=True)
+    path = tmp_path / "project" / "urdf" / "a.xacro"
+
+    def value(text):
+        """Braces and brackets stand in a property, since they end an expression."""
+        text = text.replace("&", "&amp;").replace("<", "&lt;")
+        kind, inner = text[:2], text[2:-1]
+        if kind == "$(" and inner.startswith("eval "):
+            body = f'<xacro:property name="p" value="{inner[5:]}"/><link name="$(eval ${{p}})"/>'
+        elif kind == "${" and (quoted := re.search(r"'[^']*\{[^']*'", inner)):
+            inner = inner.replace(quoted[0], "p")
+            body = (
+                f'<xacro:property name="p" value="{quoted[0][1:-1]}"/><link name="${{{inner}}}"/>'
+            )
+        else:
+            body = f'<link name="{text}"/>'
+        path.write_text(XACRO.format(body))
+        return expand(path).partition('<link name="')[2].partition('"/>')[0]
+
+    value.folder = path.parent
+    return value
+
+
+SECRET = "the-secret"
+
+INSIDES = [
+    "${().__class__}",
+    "${[x.__class__ for x in [1]]}",
+    "${(lambda: (1).__class__)()}",
+    "${'{0.__class__}'.format(1)}",
+    "${'{0.real}'.format(1)}",
+    "${python.str.format('{0.__class__}', 1)}",
+    "${'{a.__init__.__globals__}'.format(a=xacro.message)}",
+    "${'{0.__class__}'.format_map({'0': 1})}",
+    "${python.vars(python.type(1))}",
+    "${python.type('A', (), {})}",
+    "${python.type(python.type(1))}",
+    "${python.type(1).mro()}",
+    "${(x for x in [1]).gi_frame.f_back}",
+    "${[g := (g.gi_frame.f_back.f_builtins for _ in [1]), list(g)]}",
+    "$(eval f'{().__class__}')",
+    "${open('/etc/passwd').read()}",
+    "${__import__('os').environ}",
+    "${globals()}",
+    "${getattr(1, 'real')}",
+    "$(eval open('/etc/passwd').read())",
+    "$(eval exec('import os'))",
+    "$(eval ().__class__)",
+    "$(eval compile('1', '', 'eval'))",
+]
+
+ENDLESS = [
+    "${python.sum(python.range(10**12))}",
+    "${list(python.range(10**9))}",
+    "${'a' * 10**10}",
+    "${10**10 * 'a'}",
+    "${[0] * 10**10}",
+    "${10**10**10}",
+    "${1 << 10**10}",
+    "${'%9999999999d' % 1}",
+    "${'%*d' % (10**9, 1)}",
+    "${'{:9999999999}'.format(1)}",
+    "$(eval f'{1:9999999999}')",
+    "$(eval f'{1:{10**10}}')",
+    "${'a'.ljust(10**10)}",
+    "${'a'.zfill(10**10)}",
+    "${'a'.join(['b' * 10**6] * 10**6)}",
+    "${('a' * 10**6).replace('a', 'b' * 10**6)}",
+    "${'\\t'.expandtabs(10**10)}",
+    "${(1).to_bytes(10**10, 'big')}",
+    "${[a := 'x', [a := a + a for _ in python.range(60)]]}",
+    "${[a := 3, [a := a * a for _ in python.range(60)]]}",
+    "${math.factorial(10**8)}",
+    "${math.prod(python.range(1, 10**6))}",
+    "${math.comb(10**7, 10**6)}",
+    "${math.lcm(*python.range(1, 10**5))}",
+    "${python.sum([[0] * 10**6] * 10**6, [])}",
+    "${round(7, -10**10)}",
+    "${(lambda f: f(f))(lambda f: f(f))}",
+    "$(eval 'a' * 10**10)",
+    "$(eval 10**10**10)",
+]
+
+
+@pytest.mark.parametrize("text", INSIDES)
+def test_the_insides_of_python_are_out_of_reach(evaluate, text):
+    with pytest.raises(UrdftoolError) as caught:
+        evaluate(text)
+    assert caught.value.line == 1
+
+
+@pytest.mark.parametrize("text", ENDLESS)
+def test_no_expression_takes_all_time_or_memory(evaluate, text):
+    start = time.monotonic()
+    with pytest.raises(UrdftoolError) as caught:
+        evaluate(text)
+    assert caught.value.line == 1
+    assert time.monotonic() - start < 5  # without the bounds: minutes, or until memory is gone
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("${1 + 2 * 3 ** 2}", "19"),
+        ("${7 % 4} ${1 << 4}", "3 16"),
+        ("${'a' * 3 + 'b'}", "aaab"),
+        ("${'%.3f' % 1.5}", "1.500"),
+        ("${'{:04d} {}'.format(7, 'x')}", "0007 x"),
+        ("${'-'.join(['a', 'b']).replace('a', 'c')}", "c-b"),
+        ("${'7'.zfill(3)}", "007"),
+        ("$(eval f'{0.5:.2f}')", "0.50"),
+        ("${[2 * x for x in python.range(3)]}", "[0, 2, 4]"),
+        ("${python.sum([1, 2])} ${round(1.26, 1)} ${math.prod([2, 3])}", "3 1.3 6"),
+        ("${math.factorial(5)} ${factorial(4)}", "120 24"),
+        ("${python.type(1) == int}", "True"),
+        ("${dict(format=3).get('format')}", "3"),
+        ("$(eval 2 * 3)", "6"),
+        ("$(eval pi > 3 and 'a' == 'a')", "True"),
+        ("${(lambda x: x + 1)(2)}", "3"),
+    ],
+)
+def test_what_descriptions_do_works(evaluate, text, value):
+    assert evaluate(text) == value
+
+
+def test_methods_of_yaml_values_are_theirs(evaluate):
+    (evaluate.folder / "c.yaml").write_text("arm: {format: 3, mro: 4, length: !degrees 180*1.0}\n")
+    load = f"xacro.load_yaml('{evaluate.folder}/c.yaml')['arm']"
+    assert evaluate(f"${{{load}.format}}") == "3"
+    assert evaluate(f"${{{load}['mro']}}") == "4"
+    assert evaluate(f"${{round({load}['length'], 5)}}") == "3.14159"
+
+
+@pytest.mark.parametrize(
+    "text", [f"$(env {SECRET})", f"$(optenv {SECRET} x)", f"$(eval env('{SECRET}'))"]
+)
+def test_the_environment_is_not_shown(evaluate, monkeypatch, text):
+    monkeypatch.setenv(SECRET, "hidden-value")
+    with pytest.raises(UrdftoolError) as caught:
+        evaluate(text)
+    assert "--trust" in str(caught.value)
+    assert "hidden-value" not in str(caught.value)
+    monkeypatch.setenv(TRUST, "1")
+    assert evaluate(text) == "hidden-value"
+
+
+def test_what_says_which_ros_there_is_is_shown(evaluate, monkeypatch):
+    monkeypatch.setenv("ROS_DISTRO", "jazzy")
+    assert evaluate("$(env ROS_DISTRO)") == "jazzy"
+
+
+def test_a_default_stands_for_what_is_not_set(evaluate, monkeypatch):
+    monkeypatch.delenv("GRIPPER", raising=False)
+    assert evaluate("$(optenv GRIPPER two finger)") == "two finger"
+    with pytest.raises(UrdftoolError, match="not set"):
+        evaluate("$(env GRIPPER)")
+
+
+@pytest.fixture
+def outside(tmp_path):
+    """A folder that is no package's and not the project's."""
+    folder = tmp_path / "elsewhere" / "private"
+    folder.mkdir(parents=True)
+    (folder / "keys.yaml").write_text("key: hidden-value\n")
+    (folder / "part.xacro").write_text(XACRO.format('<link name="hidden-value"/>'))
+    return folder
+
+
+def _write(folder, body):
+    path = folder / "a.xacro"
+    path.write_text(XACRO.format(body))
+    return path
+
+
+LOADS = [
+    "<link name=\"${xacro.load_yaml('KEYS')['key']}\"/>",
+    "<link name=\"${load_yaml('KEYS')['key']}\"/>",
+    '<xacro:include filename="PART"/>',
+    '<xacro:include filename="FOLDER/*.xacro"/>',
+]
+
+
+@pytest.mark.parametrize("body", LOADS)
+def test_files_elsewhere_are_out_of_reach(evaluate, outside, monkeypatch, body):
+    for name, path in {"KEYS": "keys.yaml", "PART": "part.xacro", "FOLDER": ""}.items():
+        body = body.replace(name, str(outside / path).rstrip("/"))
+    path = _write(evaluate.folder, body)
+    with pytest.raises(UrdftoolError) as caught:
+        expand(path)
+    assert "--trust" in str(caught.value)
+    assert "hidden-value" not in str(caught.value)
+    assert caught.value.line == 1
+    monkeypatch.setenv(TRUST, "1")
+    assert "hidden-value" in expand(path)
+
+
+def test_a_link_does_not_lead_out(evaluate, outside):
+    (evaluate.folder / "own.yaml").symlink_to(outside / "keys.yaml")
+    with pytest.raises(UrdftoolError, match="a link to"):
+        expand(_write(evaluate.folder, LOADS[0].replace("KEYS", "own.yaml")))
+
+
+def test_a_link_into_a_package_is_followed(evaluate, outside):
+    """As colcon --symlink-install makes them."""
+    (outside / "package.xml").write_text("<package><name>p</name></package>")
+    (evaluate.folder / "own.yaml").symlink_to(outside / "keys.yaml")
+    assert "hidden-value" in expand(
+        _write(evaluate.folder, LOADS[0].replace("KEYS", str(evaluate.folder / "own.yaml")))
+    )
+
+
+def test_a_package_that_is_named_can_be_read(evaluate, outside):
+    path = _write(evaluate.folder, '<xacro:include filename="$(find p)/part.xacro"/>')
+    assert "hidden-value" in expand(path, packages={"p": outside})
+
+
+def test_a_sibling_folder_can_be_read(evaluate):
+    (evaluate.folder.parent / "config").mkdir()
+    (evaluate.folder.parent / "config" / "c.yaml").write_text("key: 7\n")
+    body = LOADS[0].replace("KEYS", str(evaluate.folder.parent / "config" / "c.yaml"))
+    assert 'name="7"' in expand(_write(evaluate.folder, body))
+
+
+@pytest.mark.parametrize("name", ["../elsewhere/private", "..", "/etc", "a/b"])
+def test_a_package_name_is_no_path(evaluate, outside, name):
+    with pytest.raises(UrdftoolError, match=r"no package name|--package"):
+        expand(_write(evaluate.folder, f'<link name="$(find {name})"/>'))
+
+
+def test_hidden_folders_of_a_project_are_not_read(evaluate):
+    hidden = evaluate.folder / ".ssh"
+    hidden.mkdir()
+    (hidden / "k.yaml").write_text("key: hidden-value\n")
+    with pytest.raises(UrdftoolError, match="--trust"):
+        expand(_write(evaluate.folder, LOADS[0].replace("KEYS", f"{hidden}/k.yaml")))
+
+
+def test_properties_that_double_are_stopped(evaluate):
+    doubled = "".join(
+        f'<xacro:property name="a{n + 1}" value="${{a{n}}}${{a{n}}}"/>' for n in range(60)
+    )
+    body = f'<xacro:property name="a0" value="ha"/>{doubled}<link name="${{a60}}"/>'
+    with pytest.raises(UrdftoolError, match="longer than any robot needs"):
+        expand(_write(evaluate.folder, body))
