@@ -41,7 +41,7 @@ def _filters(outcome: Outcome) -> str:
     rules = Counter(finding.rule for finding in outcome.findings)
     boxes = [
         f'<label class="{s.label}"><input type="checkbox" value="{s.label}" checked> '
-        f'<span class="level">{levels[s]} {s.label}</span></label>'
+        f'<span class="level">{_counted(levels[s], s)}</span></label>'
         for s in reversed(Severity)
     ]
     options = [
@@ -50,6 +50,10 @@ def _filters(outcome: Outcome) -> str:
     ]
     chooser = f'<select aria-label="rule"><option value="">all rules</option>{"".join(options)}'
     return "\n".join([*boxes, f"{chooser}</select>"])
+
+
+def _counted(count: int, severity: Severity) -> str:
+    return f"{count} {severity.label}{'s' if count != 1 and severity != Severity.INFO else ''}"
 
 
 def _file(path: str, findings: list[Finding]) -> str:
