@@ -1,18 +1,37 @@
-"""Bodies without the physics that a simulation lives on."""
+"""Bodies without the physics that a simulation lives on, whatever the engine made of them."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
-from ..model.elements import Robot
+import numpy as np
+
+from ..model.elements import Link, Robot
+from .bodies import Bodies, Body, mass_of
+from .extent import Extent, extent_of
 from .fault import Fault
 from .run import Run
+from .urdf import ROUNDED
+
+REACH = 1.2
+"""How far out a link's mass may sit on average, as a part of how far its shapes reach."""
+
+DENSEST = 20_000.0
+"""Denser than tungsten, gold or platinum allow [kg/m³]."""
+
+LARGEST = 30.0
+"""A part larger than this, on a robot of smaller parts, is in millimetres [m]."""
+
+_THIN = 1.0  # kg/m³, a bit less than air
+_SHARE = 0.5
+_LIGHT = 0.02  # of the robot's mass: what is lighter stands for a camera or a frame
 
 
 def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
-    """What is missing or impossible in the file, whatever the engine made of it."""
-    bodies = run.bodies.bodies
-    if not any(body.shapes for body in bodies):
+    """What is missing or impossible in the file."""
+    bodies = run.bodies
+    if not any(body.shapes for body in bodies.bodies):
         yield Fault(
             "nothing-touches",
             "no link has a <collision>: nothing of the robot can touch the floor",
@@ -20,21 +39,21 @@ def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
             cause="give each link a <collision>",
             rule="missing-collision",
         )
-    for number, body in enumerate(bodies):
-        link = robot.link[body.name]
-        if not body.mass and not (number == 0 and run.bodies.nailed):
-            what = "the root" if number == 0 else f"link '{body.name}' on a moving joint"
-            yield Fault(
-                "no-mass",
-                f"{what} weighs nothing" + (f" (link '{body.name}')" if number == 0 else ""),
-                link.place,
-                "link",
-                body.name,
-                "it has no <inertial>; engines nail such a root to the world, invent a mass, or "
-                "drop it",
-                "massless-root-body" if number == 0 else "massless-moving-body",
-            )
+    yield from _massless(robot, bodies)
+    told = set()
+    for number, body in enumerate(bodies.bodies):
+        if number == 0 and bodies.nailed:
+            continue
+        yield from _unweighed(robot, body)
+        for name in body.links:
+            for fault in _tensor(robot.link[name], body):
+                told.add(body.name)
+                yield fault
+            yield from _size(robot, robot.link[name], run)
+    yield from _giants(robot, bodies)
     for difference in run.recording.read_back:
+        if difference.name in told:
+            continue
         part = robot.link.get(difference.name) or robot.joint.get(difference.name)
         yield Fault(
             "read-otherwise",
@@ -44,3 +63,172 @@ def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
             difference.kind,
             difference.name,
         )
+
+
+def _massless(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
+    loads = {body.parent for body in bodies.bodies if body.mass}
+    moving = []
+    for number, body in enumerate(bodies.bodies):
+        if body.mass or (number == 0 and bodies.nailed):
+            continue
+        if number == 0:
+            yield Fault(
+                "no-mass",
+                f"the root, link '{body.name}', weighs nothing",
+                robot.link[body.name].place,
+                "link",
+                body.name,
+                "it has no <inertial> with a mass; PyBullet nails such a root to the world, Gazebo "
+                "drops it: give it one, or nail it down with --fixed-base",
+                "massless-root-body",
+            )
+        elif body.shapes or not _is_empty(bodies, number, loads):
+            moving.append(body.name)
+    if moving:
+        more = f" and {len(moving) - 1} more" if len(moving) > 1 else ""
+        yield Fault(
+            "no-mass",
+            f"link '{moving[0]}'{more} on a moving joint weighs nothing",
+            robot.link[moving[0]].place,
+            "link",
+            moving[0],
+            "it has no <inertial> with a mass; engines drop it, or invent a mass",
+            "massless-moving-body",
+        )
+
+
+def _is_empty(bodies: Bodies, number: int, loads: set[int]) -> bool:
+    """Whether a body is a mere frame: it carries nothing that weighs, so that nothing is moved."""
+    return number not in loads and not bodies.bodies[number].shapes
+
+
+def _unweighed(robot: Robot, body: Body) -> Iterator[Fault]:
+    """A link that is most of its body, and has no mass: the others cannot stand for it."""
+    without = [name for name in body.links if not robot.link[name].mass]
+    if not body.mass or not without:
+        return
+    extents = {name: extent_of(robot, name) for name in body.links if _has_shapes(robot, name)}
+    whole = sum(extent.volume for extent in extents.values())
+    for name in without:
+        if name in extents and extents[name].volume > _SHARE * whole > 0:
+            yield Fault(
+                "no-mass",
+                f"link '{name}' is most of its rigid body and weighs nothing; the rest weighs "
+                f"{body.mass:.3g} kg",
+                robot.link[name].place,
+                "link",
+                name,
+                "it has a shape and no <inertial> with a mass",
+                "missing-inertial",
+            )
+
+
+def _has_shapes(robot: Robot, name: str) -> bool:
+    return bool(robot.link[name].collisions or robot.link[name].visuals)
+
+
+def _tensor(link: Link, body: Body) -> Iterator[Fault]:
+    own = mass_of(link)
+    if own is None or link.inertial is None:
+        return
+    moments = np.linalg.eigvalsh(own.inertia)
+    place = (link.inertial.inertia or link.inertial).place
+    if moments[0] < -1e-9 * max(abs(moments[2]), 1e-12):
+        yield Fault(
+            "impossible-inertia",
+            f"the inertia of link '{link.name}' has a principal moment of {moments[0]:.3g} kg·m²",
+            place,
+            "link",
+            link.name,
+            "every principal moment is above zero; engines set such a tensor to zero, or blow up",
+            "inertia-not-positive-definite",
+        )
+    elif moments[2] > (moments[0] + moments[1]) * (1 + ROUNDED):
+        yield Fault(
+            "impossible-inertia",
+            f"the inertia of link '{link.name}' breaks the triangle inequality: "
+            f"{moments[2]:.3g} > {moments[0]:.3g} + {moments[1]:.3g} kg·m²",
+            place,
+            "link",
+            link.name,
+            "no body has such a tensor; PyBullet sets it to zero, and the link does not turn",
+            "inertia-triangle-inequality",
+        )
+    elif moments[2] <= 0 and body.properties is not None:
+        if np.linalg.eigvalsh(body.properties.inertia)[0] <= 0:
+            yield Fault(
+                "impossible-inertia",
+                f"the inertia of link '{link.name}' is zero, and it weighs {link.mass:g} kg",
+                place,
+                "link",
+                link.name,
+                "nothing resists its turning; engines take it for a body that never turns",
+                "zero-inertia",
+            )
+
+
+def _size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
+    """Mass and inertia that no shape of this size could have."""
+    own = mass_of(link)
+    if own is None or not _has_shapes(robot, link.name):
+        return
+    if own.mass < _LIGHT * run.bodies.mass:
+        return
+    spread = math.sqrt(max(0.0, float(np.trace(own.inertia)) / 2 / own.mass))
+    extent = extent_of(robot, link.name, only_collisions=True)
+    if _fits(extent, spread, own.mass, own.com):
+        return
+    extent = extent_of(robot, link.name)
+    assert link.inertial is not None
+    reach = extent.reach(own.com)
+    if reach and spread > REACH * reach:
+        yield Fault(
+            "inertia-too-large",
+            f"the inertia of link '{link.name}' is that of mass {spread:.3g} m from its centre; "
+            f"its shapes reach {reach:.3g} m",
+            (link.inertial.inertia or link.inertial).place,
+            "link",
+            link.name,
+            "a tensor of ones, or of other units; the link turns far too slowly",
+            "inertia-exceeds-geometry",
+        )
+    if extent.volume and own.mass > DENSEST * extent.volume:
+        yield Fault(
+            "too-dense",
+            f"link '{link.name}' weighs {own.mass:.4g} kg, {own.mass / extent.volume:,.0f} kg/m³ "
+            "of its shapes",
+            link.inertial.place,
+            "link",
+            link.name,
+            "no metal is so dense: its mass is in grams, or its shapes in another unit",
+            "implausible-density",
+        )
+
+
+def _fits(extent: Extent, spread: float, mass: float, com: np.ndarray) -> bool:
+    reach = extent.reach(com)
+    return spread <= REACH * reach and mass <= DENSEST * extent.volume
+
+
+def _giants(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
+    sizes: dict[str, list[float]] = {}
+    for body in bodies.bodies:
+        for shape in body.shapes:
+            low, high = shape.bounds()
+            sizes.setdefault(shape.link, []).append(float((high - low).max()))
+    largest = {name: max(found) for name, found in sizes.items()}
+    for name, size in largest.items():
+        others = [value for other, value in largest.items() if other != name]
+        link = robot.link[name]
+        volume = extent_of(robot, name, only_collisions=True).volume
+        thin = link.mass and volume and link.mass / volume < _THIN
+        if size > LARGEST and (thin or (others and size > 30 * float(np.median(others)))):
+            yield Fault(
+                "too-large",
+                f"a collision of link '{name}' is {size:,.0f} m large",
+                link.collisions[0].place,
+                "link",
+                name,
+                'its mesh is in millimetres; scale it with <mesh scale="0.001 0.001 0.001">',
+                "mesh-in-millimetres",
+            )

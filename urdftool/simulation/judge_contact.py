@@ -4,12 +4,168 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from ..model.elements import Robot
+from ..model.pose import Pose, rotation_of_quaternion
+from .bodies import Body
+from .extent import extent_of
 from .fault import Fault
 from .judge_rest import Rest
+from .overlap import overlap
+from .recording import GROUND, Contact
 from .run import Run
+
+SUNK = 0.01
+"""How deep a robot at rest may be in the floor, as a part of its size."""
+
+INTO = 0.005
+"""How deep parts may be in each other, as a part of the robot's size."""
+
+NEAR = 0.01
+"""How near to the floor a part is that should touch it, as a part of the robot's size."""
+
+COMPACT = 0.5
+"""How far apart joints may be that are one compound joint, as a part of the smaller body."""
+
+_LEAST = 0.002  # m: hulls have a margin, and files are rounded
 
 
 def judge_contacts(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
     """What is to be said of contacts."""
-    yield from ()
+    yield from _in_the_floor(robot, run)
+    yield from _in_each_other(robot, run)
+    if not rest.fell and run.recording.ended != "lost":
+        yield from _sunk(robot, run)
+        yield from _untouching(robot, run)
+
+
+def _deep(run: Run, part: float) -> float:
+    return max(part * run.bodies.size, _LEAST)
+
+
+def _in_the_floor(robot: Robot, run: Run) -> Iterator[Fault]:
+    for contact in run.recording.start_contacts:
+        if contact.other == GROUND and contact.depth > _deep(run, SUNK):
+            if run.bodies.nailed and contact.one in run.bodies.bodies[0].links:
+                continue
+            yield Fault(
+                "starts-in-floor",
+                f"link '{contact.one}' starts {contact.depth:.3g} m deep in the floor",
+                robot.link[contact.one].place,
+                "link",
+                contact.one,
+                "the root is nailed to the world there"
+                if run.bodies.nailed
+                else "--height puts it there",
+            )
+
+
+def _sunk(robot: Robot, run: Run) -> Iterator[Fault]:
+    grounded = [contact for contact in run.recording.contacts if contact.other == GROUND]
+    deepest = max(grounded, key=lambda contact: contact.depth, default=None)
+    if deepest is not None and deepest.depth > _deep(run, SUNK):
+        yield Fault(
+            "sank-in",
+            f"link '{deepest.one}' sank {deepest.depth:.3g} m into the floor",
+            robot.link[deepest.one].place,
+            "link",
+            deepest.one,
+            "its contact is too soft (<kp>) or the robot too heavy for what it stands on",
+            "missing-contact-parameters",
+        )
+
+
+def _in_each_other(robot: Robot, run: Run) -> Iterator[Fault]:
+    owner = {link: body.name for body in run.bodies.bodies for link in body.links}
+    at_start = {_pair(contact) for contact in run.recording.start_contacts}
+    for contact in (*run.recording.start_contacts, *run.recording.contacts):
+        if contact.other == GROUND or contact.depth < _deep(run, INTO):
+            continue
+        starting = any(contact is other for other in run.recording.start_contacts)
+        if not starting and _pair(contact) in at_start:
+            continue
+        adjacent = _are_joined(run, owner[contact.one], owner[contact.other])
+        frame = 0 if starting else -1
+        depth = overlap(run, frame, contact.one, contact.other)
+        if depth is not None and depth < _deep(run, INTO):
+            continue
+        depth = contact.depth if depth is None else min(depth, contact.depth)
+        when = "at the start" if starting else "at rest"
+        yield Fault(
+            "parts-collide",
+            f"links '{contact.one}' and '{contact.other}' are {depth:.3g} m in each other {when}",
+            robot.link[contact.one].place,
+            "link",
+            contact.one,
+            "they are joined, so engines let them"
+            if adjacent
+            else "their collision shapes are too large or misplaced, or the pose is not free",
+            "collision-off-visual",
+            fails=not adjacent,
+        )
+
+
+def _are_joined(run: Run, one: str, other: str) -> bool:
+    """Whether two bodies share a joint, or several in one place that make a universal or ball one.
+
+    Such parts overlap around their joint by design.
+    """
+    bodies = run.bodies.bodies
+    number = {body.name: index for index, body in enumerate(bodies)}
+    above: list[list[int]] = []
+    for name in (one, other):
+        chain = [number[name]]
+        while bodies[chain[-1]].parent >= 0:
+            chain.append(bodies[chain[-1]].parent)
+        above.append(chain)
+    common = next(index for index in above[0] if index in above[1])
+    path = [index for chain in above for index in chain[: chain.index(common)]]
+    if len(path) < 2:
+        return True
+    if common not in (number[one], number[other]):
+        return False
+    places = run.recording.poses[0, path, :3]
+    apart = float(np.linalg.norm(places.max(axis=0) - places.min(axis=0)))
+    smaller = min(_extent(bodies[number[one]]), _extent(bodies[number[other]]))
+    return apart < COMPACT * smaller
+
+
+def _extent(body: Body) -> float:
+    boxes = [shape.bounds() for shape in body.shapes]
+    low = np.min([low for low, _ in boxes], axis=0)
+    high = np.max([high for _, high in boxes], axis=0)
+    return float((high - low).max())
+
+
+def _pair(contact: Contact) -> frozenset[str]:
+    return frozenset((contact.one, contact.other))
+
+
+def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Moving bodies that are seen on the floor and have nothing to touch it with."""
+    for number, body in enumerate(run.bodies.bodies):
+        seen = [name for name in body.links if robot.link[name].visuals]
+        if body.shapes or not seen or (number == 0 and run.bodies.nailed):
+            continue
+        x, y, z, w = run.recording.poses[-1, number, 3:].tolist()
+        at = run.recording.poses[-1, number, :3].tolist()
+        pose = Pose(rotation_of_quaternion((w, x, y, z)), (at[0], at[1], at[2]))
+        for name in seen:
+            points = extent_of(robot, name).points
+            if not len(points):
+                continue
+            place = pose @ body.places[name]
+            heights = points @ np.array(place.rotation[2]) + place.translation[2]
+            lowest = float(heights.min())
+            if lowest < _deep(run, NEAR):
+                where = "on" if lowest > -_deep(run, NEAR) else f"{-lowest:.3g} m below"
+                yield Fault(
+                    "no-contact-shape",
+                    f"link '{name}' is {where} the floor and has no <collision> to touch it with",
+                    robot.link[name].place,
+                    "link",
+                    name,
+                    "a wheel or foot that carries nothing; what is beside it does",
+                    "missing-collision",
+                )

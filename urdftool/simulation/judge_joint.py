@@ -1,15 +1,249 @@
-"""Joints that sag, leave their limits, or need more than they may."""
+"""Joints that sag, collapse, leave their limits, or need more than they may."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
-from ..model.elements import Robot
+import numpy as np
+
+from ..model.elements import Joint, Robot
+from ..model.pose import rotation_of_quaternion
+from .bodies import JointOf
 from .fault import Fault
-from .judge_rest import Rest
+from .judge_rest import FAR, Rest
+from .recording import GROUND
 from .run import Run
+
+SAG = 0.05
+"""How far a held joint may be from where it is held [rad]; a sliding one, of the robot's size."""
+
+BEYOND = 0.02
+"""How far a joint may be beyond a limit [rad]; a sliding one, of the robot's size."""
+
+_NEARLY = 0.9
 
 
 def judge_joints(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
-    """What is to be said of joints."""
-    yield from ()
+    """What is to be said of joints, at the end of a run that was not lost."""
+    recording = run.recording
+    if not recording.joints:
+        return
+    if recording.ended != "lost" and not rest.fell:
+        sagging = list(_sag(robot, run))
+        yield from sagging
+        yield from _beyond(robot, run)
+        if not sagging:
+            yield from _collapsed(robot, run)
+            yield from _nearly(robot, run)
+    yield from _unlimited(robot, run)
+    yield from _unheld(robot, run)
+    for name, value in run.bodies.moved_start.items():
+        yield Fault(
+            "zero-outside-limits",
+            f"joint '{name}' cannot be at zero and starts at {value:.4g}, its nearest limit",
+            _joint(robot, name).place,
+            "joint",
+            name,
+            rule="zero-outside-limits",
+            fails=False,
+        )
+
+
+def _joint(robot: Robot, name: str) -> Joint:
+    return robot.joint[name]
+
+
+def _allowed(joint: JointOf, part: float, run: Run) -> float:
+    return part * max(run.bodies.size, 1e-3) if joint.kind == "prismatic" else part
+
+
+def _units(joint: JointOf) -> tuple[str, str]:
+    return ("m", "N") if joint.kind == "prismatic" else ("rad", "N·m")
+
+
+def _sag(robot: Robot, run: Run) -> Iterator[Fault]:
+    recording = run.recording
+    for column, joint in enumerate(run.bodies.joints):
+        if joint.name not in recording.targets:
+            continue
+        target, now = recording.targets[joint.name], float(recording.positions[-1, column])
+        if not abs(now - target) > _allowed(joint, SAG, run):
+            continue
+        length, force = _units(joint)
+        need = needed_effort(run, column)
+        allowed = joint.effort
+        if allowed is None:
+            why = "no effort is written, and it was held without bound: something pushes it away"
+        elif need is not None and abs(need) > allowed:
+            why = f"to hold it takes {abs(need):.4g} {force}, and it may use {allowed:.4g}"
+        else:
+            why = f"it may use {allowed:.4g} {force}, which was not enough"
+        yield Fault(
+            "sags",
+            f"joint '{joint.name}' is held at {target:.3g} {length} and came to rest at "
+            f"{now:.3g} {length}",
+            (_joint(robot, joint.name).limit or _joint(robot, joint.name)).place,
+            "joint",
+            joint.name,
+            why,
+            "implausible-effort",
+        )
+
+
+def needed_effort(run: Run, column: int) -> float | None:
+    """What a joint needs to hold what hangs on it where the run began [N·m, N].
+
+    The static balance of weights: each body beyond the joint pulls at its centre of mass. None
+    where something beyond the joint touches the plane, which then carries a part.
+    """
+    bodies, recording = run.bodies.bodies, run.recording
+    first = column + 1
+    beyond = {first}
+    for number in range(first + 1, len(bodies)):
+        if bodies[number].parent in beyond:
+            beyond.add(number)
+    links = {link for number in beyond for link in bodies[number].links}
+    if any(contact.other == GROUND and contact.one in links for contact in recording.contacts):
+        return None
+    gravity = np.array(run.settings.gravity_at(math.inf))
+    pose = recording.poses[0]
+    turn = _rotation(pose[first])
+    joint = bodies[first].joint
+    assert joint is not None
+    axis = turn @ np.array(joint.axis)
+    total = 0.0
+    for number in beyond:
+        body = bodies[number]
+        if body.properties is None:
+            continue
+        centre = pose[number, :3] + _rotation(pose[number]) @ body.properties.com
+        weight = body.mass * gravity
+        if joint.kind == "prismatic":
+            total -= float(axis @ weight)
+        else:
+            total -= float(axis @ np.cross(centre - pose[first, :3], weight))
+    return total
+
+
+def _rotation(pose: np.ndarray) -> np.ndarray:
+    x, y, z, w = pose[3:].tolist()
+    return np.array(rotation_of_quaternion((w, x, y, z)))
+
+
+def _beyond(robot: Robot, run: Run) -> Iterator[Fault]:
+    for column, joint in enumerate(run.bodies.joints):
+        now = float(run.recording.positions[-1, column])
+        past = max(joint.lower - now, now - joint.upper)
+        if not past > _allowed(joint, BEYOND, run):
+            continue
+        length, _ = _units(joint)
+        side = "upper" if now > joint.upper else "lower"
+        limit = joint.upper if now > joint.upper else joint.lower
+        yield Fault(
+            "beyond-limit",
+            f"joint '{joint.name}' is at {now:.3g} {length}, beyond its {side} limit {limit:.3g}",
+            (_joint(robot, joint.name).limit or _joint(robot, joint.name)).place,
+            "joint",
+            joint.name,
+            "it starts there, or what it mimics takes it there"
+            if joint.leader or not joint.lower <= run.bodies.positions[joint.name] <= joint.upper
+            else "something pushes it there",
+            "zero-outside-limits",
+        )
+
+
+def _collapsed(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Joints that nothing holds and that gave way, so that the robot is lower now."""
+    recording, bodies = run.recording, run.bodies
+    weight = sum(body.mass for body in bodies.bodies[1:]) * run.settings.gravity
+    if not weight:
+        return
+    sunk = -float(recording.potential[-1]) / weight
+    moved = np.abs(recording.positions[-1] - recording.positions[0])
+    loose = [
+        (float(moved[column]) / (bodies.size if joint.kind == "prismatic" else 1.0), joint.name)
+        for column, joint in enumerate(bodies.joints)
+        if joint.name not in recording.targets and joint.leader is None
+        if joint.kind != "continuous" or moved[column] < 2 * math.pi
+    ]
+    if not loose or sunk < FAR * bodies.size:
+        return
+    far, name = max(loose)
+    if far < SAG:
+        return
+    column = recording.joints.index(name)
+    yield Fault(
+        "collapsed",
+        f"it collapsed: what its joints bear sank by {sunk:.3g} m, and joint '{name}' went from "
+        f"{recording.positions[0, column]:.3g} to {recording.positions[-1, column]:.3g}",
+        _joint(robot, name).place,
+        "joint",
+        name,
+        "nothing holds the joint: " + _why_loose(run),
+        "missing-control-plugin",
+    )
+
+
+def _why_loose(run: Run) -> str:
+    if run.settings.hold == "none":
+        return "--limp was asked for"
+    return "the file names no actuator for it; --hold holds every joint"
+
+
+def _nearly(robot: Robot, run: Run) -> Iterator[Fault]:
+    recording = run.recording
+    if run.recording.still_since is None:
+        return
+    for column, joint in enumerate(run.bodies.joints):
+        used = abs(float(recording.efforts[-1, column]))
+        if joint.name in recording.targets and joint.effort and used > _NEARLY * joint.effort:
+            _, force = _units(joint)
+            yield Fault(
+                "near-effort-limit",
+                f"joint '{joint.name}' uses {used:.4g} {force} to stand, of {joint.effort:.4g} it "
+                "may",
+                (_joint(robot, joint.name).limit or _joint(robot, joint.name)).place,
+                "joint",
+                joint.name,
+                fails=False,
+            )
+
+
+def _unlimited(robot: Robot, run: Run) -> Iterator[Fault]:
+    names = [
+        joint.name
+        for joint in run.bodies.joints
+        if joint.name in run.recording.targets and joint.effort is None
+    ]
+    if names:
+        more = f" and {len(names) - 1} more" if len(names) > 1 else ""
+        yield Fault(
+            "no-effort",
+            f"joint '{names[0]}'{more} has no effort above zero, and was held without bound",
+            _joint(robot, names[0]).place,
+            "joint",
+            names[0],
+            "write <limit effort> to see whether it can bear its load; Gazebo drives no joint of "
+            "effort zero",
+            "zero-effort-limit",
+            fails=False,
+        )
+
+
+def _unheld(robot: Robot, run: Run) -> Iterator[Fault]:
+    if run.settings.hold != "auto":
+        return
+    held = set(run.recording.held)
+    names = [j.name for j in run.bodies.joints if j.name not in held and j.leader is None]
+    if names and held:
+        shown = ", ".join(f"'{name}'" for name in names[:4]) + (", …" if len(names) > 4 else "")
+        yield Fault(
+            "not-held",
+            f"the file actuates other joints than {shown}: nothing held "
+            + ("these" if len(names) > 1 else "this one"),
+            _joint(robot, names[0]).place,
+            "joint",
+            names[0],
+            fails=False,
+        )

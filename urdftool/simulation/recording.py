@@ -52,7 +52,7 @@ class Recording:
     Attributes:
         engine: Its name and version.
         bodies: The topmost link of each rigid body, the root first.
-        joints: The joints with one position, in the order of the file.
+        joints: Those that ``bodies[1:]`` hang on, in that order.
         times: Shape (n,) [s].
         poses: Shape (n, b, 7): position [m] and quaternion x, y, z, w of each body's link frame.
         velocities: Shape (n, b, 6): of the centre of mass [m/s], and angular [rad/s], in the world.

@@ -15,6 +15,9 @@ from .shapes import Shape
 
 NAME = "robot.urdf"
 
+ROUNDED = 0.01
+"""How far a tensor may be beyond the triangle inequality by rounding; it is moved to its edge."""
+
 
 def write_folder(robot: Bodies, folder: Path) -> Path:
     """Write a robot and its meshes; the path of the URDF.
@@ -46,6 +49,9 @@ def principal_frame(body: Body) -> tuple[Pose, tuple[float, float, float]]:
     if body.properties is None:
         return Pose(), (0.0, 0.0, 0.0)
     moments, axes = principal(body.properties.inertia)
+    most = float(moments[0] + moments[1])
+    if most < moments[2] <= most * (1 + ROUNDED):
+        moments = np.array([moments[0], moments[1], most * (1 - 1e-6)])
     x, y, z = (float(part) for part in body.properties.com)
     rows = tuple(tuple(float(value) for value in row) for row in axes)
     a, b, c = (float(value) for value in moments)
