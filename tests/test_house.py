@@ -26,6 +26,7 @@ BELOW = {
     "collision": (
         *("store", "drawing", "meshes", "inertia", "model", "source", "workers", "errors"),
     ),
+    "viewer": ("drawing", "inertia", "meshes", "finding", "model", "source", "errors"),
     "rules": ("finding", "model", "source", "meshes", "inputs", "errors"),
     "lint": (
         *("rules", "finding", "model", "source", "configuration", "workers"),
@@ -51,14 +52,18 @@ DOORS = {
     "collada": ("meshes/",),
     "scipy": ("meshes/", "inertia/", "formats/", "collision/", "simulation/"),
     "click": ("cli.py", "console.py", "commands/", "report/findings.py"),
-    "rich": ("report/", "commands/", "formats/"),
-    "numpy": ("meshes/", "drawing/", "inertia/", "formats/", "collision/", "simulation/"),
+    "rich": ("report/", "commands/", "formats/", "viewer/server.py"),
+    "numpy": (
+        *("meshes/", "drawing/", "viewer/", "inertia/", "formats/", "collision/", "simulation/"),
+    ),
     "coacd": ("collision/coacd_child.py",),
     "meshoptimizer": ("collision/quadric.py",),
     "distributed": ("collision/cluster.py",),
     "mujoco": ("formats/mjcf/",),
-    "PIL": ("drawing/", "formats/mjcf/texture.py"),
+    "PIL": ("drawing/", "viewer/glb.py", "formats/mjcf/texture.py"),
     "pybullet": ("simulation/bullet",),
+    "viser": ("viewer/server.py",),
+    "websockets": ("viewer/server.py",),
     "pygraphviz": ("graph/draw.py",),
 }
 

@@ -18,7 +18,10 @@ from . import __version__
 from .console import Console
 from .errors import UrdftoolError
 
-COMMANDS = ("expand", "lint", "inertia", "collision", "graph", "info", "diff", "simulate", "export")
+COMMANDS = (
+    *("expand", "lint", "inertia", "collision", "graph", "info", "diff", "view", "simulate"),
+    "export",
+)
 
 REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"
 

@@ -1,0 +1,310 @@
+"""The robot in the scene: a node for each link, its surfaces, and what is drawn beside them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..finding import Finding, Severity
+from ..model.elements import Joint, Robot, Vector
+from ..model.kinematics import MOVABLE, motion_of
+from ..model.pose import IDENTITY, Pose, Quaternion, pose_of, quaternion_of_rotation
+from .equal_box import equal_box
+from .looks import Look, box_around, looks_of
+from .marks import counted, worst
+from .numbers import shortened
+
+if TYPE_CHECKING:
+    import viser
+
+    from ..drawing.shapes import Shapes
+
+KINDS = ("visual", "collision", "frames", "names", "axes", "com", "inertia", "findings")
+"""What of a robot can be shown and hidden."""
+
+COLLISION = (240, 140, 40)
+BOXES = {True: (60, 120, 230), False: (220, 30, 30)}
+"""Inertia that a rigid body can have, and that none has."""
+
+SELECTED = (255, 196, 0)
+COLORS = {Severity.ERROR: (220, 30, 30), Severity.WARNING: (240, 130, 0)}
+EDGES = [(0, 1), (0, 2), (0, 4), (3, 1), (3, 2), (3, 7), (5, 1), (5, 4), (5, 7), (6, 2), (6, 4),
+         (6, 7)]  # fmt: skip
+
+
+class Body:
+    """One robot in a scene.
+
+    What is not shown at first is made when it is shown for the first time. Links are nodes below
+    their parents, so a joint that moves is one message, however much hangs on it.
+    """
+
+    def __init__(
+        self,
+        scene: viser.SceneApi,
+        robot: Robot,
+        load: Callable[[str], Shapes],
+        clicked: Callable[[str], None],
+        *,
+        root: str = "/robot",
+    ) -> None:
+        """Make the nodes of the links; nothing of them is shown yet.
+
+        Args:
+            scene: Where.
+            robot: The robot.
+            load: Gives the triangles of ``"visual"`` or ``"collision"``.
+            clicked: Told the link whose surface somebody clicks.
+            root: The name of the node that all others are below.
+        """
+        self.scene, self.robot = scene, robot
+        self.shapes: dict[str, Shapes] = {}
+        self._load, self._clicked = load, clicked
+        self._nodes: dict[str, list[tuple[str, Any]]] = {}
+        self._selected: str | None = None
+        self._tinted: list[tuple[Any, tuple[int, int, int]]] = []
+        self._outline: list[Any] = []
+        self._findings: Mapping[str, list[Finding]] = {}
+        self._paths: dict[str, str] = {}
+        self._frames: dict[str, Any] = {}
+        self._at: dict[str, float] = {}
+        self.size = 1.0
+        self._root = scene.add_frame(root, show_axes=False)
+        for number, name in enumerate(robot.tree.order):
+            joint = robot.tree.parent_joint(name)
+            above = root if joint is None else self._paths.get(joint.parent)
+            if above is None:
+                continue
+            self._paths[name] = f"{above}/{number}"
+            pose = sound(IDENTITY if joint is None else pose_of(joint.origin))
+            self._frames[name] = scene.add_frame(
+                self._paths[name],
+                show_axes=False,
+                wxyz=quaternion(pose),
+                position=pose.translation,
+            )
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """The links that are in the scene; those that hang on no root are not."""
+        return tuple(self._paths)
+
+    def remove(self) -> None:
+        """Take it out of the scene."""
+        self._root.remove()
+
+    def move(self, positions: Mapping[str, float]) -> int:
+        """Put joints where they are to be [rad, m]; those that are there already stay.
+
+        Returns:
+            How many links were sent a new pose.
+        """
+        moved = 0
+        for name, frame in self._frames.items():
+            joint = self.robot.tree.parent_joint(name)
+            if joint is None or joint.type not in MOVABLE:
+                continue
+            value = positions.get(joint.name, 0.0)
+            if value == self._at.get(name, 0.0):
+                continue
+            self._at[name] = value
+            pose = sound(pose_of(joint.origin) @ motion_of(joint, value))
+            frame.wxyz, frame.position = quaternion(pose), pose.translation
+            moved += 1
+        return moved
+
+    def measure(self, poses: Mapping[str, Pose]) -> tuple[Vector, Vector]:
+        """The box around all that is seen, or around the frames where nothing is [m]."""
+        points = [[*pose.translation] for name, pose in poses.items() if name in self._paths]
+        points = [point for point in points if all(map(math.isfinite, point))]
+        for shapes in self.shapes.values():
+            corners, _, there = shapes.posed(poses)
+            if there.any():
+                seen = corners[there].reshape(-1, 3)
+                points += [seen.min(axis=0).tolist(), seen.max(axis=0).tolist()]
+        cloud = np.array(points or [[0.0, 0.0, 0.0]])
+        low, high = cloud.min(axis=0), cloud.max(axis=0)
+        self.size = float(np.linalg.norm(high - low)) or 1.0
+        return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
+    def load(self, kind: str) -> Shapes:
+        """The triangles of ``"visual"`` or ``"collision"``, read once."""
+        if kind not in self.shapes:
+            self.shapes[kind] = self._load(kind)
+        return self.shapes[kind]
+
+    def show(self, kind: str, wanted: bool) -> None:
+        """Show or hide one of ``KINDS``."""
+        if kind not in self._nodes:
+            if not wanted:
+                return
+            self._nodes[kind] = list(getattr(self, f"_make_{kind}")())
+        for _, node in self._nodes[kind]:
+            node.visible = wanted
+
+    def mark(self, findings: Mapping[str, list[Finding]], shown: bool) -> None:
+        """Say at each link what was found on it: errors and warnings."""
+        self._findings = findings
+        for _, node in self._nodes.pop("findings", []):
+            node.remove()
+        self.show("findings", shown)
+
+    def select(self, link: str | None) -> None:
+        """Highlight a link; None for none."""
+        for node, color in self._tinted:
+            node.color = color
+        for node in self._outline:
+            node.remove()
+        self._tinted, self._outline = [], []
+        self._selected = link if link in self._paths else None
+        if self._selected is None:
+            return
+        path = self._paths[self._selected]
+        for kind in ("visual", "collision"):
+            for name, node in self._nodes.get(kind, []):
+                if name == self._selected and hasattr(node, "color"):
+                    self._tinted.append((node, tuple(node.color)))
+                    node.color = SELECTED
+        for kind, shapes in self.shapes.items():
+            box = box_around(shapes).get(self._selected)
+            if box is not None and kind in self._nodes:
+                self._outline.append(self._edges(f"{path}/outline", *box))
+                break
+        self._outline.append(self._axes_at(f"{path}/selected"))
+        self._outline.append(
+            self.scene.add_label(
+                f"{path}/called", shortened(self._selected), anchor="bottom-center"
+            )
+        )
+
+    def _make_visual(self) -> Iterable[tuple[str, Any]]:
+        return self._surfaces("visual")
+
+    def _make_collision(self) -> Iterable[tuple[str, Any]]:
+        return self._surfaces("collision")
+
+    def _surfaces(self, kind: str) -> Iterable[tuple[str, Any]]:
+        for number, (link, look) in enumerate(looks_of(self.load(kind))):
+            if link in self._paths:
+                node = self._surface(f"{self._paths[link]}/{kind}{number}", look, kind)
+                node.on_click(lambda _, link=link: self._clicked(link))
+                yield link, node
+
+    def _surface(self, path: str, look: Look, kind: str) -> Any:
+        if kind == "collision":
+            return self.scene.add_mesh_simple(
+                path, look.vertices, look.faces, color=COLLISION, opacity=0.5, side="double",
+                cast_shadow=False, receive_shadow=False,
+            )  # fmt: skip
+        if look.glb is not None:
+            return self.scene.add_glb(path, look.glb, cast_shadow=False, receive_shadow=False)
+        return self.scene.add_mesh_simple(
+            path,
+            look.vertices,
+            look.faces,
+            color=look.rgb,
+            opacity=None if look.opacity >= 1.0 else look.opacity,
+            side="double",
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+
+    def _make_frames(self) -> Iterable[tuple[str, Any]]:
+        for link, path in self._paths.items():
+            yield link, self._axes_at(f"{path}/frame")
+
+    def _axes_at(self, path: str) -> Any:
+        long = 0.1 * self.size
+        return self.scene.add_frame(path, axes_length=long, axes_radius=long / 25)
+
+    def _make_names(self) -> Iterable[tuple[str, Any]]:
+        for link, path in self._paths.items():
+            yield (
+                link,
+                self.scene.add_label(f"{path}/name", shortened(link), anchor="bottom-left"),
+            )
+
+    def _make_axes(self) -> Iterable[tuple[str, Any]]:
+        long = 0.14 * self.size
+        for link, path in self._paths.items():
+            joint = self.robot.tree.parent_joint(link)
+            direction = axis_of(joint)
+            if direction is None:
+                continue
+            ends = np.array([[[-0.5 * long * part for part in direction],
+                              [long * part for part in direction]]])  # fmt: skip
+            yield link, self.scene.add_arrows(
+                f"{path}/axis", ends, (170, 40, 200), shaft_radius=long / 40,
+                head_radius=long / 16, head_length=long / 6,
+            )  # fmt: skip
+
+    def _make_com(self) -> Iterable[tuple[str, Any]]:
+        for link, path in self._paths.items():
+            inertial = self.robot.link[link].inertial
+            if inertial is None or not inertial.mass:
+                continue
+            at = sound(pose_of(inertial.origin)).translation
+            yield link, self.scene.add_icosphere(
+                f"{path}/com", 0.012 * self.size, (20, 20, 20), position=at, cast_shadow=False,
+                subdivisions=2,
+            )  # fmt: skip
+
+    def _make_inertia(self) -> Iterable[tuple[str, Any]]:
+        for link, path in self._paths.items():
+            box = equal_box(self.robot.link[link].inertial)
+            if box is None:
+                continue
+            yield link, self.scene.add_box(
+                f"{path}/inertia", BOXES[box.possible], box.size, wxyz=quaternion(box.pose),
+                position=box.pose.translation, opacity=0.45, cast_shadow=False,
+                receive_shadow=False,
+            )  # fmt: skip
+
+    def _make_findings(self) -> Iterable[tuple[str, Any]]:
+        for link, path in self._paths.items():
+            shown = [f for f in self._findings.get(link, []) if f.severity in COLORS]
+            severity = worst(shown)
+            if severity is None:
+                continue
+            yield link, self.scene.add_icosphere(
+                f"{path}/marked", 0.014 * self.size, COLORS[severity], cast_shadow=False,
+                subdivisions=2,
+            )  # fmt: skip
+            yield (
+                link,
+                self.scene.add_label(f"{path}/found", counted(shown), anchor="top-left"),
+            )
+
+    def _edges(self, path: str, low: Any, high: Any) -> Any:
+        corners = [[(low, high)[(k >> axis) & 1][axis] for axis in range(3)] for k in range(8)]
+        points = np.array([[corners[a], corners[b]] for a, b in EDGES])
+        return self.scene.add_line_segments(path, points, SELECTED, **_thickness(2.0))
+
+
+def _thickness(pixels: float) -> dict[str, Any]:
+    return {"thickness": pixels, "thickness_units": "screen"}
+
+
+def axis_of(joint: Joint | None) -> Vector | None:
+    """The unit axis of a joint that turns about or slides along one; None for others."""
+    if joint is None or joint.type not in MOVABLE:
+        return None
+    x, y, z = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+    length = math.hypot(x, y, z)
+    if not (length and math.isfinite(length)):
+        return None
+    return x / length, y / length, z / length
+
+
+def sound(pose: Pose) -> Pose:
+    """The pose, or where it is no pose of finite numbers, the identity."""
+    numbers = (*(part for row in pose.rotation for part in row), *pose.translation)
+    return pose if all(map(math.isfinite, numbers)) else IDENTITY
+
+
+def quaternion(pose: Pose) -> Quaternion:
+    """The rotation of a pose as the scene wants it."""
+    return quaternion_of_rotation(pose.rotation)

@@ -1,0 +1,53 @@
+"""The box that turns like a link: of uniform density, with its mass and principal moments."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..inertia.tensor import principal, second_moment, tensor_from_six
+from ..model.elements import Inertial, Vector
+from ..model.pose import Pose, pose_of
+
+
+@dataclass(frozen=True)
+class EqualBox:
+    """A box in the frame of its link.
+
+    Attributes:
+        size: Its edges [m].
+        pose: Of its middle, along its edges.
+        possible: Whether a rigid body can have the inertia; an edge whose square would be negative
+            is drawn without length.
+    """
+
+    size: Vector
+    pose: Pose
+    possible: bool
+
+
+def equal_box(inertial: Inertial | None) -> EqualBox | None:
+    """The box of uniform density with the mass and inertia of a link.
+
+    With the principal second moments s = ∫ x² dm of the tensor an edge is √(12 s / m), since that
+    of a box along its edge a is m a² / 12.
+
+    Returns:
+        None where mass or inertia is not written, not above zero or not finite.
+    """
+    if inertial is None or inertial.inertia is None or not inertial.mass:
+        return None
+    (ixx, iyy, izz), (ixy, ixz, iyz) = inertial.inertia.moments, inertial.inertia.products
+    pose = pose_of(inertial.origin)
+    numbers = (ixx, ixy, ixz, iyy, iyz, izz, inertial.mass, *pose.translation, *pose.rotation[0])
+    if inertial.mass < 0 or not all(map(math.isfinite, numbers)) or not (ixx or iyy or izz):
+        return None
+    moments, axes = principal(second_moment(tensor_from_six(ixx, ixy, ixz, iyy, iyz, izz)))
+    squares = 12.0 * moments / inertial.mass
+    x, y, z = (float(edge) for edge in np.sqrt(np.maximum(squares, 0.0)))
+    rows = axes.tolist()
+    turned = Pose((tuple(rows[0]), tuple(rows[1]), tuple(rows[2])), (0.0, 0.0, 0.0))
+    possible = bool(squares.min() >= -1e-9 * squares.max())
+    return EqualBox((x, y, z), pose @ turned, possible)

@@ -1,0 +1,146 @@
+"""The sliders on the page, and where the joints are."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from ..model.elements import Robot
+from ..model.kinematics import with_mimics
+from . import panels
+from .numbers import shortened
+from .sliders import Slider, sliders_of
+
+if TYPE_CHECKING:
+    import viser
+
+WHERE = ("zero", "lower", "upper", "random")
+_LONGEST = 40
+
+
+class Joints:
+    """The positions of a robot's joints, with a slider for each."""
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        tab: Any,
+        moved: Callable[[Mapping[str, float]], None],
+        safely: Callable[..., None],
+        start: Mapping[str, float],
+    ) -> None:
+        """Make the buttons; the sliders come with a robot.
+
+        Args:
+            gui: The page's controls.
+            tab: Where on the page.
+            moved: Told the positions of all joints [rad, m] when some have changed.
+            safely: Calls a function with arguments; one after the other, whatever fails.
+            start: Positions to begin with, which may be beyond limits.
+        """
+        self._gui, self._tab, self._moved, self._safely = gui, tab, moved, safely
+        self._start = dict(start)
+        self._positions: dict[str, float] = dict(start)
+        self._robot: Robot | None = None
+        self._sliders: list[Slider] = []
+        self._handles: dict[str, Any] = {}
+        with tab:
+            buttons = gui.add_button_group("all joints", WHERE)
+            buttons.on_click(lambda event: safely(self.put, event.target.value))
+            self._none = gui.add_html(panels.box("No joint of this robot moves."), visible=False)
+
+    @property
+    def positions(self) -> dict[str, float]:
+        """Where each joint is [rad, m]."""
+        return dict(self._positions)
+
+    @property
+    def sliders(self) -> tuple[Slider, ...]:
+        """The sliders, in the order of the file."""
+        return tuple(self._sliders)
+
+    def take(self, robot: Robot, reach: float) -> None:
+        """Make the sliders of a robot; joints that were there before stay where they are.
+
+        Args:
+            robot: The robot.
+            reach: How far a sliding joint without limits goes [m].
+        """
+        self._robot = robot
+        sliders = sliders_of(robot, self._start, reach)
+        if sliders != self._sliders:
+            for handle in self._handles.values():
+                handle.remove()
+            self._sliders = sliders
+            with self._tab:
+                self._handles = {slider.name: self._slider(slider) for slider in sliders}
+            self._none.visible = not sliders
+        zero = {slider.name: slider.zero for slider in self._free()}
+        kept = {slider.name: slider for slider in self._free() if slider.name in self._positions}
+        stay = {name: slider.meant(self._positions[name]) for name, slider in kept.items()}
+        self._positions = {}
+        self.move({**zero, **stay})
+
+    def _slider(self, slider: Slider) -> Any:
+        low, high = slider.shown_bounds
+        if high <= low:
+            low, high = low - slider.step, high + slider.step
+        unit = "rad" if slider.turns else "m"
+        handle = self._gui.add_slider(
+            shortened(slider.name, _LONGEST),
+            min=low,
+            max=high,
+            step=slider.step,
+            initial_value=min(max(slider.shown(slider.zero), low), high),
+            marks=((low, slider.words(slider.lower)), (high, slider.words(slider.upper))),
+            disabled=slider.locked,
+            hint=f"{shortened(slider.name)} [{unit}]{': ' * bool(slider.note)}{slider.note}",
+        )
+
+        def slid(_: object) -> None:
+            self._safely(self._slid, slider)
+
+        handle.on_update(slid)
+        return handle
+
+    def _slid(self, slider: Slider) -> None:
+        """Somebody, or this page, has moved a slider."""
+        handle = self._handles.get(slider.name)
+        if handle is None or slider.locked or slider not in self._sliders:
+            return
+        if handle.value != slider.shown(self._positions.get(slider.name, 0.0)):
+            self.move({slider.name: slider.meant(handle.value)}, leader=slider.name)
+
+    def move(self, wanted: Mapping[str, float], leader: str = "") -> None:
+        """Put joints somewhere [rad, m], and with them those that follow; the others stay.
+
+        Args:
+            wanted: Positions by name.
+            leader: The joint whose slider is there already.
+        """
+        if self._robot is None:
+            return
+        free = {slider.name for slider in self._free()}
+        given = {name: at for name, at in {**self._positions, **wanted}.items() if name in free}
+        positions = with_mimics(self._robot, given)
+        self._positions = {slider.name: positions[slider.name] for slider in self._sliders}
+        self._moved(positions)
+        for slider in self._sliders:
+            value, handle = positions[slider.name], self._handles[slider.name]
+            words = f"{shortened(slider.name, _LONGEST)} {slider.words(value)}"
+            if handle.label != words:
+                handle.label = words
+            if slider.name != leader and handle.value != slider.shown(value):
+                handle.value = slider.shown(value)
+
+    def put(self, where: str) -> None:
+        """Put every joint that follows no other at one of ``WHERE``."""
+        free = self._free()
+        if where == "random":
+            self.move({slider.name: random.uniform(slider.lower, slider.upper) for slider in free})
+        else:
+            self.move({slider.name: getattr(slider, where) for slider in free})
+
+    def _free(self) -> list[Slider]:
+        return [slider for slider in self._sliders if not slider.follows]

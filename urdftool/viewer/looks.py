@@ -1,0 +1,94 @@
+"""Surfaces as a page wants them: a mesh for each colour, with normals that three.js finds again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from .glb import glb
+
+if TYPE_CHECKING:
+    from ..drawing.shapes import Shapes
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """Triangles of one link in one colour or under one image, in the link's frame.
+
+    Attributes:
+        vertices: Points [m], shape (n, 3). A point at a sharp edge is there once for each side, so
+            that normals which are means over the faces at a vertex are smooth where the surface is.
+        faces: Rows of ``vertices``, shape (m, 3).
+        rgb: Red, green and blue in 0 … 255.
+        opacity: In 0 … 1.
+        glb: The same as a binary glTF where an image lies on it; None elsewhere.
+    """
+
+    vertices: npt.NDArray[np.float32]
+    faces: npt.NDArray[np.uint32]
+    rgb: tuple[int, int, int]
+    opacity: float
+    glb: bytes | None = None
+
+
+def looks_of(shapes: Shapes) -> Iterator[tuple[str, Look]]:
+    """The surfaces of each link, with its name."""
+    bounds = np.searchsorted(shapes.link, np.arange(len(shapes.links) + 1))
+    for row, link in enumerate(shapes.links):
+        some = slice(int(bounds[row]), int(bounds[row + 1]))
+        if some.start == some.stop:
+            continue
+        keys = np.column_stack([np.round(shapes.colors[some] * 255), shapes.image[some]])
+        kinds, which = np.unique(keys, axis=0, return_inverse=True)
+        which = which.reshape(-1)
+        for number, kind in enumerate(kinds):
+            rows = np.flatnonzero(which == number) + some.start
+            yield link, _look(shapes, rows, kind)
+
+
+def box_around(shapes: Shapes) -> dict[str, tuple[npt.NDArray[np.float64], ...]]:
+    """The smallest and largest corner of each link that has triangles, in its own frame [m]."""
+    bounds = np.searchsorted(shapes.link, np.arange(len(shapes.links) + 1))
+    found: dict[str, tuple[npt.NDArray[np.float64], ...]] = {}
+    for row, link in enumerate(shapes.links):
+        points = shapes.corners[bounds[row] : bounds[row + 1]].reshape(-1, 3)
+        if len(points):
+            low, high = points.min(axis=0), points.max(axis=0)
+            if link in found:  # links of one name
+                low, high = np.minimum(low, found[link][0]), np.maximum(high, found[link][1])
+            found[link] = (low, high)
+    return found
+
+
+def _look(shapes: Shapes, rows: npt.NDArray[np.intp], kind: npt.NDArray[np.float64]) -> Look:
+    red, green, blue, alpha, image = kind
+    corners = shapes.corners[rows].reshape(-1, 3).astype(np.float32)
+    normals = shapes.normals[rows].reshape(-1, 3)
+    uv = shapes.uv[rows].reshape(-1, 2)
+    columns = [corners.view(np.int32), np.round(normals * 50).astype(np.int32)]
+    if image >= 0:
+        columns.append(np.ascontiguousarray(uv.astype(np.float32)).view(np.int32))
+    first, inverse = _distinct(np.concatenate(columns, axis=1))
+    vertices = corners[first]
+    faces = inverse.reshape(-1, 3).astype(np.uint32)
+    rgb, opacity = (int(red), int(green), int(blue)), float(alpha) / 255
+    packed = None
+    if image >= 0:
+        rgba = (red / 255, green / 255, blue / 255, opacity)
+        texels = shapes.images[int(image)]
+        packed = glb(vertices, faces, normals[first], uv[first], texels, rgba)
+    return Look(vertices, faces, rgb, opacity, packed)
+
+
+def _distinct(rows: npt.NDArray[np.int32]) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
+    """The first of equal rows, and for each row which one it is; by a hash of 64 bits."""
+    factors = np.random.default_rng(8733).integers(1, 2**62, rows.shape[1]) * 2 + 1
+    with np.errstate(over="ignore"):
+        keys = (rows.astype(np.int64) * factors).sum(axis=1)
+        keys ^= keys >> 29
+    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
+    return first, inverse.reshape(-1)

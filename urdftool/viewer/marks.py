@@ -1,0 +1,87 @@
+"""Which link a finding is about."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterable
+from operator import itemgetter
+
+from ..finding import Finding, Severity
+from ..model.elements import Robot
+from ..source.location import Call, Place
+
+Owners = dict[tuple[str, tuple[Call, ...]], list[tuple[int, str]]]
+
+
+def by_link(robot: Robot, findings: Iterable[Finding]) -> dict[str, list[Finding]]:
+    """The findings on each link they concern, by the link's name, in their order.
+
+    What is about a joint is on its child, the link that it moves. A finding that names no link or
+    joint is on the link in whose XML it stands, or that of its joint; one that stands in neither is
+    on none. Of one with several instances each is on its own link.
+    """
+    owners: Owners | None = None
+    found: dict[str, list[Finding]] = {}
+    for finding in findings:
+        links: dict[str, None] = {}
+        for name, calls in ((finding.name, finding.place.calls), *finding.others):
+            link = _named(robot, finding.kind, name)
+            if link is None:
+                owners = _owners(robot) if owners is None else owners
+                link = _owner(owners, finding.place, calls)
+            if link is not None and link in robot.link:
+                links[link] = None
+        for link in links:
+            found.setdefault(link, []).append(finding)
+    return found
+
+
+def worst(findings: Iterable[Finding]) -> Severity | None:
+    """The highest severity among findings; None where there are none."""
+    return max((finding.severity for finding in findings), default=None)
+
+
+def counted(findings: Iterable[Finding]) -> str:
+    """``2 errors, 1 warning``; empty where there are none."""
+    counts = dict.fromkeys(sorted(Severity, reverse=True), 0)
+    for finding in findings:
+        counts[finding.severity] += 1
+    names = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "info"}
+    return ", ".join(
+        f"{count} {names[severity]}{'s' if count > 1 and severity > Severity.INFO else ''}"
+        for severity, count in counts.items()
+        if count
+    )
+
+
+def _named(robot: Robot, kind: str, name: str) -> str | None:
+    if kind == "link" and name in robot.link:
+        return name
+    if kind == "joint" and name in robot.joint:
+        joint = robot.joint[name]
+        return joint.child if joint.child in robot.link else joint.parent
+    return None
+
+
+def _owners(robot: Robot) -> Owners:
+    """Where each tag in a link or joint begins, with the link, in the order of each file."""
+    starts: Owners = {}
+    for part, link in (
+        *((link, link.name) for link in robot.links),
+        *((joint, joint.child) for joint in robot.joints),
+    ):
+        for inner in part.element.walk():
+            starts.setdefault((inner.file.path, inner.calls), []).append((inner.start, link))
+    for rows in starts.values():
+        rows.sort(key=itemgetter(0))
+    return starts
+
+
+def _owner(owners: Owners, place: Place, calls: tuple[Call, ...]) -> str | None:
+    """The link that has the tag which goes over a place."""
+    rows = owners.get((place.file.path, calls), [])
+    index = bisect_right(rows, place.start, key=itemgetter(0)) - 1
+    if index < 0:
+        return None
+    start, link = rows[index]
+    return link if place.start < place.file.tag_end(start) else None

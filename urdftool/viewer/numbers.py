@@ -1,0 +1,176 @@
+"""Links and joints in words, as pieces of HTML in which nothing that a file says is markup."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Iterable, Iterator
+
+from ..model.elements import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Joint,
+    Link,
+    Mesh,
+    Origin,
+    Robot,
+    Sphere,
+    Visual,
+)
+from ..model.pose import Pose, pose_of, rpy_of_rotation
+from .sliders import in_words
+
+LONGEST = 60
+"""Letters of a name that are shown; a longer one loses its middle."""
+
+Row = tuple[str, str]
+
+
+def shortened(name: str, longest: int = LONGEST) -> str:
+    """A name fit to be seen: in one line, without what turns or hides text, and not endless."""
+    text = "".join(
+        part if part.isprintable() else part.encode("unicode_escape").decode() for part in name
+    )
+    if len(text) <= longest:
+        return text
+    half = (longest - 1) // 2
+    return f"{text[:half]}…{text[-half:]}"
+
+
+def safe(text: str) -> str:
+    """Text as HTML that shows just this text."""
+    return html.escape(shortened(text, 2000), quote=True)
+
+
+def table(rows: Iterable[Row]) -> str:
+    """Rows of a label and a text."""
+    cells = "".join(
+        f"<tr><td style='opacity:.6;padding:0 .7em .1em 0;vertical-align:top;white-space:nowrap'>"
+        f"{safe(label)}</td><td style='overflow-wrap:anywhere'>{safe(text)}</td></tr>"
+        for label, text in rows
+    )
+    return f"<table style='border-spacing:0;width:100%'>{cells}</table>"
+
+
+def link_rows(robot: Robot, link: Link, pose: Pose | None = None) -> Iterator[Row]:
+    """The numbers of a link, and of the joint above it.
+
+    Args:
+        robot: Its robot.
+        link: The link.
+        pose: Where it is in the frame of the root.
+    """
+    joint = robot.tree.parent_joint(link.name)
+    below = robot.tree.child_joints(link.name)
+    if joint is None:
+        yield "parent", "none, it is a root"
+    else:
+        yield "parent", f"{joint.parent} by {joint.name} ({joint.type})"
+    if below:
+        yield "children", ", ".join(child.child for child in below)
+    if pose is not None:
+        yield (
+            "now at",
+            f"{_lengths(pose.translation)}, rpy {_angles(rpy_of_rotation(pose.rotation))}",
+        )
+    yield from _mass_rows(link)
+    for label, shapes in (("visual", link.visuals), ("collision", link.collisions)):
+        for shape in shapes:
+            yield label, shape_words(shape)
+    if link.is_frame:
+        yield "is", "a mere frame: nothing is seen of it, touches or weighs"
+
+
+def _mass_rows(link: Link) -> Iterator[Row]:
+    inertial = link.inertial
+    if inertial is None:
+        yield "mass", "none is written"
+        return
+    yield "mass", "none is written" if inertial.mass is None else f"{inertial.mass:.6g} kg"
+    yield "centre of mass", _lengths(pose_of(inertial.origin).translation)
+    if inertial.origin is not None and any(inertial.origin.rpy):
+        yield "inertia turned", f"rpy {_angles(inertial.origin.rpy)}"
+    if inertial.inertia is None:
+        yield "inertia", "none is written"
+        return
+    yield "ixx iyy izz", f"{_numbers(inertial.inertia.moments)} kg·m²"
+    yield "ixy ixz iyz", f"{_numbers(inertial.inertia.products)} kg·m²"
+
+
+def joint_rows(joint: Joint) -> Iterator[Row]:
+    """The numbers of a joint."""
+    turns = joint.type != "prismatic"
+    yield "type", joint.type or "none is written"
+    yield "from", joint.parent or "none is written"
+    yield "to", joint.child or "none is written"
+    yield "at", _origin(joint.origin)
+    if joint.has_axis:
+        yield "axis", _numbers(joint.axis.xyz) if joint.axis else "1 0 0, as none is written"
+    limit = joint.limit
+    if limit is not None and joint.is_limited:
+        low, high = limit.lower or 0.0, limit.upper or 0.0
+        unit = "rad" if turns else "m"
+        yield (
+            "limits",
+            f"{low:g} … {high:g} {unit} ({in_words(low, turns)} … {in_words(high, turns)})",
+        )
+    elif joint.is_limited:
+        yield "limits", "none are written"
+    if limit is not None:
+        if limit.effort is not None:
+            yield "effort", f"{limit.effort:g} {'N·m' if turns else 'N'}"
+        if limit.velocity is not None:
+            yield "velocity", f"{limit.velocity:g} {'rad/s' if turns else 'm/s'}"
+    if joint.dynamics is not None:
+        for label, value in (
+            ("damping", joint.dynamics.damping),
+            ("friction", joint.dynamics.friction),
+        ):
+            if value is not None:
+                yield label, f"{value:g}"
+    if joint.mimic is not None:
+        mimic = joint.mimic
+        yield "mimics", f"{mimic.joint} × {mimic.multiplier:g} + {mimic.offset:g}"
+
+
+def shape_words(shape: Visual | Collision) -> str:
+    """A shape with its lengths, and its name where it has one."""
+    geometry = shape.geometry
+    if isinstance(geometry, Box):
+        said = f"box {_lengths(geometry.size)}"
+    elif isinstance(geometry, Sphere):
+        said = f"sphere, radius {in_words(geometry.radius, False)}"
+    elif isinstance(geometry, Cylinder | Capsule):
+        kind = "capsule" if isinstance(geometry, Capsule) else "cylinder"
+        said = f"{kind}, radius {in_words(geometry.radius, False)}"
+        said += f", length {in_words(geometry.length, False)}"
+    elif isinstance(geometry, Mesh):
+        said = geometry.filename or "a mesh without a file"
+        if geometry.scale != (1.0, 1.0, 1.0):
+            said += f", scaled {_numbers(geometry.scale)}"
+    else:
+        said = "no shape that is known"
+    return f"{said} ({shape.name})" if shape.name else said
+
+
+def _origin(origin: Origin | None) -> str:
+    if origin is None:
+        return "the parent's frame"
+    turn = rpy_of_rotation(pose_of(origin).rotation) if origin.quaternion else origin.rpy
+    return _lengths(origin.xyz) + (f", rpy {_angles(turn)}" if any(turn) else "")
+
+
+def _lengths(values: Iterable[float]) -> str:
+    return f"{_numbers(values)} m"
+
+
+def _angles(values: Iterable[float]) -> str:
+    return " ".join(
+        f"{round(math.degrees(v), 1) + 0.0:g}°" if math.isfinite(v) else "?" for v in values
+    )
+
+
+def _numbers(values: Iterable[float]) -> str:
+    return " ".join(f"{round(value, 9) + 0.0:.4g}" for value in values)

@@ -1,0 +1,325 @@
+"""What is on the page, and what happens there."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import ModelError, UrdftoolError
+from ..finding import Finding
+from ..model.elements import Robot
+from ..model.kinematics import NOWHERE, link_poses
+from . import panels
+from .body import KINDS, Body
+from .joints import Joints
+from .marks import by_link
+from .numbers import link_rows, shortened
+from .sliders import unmovable
+from .sources import sources
+from .surroundings import SHEET, VIEW, eye_for, lay_ground, light
+from .watch import Watch
+
+if TYPE_CHECKING:
+    import viser
+
+    from ..drawing.shapes import Shapes
+
+PAUSE = 0.2
+"""Seconds between two looks at the files."""
+
+PATIENCE = 2.0
+"""Seconds after which a broken description is read again, as what it misses may have come."""
+
+LABELS = {
+    "visual": "visual",
+    "collision": "collision",
+    "frames": "link frames",
+    "names": "names",
+    "axes": "joint axes",
+    "com": "centres of mass",
+    "inertia": "inertia boxes",
+    "findings": "findings",
+}
+SHOWN = ("visual", "findings")
+NOBODY = "none"
+
+Read = Callable[[], Robot]
+Load = Callable[[Robot, str], "Shapes"]
+Check = Callable[[Robot], list[Finding]]
+
+
+class Page:
+    """A robot on a page, with the choices that were made there.
+
+    All browsers that look at it see the same; what one does the others see.
+    """
+
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        robot: Robot,
+        read: Read,
+        load: Load,
+        check: Check | None,
+        *,
+        start: Mapping[str, float] = NOWHERE,
+        shown: tuple[str, ...] = SHOWN,
+    ) -> None:
+        """Put a robot on the page.
+
+        Args:
+            server: What serves the page.
+            robot: The robot, which :func:`worthy` lets pass.
+            read: Reads the description as it is now.
+            load: Gives the triangles of a robot's ``"visual"`` or ``"collision"``.
+            check: Lints a robot; None where nobody wants that.
+            start: Positions of joints to begin with [rad, m].
+            shown: Which of ``KINDS`` are seen to begin with.
+        """
+        self.server, self.robot = server, robot
+        self._read, self._load, self._check = read, load, check
+        self._lock = threading.RLock()
+        self._findings: list[Finding] | None = None
+        self._found: dict[str, list[Finding]] = {}
+        self._selected: str | None = None
+        self._linted = check is None
+        self._error: UrdftoolError | None = None
+        self._tried = 0.0
+        self._generation = 0
+        self.moves = 0
+        self.body = self._embodied(robot)
+        self._furnish(shown, start)
+        self._watch = Watch(sources(robot))
+        self._put()
+
+    # What is seen
+
+    @property
+    def title(self) -> str:
+        """What the browser calls the page."""
+        return f"{shortened(self.robot.name) or 'robot'} · urdftool"
+
+    def _furnish(self, shown: tuple[str, ...], start: Mapping[str, float]) -> None:
+        """Make all but what depends on the robot."""
+        gui, scene = self.server.gui, self.server.scene
+        gui.configure_theme(show_share_button=False, show_logo=False, brand_color=(30, 110, 200))
+        light(scene)
+        self._banner = gui.add_html("", visible=False)
+        self._notices = gui.add_html("", visible=False)
+        self._summary = gui.add_html("")
+        tabs = gui.add_tab_group()
+        self.joints = Joints(gui, tabs.add_tab("Joints"), self._moved, self._safely, start)
+        self._boxes: dict[str, Any] = {}
+        with tabs.add_tab("Show"):
+            for kind in KINDS:
+                self._boxes[kind] = gui.add_checkbox(LABELS[kind], kind in shown)
+                self._boxes[kind].on_update(lambda _, kind=kind: self._safely(self.refresh, kind))
+            self._grid_box = gui.add_checkbox("ground", True)
+            self._grid_box.on_update(lambda _: self._safely(self._ground))
+        with tabs.add_tab("Parts"):
+            self._chooser: Any = gui.add_dropdown("link", (NOBODY,))
+            self._chooser.on_update(lambda _: self._safely(self._chosen))
+            self._one = gui.add_html("")
+            self._all = gui.add_html("")
+        with tabs.add_tab("Findings"):
+            self._list = gui.add_html("")
+        self.server.on_client_connect(partial(self._safely, self._greet))
+
+    def _embodied(self, robot: Robot) -> Body:
+        self._generation += 1
+        return Body(
+            self.server.scene,
+            robot,
+            lambda kind: self._load(robot, kind),
+            lambda link: self._safely(self.select, link),
+            root=f"/robot{self._generation}",
+        )
+
+    def _put(self) -> None:
+        """Fill the page with the robot as it is."""
+        robot, body = self.robot, self.body
+        shapes = [body.load(kind) for kind in ("visual", "collision") if self._boxes[kind].value]
+        self._low, self._high = body.measure(link_poses(robot))
+        with self.server.atomic():
+            self.joints.take(robot, body.size)
+            for kind in KINDS:
+                if kind != "findings":
+                    body.show(kind, self._boxes[kind].value)
+            self._ground()
+            self._camera()
+            self._choices()
+            self.select(self._selected if self._selected in body.links else None)
+            self._say(shapes)
+        self.server.gui.set_panel_label(shortened(robot.name, 30) or "robot")
+
+    def _say(self, shapes: list[Shapes]) -> None:
+        """Fill in what is said of the robot and of the findings."""
+        robot, body = self.robot, self.body
+        lost = [link.name for link in robot.links if link.name not in body.links]
+        said = [str(problem) for part in shapes for problem in part.problems]
+        said += [f"link {name} hangs on no root and is not shown" for name in lost]
+        said += unmovable(robot)
+        self._set(self._notices, panels.notices(dict.fromkeys(said)))
+        self._set(self._summary, panels.summary(robot, self._findings))
+        self._set(self._all, panels.all_parts(robot, self._found))
+        self._set(self._list, panels.list_of(self._findings if self._check else [], self._found))
+        body.mark(self._found, self._boxes["findings"].value)
+
+    def _set(self, handle: Any, content: str) -> None:
+        if handle.content != content:
+            handle.content = content
+        if handle.visible != bool(content):
+            handle.visible = bool(content)
+
+    def _ground(self) -> None:
+        height = self._low[2] if self._low[2] < 0 or self._low[2] > 0 else 0.0
+        lay_ground(self.server.scene, self.body.size, height, self._grid_box.value)
+
+    def _camera(self) -> None:
+        """Have new browsers see all of the robot."""
+        camera, (eye, middle) = self.server.initial_camera, eye_for(self._low, self._high)
+        camera.position, camera.look_at, camera.up = eye, middle, np.array([0.0, 0.0, 1.0])
+        camera.fov, camera.near, camera.far = VIEW, self.body.size / 1000, self.body.size * 200
+
+    def _greet(self, client: viser.ClientHandle) -> None:
+        """Step back where the browser is higher than wide, as on a telephone."""
+        camera = client.camera
+        aspect = camera.image_width / max(camera.image_height, 1)
+        if aspect < 1:
+            eye, middle = eye_for(self._low, self._high, max(aspect, 0.2), covered=SHEET)
+            with client.atomic():
+                camera.position, camera.look_at = eye, middle
+
+    def _moved(self, positions: Mapping[str, float]) -> None:
+        self.moves += 1
+        self.body.move(positions)
+        if self._selected is not None:
+            self._tell()
+
+    # Links
+
+    def _choices(self) -> None:
+        self._links: dict[str, str] = {}
+        for link in self.body.links:
+            label = base = shortened(link) or "(no name)"
+            number = 2
+            while label in self._links or label == NOBODY:
+                label, number = f"{base} ({number})", number + 1
+            self._links[label] = link
+        options = (NOBODY, *self._links)
+        if self._chooser.options != options:
+            self._chooser.options = options
+
+    def _chosen(self) -> None:
+        link = self._links.get(self._chooser.value)
+        if link != self._selected:
+            self.select(link)
+
+    def select(self, link: str | None) -> None:
+        """Highlight a link and show its numbers; None for none."""
+        self._selected = link
+        self.body.select(link)
+        label = next((label for label, name in self._links.items() if name == link), NOBODY)
+        if self._chooser.value != label:
+            self._chooser.value = label
+        self._tell()
+
+    def _tell(self) -> None:
+        """Show the numbers of the chosen link, where it is now."""
+        if self._selected is None:
+            self._set(self._one, panels.box("Click a link, or choose one, to see its numbers."))
+            return
+        pose = link_poses(self.robot, self.joints.positions).get(self._selected)
+        link = self.robot.link[self._selected]
+        rows = link_rows(self.robot, link, pose)
+        self._set(self._one, panels.one_link(self.robot, self._selected, rows))
+
+    def refresh(self, kind: str) -> None:
+        """Show one of ``KINDS`` or not, as its box says."""
+        with self.server.atomic():
+            self.body.show(kind, self._boxes[kind].value)
+            if kind in ("visual", "collision"):
+                self._say(list(self.body.shapes.values()))
+
+    # Files
+
+    def tend(self) -> None:
+        """Look after the page once: lint what is new, and read again what has changed."""
+        changed = self._watch.changed()
+        late = self._error is not None and time.monotonic() - self._tried > PATIENCE
+        if changed or late:
+            self._safely(self.reload)
+        elif not self._linted and self._check is not None:
+            self._linted = True
+            try:
+                findings = self._check(self.robot)
+            except UrdftoolError as error:
+                with self._lock:
+                    self._set(self._list, panels.broken(error))
+                return
+            self._safely(self._lint, findings)
+
+    def run(self) -> None:
+        """Look after the page until somebody stops it."""
+        while True:
+            self.tend()
+            time.sleep(PAUSE)
+
+    def reload(self) -> None:
+        """Read the description again; where it is broken the last robot stays."""
+        self._tried = time.monotonic()
+        self._watch.take({*self._watch.paths, *sources(self.robot)})
+        try:
+            robot = worthy(self._read())
+            kinds = [kind for kind in ("visual", "collision") if self._boxes[kind].value]
+            shapes = {kind: self._load(robot, kind) for kind in kinds}
+        except UrdftoolError as error:
+            if str(error) != str(self._error):
+                self._error = error
+                self._set(self._banner, panels.broken(error))
+            if error.path:
+                self._watch.take({*self._watch.paths, error.path})
+            return
+        self._error = None
+        with self.server.atomic():
+            self.body.remove()
+            self.robot, self.body = robot, self._embodied(robot)
+            self.body.shapes.update(shapes)
+            self._findings, self._found, self._linted = None, {}, self._check is None
+            self._put()
+            self._set(self._banner, "")
+        self._watch.take(sources(robot))
+
+    def _lint(self, findings: list[Finding]) -> None:
+        self._findings, self._found = findings, by_link(self.robot, findings)
+        with self.server.atomic():
+            self._say(list(self.body.shapes.values()))
+
+    def _safely(self, action: Callable[..., None], *arguments: Any) -> None:
+        """Do one thing at a time; what fails is said on the page, which goes on."""
+        with self._lock:
+            try:
+                action(*arguments)
+            except Exception as error:
+                self._banner.content, self._banner.visible = panels.bug(error), True
+
+
+def worthy(robot: Robot) -> Robot:
+    """The robot, if there is something of it to be shown.
+
+    Raises:
+        ModelError: It has no link, or all of them hang on each other.
+    """
+    if not robot.links:
+        raise ModelError("there is no link in it, so there is nothing to view", at=robot.place)
+    if not robot.tree.roots:
+        raise ModelError(
+            "every link is the child of another, so none is the root; the joints form a loop",
+            at=robot.place,
+        )
+    return robot

@@ -1,0 +1,143 @@
+"""The texts of the page: what is wrong, what was found, and all links and joints with numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from ..errors import UrdftoolError
+from ..finding import Finding, Severity
+from ..model.elements import Robot
+from .marks import counted, worst
+from .numbers import joint_rows, link_rows, safe, shortened, table
+
+COLORS = {Severity.ERROR: "#e03131", Severity.WARNING: "#e8590c", Severity.INFO: "#1c7ed6"}
+
+MOST = 300
+"""Findings that are listed."""
+
+_SMALL = "font-size:.85em;line-height:1.35;padding:.2em .75em"
+
+
+def box(inner: str) -> str:
+    """A piece of the page in the size of its other words."""
+    return f"<div style='{_SMALL}'>{inner}</div>"
+
+
+def broken(error: UrdftoolError) -> str:
+    """Why the description cannot be read as it is now."""
+    lines = [str(error)]
+    lines += [
+        f"from {call.file.path}:{call.line}:{call.column}: {call.what}" for call in error.calls
+    ]
+    lines += error.notes
+    said = "<br>".join(safe(line) for line in lines)
+    return _alert(f"{said}<br><i>Shown is the robot as it was read last.</i>", "#e03131")
+
+
+def bug(error: BaseException) -> str:
+    """What to do when the page itself is at fault."""
+    what = safe(f"{type(error).__name__}: {error}")
+    return _alert(f"This is a bug in urdftool, not in your robot: {what}", "#e03131")
+
+
+def notices(messages: Iterable[str]) -> str:
+    """What is not as the description wants it; empty where all is."""
+    lines = list(messages)
+    if not lines:
+        return ""
+    rest = f"<br>… and {len(lines) - 8} more" if len(lines) > 8 else ""
+    return _alert("<br>".join(safe(line) for line in lines[:8]) + rest, "#e8590c")
+
+
+def _alert(inner: str, color: str) -> str:
+    return box(
+        f"<div role='alert' style='border-left:4px solid {color};padding:.4em .6em;"
+        f"background:{color}18;overflow-wrap:anywhere;max-height:16em;overflow-y:auto'>"
+        f"{inner}</div>"
+    )
+
+
+def summary(robot: Robot, findings: Iterable[Finding] | None) -> str:
+    """The robot in a line."""
+    mass = sum(link.mass for link in robot.links)
+    words = [
+        f"{len(robot.links)} links",
+        f"{len(robot.joints)} joints, {len(robot.moving_joints)} of them move",
+        f"{mass:.4g} kg",
+    ]
+    if findings is not None:
+        words.append(counted(findings) or "lint finds nothing")
+    return box(safe(" · ".join(words)))
+
+
+def one_link(robot: Robot, name: str, rows: Iterable[tuple[str, str]]) -> str:
+    """The link that is chosen, with the joint above it."""
+    text = f"<b style='overflow-wrap:anywhere'>{safe(name)}</b>{table(rows)}"
+    joint = robot.tree.parent_joint(name)
+    if joint is not None:
+        text += f"<b style='overflow-wrap:anywhere'>{safe(joint.name)}</b>"
+        text += table(joint_rows(joint))
+    return box(text)
+
+
+def all_parts(robot: Robot, found: Mapping[str, list[Finding]]) -> str:
+    """Every link and every joint, each to be unfolded."""
+    links = "".join(
+        _unfolding(
+            link.name, _link_hint(link.mass, found.get(link.name, [])), link_rows(robot, link)
+        )
+        for link in robot.links
+    )
+    joints = "".join(
+        _unfolding(joint.name, safe(joint.type), joint_rows(joint)) for joint in robot.joints
+    )
+    return box(
+        f"<b>{len(robot.links)} links</b>{links}"
+        f"<b style='display:block;margin-top:.6em'>{len(robot.joints)} joints</b>{joints}"
+    )
+
+
+def _link_hint(mass: float, findings: list[Finding]) -> str:
+    words = f"{mass:.4g} kg" if mass else ""
+    severity = worst(finding for finding in findings if finding.severity > Severity.INFO)
+    if severity is None:
+        return words
+    said = counted(finding for finding in findings if finding.severity > Severity.INFO)
+    return f"{words} <span style='color:{COLORS[severity]}'>{said}</span>"
+
+
+def _unfolding(name: str, hint: str, rows: Iterable[tuple[str, str]]) -> str:
+    shown = safe(shortened(name) or "(no name)")
+    return (
+        f"<details><summary style='cursor:pointer;overflow-wrap:anywhere'>{shown} "
+        f"<span style='opacity:.7'>{hint}</span></summary>{table(rows)}</details>"
+    )
+
+
+def list_of(findings: list[Finding] | None, found: Mapping[str, list[Finding]]) -> str:
+    """What lint finds, the worst first; None is not known yet."""
+    if findings is None:
+        return box("linting …")
+    if not findings:
+        return box("lint finds nothing")
+    on: dict[int, list[str]] = {}
+    for link, those in found.items():
+        for finding in those:
+            on.setdefault(id(finding), []).append(link)
+    ordered = sorted(findings, key=lambda finding: -finding.severity)
+    items = "".join(_item(finding, on.get(id(finding), [])) for finding in ordered[:MOST])
+    more = f"<p>… and {len(findings) - MOST} more</p>" if len(findings) > MOST else ""
+    return box(f"<b>{safe(counted(findings))}</b>{items}{more}")
+
+
+def _item(finding: Finding, links: list[str]) -> str:
+    color = COLORS[finding.severity]
+    where = f" · on {', '.join(shortened(link, 30) for link in links[:4])}" if links else ""
+    more = " …" if len(links) > 4 else ""
+    times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
+    return (
+        f"<div style='border-left:4px solid {color};padding-left:.6em;margin:.5em 0;"
+        f"overflow-wrap:anywhere'><b style='color:{color}'>{finding.severity.label}</b> "
+        f"{safe(finding.message + times)}<br><span style='opacity:.65'>{safe(str(finding.place))} "
+        f"[{safe(finding.rule)}]{safe(where + more)}</span></div>"
+    )

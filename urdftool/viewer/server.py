@@ -1,0 +1,186 @@
+"""The server of the page: one address, one port, and nothing of the network.
+
+viser's own server listens on the next port when one is taken, tells so on standard output, lets any
+page of the web talk to it, and opens a tunnel to a server of its makers when a page asks for one.
+What is served here does none of this: the port is looked at beforehand; a request has to come from
+the page itself; and a Content-Security-Policy forbids the page to fetch anything from elsewhere.
+"""
+
+from __future__ import annotations
+
+import errno
+import html
+import ipaddress
+import logging
+import socket
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from typing import TYPE_CHECKING, Any
+from urllib.parse import urlsplit
+
+from ..errors import AddressError, MissingDependency
+
+if TYPE_CHECKING:
+    import viser
+
+LOOPBACK = "127.0.0.1"
+PORT = 8733
+"""The port where none is asked for: URDF on the keys of a telephone."""
+
+TRIED = 20
+"""How many ports are tried from there."""
+
+_ORIGINAL_TITLE = b"<title>Viser</title>"
+
+
+def is_loopback(host: str) -> bool:
+    """Whether an address can be reached from this computer alone."""
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return False
+
+
+def address(host: str, port: int) -> str:
+    """The page's URL; an IPv6 address stands in brackets."""
+    return f"http://{f'[{host}]' if ':' in host else host}:{port}/"
+
+
+def choose_port(host: str, wanted: int | None) -> int:
+    """A free port: the one that is wanted, or the first from ``PORT`` on.
+
+    Raises:
+        AddressError: The wanted one is taken, none of those tried is free, or the host is no
+            address of this computer.
+    """
+    if wanted is not None:
+        if not is_free(host, wanted):
+            raise AddressError(
+                f"port {wanted} of {host} is taken; choose another with --port, "
+                "or leave --port out for the next free one"
+            )
+        return wanted
+    for port in range(PORT, PORT + TRIED):
+        if is_free(host, port):
+            return port
+    raise AddressError(
+        f"the ports {PORT} to {PORT + TRIED - 1} of {host} are all taken; choose one with --port"
+    )
+
+
+def is_free(host: str, port: int) -> bool:
+    """Whether a server could listen there.
+
+    Raises:
+        AddressError: Not for the port's sake.
+    """
+    try:
+        found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
+        for family, kind, protocol, _, where in found:
+            with socket.socket(family, kind, protocol) as trial:
+                trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+                trial.bind(where)
+                trial.listen(1)
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
+            return False
+        if error.errno in (errno.EACCES, errno.EPERM):
+            raise AddressError(
+                f"port {port} of {host} may not be used; choose one above 1023 with --port"
+            ) from None
+        raise AddressError(
+            f"'{host}' is no address of this computer ({error.strerror}); "
+            f"--host {LOOPBACK} is the loopback, --host 0.0.0.0 every network it is in"
+        ) from None
+    return True
+
+
+def start(host: str, port: int, title: Callable[[], str]) -> viser.ViserServer:
+    """Listen on an address.
+
+    Args:
+        host: The address.
+        port: A free port.
+        title: Gives the title of the page when it is asked for.
+
+    Raises:
+        MissingDependency: viser is not installed.
+        AddressError: Somebody took the port in between.
+    """
+    try:
+        import rich
+        import viser
+    except ImportError as error:
+        raise MissingDependency(
+            f"{error.name or 'viser'} is not installed, which the page is made with; "
+            "pip install 'urdftool[view]'"
+        ) from None
+
+    class Server(viser.ViserServer):
+        """viser's server without its tunnel."""
+
+        def request_share_url(self, verbose: bool = True) -> None:
+            """Refuse: nothing goes beyond the address that was asked for."""
+
+    rich.reconfigure(quiet=True)  # viser prints its address and more on standard output
+    logging.getLogger("websockets").setLevel(logging.CRITICAL)
+    with _guarded(host, title):
+        server = Server(host=host, port=port, verbose=False)
+    if server.get_port() != port:
+        server.stop()
+        raise AddressError(f"port {port} of {host} was taken just now; try again")
+    return server
+
+
+@contextmanager
+def _guarded(host: str, title: Callable[[], str]) -> Iterator[None]:
+    """While viser starts, what it listens with looks at requests first."""
+    import websockets.asyncio.server as library
+
+    original: Any = library.serve
+
+    def serve(*arguments: Any, process_request: Any = None, **options: Any) -> Any:
+        check = partial(_answer, host, title, process_request)
+        return original(*arguments, process_request=check, **options)
+
+    library.serve = serve  # type: ignore[assignment,misc]
+    try:
+        yield
+    finally:
+        library.serve = original  # type: ignore[misc]
+
+
+def _answer(host: str, title: Callable[[], str], answer: Any, connection: Any, request: Any) -> Any:
+    """Refuse what another site asks for; send the page under our title and policy."""
+    asked = request.headers.get("Host", "")
+    origin = request.headers.get("Origin")
+    if is_loopback(host) and not is_loopback(urlsplit(f"//{asked}").hostname or ""):
+        return connection.respond(403, f"This is served for {host} alone.\n")
+    if origin is not None and urlsplit(origin).netloc != asked:
+        return connection.respond(403, "Another site may not talk to this page.\n")
+    if request.headers.get("Upgrade", "").lower() == "websocket":
+        return answer(connection, request)
+    while "Accept-Encoding" in request.headers:
+        del request.headers["Accept-Encoding"]
+    response = answer(connection, request)
+    if response is not None:
+        ours = f"<title>{html.escape(title())}</title>".encode()
+        response.body = (response.body or b"").replace(_ORIGINAL_TITLE, ours, 1)
+        response.headers["Content-Security-Policy"] = policy(asked)
+        response.headers["Referrer-Policy"] = "no-referrer"
+        response.headers["Cache-Control"] = "no-store"
+        del response.headers["Content-Length"]
+        response.headers["Content-Length"] = str(len(response.body))
+    return response
+
+
+def policy(asked: str) -> str:
+    """What the page may load: itself, what it carries, and its own websocket."""
+    safe = asked if urlsplit(f"//{asked}").netloc == asked and not set(asked) & set("; ,") else ""
+    return (
+        "default-src 'self' data: blob: 'unsafe-inline' 'unsafe-eval'; "
+        f"connect-src 'self' data: blob: ws://{safe}; frame-ancestors 'none'; form-action 'none'"
+    )

@@ -1,0 +1,61 @@
+"""Whether a file has changed since it was looked at last."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+
+State = tuple[int, int, int] | None
+
+
+class Watch:
+    """A set of files, some of which may not be there.
+
+    An editor writes a file in several steps, so a change counts once it has come to rest: when two
+    looks in a row see the same.
+    """
+
+    def __init__(self, paths: Iterable[str | os.PathLike[str]] = ()) -> None:
+        """Take the files as they are now."""
+        self._seen: dict[str, State] = {}
+        self._moving: dict[str, State] | None = None
+        self.take(paths)
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """The files."""
+        return tuple(self._seen)
+
+    def take(self, paths: Iterable[str | os.PathLike[str]]) -> None:
+        """Watch these files from now on.
+
+        One that was watched already keeps the state it was seen in, so that what is written while
+        it is being read counts as a change.
+        """
+        wanted = {os.path.abspath(path) for path in paths}
+        self._seen = {
+            path: self._seen[path] if path in self._seen else _state(path)
+            for path in sorted(wanted)
+        }
+        self._moving = None
+
+    def changed(self) -> list[str]:
+        """The files that have changed and come to rest, each said once."""
+        now = {path: _state(path) for path in self._seen}
+        if now == self._seen:
+            self._moving = None
+            return []
+        if now != self._moving:
+            self._moving = now
+            return []
+        different = [path for path, state in now.items() if state != self._seen[path]]
+        self._seen, self._moving = now, None
+        return different
+
+
+def _state(path: str) -> State:
+    try:
+        found = os.stat(path)
+    except (OSError, ValueError):
+        return None
+    return found.st_mtime_ns, found.st_size, found.st_ino
