@@ -6,6 +6,6 @@ One module an idea, each imported on its own (this package loads nothing by itse
 - ``camera``: ``Camera``, where a picture is taken from;
 - ``picture``: ``draw``, shapes at poses to pixels; ``png_file``: ``png``, pixels to a file;
 - ``contact_sheet``: every joint at both its limits;
-- ``normals``, ``materials``, ``texture``: how a surface looks;
-- ``raster``, ``light``, ``ground``: how it is drawn.
+- ``gather``, ``normals``, ``materials``, ``texture``: how a surface looks;
+- ``raster``, ``clip``, ``scene``, ``light``, ``ground``: how it is drawn.
 """

@@ -10,8 +10,13 @@ NEAREST = 1e-4
 """Distance of the plane at which triangles are cut, relative to the farthest corner."""
 
 
+def nearest(corners: Floats) -> float:
+    """The distance at which the triangles of a scene are cut."""
+    return max(float(-corners[..., 2].min(initial=0.0)) * NEAREST, 1e-300)
+
+
 def clipped(
-    corners: Floats, reach: tuple[float, float], size: tuple[int, int]
+    corners: Floats, reach: tuple[float, float], size: tuple[int, int], plane: float
 ) -> tuple[Floats, Indices]:
     """Triangles as :func:`raster.front` takes them, and the rows they come from.
 
@@ -19,9 +24,9 @@ def clipped(
         corners: In the camera's axes, from the eye [m], shape (m, 3, 3); ahead is -z.
         reach: Half the width and height of what is seen at a distance of one.
         size: Columns and rows of samples.
+        plane: Distance at which triangles are cut; nearness is measured by it.
     """
     depth = -corners[..., 2]
-    plane = max(float(depth.max(initial=0.0)) * NEAREST, 1e-300)
     ahead = depth > plane
     count = ahead.sum(axis=1)
     whole = np.flatnonzero(count == 3)

@@ -14,13 +14,13 @@ import numpy.typing as npt
 
 from ..model.pose import Pose
 from .camera import Camera, View
-from .clip import clipped
+from .clip import clipped, nearest
 from .ground import Ground, backdrop
 from .light import Colors, ShadowMap, lights_of, to_screen
 from .png_file import Image, png
 from .raster import Floats, Indices, covered, front
+from .scene import OPAQUE, Scene
 from .shapes import Shapes
-from .surface import OPAQUE, Scene
 
 __all__ = ["SIZE", "draw", "png"]
 
@@ -115,12 +115,13 @@ def _samples(
     count = scene.size[0] * scene.size[1]
     light, opacity = np.zeros((count, 3), np.float32), np.zeros(count, np.float32)
     solid, clear = np.flatnonzero(opaque), np.flatnonzero(~opaque)
-    flat, owner = clipped(scene.corners[solid], scene.view.reach, scene.size)
+    plane = nearest(scene.corners)
+    flat, owner = clipped(scene.corners[solid], scene.view.reach, scene.size, plane)
     first, nearness = front(flat, scene.size)
     samples = np.flatnonzero(first >= 0)
     _put(scene, samples, solid[owner[first[samples]]], floor, light, opacity)
     if len(clear):
-        flat, owner = clipped(scene.corners[clear], scene.view.reach, scene.size)
+        flat, owner = clipped(scene.corners[clear], scene.view.reach, scene.size, plane)
         parts = [
             (found.sample[ahead], found.nearness[ahead], clear[owner[found.triangle[ahead]]])
             for found in covered(flat, scene.size)
