@@ -43,9 +43,35 @@ RULE = _object(
     defaultConfiguration=_object("level enabled", level=LEVEL, enabled={"type": "boolean"}),
     properties=_object("tags", tags={"type": "array", "items": TEXT, "uniqueItems": True}),
 )
+REGION = PLACE["properties"]["region"]
+FIX = _object(
+    "artifactChanges",
+    "description properties",
+    description=MESSAGE,
+    artifactChanges={
+        "type": "array",
+        "minItems": 1,
+        "items": _object(
+            "artifactLocation replacements",
+            artifactLocation=PLACE["properties"]["artifactLocation"],
+            replacements={
+                "type": "array",
+                "minItems": 1,
+                "items": _object(
+                    "deletedRegion",
+                    "insertedContent",
+                    deletedRegion=REGION,
+                    insertedContent=_object("text", text={"type": "string"}),
+                ),
+            },
+        ),
+    },
+    properties=_object("applicability", applicability={"enum": ["safe", "unsafe"]}),
+)
 RESULT = _object(
     "ruleId ruleIndex level message locations partialFingerprints",
-    "relatedLocations suppressions",
+    "relatedLocations suppressions fixes",
+    fixes={"type": "array", "uniqueItems": True, "items": FIX},
     ruleId=TEXT,
     ruleIndex={"type": "integer", "minimum": 0},
     level=LEVEL,

@@ -10,6 +10,7 @@ from ..console import Console
 from .options import package_options, split_arguments
 
 FORMATS = ("full", "concise", "json", "sarif", "github", "junit", "html")
+_WITH_FIXES = ("full", "json", "sarif", "html")
 LEVELS = ("error", "warning", "info")
 
 
@@ -30,6 +31,13 @@ LEVELS = ("error", "warning", "info")
 )
 @click.option("--output-file", metavar="FILE", help="Write the findings there, not to stdout.")
 @click.option("--statistics", is_flag=True, help="Count findings by rule instead of showing them.")
+@click.option("--fix", is_flag=True, help="Apply safe fixes to the files.")
+@click.option(
+    "--unsafe-fixes",
+    is_flag=True,
+    help="With --fix or --diff: also those that invent or remove physics.",
+)
+@click.option("--diff", is_flag=True, help="Show what --fix would change, and write nothing.")
 @click.option("--exit-zero", is_flag=True, help="Exit 0 even if there are findings.")
 @click.option(
     "--fail-on",
@@ -57,6 +65,9 @@ def command(
     style: str,
     output_file: str | None,
     statistics: bool,
+    fix: bool,
+    unsafe_fixes: bool,
+    diff: bool,
     exit_zero: bool,
     fail_on: str,
     baseline: str | None,
@@ -79,10 +90,11 @@ def command(
     \b
         urdftool lint arm.urdf.xacro prefix:=left_
         urdftool lint src/ --target gz --format concise
+        urdftool lint src/ --fix
         urdftool lint --explain zero-axis
 
-    Exit 1 if there are findings of --fail-on or above that the baseline does not have, 2 if a file
-    cannot be read.
+    Exit 1 if there are findings of --fail-on or above that the baseline does not have (with --fix,
+    those that are left; with --diff, if anything would be fixed), 2 if a file cannot be read.
     """  # noqa: D301 -- click reads the escape
     from ..lint.cache import Cache
     from ..lint.discover import find_descriptions
@@ -106,12 +118,21 @@ def command(
         ignore=check_selectors(ignore),
         targets=check_targets(target),
     )
+    if unsafe_fixes and not (fix or diff):
+        raise click.UsageError("--unsafe-fixes goes with --fix or --diff")
     if no_cache and cache_dir:
         raise click.UsageError("--cache-dir and --no-cache exclude each other")
     cache = None if no_cache else Cache(Store(cache_dir or cache_folder("lint")))
     options = Options(settings, arguments, package, package_path, console.config, cache)
-    reports = lint_files(files, options, jobs)
+    options.fixes = style in _WITH_FIXES
     wanted = Wanted(style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline)
+    if fix or diff:
+        from .lint_fix import fix_files
+
+        return fix_files(
+            console, files, options, settings, wanted, jobs=jobs, unsafe=unsafe_fixes, diff=diff
+        )
+    reports = lint_files(files, options, jobs)
     return report(console, reports, settings, wanted)
 
 

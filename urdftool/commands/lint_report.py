@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import click
+
 from ..console import Console
 
 if TYPE_CHECKING:
@@ -28,6 +30,7 @@ class Wanted:
         fail_on: The severity from which on they do not.
         baseline: A file of findings that were there before.
         write_baseline: A file to write the findings to.
+        to_stderr: Whether they go to standard error, because standard output is taken.
     """
 
     style: str
@@ -37,6 +40,7 @@ class Wanted:
     fail_on: str
     baseline: str | None
     write_baseline: str | None
+    to_stderr: bool = False
 
 
 def report(console: Console, reports: Iterable[Report], settings: Settings, wanted: Wanted) -> int:
@@ -59,7 +63,10 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, want
         fail_on=threshold,
         statistics=wanted.statistics,
     )
-    write_result(text, wanted.output_file, inputs=_inputs(outcome) if to_file else [])
+    if wanted.to_stderr:
+        click.echo(text, err=True, nl=False)
+    else:
+        write_result(text, wanted.output_file, inputs=_inputs(outcome) if to_file else [])
     broken = _say_the_rest(console, outcome.reports)
     if any(report.checked for report in outcome.reports):
         console.note(summary(outcome))

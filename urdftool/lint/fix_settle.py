@@ -102,7 +102,11 @@ class Settler:
         return self.sources[file.path]
 
     def _check_file(self, file: SourceFile) -> None:
-        """Refuse files that are not the user's to edit."""
+        """Refuse files that are not the user's to edit, or not in an encoding that is edited."""
+        if file.path != STDIN and file.path not in self.sources:
+            with open(file.path, "rb") as stream:
+                if stream.read(4).startswith((b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")):
+                    raise RefusedError("it is in UTF-16 or UTF-32; save it as UTF-8")
         if file.path == self.main:
             return
         path = self.description.packages.file

@@ -8,6 +8,7 @@ import click
 
 from ..finding import Finding, Severity
 from ..lint.outcome import Outcome
+from ..rules.fix_table import FIXABLE
 from .findings_words import call_lines, remarks, sentence
 from .findings_words import clean as clean
 
@@ -113,7 +114,8 @@ def statistics(findings: Iterable[Finding]) -> Iterator[str]:
         key = (finding.rule, finding.severity)
         counts[key] = counts.get(key, 0) + 1
     for (rule, severity), count in sorted(counts.items(), key=lambda kv: (-kv[1], kv[0][0])):
-        yield f"{count:>6}  {severity.label:<8} {rule}"
+        fixable = f" (fix: {FIXABLE[rule]})" if rule in FIXABLE else ""
+        yield f"{count:>6}  {severity.label:<8} {rule}{fixable}"
 
 
 def summary(outcome: Outcome) -> str:

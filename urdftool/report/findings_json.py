@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterable
 from typing import Any
 
-from ..finding import Finding, Severity
+from ..finding import Finding, Fix, Severity
 from ..lint.outcome import Outcome
 
 
@@ -54,11 +54,30 @@ def finding_record(finding: Finding) -> dict[str, Any]:
         "expansion": _calls(finding.place.calls),
         "instances": [{"name": name, "expansion": _calls(calls)} for name, calls in finding.others],
         "hint": finding.hint or None,
-        "fix": None,
+        "fix": fix_record(finding.fix),
     }
     if finding.variants:
         record["variants"] = list(finding.variants)
     return record
+
+
+def fix_record(fix: Fix | None) -> dict[str, Any] | None:
+    """What mends a finding: lines and columns as they are before any of it is done."""
+    if fix is None:
+        return None
+    edits = []
+    for place, data in fix.replacements:
+        line, column = place.file.position(place.start)
+        end_line, end_column = place.end_position
+        edits.append(
+            {
+                "path": place.path,
+                "start": {"line": line, "column": column},
+                "end": {"line": end_line, "column": end_column},
+                "replacement": data.decode(place.file.encoding, "replace"),
+            }
+        )
+    return {"applicability": fix.applicability, "message": fix.message, "edits": edits}
 
 
 def _calls(calls: Iterable[Any]) -> list[dict[str, Any]]:

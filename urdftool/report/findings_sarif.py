@@ -10,7 +10,7 @@ from typing import Any
 from urllib.parse import quote
 
 from .. import __version__
-from ..finding import Finding, Severity
+from ..finding import Finding, Fix, Severity
 from ..lint.fingerprint import fingerprint
 from ..lint.outcome import Outcome
 from ..rules import FAMILY_OF, get_rule
@@ -83,10 +83,32 @@ def _result(finding: Finding, index: int, seen: Counter[tuple[str, str]]) -> dic
             "primaryLocationLineHash": f"{known_by}:{seen[finding.place.path, known_by]}"
         },
     }
+    if finding.fix is not None:
+        record["fixes"] = [_fix(finding.fix)]
     related = [
         {**location, "id": number} for number, location in enumerate(_related(finding), start=1)
     ]
     return record | {"relatedLocations": related} if related else record
+
+
+def _fix(fix: Fix) -> dict[str, Any]:
+    """What mends it, by file; whether it is safe stands in its properties."""
+    by_path: dict[str, list[dict[str, Any]]] = {}
+    for place, data in fix.replacements:
+        by_path.setdefault(place.path, []).append(
+            {
+                "deletedRegion": _place(place)["region"],
+                "insertedContent": {"text": data.decode(place.file.encoding, "replace")},
+            }
+        )
+    return {
+        "description": {"text": clean(fix.message)},
+        "artifactChanges": [
+            {"artifactLocation": {"uri": uri(path)}, "replacements": replacements}
+            for path, replacements in by_path.items()
+        ],
+        "properties": {"applicability": fix.applicability},
+    }
 
 
 def _related(finding: Finding) -> Iterator[dict[str, Any]]:

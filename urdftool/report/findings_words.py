@@ -30,6 +30,8 @@ def remarks(finding: Finding) -> Iterator[str]:
         yield f"{reader}: {effect}"
     if finding.hint:
         yield f"hint: {clean(finding.hint)}"
+    if finding.fix is not None:
+        yield f"fix: {clean(finding.fix.message)} ({finding.fix.option})"
 
 
 def call_words(call: Call) -> str:

@@ -7,6 +7,7 @@ import inspect
 from ..errors import ConfigError
 from ..lint.settings import nearest_rule
 from ..rules import FAMILY_OF, all_rules, get_rule
+from ..rules.fix_table import FIXABLE, OPTIONS
 from ..rules.rule import Rule
 
 
@@ -20,7 +21,8 @@ def rule_list() -> str:
             family = rule.family
             lines.append(f"{family}:")
         off = "" if rule.default else " (off)"
-        lines.append(f"  {rule.name:<{width}}  {rule.severity.label:<7}  {rule.fact}{off}")
+        fix = f" [fix: {FIXABLE[rule.name]}]" if rule.name in FIXABLE else ""
+        lines.append(f"  {rule.name:<{width}}  {rule.severity.label:<7}  {rule.fact}{off}{fix}")
     return "\n".join(lines) + "\n"
 
 
@@ -51,6 +53,8 @@ def facts(rule: Rule) -> list[tuple[str, str]]:
     if not rule.default:
         on = f"when selected (--extend-select {rule.name})"
     found = [("Severity", severity), ("On", on)]
+    if rule.name in FIXABLE:
+        found.append(("Fix", OPTIONS[FIXABLE[rule.name]]))
     for threshold, default in rule.thresholds.items():
         found.append(("Threshold", f"{threshold.replace('_', '-')} = {default:g}"))
     return found

@@ -20,6 +20,13 @@ else:
 
 SAFE, UNSAFE, BOTH = "safe", "unsafe", "safe or unsafe"
 
+OPTIONS = {
+    SAFE: "safe (--fix)",
+    UNSAFE: "unsafe (--fix --unsafe-fixes)",
+    BOTH: "safe (--fix) in some cases, unsafe (--fix --unsafe-fixes) in others",
+}
+"""Applicability with what applies it."""
+
 FIXES: dict[str, dict[str, str]] = {
     "failures": {
         "not-well-formed": SAFE,

@@ -13,7 +13,9 @@ import os
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
+from types import MappingProxyType
 from typing import NamedTuple
 from xml.parsers import expat
 
@@ -139,7 +141,8 @@ class Document:
         self.comments = comments
 
 
-_instead: dict[str, bytes] = {}
+_NOTHING: Mapping[str, bytes] = MappingProxyType({})
+_instead: ContextVar[Mapping[str, bytes]] = ContextVar("_instead", default=_NOTHING)
 
 
 @contextmanager
@@ -149,13 +152,12 @@ def reading_instead(copies: Mapping[str, bytes]) -> Iterator[None]:
     Args:
         copies: The bytes by the path of the file, as :class:`SourceFile` calls it.
     """
-    before = dict(_instead)
-    _instead.update({_key(path): data for path, data in copies.items()})
+    added = {_key(path): data for path, data in copies.items()}
+    token = _instead.set({**_instead.get(), **added})
     try:
         yield
     finally:
-        _instead.clear()
-        _instead.update(before)
+        _instead.reset(token)
 
 
 def _key(path: str) -> str:
@@ -169,8 +171,11 @@ def read_file(path: str | Path) -> SourceFile:
         SourceError: It is missing, a folder, unreadable, empty or larger than ``MAX_BYTES``.
     """
     shown = str(path)
-    if _instead and (data := _instead.get(_key(STDIN if shown == "-" else shown))) is not None:
-        return SourceFile(STDIN if shown == "-" else shown, data)
+    if copies := _instead.get():
+        named = STDIN if shown == "-" else shown
+        copy = copies.get(_key(named))
+        if copy is not None:
+            return SourceFile(named, copy)
     try:
         if shown == "-":
             shown = STDIN

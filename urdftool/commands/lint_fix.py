@@ -1,0 +1,263 @@
+"""``urdftool lint --fix`` and ``--diff``: the fixes, on disk or shown."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from ..console import Console
+
+if TYPE_CHECKING:
+    from ..lint.fix_run import Mended
+    from ..lint.outcome import Options, Report
+    from ..lint.settings import Settings
+    from ..model.elements import Robot
+    from .lint_report import Wanted
+
+_MOST = 6
+
+
+@dataclass
+class _Done:
+    """What came of fixing many descriptions.
+
+    Attributes:
+        before: The bytes of each file that changed, as they were.
+        after: The same as they are to be.
+        applied: How many fixes of each rule were made.
+        code: The exit code that something that failed asks for.
+    """
+
+    before: dict[str, bytes] = field(default_factory=dict)
+    after: dict[str, bytes] = field(default_factory=dict)
+    applied: Counter[str] = field(default_factory=Counter)
+    code: int = 0
+
+
+def fix_files(
+    console: Console,
+    files: Sequence[str],
+    options: Options,
+    settings: Settings,
+    wanted: Wanted,
+    *,
+    jobs: int | None,
+    unsafe: bool,
+    diff: bool,
+) -> int:
+    """Fix descriptions, or show how; gives the exit code.
+
+    Standard input is fixed to standard output, and what remains is reported on stderr.
+    """
+    from contextlib import ExitStack
+
+    from ..lint.parallel import lint_files
+    from ..source.document import STDIN, reading_instead
+    from .lint_report import report
+
+    options = replace(options, fixes=True, cache=None, weigh=_weigh if unsafe else None)
+    with ExitStack() as stack:
+        given = b""
+        if "-" in files:
+            given = sys.stdin.buffer.read()
+            stack.enter_context(reading_instead({STDIN: given}))
+        reports = list(lint_files(files, options, jobs))
+        done = _Done()
+        for number in range(len(reports)):
+            _fix_one(console, reports, number, options, done, unsafe=unsafe, diff=diff)
+        _say_what_is_left(console, reports, unsafe=unsafe)
+        if diff:
+            return _show(console, done, wanted)
+        _say(console, "Fixed", done)
+        if "-" in files:
+            wanted.to_stderr = wanted.output_file is None
+            sys.stdout.flush()
+            sys.stdout.buffer.write(done.after.get(STDIN, given))
+            sys.stdout.buffer.flush()
+        return max(report(console, reports, settings, wanted), done.code)
+
+
+def _fix_one(
+    console: Console,
+    reports: list[Report],
+    number: int,
+    options: Options,
+    done: _Done,
+    *,
+    unsafe: bool,
+    diff: bool,
+) -> None:
+    """Fix one description; others that read the same files are checked anew."""
+    from ..errors import OutputError
+    from ..lint.fix_run import mend
+    from ..lint.run import lint_file
+    from ..source.document import STDIN, reading_instead
+
+    one = reports[number]
+    if not any(f.fix is not None and (f.fix.safe or unsafe) for f in one.findings):
+        return
+    shown = done.after if diff else {k: v for k, v in done.after.items() if k == STDIN}
+    with reading_instead(shown):
+        mended = mend(one, options, unsafe=unsafe, others=reports)
+    _say_broken(console, mended)
+    if not mended.after:
+        return
+    if not diff:
+        try:
+            rewrite(mended.before, mended.after)
+        except OutputError as error:
+            console.error(error)
+            done.code = 2
+            return
+    for path, data in mended.before.items():
+        done.before.setdefault(path, data)
+    done.after.update(mended.after)
+    done.applied += mended.applied
+    reports[number] = mended.report
+    with reading_instead(done.after):
+        for other, report in enumerate(reports):
+            if other != number and any(path in mended.after for path in report.files):
+                reports[other] = lint_file(report.path, options)
+
+
+def rewrite(before: Mapping[str, bytes], after: Mapping[str, bytes]) -> None:
+    """Write edited files in place: all of them, or none.
+
+    Args:
+        before: What each file was when it was read; one that is something else now is not written.
+        after: What each is to be.
+
+    Raises:
+        OutputError: A file was changed meanwhile, or cannot be written.
+    """
+    from ..errors import OutputError
+    from ..output import write_file
+    from ..source.document import STDIN
+
+    paths = [path for path in after if path != STDIN]
+    for path in paths:
+        _check_unchanged(path, before[path])
+        if not os.access(path, os.W_OK):
+            raise OutputError("is not fixed: it is read-only", path=path)
+    written: list[str] = []
+    try:
+        for path in paths:
+            written.append(path)
+            write_file(path, after[path])
+    except BaseException:
+        for path in written:
+            write_file(path, before[path])
+        raise
+
+
+def _check_unchanged(path: str, data: bytes) -> None:
+    from ..errors import OutputError
+
+    try:
+        with open(path, "rb") as stream:
+            now = stream.read()
+    except OSError as error:
+        raise OutputError(f"cannot be read again: {error.strerror}", path=path) from None
+    if now != data:
+        raise OutputError("is not fixed: it was changed meanwhile; run again", path=path)
+
+
+def _say_broken(console: Console, mended: Mended) -> None:
+    for rule, how in mended.broken.items():
+        console.say(
+            f"the fix of {rule} would make things worse and is not made: {how}. "
+            "If that is not plain from the file, it is a bug in urdftool"
+        )
+
+
+def _say_what_is_left(console: Console, reports: Sequence[Report], *, unsafe: bool) -> None:
+    """Fixes that could not be made, and those that were not asked for."""
+    outside: Counter[str] = Counter()
+    for report in reports:
+        for finding, reason in report.unmended:
+            if "outside of" in reason:
+                outside[reason.removeprefix("it is written in ")] += 1
+            else:
+                console.note(f"{finding.place}: is not fixed [{finding.rule}]: {reason}", level=1)
+    for where, count in outside.items():
+        what = "1 fix is" if count == 1 else f"{count} fixes are"
+        console.note(f"{what} not made in {where}")
+    left = {
+        (f.rule, f.place.path, f.place.start)
+        for report in reports
+        for f in report.findings
+        if f.fix is not None and not f.fix.safe
+    }
+    if left and not unsafe:
+        what = "1 more finding has" if len(left) == 1 else f"{len(left)} more findings have"
+        console.note(f"{what} an unsafe fix (--unsafe-fixes)")
+
+
+def _say(console: Console, did: str, done: _Done) -> None:
+    """``Fixed 5: axis-not-unit × 3, empty-dynamics × 2 (in 2 files)``."""
+    total = sum(done.applied.values())
+    if not total:
+        console.note("Nothing to fix.")
+        return
+    rules = [f"{rule} × {count}" for rule, count in done.applied.most_common()]
+    more = f", and {len(rules) - _MOST} more rules" if len(rules) > _MOST else ""
+    files = len(done.after)
+    where = f"in {files} file{'s' * (files != 1)}"
+    console.note(f"{did} {total} {where}: {', '.join(rules[:_MOST])}{more}")
+
+
+def _show(console: Console, done: _Done, wanted: Wanted) -> int:
+    """The fixes as a unified diff; exit 1 if there are any."""
+    from ..output import write_result
+
+    changed = [path for path, data in done.after.items() if data != done.before[path]]
+    text = "".join(_diff(path, done.before[path], done.after[path]) for path in changed)
+    inputs = [path for path in done.after if os.path.exists(path)]
+    write_result(text, wanted.output_file, inputs=inputs)
+    _say(console, "Would fix", done)
+    return max(done.code, int(bool(changed) and not wanted.exit_zero))
+
+
+def _diff(path: str, before: bytes, after: bytes) -> str:
+    from difflib import unified_diff
+
+    old, new = (
+        data.decode("utf-8", "replace").splitlines(keepends=True) for data in (before, after)
+    )
+    lines = []
+    for line in unified_diff(old, new, path, path):
+        lines.append(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n")
+    return "".join(lines)
+
+
+def _weigh(robot: Robot, names: Sequence[str]) -> dict[str, tuple[float, Any, Any]]:
+    """Mass, centre and tensor of links at the density of water, in the link frame."""
+    from ..errors import UrdftoolError
+    from ..inertia.masses import Masses
+    from ..inertia.mesh_files import read_meshes
+    from ..inertia.review import review
+    from ..inertia.tensor import six_numbers
+    from ..rules.fixes.inertia import DENSITY
+
+    description = robot.source
+    assert description is not None
+    try:
+        found = review(
+            robot,
+            lambda wanted: read_meshes(description, wanted, jobs=1),
+            masses=Masses(density=DENSITY, anew=True),
+            only=names,
+        )
+    except UrdftoolError:
+        return {}
+    weighed = {}
+    for item in found:
+        body = item.implied
+        if body is not None and item.body is not None and item.body.complete and body.mass > 0:
+            centre = tuple(float(part) for part in body.com)
+            weighed[item.link.name] = body.mass, centre, tuple(six_numbers(body.inertia).values())
+    return weighed
