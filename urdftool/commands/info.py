@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
-from time import monotonic
 
 import click
 
 from ..console import Console
+from .mesh_progress import MeshProgress
 from .options import output_option, package_options, robot_argument
 
 
@@ -49,11 +48,8 @@ def command(
 
     path, arguments = robot
     model = read_lax(console, path, arguments, package, package_path)
-    progress = _Progress(console)
-    try:
+    with MeshProgress(console) as progress:
         measured = measure(model, progress)
-    finally:
-        progress.end()
     counts = count(model)
     if style == "json":
         text = report.to_json(model, counts, measured)
@@ -63,24 +59,3 @@ def command(
     inputs = [file.path for file in model.source.files] if model.source else []
     write_result(text, output, inputs=inputs)
     return 0
-
-
-_PATIENCE = 1.0  # seconds
-
-
-class _Progress:
-    """A line on stderr while meshes are read, once that takes a while and at a terminal."""
-
-    def __init__(self, console: Console) -> None:
-        self.begin = monotonic()
-        self.wanted = sys.stderr.isatty() and not console.quiet
-        self.shown = False
-
-    def __call__(self, number: int, count: int, uri: str) -> None:
-        if self.wanted and monotonic() - self.begin > _PATIENCE:
-            self.shown = True
-            click.echo(f"\r\033[Kmeshes {number}/{count}  {uri[-50:]!r}", err=True, nl=False)
-
-    def end(self) -> None:
-        if self.shown:
-            click.echo("\r\033[K", err=True, nl=False)

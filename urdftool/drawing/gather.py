@@ -126,6 +126,8 @@ def _surface(gathering: Gathering, shape: Visual | Collision) -> Surface | None:
     if not np.isfinite(size).all():
         gathering.note(f"the {kind} has a size that is not finite; it is not drawn", shape)
         return None
+    if not any(size) or (kind != "box" and not size[0]):
+        return None
     vertices, faces = tessellate(kind, size, AROUND)
     return _bare(vertices, faces)
 

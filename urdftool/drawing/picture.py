@@ -34,6 +34,7 @@ LAYERS = 12
 """See-through surfaces one behind the other that are drawn; those in front count."""
 
 _CASTS = 0.5
+_BEFORE = np.float32(1.0005)  # a see-through surface on another one is seen
 
 
 def draw(
@@ -125,7 +126,7 @@ def _samples(
         parts = [
             (found.sample[ahead], found.nearness[ahead], clear[owner[found.triangle[ahead]]])
             for found in covered(flat, scene.size)
-            for ahead in [found.nearness > nearness[found.sample]]
+            for ahead in [found.nearness * _BEFORE > nearness[found.sample]]
         ]
         if parts:
             _layers(scene, parts, floor, light, opacity)

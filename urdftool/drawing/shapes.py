@@ -13,7 +13,7 @@ from ..meshes.mesh import Faces, Points
 from ..model.elements import Collision, Robot, Visual
 from ..model.elements import Mesh as MeshGeometry
 from ..model.pose import Pose
-from .gather import Gathering, Surface, shape_surface
+from .gather import LARGEST, Gathering, Surface, shape_surface
 from .materials import Materials, Rgba
 from .normals import corner_normals
 from .raster import Floats, Indices
@@ -65,7 +65,7 @@ class Shapes:
     def posed(self, poses: Mapping[str, Pose]) -> tuple[Floats, Floats, npt.NDArray[np.bool_]]:
         """Corners and normals in the world, and which triangles are to be seen there.
 
-        Those of links without a pose, or with one that has a number that is not finite, are not.
+        Those of links without a pose are not, nor those that are endlessly far away.
         """
         corners, normals = np.zeros_like(self.corners), np.zeros_like(self.normals)
         there = np.zeros(len(self), dtype=bool)
@@ -76,7 +76,7 @@ class Shapes:
             if pose is None or some.start == some.stop:
                 continue
             rotation, shift = np.array(pose.rotation), np.array(pose.translation)
-            if not (np.isfinite(rotation).all() and np.isfinite(shift).all()):
+            if not (np.isfinite(rotation).all() and (np.abs(shift) < LARGEST).all()):
                 continue
             corners[some] = self.corners[some] @ rotation.T + shift
             normals[some] = self.normals[some] @ rotation.T
