@@ -46,8 +46,8 @@ class Joints:
         self._sliders: list[Slider] = []
         self._handles: dict[str, Any] = {}
         with tab:
-            buttons = gui.add_button_group("all joints", WHERE)
-            buttons.on_click(lambda event: safely(self.put, event.target.value))
+            self._buttons = gui.add_button_group("all joints", WHERE)
+            self._buttons.on_click(lambda event: safely(self.put, event.target.value))
             self._none = gui.add_html(panels.box("No joint of this robot moves."), visible=False)
 
     @property
@@ -75,7 +75,7 @@ class Joints:
             self._sliders = sliders
             with self._tab:
                 self._handles = {slider.name: self._slider(slider) for slider in sliders}
-            self._none.visible = not sliders
+        self._buttons.visible, self._none.visible = bool(sliders), not sliders
         zero = {slider.name: slider.zero for slider in self._free()}
         kept = {slider.name: slider for slider in self._free() if slider.name in self._positions}
         stay = {name: slider.meant(self._positions[name]) for name, slider in kept.items()}

@@ -60,14 +60,19 @@ def _alert(inner: str, color: str) -> str:
 def summary(robot: Robot, findings: Iterable[Finding] | None) -> str:
     """The robot in a line."""
     mass = sum(link.mass for link in robot.links)
+    moving = f" ({len(robot.moving_joints)} moving)" if robot.joints else ""
     words = [
-        f"{len(robot.links)} links",
-        f"{len(robot.joints)} joints, {len(robot.moving_joints)} of them move",
+        _count(len(robot.links), "link"),
+        f"{_count(len(robot.joints), 'joint')}{moving}",
         f"{mass:.4g} kg",
     ]
     if findings is not None:
         words.append(counted(findings) or "lint finds nothing")
     return box(safe(" · ".join(words)))
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'s' * (number != 1)}"
 
 
 def one_link(robot: Robot, name: str, rows: Iterable[tuple[str, str]]) -> str:
@@ -92,8 +97,8 @@ def all_parts(robot: Robot, found: Mapping[str, list[Finding]]) -> str:
         _unfolding(joint.name, safe(joint.type), joint_rows(joint)) for joint in robot.joints
     )
     return box(
-        f"<b>{len(robot.links)} links</b>{links}"
-        f"<b style='display:block;margin-top:.6em'>{len(robot.joints)} joints</b>{joints}"
+        f"<b>{_count(len(robot.links), 'link')}</b>{links}"
+        f"<b style='display:block;margin-top:.6em'>{_count(len(robot.joints), 'joint')}</b>{joints}"
     )
 
 

@@ -53,8 +53,8 @@ class Slider:
     def shown_bounds(self) -> tuple[float, float]:
         """The bounds in as many decimals as are shown, not narrower than they are."""
         scale = 10.0**self.digits
-        low = math.floor(self.lower * scale - 1e-6) / scale
-        high = math.ceil(self.upper * scale + 1e-6) / scale
+        low = math.floor(self.lower * scale + 1e-6) / scale
+        high = math.ceil(self.upper * scale - 1e-6) / scale
         return low, high
 
     def shown(self, position: float) -> float:

@@ -1,0 +1,104 @@
+import socket
+import subprocess
+import sys
+
+import pytest
+
+from tests.viewer.robots import ARM
+from tests.viewer.serving import free_port, served
+
+BROKEN = ARM.replace("</robot>", "")
+
+
+@pytest.fixture
+def arm(write):
+    return write("arm.urdf", ARM)
+
+
+def test_a_broken_file_at_the_start(urdftool, write):
+    result = urdftool("view", write("r.urdf", BROKEN))
+    assert result.code == 2
+    assert result.out == ""
+    assert result.err.startswith("r.urdf:")
+    assert len(result.err.splitlines()) == 1
+
+
+def test_no_link(urdftool, write):
+    result = urdftool("view", write("r.urdf", "<robot name='r'/>"))
+    assert result.code == 2
+    assert "there is no link in it" in result.err
+
+
+def test_an_occupied_port(urdftool, arm):
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        result = urdftool("view", arm, "--port", port)
+    assert result.code == 2
+    assert result.out == ""
+    assert result.err == (
+        f"urdftool: port {port} of 127.0.0.1 is taken; choose another with --port, or leave "
+        "--port out for the next free one\n"
+    )
+
+
+def test_a_joint_that_is_none(urdftool, arm):
+    result = urdftool("view", arm, "--pose", "shouldr=1")
+    assert result.code == 2
+    assert "did you mean 'shoulder'?" in result.err
+
+
+@pytest.mark.parametrize("words", [("--size", "80x60"), ("--camera", "30,20")])
+def test_what_is_for_pictures_alone(urdftool, arm, words):
+    result = urdftool("view", arm, *words)
+    assert result.code == 2
+    assert "--picture" in result.err
+
+
+def test_what_is_for_the_page_alone(urdftool, arm, tmp_path):
+    result = urdftool("view", arm, "--picture", tmp_path / "x.png", "--port", "8800")
+    assert result.code == 2
+    assert not (tmp_path / "x.png").exists()
+
+
+def test_without_viser(urdftool, arm, monkeypatch):
+    monkeypatch.setitem(sys.modules, "viser", None)
+    result = urdftool("view", arm)
+    assert result.code == 2
+    assert "pip install 'urdftool[view]'" in result.err
+
+
+def test_the_address_is_printed_and_ctrl_c_ends_it(arm):
+    pytest.importorskip("viser")
+    port = free_port()
+    with served(arm, port=port, expect=130) as url:
+        assert url == f"http://127.0.0.1:{port}/"
+        with socket.create_connection(("127.0.0.1", port), timeout=5):
+            pass
+
+
+def test_a_picture_needs_neither_viser_nor_a_port(arm, tmp_path):
+    code = (
+        "import sys; sys.modules['viser'] = None\n"
+        "from urdftool import cli; sys.exit(cli.call(sys.argv[1:]))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, "view", arm, "--picture", str(tmp_path / "x.png"),
+         "--size", "80x60"],
+        capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "x.png").stat().st_size > 200
+
+
+def test_neither_trimesh_nor_scipy_is_imported_for_shapes(arm):
+    code = (
+        "import sys\nfrom urdftool.viewer import page\nfrom urdftool.model.load import load\n"
+        "from urdftool.drawing.shapes import robot_shapes\n"
+        "from urdftool.viewer.looks import looks_of\n"
+        "list(looks_of(robot_shapes(load(sys.argv[1]))))\n"
+        "print([n for n in ('trimesh', 'scipy', 'yourdfpy', 'viser') if n in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code, arm], capture_output=True, text=True)
+    assert done.stdout.strip() == "[]", done.stderr

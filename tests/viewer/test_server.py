@@ -1,0 +1,138 @@
+import http.client
+import socket
+
+import pytest
+
+from urdftool.errors import AddressError
+from urdftool.viewer import server
+
+from .serving import free_port
+
+pytest.importorskip("viser")
+
+
+@pytest.fixture(scope="module")
+def page():
+    """The port of a server that shows nothing."""
+    port = free_port()
+    running = server.start("127.0.0.1", port, lambda: "</title><b>robot</b>")
+    yield port
+    running.stop()
+
+
+def get(port, path="/", **headers):
+    link = http.client.HTTPConnection("127.0.0.1", port, timeout=10)
+    link.request("GET", path, headers={name.replace("_", "-"): v for name, v in headers.items()})
+    answer = link.getresponse()
+    return answer.status, dict(answer.getheaders()), answer.read().decode("utf-8", "replace")
+
+
+def test_the_page_has_our_title_and_may_fetch_nothing(page):
+    status, headers, text = get(page)
+    assert status == 200
+    assert "<title>&lt;/title&gt;&lt;b&gt;robot&lt;/b&gt;</title>" in text
+    policy = headers["Content-Security-Policy"]
+    assert policy.startswith("default-src 'self' data: blob:")
+    assert f"ws://127.0.0.1:{page}" in policy
+    for scheme in ("http:", "https:", "*"):
+        assert f" {scheme}" not in policy
+
+
+def test_the_page_names_no_address_of_the_network(page):
+    """What the library carries in its page; the rest is packed, and looked at in a browser."""
+    _, _, text = get(page)
+    assert "fonts.googleapis" not in text
+    assert '<link rel="stylesheet"' not in text
+    assert 'src="http' not in text
+
+
+def upgrade(port, **headers):
+    return get(
+        port, Upgrade="websocket", Connection="Upgrade", Sec_WebSocket_Version="13",
+        Sec_WebSocket_Key="AAAAAAAAAAAAAAAAAAAAAA==", **headers,
+    )[0]  # fmt: skip
+
+
+def test_another_site_may_not_talk_to_it(page):
+    assert upgrade(page, Origin="http://evil.example") == 403
+    assert upgrade(page, Origin=f"http://127.0.0.1:{page + 1}") == 403
+    assert get(page, Origin="http://evil.example")[0] == 403
+
+
+def test_a_name_that_leads_here_is_not_enough(page):
+    assert get(page, Host=f"evil.example:{page}")[0] == 403
+    assert get(page, Host=f"localhost:{page}")[0] == 200
+
+
+def test_its_own_page_may_talk_to_it(page):
+    import viser
+    from websockets.sync.client import connect
+
+    with connect(
+        f"ws://127.0.0.1:{page}/",
+        subprotocols=[f"viser-v{viser.__version__}"],
+        origin=f"http://127.0.0.1:{page}",
+    ) as socket_:
+        assert socket_.recv(timeout=10)
+
+
+def test_it_listens_on_the_loopback_alone(page):
+    with socket.socket() as other:
+        other.bind(("127.0.0.2", page))  # taken if it listened everywhere
+
+
+def test_it_opens_no_tunnel(page, monkeypatch):
+    import viser._viser as library
+
+    monkeypatch.setattr(library, "ViserTunnel", lambda *_: pytest.fail("a tunnel was opened"))
+    running = server.start("127.0.0.1", free_port(), lambda: "t")
+    try:
+        assert running.request_share_url() is None
+    finally:
+        running.stop()
+
+
+@pytest.fixture
+def taken():
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", 0))
+        listener.listen()
+        yield listener.getsockname()[1]
+
+
+def test_a_taken_port_that_was_asked_for_is_refused(taken):
+    with pytest.raises(AddressError, match=f"port {taken} of 127.0.0.1 is taken"):
+        server.choose_port("127.0.0.1", taken)
+
+
+def test_the_next_free_port_is_found(taken, monkeypatch):
+    monkeypatch.setattr(server, "PORT", taken)
+    assert taken < server.choose_port("127.0.0.1", None) < taken + server.TRIED
+
+
+def test_no_address_of_this_computer():
+    with pytest.raises(AddressError, match="no address of this computer"):
+        server.choose_port("192.0.2.1", 8733)
+
+
+@pytest.mark.parametrize(
+    ("host", "loopback"),
+    [
+        ("127.0.0.1", True), ("127.1.2.3", True), ("localhost", True), ("::1", True),
+        ("[::1]", True), ("0.0.0.0", False), ("192.168.1.4", False), ("robot.local", False),
+        ("", False), ("127.0.0.1.evil.example", False),
+    ],
+)  # fmt: skip
+def test_what_is_the_loopback(host, loopback):
+    assert server.is_loopback(host) is loopback
+
+
+def test_addresses():
+    assert server.address("127.0.0.1", 8733) == "http://127.0.0.1:8733/"
+    assert server.address("::1", 8733) == "http://[::1]:8733/"
+
+
+@pytest.mark.parametrize("asked", ["a b", "x; script-src *", "", "x, y"])
+def test_a_hostile_host_says_nothing_in_the_policy(asked):
+    assert server.policy(asked).count(";") == server.policy("localhost:1").count(";")
+    assert "script-src" not in server.policy(asked)
