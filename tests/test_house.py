@@ -59,7 +59,7 @@ DOORS = {
     "coacd": ("collision/coacd_child.py",),
     "meshoptimizer": ("collision/quadric.py",),
     "distributed": ("collision/cluster.py",),
-    "mujoco": ("formats/mjcf/",),
+    "mujoco": ("formats/mjcf/", "simulation/mj.py"),
     "PIL": ("drawing/", "viewer/glb.py", "formats/mjcf/texture.py"),
     "pybullet": ("simulation/bullet",),
     "viser": ("viewer/server.py",),

@@ -9,12 +9,14 @@ import click
 
 from ..console import Console
 from .options import package_options, robot_argument
+from .simulate_more import more_options
 from .simulate_options import settings_options
 
 
 @click.command("simulate")
 @robot_argument
 @settings_options
+@more_options
 @click.option(
     "--format",
     "style",
@@ -46,23 +48,14 @@ def command(
 
     Exit 0 if it stands, 1 if it does not, 2 if it could not be tried.
     """  # noqa: D301 -- click reads the escape
+    from ..simulation.engines import ENGINES, check_engines
     from .read_lax import read_lax
-    from .simulate_options import Progress, settings_of
+    from .simulate_one import simulate_one
+    from .simulate_options import settings_of
 
+    engines = ENGINES[values["engine"]]
+    check_engines(engines)
     settings = settings_of(values)
     path, arguments = robot
     model = read_lax(console, path, arguments, package, package_path)
-
-    from ..report import simulate as report
-    from ..simulation.run import simulate
-    from ..simulation.verdict import judge
-
-    with Progress(console) as progress:
-        runs = simulate(model, settings, progress=progress)
-    verdicts = [judge(model, run) for run in runs]
-    if style == "json":
-        click.echo(report.to_json(model, verdicts), nl=False)
-    else:
-        text = report.text(model, verdicts, colors=console.colors())
-        click.echo(text, nl=False)
-    return 0 if all(verdict.stands for verdict in verdicts) else 1
+    return simulate_one(console, model, settings, engines, style=style)

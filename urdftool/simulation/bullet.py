@@ -31,7 +31,7 @@ MOST_JOINTS = 120
 UNBOUND = 1e6
 """The effort of a motor for whose joint the file says none [N·m, N]."""
 
-_RUNAWAY = 1e3  # m/s or sizes away
+RUNAWAY = 1e3  # m/s or sizes away
 _ITERATIONS = 100
 
 
@@ -264,7 +264,7 @@ class World:
 
     def _is_sane(self, sample: dict[str, Any]) -> bool:
         poses = sample["poses"]
-        far = _RUNAWAY * max(1.0, self.bodies.size)
+        far = RUNAWAY * max(1.0, self.bodies.size)
         return bool(
             np.isfinite(poses).all()
             and np.isfinite(sample["kinetic"])

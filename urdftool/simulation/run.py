@@ -20,7 +20,7 @@ from .urdf import write_folder
 
 Progress = Callable[[int, int], None]
 
-LIBRARIES = {"bullet": "pybullet"}
+LIBRARIES = {"bullet": "pybullet", "mj": "mujoco"}
 """Modules with a function ``run(bodies, settings, folder)``, and the library each imports."""
 
 
@@ -68,11 +68,21 @@ def simulate(
             tempfile.TemporaryDirectory(prefix="urdftool-") as folder,
         ):
             bodies = prepare(robot, trial)
-            write_folder(bodies, Path(folder))
+            _write(robot, bodies, trial, engine, Path(folder))
             left = max(0.1, ends - perf_counter()) if number > 1 else settings.time_limit
             recording = child.call(engine, "run", bodies, trial, Path(folder), time_limit=left)
         runs.append(Run(trial, bodies, recording))
     return runs
+
+
+def _write(robot: Robot, bodies: Bodies, settings: Settings, engine: str, folder: Path) -> None:
+    """Write what an engine reads."""
+    if engine == "mj":
+        from .mj_file import write_model
+
+        write_model(robot, bodies, settings, folder)
+    else:
+        write_folder(bodies, folder)
 
 
 def trials(settings: Settings) -> list[Settings]:

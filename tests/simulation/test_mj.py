@@ -1,0 +1,154 @@
+"""MuJoCo as an engine: closed forms, what was read, holding, and the same bytes each time."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.conftest import FIXTURES
+from tests.simulation.robots import kinds
+from urdftool.model.load import load
+from urdftool.simulation.run import simulate
+from urdftool.simulation.settings import Settings
+from urdftool.simulation.verdict import judge
+
+pytest.importorskip("mujoco")
+
+ROBOTS = FIXTURES / "robots"
+SPHERE = """<robot name="ball"><link name="ball">
+ <inertial><mass value="{mass}"/>
+  <inertia ixx="{i}" ixy="0" ixz="0" iyy="{i}" iyz="0" izz="{i}"/></inertial>
+ <collision><geometry><sphere radius="{radius}"/></geometry></collision></link></robot>"""
+PENDULUM = """<robot name="pendulum"><link name="world"/>
+ <joint name="swing" type="{kind}"><parent link="world"/><child link="rod"/>
+  <origin xyz="0 0 2"/><axis xyz="0 1 0"/>{more}</joint>
+ <link name="rod"><inertial><origin xyz="0 0 -0.5"/><mass value="2"/>
+  <inertia ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.001"/></inertial></link></robot>"""
+
+
+def _run(write, text, **settings):
+    robot = load(write("robot.urdf", text))
+    (run,) = simulate(robot, Settings(**{"nudge": 0.0, **settings}), engine="mj")
+    return robot, run
+
+
+def _ball(radius=0.1, mass=2.0):
+    return SPHERE.format(mass=mass, radius=radius, i=0.4 * mass * radius**2)
+
+
+def test_a_fall_takes_as_long_as_galilei_says(write):
+    _, run = _run(write, _ball(), height=2.1, duration=1.5)
+    recording = run.recording
+    falling = recording.times < math.sqrt(2 * 2 / 9.81) - 0.02
+    heights = 2.1 - 9.81 * recording.times**2 / 2
+    assert recording.poses[falling, 0, 2] == pytest.approx(heights[falling], abs=0.02)
+    touched = recording.times[np.argmax(recording.depths > 0)]
+    assert touched == pytest.approx(math.sqrt(2 * 2 / 9.81), abs=recording.times[1])
+
+
+def test_a_resting_ball_is_as_high_as_its_radius(write):
+    for radius in (0.02, 0.1, 1.0):
+        _, run = _run(write, _ball(radius))
+        assert run.recording.ended == "still"
+        assert run.recording.poses[-1, 0, 2] == pytest.approx(radius, rel=0.01)
+
+
+def test_a_pendulum_has_its_period(write):
+    text = PENDULUM.format(kind="continuous", more="")
+    _, run = _run(write, text, hold="none", pose={"swing": 0.1}, duration=10.0)
+    angle, times = run.recording.positions[:, 0], run.recording.times
+    down = np.flatnonzero((angle[:-1] > 0) & (angle[1:] <= 0))
+    cross = times[down] + (times[down + 1] - times[down]) * angle[down] / (
+        angle[down] - angle[down + 1]
+    )
+    inertia = 0.02 + 2 * 0.5**2
+    small = 2 * math.pi * math.sqrt(inertia / (2 * 9.81 * 0.5))
+    assert np.diff(cross).mean() == pytest.approx(small * (1 + 0.1**2 / 16), rel=0.003)
+
+
+def test_energy_is_kept_by_what_nothing_brakes(write):
+    text = PENDULUM.format(kind="continuous", more="")
+    _, run = _run(write, text, hold="none", pose={"swing": 1.0}, duration=5.0)
+    total = run.recording.kinetic + run.recording.potential
+    assert np.ptp(total) < 0.01 * run.recording.kinetic.max()
+
+
+@pytest.mark.parametrize("effort", [20.0, 3.0])
+def test_a_servo_holds_within_its_effort(write, effort):
+    limit = f'<limit effort="{effort}" velocity="1" lower="-3" upper="3"/>'
+    robot, run = _run(write, PENDULUM.format(kind="revolute", more=limit), pose={"swing": 1.0})
+    needed = 2 * 9.81 * 0.5 * math.sin(1.0)
+    at, used = run.recording.positions[-1, 0], run.recording.efforts[-1, 0]
+    if effort > needed:
+        assert at == pytest.approx(1.0, abs=1e-3)
+        assert abs(used) == pytest.approx(needed, rel=0.01)
+    else:
+        assert abs(at - 1.0) > 0.2
+        assert abs(run.recording.efforts).max() == pytest.approx(effort)
+        assert not judge(robot, run).stands
+
+
+def test_a_slope_steeper_than_friction_lets_a_box_slide(write):
+    box = """<robot name="box"><link name="box"><inertial><mass value="1"/>
+      <inertia ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"/></inertial>
+      <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link></robot>"""
+    for friction, slides in ((0.5, True), (0.7, False)):
+        angle = math.radians(30)
+        _, run = _run(write, box, friction=friction, slope=angle, duration=2.0)
+        moved, times = run.recording.poses[:, 0, 0], run.recording.times
+        if slides:
+            rate = 9.81 * (math.sin(angle) - friction * math.cos(angle))
+            assert moved[-1] == pytest.approx(rate * times[-1] ** 2 / 2, rel=0.05)
+        else:
+            assert abs(moved[-1]) < 1e-3
+
+
+def test_what_was_read_is_what_was_written(write):
+    for path in (
+        ROBOTS / "mira_description" / "urdf" / "mira.urdf",
+        ROBOTS / "my_robot" / "urdf" / "mobile_manipulator.urdf.xacro",
+    ):
+        (run,) = simulate(load(path), Settings(duration=0.1), engine="mj")
+        assert run.recording.read_back == []
+
+
+def test_an_impossible_tensor_is_said_to_be_taken_for_another(write):
+    text = SPHERE.format(mass=2, radius=0.1, i=0.008).replace('izz="0.008"', 'izz="0.1"')
+    robot, run = _run(write, text, duration=0.1)
+    assert [part.what for part in run.recording.read_back] == ["principal moments"]
+    assert "impossible-inertia" in kinds(judge(robot, run))
+
+
+def test_a_payload_weighs(write):
+    _, run = _run(write, _ball(), payloads={"ball": 3.0})
+    force = sum(contact.force for contact in run.recording.contacts)
+    assert force == pytest.approx(5.0 * 9.81, rel=0.01)
+    assert run.recording.read_back == []
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["mira_description/urdf/mira.urdf", "my_robot/urdf/robot_base.urdf.xacro",
+     "laser_bot/urdf/laser_bot.urdf.xacro", "ros2_arm/urdf/robot2_sound.urdf.xacro"],
+)  # fmt: skip
+def test_fixture_robots_stand(path):
+    robot = load(ROBOTS / path)
+    (run,) = simulate(robot, Settings(), engine="mj")
+    verdict = judge(robot, run)
+    assert verdict.stands, verdict.faults
+
+
+def test_the_same_run_gives_the_same_numbers():
+    robot = load(ROBOTS / "my_robot" / "urdf" / "robot_base.urdf.xacro")
+    settings = Settings(duration=0.5, trials=2, seed=3)
+    first, second = (simulate(robot, settings, engine="mj") for _ in range(2))
+    for one, two in zip(first, second, strict=True):
+        for name in ("poses", "velocities", "positions", "efforts", "kinetic", "depths"):
+            assert getattr(one.recording, name).tobytes() == getattr(two.recording, name).tobytes()
+
+
+def test_a_fixed_base_hangs_where_it_is_put():
+    robot = load(ROBOTS / "my_robot" / "urdf" / "robot_base.urdf.xacro")
+    (run,) = simulate(robot, Settings(fixed_base=True, height=1.0), engine="mj")
+    assert run.recording.poses[-1, 0, :3] == pytest.approx([0, 0, 1.0])
+    assert not run.recording.contacts

@@ -1,0 +1,27 @@
+"""The options of ``urdftool simulate`` that say what simulates, what drives, and what is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import click
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+_OPTIONS = (
+    click.option(
+        "--engine",
+        type=click.Choice(["pybullet", "mujoco", "both"]),
+        default="pybullet",
+        show_default=True,
+        help="What simulates; mujoco runs our own MJCF export, both compares the two.",
+    ),
+)
+
+
+def more_options(function: F) -> F:
+    """All of them."""
+    for option in reversed(_OPTIONS):
+        function = option(function)
+    return function

@@ -1,0 +1,275 @@
+"""MuJoCo, on our own MJCF export: the one file that steps this engine.
+
+Contacts are as stiff as the timestep allows, friction does not creep, nothing is set back to the
+start when numbers run away, and no log is written to the current folder.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from ..errors import MissingDependency, ModelError
+from .bodies import Bodies
+from .bullet import RUNAWAY, SAMPLE
+from .mj_contacts import Touches
+from .mj_file import MOTOR, PLANE, SCENE, moving_name
+from .mj_motors import Motors
+from .mj_read import read_back
+from .recording import Array, Recording
+from .settings import Settings
+from .stillness import PATIENCE, Stillness
+
+_SOFT = 2.5  # timesteps: the time constant of a contact; below two it is unstable
+_IMPEDANCE = (0.95, 0.99, 0.001, 0.5, 2.0)
+
+
+def mujoco_module() -> Any:
+    """MuJoCo.
+
+    Raises:
+        MissingDependency: It is not installed.
+    """
+    try:
+        import mujoco  # type: ignore[import-untyped,unused-ignore]
+    except ImportError:
+        raise MissingDependency("MuJoCo is not installed; pip install 'urdftool[mujoco]'") from None
+    return mujoco
+
+
+def run(bodies: Bodies, settings: Settings, folder: Path) -> Recording:
+    """Spawn a robot and let it settle.
+
+    Args:
+        bodies: The robot; ``folder`` holds it as ``mj_file.write_model`` wrote it.
+        settings: How, and for how long.
+        folder: Where the scene is.
+
+    Raises:
+        ModelError: MuJoCo does not compile it.
+    """
+    return World(mujoco_module(), bodies, settings, folder).settle()
+
+
+class World:
+    """A robot above a plane, in MuJoCo.
+
+    Attributes:
+        mj: The library.
+        model: Its model.
+        data: Its state.
+        number_of: Its body of each link.
+    """
+
+    def __init__(self, mj: Any, bodies: Bodies, settings: Settings, folder: Path) -> None:
+        """Set the scene; nothing moves yet."""
+        self.mj, self.bodies, self.settings = mj, bodies, settings
+        mj.set_mju_user_warning(lambda _: None)  # without it a log is written to the folder
+        try:
+            self.model = mj.MjModel.from_xml_path(str(folder / SCENE))
+        except ValueError as error:
+            reason = " ".join(str(error).split())
+            raise ModelError(f"MuJoCo does not compile the robot's MJCF: {reason}") from None
+        self.data = mj.MjData(self.model)
+        self.number_of = {link: self._body(link) for body in bodies.bodies for link in body.links}
+        self.numbers = [self.number_of[body.name] for body in bodies.bodies]
+        self.joints = [self._id("JOINT", joint.name) for joint in bodies.joints]
+        self.plane = self._id("GEOM", PLANE)
+        self.read_back = read_back(self.model, bodies, self.number_of, self.joints)
+        self._set_options()
+        self._make_contacts()
+        self._place()
+        self.touches = Touches(mj, self.model, self.data, bodies, self.number_of, self.plane)
+        motors = {
+            joint.name: number
+            for joint in bodies.joints
+            if (number := self._id("ACTUATOR", MOTOR + joint.name)) >= 0
+        }
+        self.motors = Motors(mj, self.model, self.data, bodies, settings, motors)
+
+    def _id(self, kind: str, name: str) -> int:
+        return int(self.mj.mj_name2id(self.model, getattr(self.mj.mjtObj, f"mjOBJ_{kind}"), name))
+
+    def _body(self, link: str) -> int:
+        """The body of a link; 0, the world, where it is no body of its own."""
+        number = self._id("BODY", link)
+        return number if number >= 0 else max(0, self._id("BODY", moving_name(link)))
+
+    def _set_options(self) -> None:
+        mj, option = self.mj, self.model.opt
+        option.timestep = self.settings.timestep
+        option.integrator = mj.mjtIntegrator.mjINT_IMPLICITFAST
+        option.cone = mj.mjtCone.mjCONE_ELLIPTIC
+        option.solver = mj.mjtSolver.mjSOL_NEWTON
+        option.iterations, option.tolerance = 100, 1e-10
+        option.impratio, option.noslip_iterations = 10.0, 5
+        option.density = option.viscosity = 0.0
+        option.wind = (0.0, 0.0, 0.0)
+        option.disableflags = mj.mjtDisableBit.mjDSBL_AUTORESET
+        option.enableflags = 0
+        option.gravity = self.settings.gravity_at(0.0)
+
+    def _make_contacts(self) -> None:
+        """Friction as the file or the settings say; who touches whom."""
+        model, settings = self.model, self.settings
+        solid = np.flatnonzero((model.geom_contype != 0) | (model.geom_conaffinity != 0))
+        model.geom_solref[:] = (max(_SOFT * settings.timestep, 1e-4), 1.0)
+        model.geom_solimp[:] = _IMPEDANCE
+        model.geom_margin[:] = 0.0
+        # what touches the plane is one group, the plane the other
+        model.geom_contype[solid] = 1
+        model.geom_conaffinity[solid] = 3 if settings.self_collision else 2
+        model.geom_contype[self.plane], model.geom_conaffinity[self.plane] = 2, 1
+        model.geom_friction[self.plane, 0] = 0.0  # of two the larger one counts
+        lump = {self.number_of[link]: body for body in self.bodies.bodies for link in body.links}
+        for geom in solid:
+            body = lump.get(int(model.geom_bodyid[geom]))
+            if body is None or geom == self.plane:
+                continue
+            own = body.surface.friction
+            model.geom_friction[geom, 0] = settings.friction if own is None else own
+
+    def _place(self) -> None:
+        """Put the root's link frame where it starts, and each joint."""
+        mj, model, data = self.mj, self.model, self.data
+        at, turn = np.array(self.bodies.start.translation), _quaternion(self.bodies.start.rotation)
+        mj.mj_resetData(model, data)
+        root = self.numbers[0]
+        free = [
+            j for j in range(model.njnt)
+            if model.jnt_type[j] == mj.mjtJoint.mjJNT_FREE and model.jnt_bodyid[j] == root
+        ]  # fmt: skip
+        if free:
+            first = int(model.jnt_qposadr[free[0]])
+            data.qpos[first : first + 3], data.qpos[first + 3 : first + 7] = at, turn
+        elif root:
+            model.body_pos[root], model.body_quat[root] = at, turn
+        else:
+            self._move_world(at, turn)
+        for joint, number in zip(self.bodies.joints, self.joints, strict=True):
+            if number >= 0:
+                data.qpos[model.jnt_qposadr[number]] = self.bodies.positions[joint.name]
+        start = data.qpos.copy()
+        mj.mj_setConst(model, data)
+        mj.mj_resetData(model, data)
+        data.qpos[:] = start
+        mj.mj_forward(model, data)
+
+    def _move_world(self, at: Array, turn: Array) -> None:
+        """Move all that hangs on a root which is the world itself."""
+        mj, model = self.mj, self.model
+        tops = np.flatnonzero(model.body_parentid == 0)[1:]
+        geoms = np.flatnonzero(model.geom_bodyid == 0)
+        for places, turns, rows in (
+            (model.body_pos, model.body_quat, tops),
+            (model.geom_pos, model.geom_quat, geoms[geoms != self.plane]),
+        ):
+            for row in rows:
+                place, whole = np.zeros(3), np.zeros(4)
+                mj.mju_rotVecQuat(place, places[row], turn)
+                mj.mju_mulQuat(whole, turn, turns[row])
+                places[row], turns[row] = place + at, whole
+
+    def settle(self) -> Recording:
+        """Step until nothing moves, the time is over, or the robot is lost."""
+        mj, settings = self.mj, self.settings
+        every = max(1, round(SAMPLE / settings.timestep))
+        steps = max(1, round(settings.duration / settings.timestep))
+        watch = Stillness(self.bodies.size, every * settings.timestep)
+        start_contacts = self.touches.overlaps()
+        samples = [self._sample(0.0)]
+        began = perf_counter()
+        still: float | None = None
+        ended, done = "time", 0
+        while done < steps and ended == "time":
+            self.model.opt.gravity = settings.gravity_at(done * settings.timestep)
+            for _ in range(min(every, steps - done)):
+                self.motors.drive()
+                mj.mj_step(self.model, self.data)
+                done += 1
+            sample = self._sample(done * settings.timestep)
+            samples.append(sample)
+            if not self._is_sane(sample):
+                ended = "lost"
+                break
+            still = watch.add(sample["times"], sample["poses"], sample["positions"])
+            if still is not None and sample["times"] > PATIENCE:
+                ended = "still"
+        seconds = perf_counter() - began
+        columns = {name: np.array([sample[name] for sample in samples]) for name in samples[0]}
+        columns["potential"] = columns["potential"] - columns["potential"][0]
+        return Recording(
+            engine=f"MuJoCo {mj.__version__}",
+            bodies=tuple(body.name for body in self.bodies.bodies),
+            joints=tuple(joint.name for joint in self.bodies.joints),
+            **columns,
+            held=self.bodies.held,
+            targets={name: self.bodies.positions[name] for name in self.bodies.held},
+            start_contacts=start_contacts,
+            contacts=self.touches.contacts() + self.touches.overlaps(ground=False),
+            read_back=self.read_back,
+            still_since=still,
+            ended=ended,
+            seconds=seconds,
+            steps=done,
+        )
+
+    def _is_sane(self, sample: dict[str, Any]) -> bool:
+        far = RUNAWAY * max(1.0, self.bodies.size)
+        bad = self.mj.mjtWarning
+        numbers = (bad.mjWARN_BADQPOS, bad.mjWARN_BADQVEL, bad.mjWARN_BADQACC)
+        return bool(
+            np.isfinite(sample["poses"]).all()
+            and np.isfinite(sample["kinetic"])
+            and np.abs(sample["poses"][:, :2]).max() < far
+            and not any(self.data.warning[int(number)].number for number in numbers)
+        )
+
+    def _sample(self, time: float) -> dict[str, Any]:
+        mj, model, data = self.mj, self.model, self.data
+        mj.mj_forward(model, data)
+        mj.mj_energyVel(model, data)
+        count = len(self.numbers)
+        poses, velocities = np.zeros((count, 7)), np.zeros((count, 6))
+        poses[:, :3] = data.xpos[self.numbers]
+        poses[:, 3:] = data.xquat[self.numbers][:, [1, 2, 3, 0]]
+        if not self.numbers[0]:  # the root is the world
+            start = self.bodies.start
+            poses[0, :3] = start.translation
+            poses[0, 3:] = _quaternion(start.rotation)[[1, 2, 3, 0]]
+        speed = np.zeros(6)
+        for row, (number, body) in enumerate(zip(self.numbers, self.bodies.bodies, strict=True)):
+            mj.mj_objectVelocity(model, data, mj.mjtObj.mjOBJ_XBODY, number, speed, 0)
+            arm = np.zeros(3) if body.properties is None else body.properties.com
+            turned = data.xmat[number].reshape(3, 3) @ arm
+            velocities[row, :3] = speed[3:] + np.cross(speed[:3], turned)
+            velocities[row, 3:] = speed[:3]
+        positions, rates = np.zeros(len(self.joints)), np.zeros(len(self.joints))
+        efforts = np.zeros(len(self.joints))
+        if self.joints:
+            positions = data.qpos[model.jnt_qposadr[self.joints]]
+            rates = data.qvel[model.jnt_dofadr[self.joints]]
+            efforts = data.qfrc_actuator[model.jnt_dofadr[self.joints]]
+        up = -np.array(self.settings.gravity_at(math.inf))
+        return {
+            "times": time,
+            "poses": poses,
+            "velocities": velocities,
+            "positions": np.array(positions),
+            "rates": np.array(rates),
+            "efforts": np.array(efforts),
+            "kinetic": float(data.energy[1]),
+            "potential": float(model.body_mass @ (data.xipos @ up)),
+            "depths": self.touches.deepest(),
+        }
+
+
+def _quaternion(rotation: Any) -> Array:
+    """The quaternion w, x, y, z of a rotation matrix."""
+    from ..model.pose import quaternion_of_rotation
+
+    return np.array(quaternion_of_rotation(rotation))

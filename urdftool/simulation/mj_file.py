@@ -1,0 +1,96 @@
+"""The robot as MuJoCo reads it: our own MJCF export of it, in a scene with a plane."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+from xml.etree.ElementTree import Element, ElementTree, SubElement
+
+from ..formats.mjcf.options import Options
+from ..formats.mjcf.write import write
+from ..model.elements import Inertial, Joint, Link, Robot
+from .bodies import ROOTED, Bodies
+from .settings import Settings
+
+SCENE = "scene.xml"
+PLANE = "plane of the simulation"
+MOTOR = "motor of "
+"""What the motor of each held joint is called, before the joint's name."""
+
+
+def write_model(robot: Robot, bodies: Bodies, settings: Settings, folder: Path) -> Path:
+    """Write the MJCF of a robot, its meshes and the scene around it; the path of the scene.
+
+    Args:
+        robot: The robot.
+        bodies: The same, prepared.
+        settings: Of this trial.
+        folder: Where the files go.
+
+    Raises:
+        Refused: It has defects past which no MJCF can be written.
+    """
+    root = robot.tree.root
+    assert root is not None
+    held = bodies.nailed or bodies.bodies[0].name != root.name
+    model = _to_collide(robot, settings, rename=not held)
+    written = write(
+        model, Options(actuators="none", base="fixed" if held else "free", file="robot.xml",
+                       force=True)
+    )  # fmt: skip
+    for name, content in written.files.items():
+        target = folder / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if isinstance(content, bytes):
+            target.write_bytes(content)
+        else:
+            shutil.copyfile(content, target)
+    path = folder / SCENE
+    ElementTree(_scene(written.main, bodies)).write(path, "utf-8", xml_declaration=True)
+    return path
+
+
+def _scene(main: str, bodies: Bodies) -> Element:
+    scene = Element("mujoco", model="scene")
+    SubElement(scene, "include", file=main)
+    world = SubElement(scene, "worldbody")
+    SubElement(world, "geom", name=PLANE, type="plane", size="0 0 1")
+    motors = SubElement(scene, "actuator")
+    for joint in bodies.joints:
+        if joint.leader is None and joint.lower != joint.upper:
+            SubElement(motors, "motor", name=MOTOR + joint.name, joint=joint.name)
+    return scene
+
+
+def _to_collide(robot: Robot, settings: Settings, *, rename: bool) -> Robot:
+    """A robot without visuals, with its payloads; a root that moves is not called world."""
+    links = [_loaded(link, settings.payloads.get(link.name, 0.0)) for link in robot.links]
+    joints = robot.joints
+    if rename and robot.tree.root is not None and robot.tree.root.name == ROOTED:
+        name = moving_name(ROOTED)
+        links = [replace(link, name=name) if link.name == ROOTED else link for link in links]
+        joints = [_hung(joint, name) for joint in joints]
+    return replace(robot, links=links, joints=joints)
+
+
+def moving_name(name: str) -> str:
+    """The name of the body of a link, where MuJoCo keeps the link's to itself."""
+    return f"{name}_link"
+
+
+def _hung(joint: Joint, name: str) -> Joint:
+    return replace(joint, parent=name) if joint.parent == ROOTED else joint
+
+
+def _loaded(link: Link, payload: float) -> Link:
+    """A link without visuals and with a point mass [kg] in its centre, as ``Settings`` has it."""
+    inertial = link.inertial
+    if payload:
+        mass = link.mass + payload
+        inertial = (
+            Inertial(link.element, None, mass)
+            if inertial is None or not link.mass
+            else replace(inertial, mass=mass)
+        )
+    return replace(link, visuals=[], inertial=inertial)

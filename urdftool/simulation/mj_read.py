@@ -1,0 +1,109 @@
+"""What MuJoCo took the robot for, compared with what it was given."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..inertia.lump import placed
+from ..inertia.tensor import MassProperties, combine
+from ..model.pose import rotation_of_quaternion
+from .bodies import Bodies, Body
+from .recording import ReadBack
+
+_CLOSE = 1e-5
+
+
+def read_back(
+    model: Any, bodies: Bodies, number_of: Mapping[str, int], joints: Sequence[int]
+) -> list[ReadBack]:
+    """Each difference in mass, centre, principal moments, joint and shapes.
+
+    Args:
+        model: MuJoCo's model.
+        bodies: What it was given.
+        number_of: Its body of each link.
+        joints: Its joint of each joint.
+    """
+    found: list[ReadBack] = []
+    number = 0
+    for row, body in enumerate(bodies.bodies):
+        if row or not bodies.nailed:
+            found += _mass(model, body, number_of)
+        if body.joint is not None:
+            found += _joint(model, body, joints[number])
+            number += 1
+        numbers = [number_of[link] for link in body.links if number_of[link]]
+        solid = np.isin(model.geom_bodyid, numbers) & (model.geom_contype != 0)
+        if numbers and bool(solid.any()) != bool(body.shapes):
+            said, got = str(len(body.shapes)), str(int(solid.sum()))
+            found.append(ReadBack("link", body.name, "collision shapes", said, got))
+    return found
+
+
+def _mass(model: Any, body: Body, number_of: Mapping[str, int]) -> Iterator[ReadBack]:
+    parts = []
+    for link, pose in body.places.items():
+        number = number_of[link]
+        if number and model.body_mass[number]:
+            w, x, y, z = (float(part) for part in model.body_iquat[number])
+            turn = np.array(rotation_of_quaternion((w, x, y, z)))
+            tensor = turn @ np.diag(model.body_inertia[number]) @ turn.T
+            own = MassProperties(
+                float(model.body_mass[number]), np.array(model.body_ipos[number]), tensor
+            )
+            parts.append(placed(own, pose))
+    got = combine(parts) if parts else MassProperties(0.0, np.zeros(3), np.zeros((3, 3)))
+    if not math.isclose(got.mass, body.mass, rel_tol=_CLOSE, abs_tol=1e-12):
+        yield ReadBack("link", body.name, "mass", f"{body.mass:g} kg", f"{got.mass:g} kg")
+    said = body.properties
+    if said is None or not body.mass:
+        return
+    scale = float(np.abs(said.inertia).max())
+    if not np.allclose(got.inertia, said.inertia, rtol=1e-4, atol=1e-4 * scale + 1e-12):
+        one, two = (
+            " ".join(f"{value:.4g}" for value in np.linalg.eigvalsh(part.inertia))
+            for part in (said, got)
+        )
+        yield ReadBack("link", body.name, "principal moments", f"{one} kg·m²", f"{two} kg·m²")
+    if not np.allclose(got.com, said.com, atol=1e-6):
+        one, two = (" ".join(f"{value:.4g}" for value in part.com) for part in (said, got))
+        yield ReadBack("link", body.name, "centre of mass", f"{one} m", f"{two} m")
+
+
+_KINDS = {0: "floating", 1: "spherical", 2: "prismatic", 3: "revolute"}
+
+
+def _joint(model: Any, body: Body, number: int) -> Iterator[ReadBack]:
+    joint = body.joint
+    assert joint is not None
+    if number < 0:
+        yield ReadBack("joint", joint.name, "type", joint.kind, "fixed")
+        return
+    wanted = 2 if joint.kind == "prismatic" else 3
+    if model.jnt_type[number] != wanted:
+        got = _KINDS.get(int(model.jnt_type[number]), "another")
+        yield ReadBack("joint", joint.name, "type", joint.kind, got)
+        return
+    limits = (joint.lower, joint.upper)
+    if math.isfinite(joint.lower) and math.isfinite(joint.upper) and joint.lower < joint.upper:
+        taken = model.jnt_range[number] if model.jnt_limited[number] else (-math.inf, math.inf)
+        if not np.allclose(taken, limits, rtol=_CLOSE, atol=1e-6):
+            one, two = (f"{part[0]:g} to {part[1]:g}" for part in (limits, taken))
+            yield ReadBack("joint", joint.name, "limits", one, two)
+    dof = int(model.jnt_dofadr[number])
+    for what, wanted_loss, taken_loss in (
+        ("damping", joint.damping, float(np.ravel(model.dof_damping[dof])[0])),
+        ("friction", joint.friction, float(model.dof_frictionloss[dof])),
+    ):
+        if not math.isclose(wanted_loss, taken_loss, rel_tol=_CLOSE, abs_tol=1e-12):
+            yield ReadBack("joint", joint.name, what, f"{wanted_loss:g}", f"{taken_loss:g}")
+    if not np.allclose(model.jnt_axis[number], joint.axis, atol=1e-5):
+        one, two = (
+            " ".join(f"{value:.4g}" for value in part)
+            for part in (joint.axis, model.jnt_axis[number])
+        )
+        yield ReadBack("joint", joint.name, "axis", one, two)
