@@ -9,6 +9,7 @@ from __future__ import annotations
 import gc
 import os
 import sys
+import warnings
 from importlib import import_module
 from typing import Any
 
@@ -99,6 +100,8 @@ def main(
 
 def run(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit code."""
+    if not sys.warnoptions:
+        warnings.simplefilter("ignore")  # what a library would tell a programmer
     gc.set_threshold(500_000, 50, 50)  # trees of many small objects, and then the process ends
     code = call(arguments)
     try:

@@ -17,6 +17,9 @@ from ..model.read import numbers
 from ..source.document import Element
 from ..source.location import Place
 
+ENORMOUS = 1e30
+"""No mass, size or distance is larger; beyond, squares of numbers end in infinity."""
+
 FATAL = frozenset(
     ("no-links", "no-root", "multiple-roots", "multiple-parents", "duplicate-link-name",
      "duplicate-joint-name", "unknown-parent-link", "unknown-child-link", "missing-parent-or-child",
@@ -245,14 +248,23 @@ def _numbers(robot: Robot) -> Iterator[Finding]:
         for element in part.element.walk():
             for attribute, count in NUMBERS.get(element.tag, {}).items():
                 text = element.get(attribute)
-                if text is not None and numbers(text, count) is None:
-                    yield _not_a_number(element, attribute, text, count, part.element)
+                if text is not None and (wanted := _wanted(element.tag, text, count)):
+                    yield _not_a_number(element, attribute, text, wanted, part.element)
+
+
+def _wanted(tag: str, text: str, count: int) -> str:
+    """What should stand there instead; nothing where it is right."""
+    values = numbers(text, count)
+    if values is None:
+        return "a finite number" if count == 1 else f"{count} finite numbers"
+    if tag not in ("limit", "dynamics") and any(abs(value) > ENORMOUS for value in values):
+        return f"below {ENORMOUS:g}, as all that a robot can have"
+    return ""
 
 
 def _not_a_number(
-    element: Element, attribute: str, text: str, count: int, part: Element
+    element: Element, attribute: str, text: str, wanted: str, part: Element
 ) -> Finding:
-    wanted = "a finite number" if count == 1 else f"{count} finite numbers"
     return defect(
         "not-a-number",
         f'{attribute}="{text}" of <{element.tag}> in {part.tag} '
