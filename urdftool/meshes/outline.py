@@ -12,7 +12,7 @@ from __future__ import annotations
 import json
 import math
 import struct
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -24,10 +24,13 @@ from ..errors import MeshError
 from .facts import HEADER_BYTES, stl_facts
 from .mesh import Points
 
+Reach = Callable[[float, float, float], float]
+"""How far something reaches along a direction [m]."""
+
 LARGEST = 64_000_000
 """Bytes of a file that is read; more is left to those who must."""
 
-_DIRECTIONS = 160
+_DIRECTIONS = 90
 _BLOCK = 2048  # small enough that a product with 32 directions stays on one core
 _MAX_DEPTH = 64
 
@@ -76,7 +79,7 @@ def placed(
 
 def _outermost(points: Points) -> Points:
     ways = _directions()
-    centred = points - points.mean(axis=0)
+    centred = (points - points.mean(axis=0)).astype(np.float32)
     kept = [
         (centred @ ways[first : first + 32].T).argmax(axis=0) for first in range(0, len(ways), 32)
     ]
@@ -91,7 +94,7 @@ def _directions() -> Points:
     turn = count * math.pi * (1 + math.sqrt(5))
     radius = np.sqrt(1 - z * z)
     spiral = np.stack([radius * np.cos(turn), radius * np.sin(turn), z], axis=1)
-    return np.concatenate([np.eye(3), -np.eye(3), spiral])
+    return np.concatenate([np.eye(3), -np.eye(3), spiral]).astype(np.float32)
 
 
 def _stl(path: Path) -> Points | None:
@@ -207,3 +210,20 @@ _READERS = {
     ".glb": _gltf,
     ".dae": _dae,
 }
+
+
+def reach_of(points: Points) -> tuple[tuple[float, float, float], float, Reach]:
+    """Points as a convex shape: their middle, the radius about it [m], and their support function.
+
+    The function gives how far the hull reaches from the middle along a direction.
+    """
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    centred = np.ascontiguousarray((points - middle).T)
+    radius = float(np.sqrt((centred * centred).sum(axis=0).max()))
+    rows = centred[0].copy(), centred[1].copy(), centred[2].copy()
+
+    def reach(x: float, y: float, z: float) -> float:
+        return float((rows[0] * x + rows[1] * y + rows[2] * z).max())
+
+    x, y, z = middle.tolist()
+    return (x, y, z), radius, reach

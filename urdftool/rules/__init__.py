@@ -117,6 +117,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "soft-limits-lock-joint",
             "soft-limits-outside-hard",
         ),
+        "sides": ("joint-not-mirrored", "limits-not-mirrored", "axis-against-others"),
     },
     "inertia": {
         "presence": (
@@ -163,9 +164,16 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "visual-mesh-as-collision",
             "collision-mesh-too-dense",
             "collision-much-larger-than-visual",
+            "collision-much-smaller-than-visual",
             "collision-off-visual",
         ),
         "wheels": ("wheel-cylinder-axis", "paper-thin-collision"),
+        "overlap": (
+            "self-collision-at-zero",
+            "self-collide-at-spawn",
+            "link-inside-parent",
+            "self-collision-in-range",
+        ),
     },
     "visual": {
         "materials": ("undefined-material", "conflicting-material", "invalid-color"),
@@ -197,6 +205,8 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "scale": (
             "mesh-in-millimetres",
             "mesh-scaled-twice",
+            "mesh-scale-differs",
+            "mesh-scale-out-of-line",
             "mirrored-scale",
             "bad-scale",
             "non-uniform-scale",
@@ -356,6 +366,7 @@ ONLY_WITH: dict[str, tuple[str, ...]] = {
     "visual.looks": ("visual", "collision"),
     "collision.likeness": ("collision",),
     "collision.wheels": ("collision",),
+    "collision.overlap": ("collision",),
     "inertia.slips": ("inertia",),
     "gazebo.references": ("gazebo",),
     "gazebo.vocabulary": ("gazebo",),

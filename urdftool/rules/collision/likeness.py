@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 
 from ...meshes.facts import stl_facts
-from ...model.bounds import Bounds, bounds_of
-from ...model.elements import Collision, Robot, Visual
+from ...model.elements import Robot
 from ...model.pose import norm
 from ...source.description import Description
+from ..mesh.outlines import reaches
 from ..mesh.uses import Stamp, mesh_uses, stamp
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 
@@ -110,17 +110,6 @@ def collision_mesh_too_dense(
             )
 
 
-def _box(shapes: Sequence[Visual | Collision]) -> Bounds | None:
-    """The box around primitives; None where there is a shape whose box is not known."""
-    box: Bounds | None = None
-    for shape in shapes:
-        other = bounds_of(shape)
-        if other is None:
-            return None
-        box = other if box is None else box.joined(other)
-    return box
-
-
 @rule(WARNING, effects={"moveit": "finds the arm in collision, or goals out of reach"})
 def collision_much_larger_than_visual(
     robot: Robot, *, ratio: float = 2.0, least: float = 0.1
@@ -129,11 +118,11 @@ def collision_much_larger_than_visual(
 
     Usually the diameter was written for the radius, or a unit is wrong. The robot touches things
     that look far away. It is told where the box around the collisions is more than ``ratio`` times
-    as long as that around the visuals, and by more than ``least`` [m]; shapes other than primitives
-    are not looked at.
+    as long as that around the visuals, and by more than ``least`` [m].
     """
+    reach = reaches(robot)
     for link in robot.links:
-        seen, touches = _box(link.visuals), _box(link.collisions)
+        seen, touches = reach.shapes(link.visuals), reach.shapes(link.collisions)
         if seen is None or touches is None:
             continue
         for axis, a, b in zip("xyz", touches.size, seen.size, strict=True):
@@ -147,16 +136,40 @@ def collision_much_larger_than_visual(
                 break
 
 
+@rule(INFO, effects={"every reader": "lets things pass through what is seen"})
+def collision_much_smaller_than_visual(robot: Robot, *, ratio: float = 4.0) -> Iterator[Problem]:
+    """A link collides with far less than what is seen of it.
+
+    Usually a unit is wrong, or a scale. It is told where the box around the visuals is more than
+    ``ratio`` times as long as that around the collisions along each of its sides.
+    """
+    reach = reaches(robot)
+    for link in robot.links:
+        seen, touches = reach.shapes(link.visuals), reach.shapes(link.collisions)
+        if seen is None or touches is None:
+            continue
+        sizes = list(zip(sorted(seen.size), sorted(touches.size), strict=True))
+        if all(a > ratio * b for a, b in sizes) and sizes[2][1] > 0:
+            (a, b), what = sizes[2], link.collisions[0].geometry
+            yield Problem(
+                link,
+                f"link '{link.name}' is seen over {a:.3g} m and collides over {b:.3g} m; is its "
+                "scale right?",
+                at=what or link.collisions[0],
+            )
+
+
 @rule(WARNING, effects={"every reader": "touches where nothing is seen"})
 def collision_off_visual(robot: Robot, *, apart: float = 0.5) -> Iterator[Problem]:
     """A link collides elsewhere than it is seen.
 
     One of the two lacks the ``<origin>`` that the other has. It is told where the boxes around
     visuals and collisions do not meet, or their middles are further apart than ``apart`` of the
-    visual's diagonal; shapes other than primitives are not looked at.
+    visual's diagonal.
     """
+    reach = reaches(robot)
     for link in robot.links:
-        seen, touches = _box(link.visuals), _box(link.collisions)
+        seen, touches = reach.shapes(link.visuals), reach.shapes(link.collisions)
         if seen is None or touches is None:
             continue
         x, y, z = (a - b for a, b in zip(seen.centre, touches.centre, strict=True))

@@ -1,40 +1,38 @@
-"""The left and the right of a robot."""
+"""The left and the right of a robot: what they weigh."""
 
 from __future__ import annotations
 
-import re
+import math
 from collections.abc import Iterator
 
-from ...model.elements import Robot
+from ...model.elements import Link, Robot
 from ..rule import INFO, Problem, rule
-
-_LEFT = re.compile(r"(?<![a-z])(left|Left|l|L|FL|RL|HL|fl|rl|hl)(?![a-z])")
-_RIGHT = {"left": "right", "Left": "Right", "l": "r", "L": "R", "FL": "FR", "RL": "RR"} | {
-    "HL": "HR",
-    "fl": "fr",
-    "rl": "rr",
-    "hl": "hr",
-}
+from ..sides import twin_of
 
 
-@rule(INFO, effects={"every simulator": "the robot leans to one side"}, default=False)
+@rule(INFO, effects={"every simulator": "the robot leans to one side"})
 def left_right_asymmetry(
-    robot: Robot, *, mass_difference: float = 0.01, com_difference: float = 1e-3
+    robot: Robot,
+    *,
+    mass_difference: float = 0.05,
+    com_difference: float = 0.05,
+    inertia_difference: float = 0.2,
 ) -> Iterator[Problem]:
-    """A link and its mirror image differ in mass or centre of mass.
+    """A link and its mirror image differ in mass, centre of mass or inertia.
 
     They are told by their names, such as ``left_arm`` and ``right_arm``. One of the two was changed
-    alone, or copied without turning a sign.
+    alone, or mistyped. What is compared does not depend on how their frames are turned: the mass,
+    how far the centre of mass is from the frame, and the sum of the moments; each may differ by the
+    part that its threshold says.
     """
     for link in robot.links:
-        match = _LEFT.search(link.name.replace("_", " "))
-        if match is None or link.inertial is None:
+        name = twin_of(link.name, robot.link)
+        other = robot.link.get(name) if name else None
+        if other is None or link.inertial is None or other.inertial is None:
             continue
-        name = link.name[: match.start()] + _RIGHT[match[1]] + link.name[match.end() :]
-        other = robot.link.get(name)
-        if other is None or other.inertial is None:
+        if link.mass <= 0 or other.mass <= 0:
             continue
-        if abs(link.mass - other.mass) > mass_difference * max(link.mass, other.mass):
+        if _differ(link.mass, other.mass, mass_difference):
             yield Problem(
                 other,
                 f"link '{other.name}' weighs {other.mass:g} kg and '{link.name}' {link.mass:g} kg; "
@@ -42,11 +40,36 @@ def left_right_asymmetry(
                 at=other.inertial,
             )
             continue
-        one = link.inertial.origin.xyz if link.inertial.origin else (0.0, 0.0, 0.0)
-        two = other.inertial.origin.xyz if other.inertial.origin else (0.0, 0.0, 0.0)
-        if any(abs(abs(a) - abs(b)) > com_difference for a, b in zip(one, two, strict=True)):
+        here, there = _com(link), _com(other)
+        if _differ(here, there, com_difference) and abs(here - there) > 0.002:
             yield Problem(
                 other,
-                f"centre of mass of link '{other.name}' does not mirror that of '{link.name}'",
+                f"centre of mass of link '{other.name}' is {there:.3g} m from its frame and that "
+                f"of '{link.name}' {here:.3g} m; mirror images have it at one distance",
                 at=other.inertial.origin or other.inertial,
             )
+            continue
+        one, two = _spread(link), _spread(other)
+        if one > 0 and two > 0 and _differ(one, two, inertia_difference):
+            yield Problem(
+                other,
+                f"moments of inertia of link '{other.name}' are {two / one:.2g} times those of "
+                f"'{link.name}', which is its mirror image",
+                at=other.inertial.inertia or other.inertial,
+            )
+
+
+def _differ(one: float, other: float, part: float) -> bool:
+    return abs(one - other) > part * max(abs(one), abs(other))
+
+
+def _com(link: Link) -> float:
+    """How far the centre of mass is from the frame of the link [m]."""
+    origin = link.inertial.origin if link.inertial is not None else None
+    return math.hypot(*origin.xyz) if origin is not None else 0.0
+
+
+def _spread(link: Link) -> float:
+    """The sum of the moments [kg·m²], which is the same in every frame."""
+    inertia = link.inertial.inertia if link.inertial is not None else None
+    return sum(inertia.moments) if inertia is not None else 0.0

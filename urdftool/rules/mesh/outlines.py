@@ -73,7 +73,7 @@ class Reaches:
     def _mesh(self, shape: Visual | Collision) -> Bounds | None:
         use = self.use_of(shape)
         points = points_of(use) if use is not None else None
-        if points is None:
+        if points is None or use is None or 0 in use.mesh.scale:
             return None
         low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
         box = Bounds(tuple(low), tuple(high))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import struct
 from collections.abc import Iterator
@@ -12,6 +13,7 @@ from ...model.elements import Robot
 from ...model.read import numbers
 from ...source.description import Description
 from ..rule import ERROR, INFO, WARNING, Problem, rule
+from .outlines import points_of
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
 _SAMPLE = 300  # triangles, from the beginning, the middle and the end
@@ -82,8 +84,14 @@ def rough_size(use: MeshUse) -> float | None:
 
 def _largest(use: MeshUse, whole: bool = False) -> float | None:
     """The largest length of a mesh as scaled [m], or of a sample of it."""
-    if use.path is None or not use.exists or use.path.suffix.lower() != ".stl":
+    if use.path is None or not use.exists:
         return None
+    if use.path.suffix.lower() != ".stl":
+        points = points_of(use)
+        if points is None:
+            return None
+        low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+        return float(max(b - a for a, b in zip(low, high, strict=True)))
     extent = sampled_extent(use.path)
     if extent is not None and whole:
         bounds = stl_bounds(use.path)
@@ -104,12 +112,15 @@ def mesh_in_millimetres(
 
     STL has no unit, and CAD programs write millimetres. Of thousands of meshes in real robots none
     is between two and a hundred metres large: it is one or the other. ``scale="0.001 0.001 0.001"``
-    mends it.
+    mends it. A world in which nothing moves may be as large as that, and is left alone unless it is
+    an STL file.
     """
     told: set[str] = set()
     for use in mesh_uses(robot, description):
         length = _largest(use) if use.uri not in told else None
         if length is not None and length > largest:
+            if not robot.moving_joints and not use.uri.lower().endswith(".stl"):
+                continue
             told.add(use.uri)
             right = "" if use.mesh.element.get("scale") else '; write scale="0.001 0.001 0.001"'
             yield Problem(
@@ -172,6 +183,67 @@ def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
             "mirror the file itself, with its triangles turned",
             at=found[0].mesh.element.attribute_place("scale"),
         )
+
+
+@rule(WARNING, effects={"every reader": "takes it: one of the two is not of the robot's size"})
+def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Problem]:
+    """One mesh file is used with two scales.
+
+    A link collides with the mesh that is seen, or left and right share one, and the factors differ:
+    one of them was forgotten, or lost a power of ten. Signs do not count, as mirrored parts have
+    them.
+    """
+    uses: dict[str, list[MeshUse]] = {}
+    for use in mesh_uses(robot, description):
+        uses.setdefault(use.uri, []).append(use)
+    for uri, same in uses.items():
+        scales = [tuple(map(abs, use.mesh.scale)) for use in same]
+        usual = max(scales, key=scales.count)
+        for use, scale in zip(same, scales, strict=True):
+            if all(math.isclose(a, b, rel_tol=0.02) for a, b in zip(scale, usual, strict=True)):
+                continue
+            yield Problem(
+                use.link,
+                f"mesh '{uri}' of link '{use.link.name}' is scaled by {_words(scale)}, and "
+                f"elsewhere by {_words(usual)}",
+                at=use.mesh.element.attribute_place("scale")
+                if "scale" in use.mesh.element.attributes
+                else use.mesh.element,
+            )
+
+
+def _words(scale: tuple[float, ...]) -> str:
+    return " ".join(f"{factor:g}" for factor in scale)
+
+
+@rule(INFO, effects={"every reader": "takes it"})
+def mesh_scale_out_of_line(
+    robot: Robot, description: Description, *, several: float = 4
+) -> Iterator[Problem]:
+    """One mesh is scaled by another power of ten than all others of the robot.
+
+    The meshes of a robot come from one program in one unit. Where ``several`` or more of a format
+    have one scale and a single one is off by a power of ten, a zero was lost.
+    """
+    formats: dict[str, dict[str, MeshUse]] = {}
+    for use in mesh_uses(robot, description):
+        ending = use.uri.rpartition(".")[2].lower()
+        formats.setdefault(ending, {}).setdefault(f"{use.uri} {use.mesh.scale}", use)
+    for uses in formats.values():
+        scales = [abs(use.mesh.scale[0]) for use in uses.values()]
+        usual = max(scales, key=scales.count)
+        others = [use for use in uses.values() if abs(use.mesh.scale[0]) != usual]
+        if len(others) != 1 or scales.count(usual) < several or not usual:
+            continue
+        use, factor = others[0], abs(others[0].mesh.scale[0]) / usual
+        power = math.log10(factor) if factor > 0 else 0.5
+        if abs(power - round(power)) < 0.01 and "scale" in use.mesh.element.attributes:
+            yield Problem(
+                use.link,
+                f"mesh '{use.uri}' of link '{use.link.name}' is scaled {factor:g} times as much as "
+                f"the other {scales.count(usual)} meshes",
+                at=use.mesh.element.attribute_place("scale"),
+            )
 
 
 @rule(ERROR, effects={"urdfdom, mujoco": "reject it, or drop the shape"})

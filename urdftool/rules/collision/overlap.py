@@ -1,0 +1,268 @@
+"""Links that are where others are: at rest, and when a joint moves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ...model.convex import Convex
+from ...model.elements import Joint, Link, Robot
+from ...model.kinematics import MOVABLE, limits_of, motion_of
+from ...model.pose import IDENTITY, Pose, pose_of, rotate, transpose
+from ..rule import GAZEBO, INFO, WARNING, Problem, rule
+from .pieces import Pieces, pieces
+
+STEPS = 9
+"""Positions at which a joint is looked at within its range."""
+
+TRIES = 6000
+"""Pairs of bodies that are looked at closely; a robot with more is looked at in part."""
+
+
+@rule(
+    INFO,
+    raised={"moveit": WARNING},
+    effects={
+        "moveit": "the start state is in collision, and nothing is planned",
+        "mujoco, pybullet": "push the two apart as soon as they collide with each other",
+    },
+)
+def self_collision_at_zero(
+    robot: Robot, *, deeper: float = 0.001, together: float = 4
+) -> Iterator[Problem]:
+    """Two links that no joint joins overlap where all joints are at rest.
+
+    A planner finds the robot in collision before it has moved, and a simulator that lets links
+    collide throws them apart. Links that are fixed to each other count as one, neighbours overlap
+    at their joint, and pairs that an SRDF disables are let be; a mesh counts as its convex hull,
+    which may overlap by a centimetre. A joint that cannot be at zero rests in the middle of its
+    range. ``deeper`` [m] is the overlap that is let pass; more than ``together`` pairs are one
+    finding.
+    """
+    found = list(resting(robot, deeper))
+    if len(found) > together:
+        (one, other, depth), rest = found[0], found[1:]
+        yield _overlap(one, other, depth, f"; so do {_pairs(rest)}")
+        return
+    for one, other, depth in found:
+        yield _overlap(one, other, depth, "")
+
+
+def _overlap(one: Link, other: Link, depth: float, more: str) -> Problem:
+    return Problem(
+        other,
+        f"links '{one.name}' and '{other.name}' overlap by {depth * 1000:.3g} mm where all joints "
+        f"are at rest{more}",
+        at=other.collisions[0],
+    )
+
+
+def _pairs(found: list[tuple[Link, Link, float]]) -> str:
+    return ", ".join(f"'{one.name}' and '{other.name}'" for one, other, _ in found)
+
+
+_resting: tuple[Robot, list[tuple[Link, Link, float]]] | None = None
+
+
+def resting(robot: Robot, deeper: float = 0.001) -> list[tuple[Link, Link, float]]:
+    """Links of bodies that no joint joins and that overlap at rest, with the depth [m]."""
+    global _resting
+    if _resting is None or _resting[0] is not robot:
+        found = []
+        known = pieces(robot)
+        for one, other in known.strangers():
+            deepest = known.deepest(one, other, least=deeper)
+            if deepest is not None:
+                found.append(deepest)
+        _resting = robot, found
+    return _resting[1]
+
+
+@rule(
+    WARNING,
+    on=GAZEBO,
+    effects={"gz, gazebo-classic": "throw the links apart in the first step"},
+)
+def self_collide_at_spawn(robot: Robot) -> Iterator[Problem]:
+    """Links that overlap at rest are told to collide with each other.
+
+    With ``<self_collide>true</self_collide>`` Gazebo makes contacts between the links of a robot.
+    Two that overlap when it is spawned fly apart, and the rest with them.
+    """
+    whole = any(_says(block.value("self_collide")) for block in robot.extensions.get(None, ()))
+    for one, other, depth in resting(robot):
+        told = all(
+            any(_says(block.value("selfCollide")) for block in robot.extensions.get(link.name, ()))
+            for link in (one, other)
+        )
+        if whole or told:
+            yield Problem(
+                other,
+                f"links '{one.name}' and '{other.name}' overlap by {depth * 1000:.3g} mm where the "
+                "robot is spawned, and are told to collide with each other",
+                at=other.collisions[0],
+            )
+
+
+def _says(value: str | None) -> bool:
+    return (value or "").strip().lower() in ("1", "true", "yes")
+
+
+@rule(INFO, effects={"every simulator": "two links are in one place"})
+def link_inside_parent(
+    robot: Robot, *, core: float = 0.5, together: float = 4
+) -> Iterator[Problem]:
+    """A link sits in the middle of the one it hangs on.
+
+    Neighbours overlap where a joint joins them, not with their middles. Mostly the ``<origin>`` of
+    the joint was lost, so that the child stands at the frame of its parent. It is told where the
+    middle of the child's collision is deeper inside the parent's than ``core`` of the parent's
+    half width, and both are of a size; more than ``together`` such joints are one finding.
+    """
+    known = pieces(robot)
+    found = []
+    for joint in robot.joints:
+        if joint.type not in MOVABLE or joint.child not in known.poses:
+            continue
+        depth, parent = _depth_of_middle(known, joint, IDENTITY)
+        if depth > core and parent is not None:
+            found.append((joint, parent))
+    many = len(found) > together
+    names = ", ".join(f"'{joint.name}'" for joint, _ in found[1:])
+    for joint, parent in found[:1] if many else found:
+        yield Problem(
+            joint,
+            f"joint '{joint.name}' puts link '{joint.child}' into the middle of '{parent.name}'; "
+            f"does it lack its <origin>?{f' So do {names}' if many else ''}",
+            at=joint.origin or joint,
+        )
+
+
+def _depth_of_middle(known: Pieces, joint: Joint, moved: Pose) -> tuple[float, Link | None]:
+    """How deep the middle of a joint's child is inside the parent, in half widths of the parent.
+
+    Negative outside; 1 at the very middle. A child much smaller than its parent is not looked at,
+    as what is built in is.
+    """
+    best: tuple[float, Link | None] = (-1.0, None)
+    own = known.robot.link[joint.child]
+    for link, piece in known.bodies.get(known.body_of.get(joint.child, joint.child), ()):
+        if link is not own:
+            continue
+        at = moved.transform(piece.pose.translation)
+        for parent, around in known.bodies.get(known.body_of.get(joint.parent, joint.parent), ()):
+            if not 0.5 < piece.radius / around.radius < 2:
+                continue
+            depth = _depth(around, at)
+            if depth > best[0]:
+                best = depth, parent
+    return best
+
+
+_WAYS = tuple(
+    (x / n, y / n, z / n)
+    for x in (-1, 0, 1)
+    for y in (-1, 0, 1)
+    for z in (-1, 0, 1)
+    if (n := math.hypot(x, y, z))
+)
+
+
+def _depth(around: Convex, at: tuple[float, float, float]) -> float:
+    """How deep a point is inside a shape, in its half widths: 1 in the middle, 0 on the surface."""
+    x, y, z = (a - b for a, b in zip(at, around.pose.translation, strict=True))
+    local = rotate(transpose(around.pose.rotation), (x, y, z))
+    least = 1.0
+    for a, b, c in _WAYS:
+        ahead = around.reach(a, b, c)
+        half = (ahead + around.reach(-a, -b, -c)) / 2
+        if half > 0:
+            least = min(least, (ahead - a * local[0] - b * local[1] - c * local[2]) / half)
+        if least < 0:
+            break
+    return least
+
+
+@rule(INFO, effects={"moveit, mujoco": "the joint cannot go where its limits let it"})
+def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[Problem]:
+    """A joint moves a link into another within its limits, all others being at rest.
+
+    Many arms can reach themselves, and planners see to it that they do not. But where a single
+    joint runs a link through the body it hangs on, its limits are too wide, or its place or axis is
+    wrong. Each joint is looked at in nine positions between its limits; a mesh counts as its convex
+    hull. ``deeper`` [m] is the overlap that is let pass. One finding names the joints.
+    """
+    known = pieces(robot)
+    taken = {
+        frozenset((known.body_of[a.name], known.body_of[b.name])) for a, b, _ in resting(robot)
+    }
+    found = []
+    tries = 0
+    for joint in robot.joints:
+        if joint.type not in MOVABLE or joint.mimic is not None or tries > TRIES:
+            continue
+        if joint.child not in known.poses:
+            continue
+        hit, count = _sweep(known, joint, taken, deeper)
+        tries += count
+        if hit is not None:
+            found.append((joint, *hit))
+    if found:
+        joint, one, other, where = found[0]
+        unit = "m" if joint.type == "prismatic" else "rad"
+        more = "; the same is true of " + ", ".join(
+            f"'{j.name}' ('{a.name}' into '{b.name}')" for j, a, b, _ in found[1:]
+        )
+        yield Problem(
+            joint,
+            f"joint '{joint.name}' moves link '{one.name}' into '{other.name}' at {where:.3g} "
+            f"{unit}, which its limits allow{more if len(found) > 1 else ''}",
+            at=joint.limit or joint,
+        )
+
+
+def _sweep(
+    known: Pieces, joint: Joint, taken: set[frozenset[str]], deeper: float
+) -> tuple[tuple[Link, Link, float] | None, int]:
+    """The first two links that meet as one joint moves, and where; and how many were tried."""
+    robot, rest = known.robot, known.rest.get(joint.name, 0.0)
+    moving = {joint.child, *robot.tree.descendants(joint.child)}
+    bodies = {known.body_of.get(name, name) for name in moving}
+    inside = [body for body in known.bodies if body in bodies]
+    along = known.followers(joint)  # they move at the same time, elsewhere
+    outside = [body for body in known.bodies if body not in bodies and body not in along]
+    at = known.poses[joint.parent] @ pose_of(joint.origin)
+    back = (at @ motion_of(joint, rest)).inverse()
+    pairs = [
+        (one, other)
+        for one in inside
+        for other in outside
+        if frozenset((one, other)) not in known.neighbours and frozenset((one, other)) not in taken
+    ]
+    into = _depth_of_middle(known, joint, IDENTITY)[0] <= 0
+    count = 0
+    for value in _positions(joint, rest):
+        moved = at @ motion_of(joint, value) @ back
+        if into:
+            depth, link = _depth_of_middle(known, joint, moved)
+            if depth > 0.3 and link is not None:
+                return (robot.link[joint.child], link, value), count
+        for one, other in pairs:
+            if not known.near(one, other, moved):
+                continue
+            count += 1
+            deepest = known.deepest(one, other, moved, deeper)
+            if deepest is not None:
+                return (deepest[0], deepest[1], value), count
+    return None, count
+
+
+def _positions(joint: Joint, rest: float) -> list[float]:
+    lower, upper = limits_of(joint)
+    if not (math.isfinite(lower) and math.isfinite(upper)) or upper - lower > 2 * math.pi:
+        if joint.type == "prismatic":
+            return []
+        lower, upper = rest - math.pi, rest + math.pi
+    if upper <= lower:
+        return []
+    return [lower + (upper - lower) * step / (STEPS - 1) for step in range(STEPS)]

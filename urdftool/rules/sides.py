@@ -1,0 +1,167 @@
+"""The left and the right of a robot, told by the names of its links, and the plane between them."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from ..model.elements import Joint, Link, Robot, Vector
+from ..model.kinematics import link_poses
+from ..model.pose import Pose, rotate
+
+_PAIRS = (
+    *(("left", "right"), ("l", "r")),
+    *(("fl", "fr"), ("hl", "hr"), ("rl", "rr"), ("bl", "br"), ("ml", "mr")),
+    *(("lf", "rf"), ("lh", "rh"), ("lb", "rb"), ("lr", "rr"), ("lm", "rm")),
+)
+_SHAPES = (str.lower, str.upper, str.capitalize)
+_OTHER = {shape(left): shape(right) for left, right in reversed(_PAIRS) for shape in _SHAPES}
+_BACK = {right: left for left, right in _OTHER.items()}
+_WORDS = "|".join(sorted({*_OTHER, *_BACK}, key=len, reverse=True))
+_WORD = re.compile(rf"(?<![a-zA-Z])(?:{_WORDS})(?![a-z])|(?<=[a-z])(?:Left|Right|L|R)(?![a-z])")
+_END = re.compile(r"(?i)front|rear|back|hind|middle|mid|[flrhbm]{1,2}(?![a-z])|left|right")
+
+
+def twin_of(name: str, names: dict[str, Link] | dict[str, Joint]) -> str | None:
+    """The name of the right one to a left one's, if there is one of that name."""
+    matches = list(_WORD.finditer(name))
+    if len(matches) > 1:  # front_leftL: its mirror image has the other of both, front_rightR
+        all_turned = _WORD.sub(lambda match: _OTHER.get(match[0]) or _BACK[match[0]], name)
+        if all_turned in names:
+            return all_turned if matches[0][0] in _OTHER else None
+    for match in matches:
+        if match[0] in _OTHER:
+            other = name[: match.start()] + _OTHER[match[0]] + name[match.end() :]
+            if other in names:
+                return other
+    return None
+
+
+class Pair(NamedTuple):
+    """A left link and the right one, with the joints they hang on."""
+
+    left: Link
+    right: Link
+    left_joint: Joint
+    right_joint: Joint
+
+
+class Sides:
+    """The pairs of a robot and how they mirror each other, all joints being at zero.
+
+    Attributes:
+        pairs: Those that hang on one link, or on a pair, by joints of one type.
+        normal: Along which axis of the root's frame left and right lie: 0, 1 or 2; None where the
+            robot is not symmetric.
+        off: Pairs whose joints are not where the mirror has them, with the distance [m].
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        """Find the pairs, and the plane by which most of them mirror."""
+        self.pairs = list(_pairs(robot))
+        self.poses: dict[str, Pose] = link_poses(robot) if self.pairs else {}
+        self.normal: int | None = None
+        self.off: list[tuple[Pair, float]] = []
+        moving = [pair for pair in self.pairs if not pair.left_joint.is_fixed]
+        steps = [(pair, *steps) for pair in moving if (steps := self._steps(pair))]
+        long = [step for step in steps if max(map(math.hypot, *zip(*step[1:], strict=True))) > 0.01]
+        best = 0
+        for normal in (1, 0, 2):
+            wrong = [(p, gap) for p, a, b in steps if (gap := _gap(p, a, b, normal)) > _slack(a)]
+            off = {id(pair.left) for pair, _ in wrong}
+            right = sum(1 for pair, _, _ in long if id(pair.left) not in off)
+            if right > best and right >= 0.6 * len(long):
+                best, self.normal, self.off = right, normal, wrong
+        if best < 2:
+            self.normal, self.off = None, []
+
+    def _steps(self, pair: Pair) -> tuple[Vector, Vector] | None:
+        """From each one's parent to it, in the frame of the root [m]."""
+        ends = (pair.left.name, pair.right.name)
+        begins = (pair.left_joint.parent, pair.right_joint.parent)
+        if not all(name in self.poses for name in (*ends, *begins)):
+            return None
+        places = [self.poses[name].translation for name in (*begins, *ends)]
+        (a, b, c), (d, e, f), (g, h, i), (j, k, m) = places
+        return (g - a, h - b, i - c), (j - d, k - e, m - f)
+
+    def turns_alike(self, pair: Pair) -> bool | None:
+        """Whether the two joints mirror each other at the same position, rather than the opposite.
+
+        None where one has no axis, or the axes are no mirror images.
+        """
+        if self.normal is None:
+            return None
+        one, other = (
+            self._axis(link, joint)
+            for link, joint in ((pair.left, pair.left_joint), (pair.right, pair.right_joint))
+        )
+        if one is None or other is None:
+            return None
+        product = sum(
+            a * b * (-1 if i == self.normal else 1)
+            for i, (a, b) in enumerate(zip(one, other, strict=True))
+        )
+        if abs(product) < 0.95:
+            return None
+        # a turn is mirrored like a vector, and backwards besides
+        return (product > 0) == (pair.left_joint.type == "prismatic")
+
+    def axis(self, link: Link, joint: Joint) -> Vector | None:
+        """The axis of a joint in the frame of the root, of unit length."""
+        return self._axis(link, joint)
+
+    def _axis(self, link: Link, joint: Joint) -> Vector | None:
+        if link.name not in self.poses:
+            return None
+        axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+        length = math.hypot(*axis)
+        if not length:
+            return None
+        x, y, z = rotate(self.poses[link.name].rotation, axis)
+        return x / length, y / length, z / length
+
+
+def _pairs(robot: Robot) -> Iterator[Pair]:
+    links = robot.link
+    twins = {name: other for name in links if (other := twin_of(name, links))}
+    for name, other in twins.items():
+        left, right = robot.tree.parent_joint(name), robot.tree.parent_joint(other)
+        if left is None or right is None or left.type != right.type:
+            continue
+        if left.parent == right.parent or twins.get(left.parent) == right.parent:
+            yield Pair(links[name], links[other], left, right)
+
+
+def _gap(pair: Pair, left: Vector, right: Vector, normal: int) -> float:
+    """How far the step on the right is from the mirror image of that on the left [m]."""
+    shared = pair.left_joint.parent == pair.right_joint.parent
+    return math.hypot(
+        *(
+            # where their common parent stands between the two is not known
+            (0.0 if shared else b + a) if i == normal else b - a
+            for i, (a, b) in enumerate(zip(left, right, strict=True))
+        )
+    )
+
+
+def _slack(step: Vector) -> float:
+    return max(0.005, 0.02 * math.hypot(*step))
+
+
+def family_of(name: str) -> str:
+    """A name without what says on which side and at which end: one for all four legs."""
+    return _END.sub("*", name)
+
+
+_last: tuple[Robot, Sides] | None = None
+
+
+def sides(robot: Robot) -> Sides:
+    """The sides of a robot; worked out once, however many rules ask."""
+    global _last
+    if _last is None or _last[0] is not robot:
+        _last = robot, Sides(robot)
+    return _last[1]
