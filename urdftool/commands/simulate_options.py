@@ -74,11 +74,23 @@ _OPTIONS = (
         "above it.",
     ),
     click.option(
-        "--hold/--limp",
+        "--hold",
         "hold",
-        default=None,
-        help="Hold every joint, within its effort, or none; without either, those that the file "
-        "actuates, or all where it actuates none.",
+        flag_value="all",
+        default="all",
+        help="Hold every joint, within its effort: at zero or where --pose says (the default).",
+    ),
+    click.option(
+        "--hold-actuated",
+        "hold",
+        flag_value="actuated",
+        help="Hold only the joints that the file actuates.",
+    ),
+    click.option(
+        "--limp",
+        "hold",
+        flag_value="none",
+        help="Hold no joint.",
     ),
     click.option(
         "--pose",
@@ -151,7 +163,7 @@ def settings_of(values: dict[str, Any]) -> Settings:
         duration=values["duration"],
         timestep=values["timestep"],
         height=values["height"],
-        hold={None: "auto", True: "all", False: "none"}[values["hold"]],
+        hold=values["hold"],
         pose=values["pose"],
         fixed_base=values["fixed_base"],
         payloads=values["payload"],

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from ..simulation.fault import Fault
     from ..simulation.verdict import Verdict
 
+_MOST = 6
+
 
 def text(robot: Robot, verdicts: Sequence[Verdict], *, colors: bool = False) -> str:
     """What happened, in a table, and what went wrong, a paragraph each."""
@@ -73,11 +75,18 @@ def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
 
 
 def _faults(faults: Sequence[Fault], paint: Painter) -> Iterator[str]:
+    groups: dict[tuple[str, bool, str], list[Fault]] = {}
     for fault in faults:
+        groups.setdefault(fault.group, []).append(fault)
+    for fault, *alike in groups.values():
         label, color = ("error", "red") if fault.fails else ("note", "blue")
         place = f"{clean(str(fault.place))}: " if fault.place is not None else ""
         yield ""
         yield f"{paint(place, bold=True)}{paint(label, color, bold=True)}: {clean(fault.message)}"
+        if alike:
+            shown = ", ".join(clean(other.name) for other in alike[:_MOST])
+            more = f", {len(alike) - _MOST} more" if len(alike) > _MOST else ""
+            yield f"   {paint('=', 'cyan')} the same of {shown}{more}"
         if fault.cause:
             yield f"   {paint('=', 'cyan')} {clean(fault.cause)}"
         if fault.rule:

@@ -125,13 +125,20 @@ def bodies_of(robot: Robot, settings: Settings) -> Bodies:
     """
     top = _top(robot)
     made = _lumps(robot, settings, top)
-    nailed = settings.fixed_base or (top == ROOTED and not made[0].mass)
+    nailed = settings.fixed_base or _is_world(robot.link[top])
     positions, clamped = start_positions(robot, settings)
     positions = {b.joint.name: positions[b.joint.name] for b in made if b.joint is not None}
-    start, size = _spawn(robot, made, positions, settings, nailed and top == ROOTED, top)
+    start, size = _spawn(
+        robot, made, positions, settings, nailed and _is_world(robot.link[top]), top
+    )
     return Bodies(
         tuple(made), nailed, start, positions, held_joints(robot, made, settings), size, clamped
     )
+
+
+def _is_world(link: Link) -> bool:
+    """Whether a root is the world itself, as Gazebo takes it."""
+    return link.name == ROOTED and not link.mass and not link.collisions
 
 
 def _top(robot: Robot) -> str:
@@ -252,7 +259,12 @@ def start_positions(robot: Robot, settings: Settings) -> tuple[dict[str, float],
         free = joint.name not in wanted and joint.mimic is None
         if free and joint.is_limited and lower <= upper and not lower <= 0.0 <= upper:
             wanted[joint.name] = clamped[joint.name] = lower if lower > 0 else upper
-    return with_mimics(robot, wanted), clamped
+    found = with_mimics(robot, wanted)
+    for joint in robot.joints:
+        lower, upper = limits_of(joint)
+        if joint.mimic is not None and joint.name not in wanted and lower < upper:
+            found[joint.name] = min(max(found.get(joint.name, 0.0), lower), upper)
+    return found, clamped
 
 
 def actuated_joints(robot: Robot) -> set[str]:
@@ -273,8 +285,8 @@ def held_joints(robot: Robot, bodies: list[Body], settings: Settings) -> tuple[s
     names = [joint.name for joint in joints if joint.leader is None]
     if settings.hold == "none":
         return ()
-    driven = actuated_joints(robot)
-    if settings.hold == "auto" and driven.intersection(names):
+    if settings.hold == "actuated":
+        driven = actuated_joints(robot)
         return tuple(name for name in names if name in driven)
     return tuple(names)
 
@@ -307,8 +319,10 @@ def _spawn(
     size = float((high - low).max()) if np.isfinite(low).all() else 0.0
     if settings.height is not None:
         height = settings.height
-    elif rooted or not math.isfinite(low[2]):
+    elif not math.isfinite(low[2]):
         height = 0.0
+    elif rooted:  # where the file puts it, or higher where it would start in the floor
+        height = max(0.0, GAP - float(low[2]))
     else:
         height = GAP - float(low[2])
     return Pose(turn.rotation, (0.0, 0.0, height)), size

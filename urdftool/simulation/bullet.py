@@ -213,7 +213,9 @@ class World:
                 self.robot,
                 link,
                 p.POSITION_CONTROL,
-                targetPosition=joint.multiplier * position + joint.offset,
+                targetPosition=min(
+                    max(joint.multiplier * position + joint.offset, joint.lower), joint.upper
+                ),
                 force=joint.effort if joint.effort is not None else UNBOUND,
             )
 

@@ -30,3 +30,8 @@ class Fault:
     cause: str = ""
     rule: str = ""
     fails: bool = True
+
+    @property
+    def group(self) -> tuple[str, bool, str]:
+        """Faults of one group are alike but for their part."""
+        return self.kind, self.fails, self.cause

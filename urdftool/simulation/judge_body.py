@@ -11,6 +11,7 @@ from ..model.elements import Link, Robot
 from .bodies import Bodies, Body, mass_of
 from .extent import Extent, extent_of
 from .fault import Fault
+from .recording import Array
 from .run import Run
 from .urdf import ROUNDED
 
@@ -25,6 +26,7 @@ LARGEST = 30.0
 
 _THIN = 1.0  # kg/m³, a bit less than air
 _SHARE = 0.5
+_HOLLOW = 50.0  # kg/m³: a rigid body lighter than this lacks the mass of a part
 _LIGHT = 0.02  # of the robot's mass: what is lighter stands for a camera or a frame
 
 
@@ -45,10 +47,10 @@ def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
         if number == 0 and bodies.nailed:
             continue
         yield from _unweighed(robot, body)
+        if body.properties is not None and _is_impossible(body.properties.inertia):
+            told.add(body.name)
+            yield from _tensor(robot, body)
         for name in body.links:
-            for fault in _tensor(robot.link[name], body):
-                told.add(body.name)
-                yield fault
             yield from _size(robot, robot.link[name], run)
     yield from _giants(robot, bodies)
     for difference in run.recording.read_back:
@@ -110,7 +112,8 @@ def _unweighed(robot: Robot, body: Body) -> Iterator[Fault]:
     extents = {name: extent_of(robot, name) for name in body.links if _has_shapes(robot, name)}
     whole = sum(extent.volume for extent in extents.values())
     for name in without:
-        if name in extents and extents[name].volume > _SHARE * whole > 0:
+        large = name in extents and extents[name].volume > _SHARE * whole > 0
+        if large and body.mass < _HOLLOW * whole:
             yield Fault(
                 "no-mass",
                 f"link '{name}' is most of its rigid body and weighs nothing; the rest weighs "
@@ -127,44 +130,45 @@ def _has_shapes(robot: Robot, name: str) -> bool:
     return bool(robot.link[name].collisions or robot.link[name].visuals)
 
 
-def _tensor(link: Link, body: Body) -> Iterator[Fault]:
+def _is_impossible(tensor: Array) -> bool:
+    low, middle, high = np.linalg.eigvalsh(tensor).tolist()
+    possible: bool = low >= -1e-9 * abs(high) and 0 < high <= (low + middle) * (1 + ROUNDED)
+    return not possible
+
+
+def _tensor(robot: Robot, body: Body) -> Iterator[Fault]:
+    """The link that makes the tensor of its body impossible."""
+    bad = [
+        link
+        for link in (robot.link[name] for name in body.links)
+        if (own := mass_of(link)) is not None and _is_impossible(own.inertia)
+    ]
+    link = max(bad, key=lambda link: link.mass) if bad else robot.link[body.name]
     own = mass_of(link)
-    if own is None or link.inertial is None:
-        return
-    moments = np.linalg.eigvalsh(own.inertia)
-    place = (link.inertial.inertia or link.inertial).place
-    if moments[0] < -1e-9 * max(abs(moments[2]), 1e-12):
-        yield Fault(
-            "impossible-inertia",
-            f"the inertia of link '{link.name}' has a principal moment of {moments[0]:.3g} kg·m²",
-            place,
-            "link",
-            link.name,
-            "every principal moment is above zero; engines set such a tensor to zero, or blow up",
-            "inertia-not-positive-definite",
-        )
-    elif moments[2] > (moments[0] + moments[1]) * (1 + ROUNDED):
-        yield Fault(
-            "impossible-inertia",
-            f"the inertia of link '{link.name}' breaks the triangle inequality: "
-            f"{moments[2]:.3g} > {moments[0]:.3g} + {moments[1]:.3g} kg·m²",
-            place,
-            "link",
-            link.name,
-            "no body has such a tensor; PyBullet sets it to zero, and the link does not turn",
-            "inertia-triangle-inequality",
-        )
-    elif moments[2] <= 0 and body.properties is not None:
-        if np.linalg.eigvalsh(body.properties.inertia)[0] <= 0:
-            yield Fault(
-                "impossible-inertia",
-                f"the inertia of link '{link.name}' is zero, and it weighs {link.mass:g} kg",
-                place,
-                "link",
-                link.name,
-                "nothing resists its turning; engines take it for a body that never turns",
-                "zero-inertia",
-            )
+    tensor = own.inertia if bad and own is not None else np.zeros((3, 3))
+    low, middle, high = np.linalg.eigvalsh(tensor).tolist()
+    if high <= 0 and low >= 0:
+        said = f"is zero, and it weighs {body.mass:.4g} kg"
+        why = "nothing resists its turning; PyBullet then never turns it"
+        rule = "zero-inertia"
+    elif low < -1e-9 * abs(high):
+        said = f"has a principal moment of {low:.3g} kg·m²"
+        why = "every principal moment is above zero; PyBullet takes such a tensor for zero"
+        rule = "inertia-not-positive-definite"
+    else:
+        said = f"breaks the triangle inequality: {high:.3g} > {low:.3g} + {middle:.3g} kg·m²"
+        why = "no body has such a tensor; PyBullet takes it for zero, and the link does not turn"
+        rule = "inertia-triangle-inequality"
+    part = link.inertial.inertia or link.inertial if link.inertial is not None else link
+    yield Fault(
+        "impossible-inertia",
+        f"the inertia of link '{link.name}' {said}",
+        part.place,
+        "link",
+        link.name,
+        why,
+        rule,
+    )
 
 
 def _size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
@@ -205,7 +209,7 @@ def _size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
         )
 
 
-def _fits(extent: Extent, spread: float, mass: float, com: np.ndarray) -> bool:
+def _fits(extent: Extent, spread: float, mass: float, com: Array) -> bool:
     reach = extent.reach(com)
     return spread <= REACH * reach and mass <= DENSEST * extent.volume
 

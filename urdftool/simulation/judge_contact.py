@@ -13,17 +13,20 @@ from .extent import extent_of
 from .fault import Fault
 from .judge_rest import Rest
 from .overlap import overlap
-from .recording import GROUND, Contact
+from .recording import GROUND, Array, Contact
 from .run import Run
 
 SUNK = 0.01
 """How deep a robot at rest may be in the floor, as a part of its size."""
 
 INTO = 0.005
-"""How deep parts may be in each other, as a part of the robot's size."""
+"""How deep parts are in each other to be worth a word, as a part of the robot's size."""
 
-NEAR = 0.01
-"""How near to the floor a part is that should touch it, as a part of the robot's size."""
+THICK = 0.25
+"""How deep they are for a fault, as a part of the thinner one's smallest extent."""
+
+NEAR = 0.002
+"""How near to the floor a part is that should touch it [m]."""
 
 COMPACT = 0.5
 """How far apart joints may be that are one compound joint, as a part of the smaller body."""
@@ -77,6 +80,7 @@ def _sunk(robot: Robot, run: Run) -> Iterator[Fault]:
 
 
 def _in_each_other(robot: Robot, run: Run) -> Iterator[Fault]:
+    bodies = {body.name: body for body in run.bodies.bodies}
     owner = {link: body.name for body in run.bodies.bodies for link in body.links}
     at_start = {_pair(contact) for contact in run.recording.start_contacts}
     for contact in (*run.recording.start_contacts, *run.recording.contacts):
@@ -86,11 +90,14 @@ def _in_each_other(robot: Robot, run: Run) -> Iterator[Fault]:
         if not starting and _pair(contact) in at_start:
             continue
         adjacent = _are_joined(run, owner[contact.one], owner[contact.other])
-        frame = 0 if starting else -1
-        depth = overlap(run, frame, contact.one, contact.other)
+        depth: float | None = None
+        if not adjacent:
+            depth = overlap(robot, run, 0 if starting else -1, contact.one, contact.other)
         if depth is not None and depth < _deep(run, INTO):
             continue
         depth = contact.depth if depth is None else min(depth, contact.depth)
+        thin = min(_extents(bodies[owner[name]]).min() for name in (contact.one, contact.other))
+        fails = not adjacent and depth > THICK * thin
         when = "at the start" if starting else "at rest"
         yield Fault(
             "parts-collide",
@@ -101,8 +108,8 @@ def _in_each_other(robot: Robot, run: Run) -> Iterator[Fault]:
             "they are joined, so engines let them"
             if adjacent
             else "their collision shapes are too large or misplaced, or the pose is not free",
-            "collision-off-visual",
-            fails=not adjacent,
+            "collision-off-visual" if fails else "",
+            fails=fails,
         )
 
 
@@ -121,21 +128,22 @@ def _are_joined(run: Run, one: str, other: str) -> bool:
         above.append(chain)
     common = next(index for index in above[0] if index in above[1])
     path = [index for chain in above for index in chain[: chain.index(common)]]
-    if len(path) < 2:
+    between = {*path, common} - {number[one], number[other]}
+    if not any(bodies[index].shapes for index in between):
         return True
-    if common not in (number[one], number[other]):
-        return False
     places = run.recording.poses[0, path, :3]
     apart = float(np.linalg.norm(places.max(axis=0) - places.min(axis=0)))
-    smaller = min(_extent(bodies[number[one]]), _extent(bodies[number[other]]))
-    return apart < COMPACT * smaller
+    smaller = min(_extents(bodies[number[name]]).max() for name in (one, other))
+    return bool(apart < COMPACT * smaller)
 
 
-def _extent(body: Body) -> float:
+def _extents(body: Body) -> Array:
+    """Edges of the box around what of a body touches [m], shape (3,)."""
     boxes = [shape.bounds() for shape in body.shapes]
     low = np.min([low for low, _ in boxes], axis=0)
     high = np.max([high for _, high in boxes], axis=0)
-    return float((high - low).max())
+    edges: Array = high - low
+    return edges
 
 
 def _pair(contact: Contact) -> frozenset[str]:
@@ -158,8 +166,8 @@ def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
             place = pose @ body.places[name]
             heights = points @ np.array(place.rotation[2]) + place.translation[2]
             lowest = float(heights.min())
-            if lowest < _deep(run, NEAR):
-                where = "on" if lowest > -_deep(run, NEAR) else f"{-lowest:.3g} m below"
+            if lowest < NEAR:
+                where = "on" if lowest > -NEAR else f"{-lowest:.3g} m below"
                 yield Fault(
                     "no-contact-shape",
                     f"link '{name}' is {where} the floor and has no <collision> to touch it with",

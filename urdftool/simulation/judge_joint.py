@@ -188,7 +188,7 @@ def _collapsed(robot: Robot, run: Run) -> Iterator[Fault]:
 def _why_loose(run: Run) -> str:
     if run.settings.hold == "none":
         return "--limp was asked for"
-    return "the file names no actuator for it; --hold holds every joint"
+    return "the file actuates other joints; --hold holds every one"
 
 
 def _nearly(robot: Robot, run: Run) -> Iterator[Fault]:
@@ -232,7 +232,7 @@ def _unlimited(robot: Robot, run: Run) -> Iterator[Fault]:
 
 
 def _unheld(robot: Robot, run: Run) -> Iterator[Fault]:
-    if run.settings.hold != "auto":
+    if run.settings.hold != "actuated":
         return
     held = set(run.recording.held)
     names = [j.name for j in run.bodies.joints if j.name not in held and j.leader is None]
@@ -240,8 +240,7 @@ def _unheld(robot: Robot, run: Run) -> Iterator[Fault]:
         shown = ", ".join(f"'{name}'" for name in names[:4]) + (", …" if len(names) > 4 else "")
         yield Fault(
             "not-held",
-            f"the file actuates other joints than {shown}: nothing held "
-            + ("these" if len(names) > 1 else "this one"),
+            f"nothing held {shown}: the file actuates other joints",
             _joint(robot, names[0]).place,
             "joint",
             names[0],

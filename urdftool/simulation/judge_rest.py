@@ -190,7 +190,7 @@ def judge_rest(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
             top.place,
             "link",
             top.name,
-            _why_tilted(rest),
+            _why_tilted(rest) + "; a robot that is bolted down is simulated with --fixed-base",
         )
     elif rest.drift > FAR * size:
         yield from _slid(robot, run, rest, size)

@@ -18,8 +18,8 @@ class Settings:
     Attributes:
         duration: The longest the robot is watched [s of the simulated world].
         timestep: Of the engine [s].
-        hold: Which joints are held: ``auto`` those that the file actuates, or all where it actuates
-            none; ``all``; ``none`` is limp.
+        hold: Which joints are held: ``all``; ``actuated`` are those that the file drives, by a
+            transmission, ros2_control or a plugin; ``none`` is limp.
         pose: Positions of joints by name [rad, m] at the start, which are held too.
         height: Of the root's frame above the plane [m]; None puts the lowest point of what
             collides just above it.
@@ -42,7 +42,7 @@ class Settings:
 
     duration: float = 5.0
     timestep: float = 0.002
-    hold: str = "auto"
+    hold: str = "all"
     pose: dict[str, float] = field(default_factory=dict)
     height: float | None = None
     fixed_base: bool = False
