@@ -215,11 +215,11 @@ def test_a_mesh_that_comes_is_seen(show, tmp_path):
 
 def test_findings_are_listed_and_marked(show):
     text = ARM.replace('<link name="upper">', '<link name="upper"><inertial/>')
-    page, _ = show(text, check=check)
+    page, _ = show(text, check=check, shown=("visual", "errors"))
     assert "linting" in page._list.content
     tend(page)
     assert "incomplete-inertial" in page._list.content
-    assert "upper" in {name for name, _ in page.body._nodes["findings"]}
+    assert "upper" in {name for name, _ in page.body._nodes["errors"]}
     assert not page._banner.visible
 
 

@@ -54,7 +54,7 @@ def serve_page(
             partial(_load, console),
             partial(_check, console) if linted else None,
             start=pose,
-            shown=("findings", *(("visual", "collision") if show == "both" else (show,))),
+            shown=("errors", *(("visual", "collision") if show == "both" else (show,))),
         )
         pages.append(page)
         where = address(host, port)

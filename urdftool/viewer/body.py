@@ -14,7 +14,7 @@ from ..model.kinematics import MOVABLE, motion_of
 from ..model.pose import IDENTITY, Pose, Quaternion, pose_of, quaternion_of_rotation
 from .equal_box import equal_box
 from .looks import Look, box_around, looks_of
-from .marks import counted, worst
+from .marks import counted
 from .numbers import shortened
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from ..drawing.shapes import Shapes
 
-KINDS = ("visual", "collision", "frames", "names", "axes", "com", "inertia", "findings")
+KINDS = ("visual", "collision", "frames", "names", "axes", "com", "inertia", "errors", "warnings")
 """What of a robot can be shown and hidden."""
 
 COLLISION = (240, 140, 40)
@@ -145,12 +145,18 @@ class Body:
         for _, node in self._nodes[kind]:
             node.visible = wanted
 
-    def mark(self, findings: Mapping[str, list[Finding]], shown: bool) -> None:
-        """Say at each link what was found on it: errors and warnings."""
+    def mark(self, findings: Mapping[str, list[Finding]], shown: Iterable[str]) -> None:
+        """Say at each link what was found on it.
+
+        Args:
+            findings: By link.
+            shown: Which of ``"errors"`` and ``"warnings"`` are seen.
+        """
         self._findings = findings
-        for _, node in self._nodes.pop("findings", []):
-            node.remove()
-        self.show("findings", shown)
+        for kind in ("errors", "warnings"):
+            for _, node in self._nodes.pop(kind, []):
+                node.remove()
+            self.show(kind, kind in shown)
 
     def select(self, link: str | None) -> None:
         """Highlight a link; None for none."""
@@ -263,19 +269,26 @@ class Body:
                 receive_shadow=False,
             )  # fmt: skip
 
-    def _make_findings(self) -> Iterable[tuple[str, Any]]:
+    def _make_errors(self) -> Iterable[tuple[str, Any]]:
+        return self._marks(Severity.ERROR, "top-left")
+
+    def _make_warnings(self) -> Iterable[tuple[str, Any]]:
+        return self._marks(Severity.WARNING, "center-left")
+
+    def _marks(self, severity: Severity, anchor: Any) -> Iterable[tuple[str, Any]]:
+        """A ball and a label at each link with findings of a severity."""
         for link, path in self._paths.items():
-            shown = [f for f in self._findings.get(link, []) if f.severity in COLORS]
-            severity = worst(shown)
-            if severity is None:
+            some = [f for f in self._findings.get(link, []) if f.severity == severity]
+            if not some:
                 continue
+            radius = (0.010 + 0.002 * severity) * self.size
             yield link, self.scene.add_icosphere(
-                f"{path}/marked", 0.014 * self.size, COLORS[severity], cast_shadow=False,
+                f"{path}/{severity.label}", radius, COLORS[severity], cast_shadow=False,
                 subdivisions=2,
             )  # fmt: skip
             yield (
                 link,
-                self.scene.add_label(f"{path}/found", counted(shown), anchor="top-left"),
+                self.scene.add_label(f"{path}/{severity.label}s", counted(some), anchor=anchor),
             )
 
     def _edges(self, path: str, low: Any, high: Any) -> Any:

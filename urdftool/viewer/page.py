@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Mapping
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -43,9 +42,11 @@ LABELS = {
     "axes": "joint axes",
     "com": "centres of mass",
     "inertia": "inertia boxes",
-    "findings": "findings",
+    "errors": "errors",
+    "warnings": "warnings",
 }
-SHOWN = ("visual", "findings")
+SHOWN = ("visual", "errors")
+MARKS = ("errors", "warnings")
 NOBODY = "none"
 
 Read = Callable[[], Robot]
@@ -128,7 +129,7 @@ class Page:
             self._all = gui.add_html("")
         with tabs.add_tab("Findings"):
             self._list = gui.add_html("")
-        self.server.on_client_connect(partial(self._safely, self._greet))
+        self.server.on_client_connect(self._greet)
 
     def _embodied(self, robot: Robot) -> Body:
         self._generation += 1
@@ -148,7 +149,7 @@ class Page:
         with self.server.atomic():
             self.joints.take(robot, body.size)
             for kind in KINDS:
-                if kind != "findings":
+                if kind not in MARKS:
                     body.show(kind, self._boxes[kind].value)
             self._ground()
             self._camera()
@@ -168,7 +169,7 @@ class Page:
         self._set(self._summary, panels.summary(robot, self._findings))
         self._set(self._all, panels.all_parts(robot, self._found))
         self._set(self._list, panels.list_of(self._findings if self._check else [], self._found))
-        body.mark(self._found, self._boxes["findings"].value)
+        body.mark(self._found, [kind for kind in MARKS if self._boxes[kind].value])
 
     def _set(self, handle: Any, content: str) -> None:
         if handle.content != content:
@@ -187,13 +188,22 @@ class Page:
         camera.fov, camera.near, camera.far = VIEW, self.body.size / 1000, self.body.size * 200
 
     def _greet(self, client: viser.ClientHandle) -> None:
-        """Step back where the browser is higher than wide, as on a telephone."""
+        """Step back where the browser is higher than wide, as on a telephone.
+
+        The camera of all browsers may come after the one that is set here; so it is looked at again
+        for some seconds, until somebody has moved it.
+        """
         camera = client.camera
         aspect = camera.image_width / max(camera.image_height, 1)
-        if aspect < 1:
-            eye, middle = eye_for(self._low, self._high, max(aspect, 0.2), covered=SHEET)
-            with client.atomic():
-                camera.position, camera.look_at = eye, middle
+        if aspect >= 1:
+            return
+        for _ in range(20):
+            with self._lock:
+                eye, middle = eye_for(self._low, self._high, max(aspect, 0.2), covered=SHEET)
+                if np.allclose(camera.position, self.server.initial_camera.position, rtol=1e-4):
+                    with client.atomic():
+                        camera.position, camera.look_at = eye, middle
+            time.sleep(0.25)
 
     def _moved(self, positions: Mapping[str, float]) -> None:
         self.moves += 1

@@ -15,6 +15,9 @@ COLORS = {Severity.ERROR: "#e03131", Severity.WARNING: "#e8590c", Severity.INFO:
 MOST = 300
 """Findings that are listed."""
 
+SAID = 12
+"""Meshes and the like that are named at the top."""
+
 _SMALL = "font-size:.85em;line-height:1.35;padding:.2em .75em"
 
 
@@ -45,14 +48,14 @@ def notices(messages: Iterable[str]) -> str:
     lines = list(messages)
     if not lines:
         return ""
-    rest = f"<br>… and {len(lines) - 8} more" if len(lines) > 8 else ""
-    return _alert("<br>".join(safe(line) for line in lines[:8]) + rest, "#e8590c")
+    rest = f"<br>… and {len(lines) - SAID} more" if len(lines) > SAID else ""
+    return _alert("<br>".join(safe(line) for line in lines[:SAID]) + rest, "#e8590c")
 
 
 def _alert(inner: str, color: str) -> str:
     return box(
         f"<div role='alert' style='border-left:4px solid {color};padding:.4em .6em;"
-        f"background:{color}18;overflow-wrap:anywhere;max-height:16em;overflow-y:auto'>"
+        f"background:{color}18;overflow-wrap:anywhere;max-height:9em;overflow-y:auto'>"
         f"{inner}</div>"
     )
 
