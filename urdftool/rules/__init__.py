@@ -213,6 +213,12 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "heavy-visual",
         ),
         "parts": ("missing-mesh-dependency",),
+        "surface": (
+            "not-watertight",
+            "inverted-mesh",
+            "degenerate-triangles",
+            "nonconvex-collision-mesh",
+        ),
     },
     "package": {
         "resolution": ("package-not-found",),
@@ -363,6 +369,7 @@ ONLY_WITH: dict[str, tuple[str, ...]] = {
     "mesh.formats": ("mesh",),
     "mesh.scale": ("mesh",),
     "mesh.parts": ("mesh",),
+    "mesh.surface": ("mesh",),
     "visual.looks": ("visual", "collision"),
     "collision.likeness": ("collision",),
     "collision.wheels": ("collision",),

@@ -1,0 +1,155 @@
+"""The surfaces of collision meshes: closed, the right way out, without slivers, convex."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ...inputs import Remembered
+from ...model.elements import Robot
+from ...source.description import Description
+from ..rule import ERROR, INFO, WARNING, Problem, rule
+from .uses import MeshUse, Stamp, mesh_uses, stamp
+
+if TYPE_CHECKING:
+    from ...meshes.surface import Surface
+
+
+@Remembered
+def _surface(key: Stamp) -> Surface | None:
+    from ...meshes.surface import surface
+
+    return surface(Path(key[0]))
+
+
+@Remembered
+def _hull_volume(key: Stamp) -> float | None:
+    from ...meshes.surface import hull_volume
+
+    return hull_volume(key[0])
+
+
+def _surfaces(robot: Robot, description: Description) -> Iterator[tuple[MeshUse, Stamp, Surface]]:
+    """The collision meshes that can be read, each once."""
+    told: set[str] = set()
+    for use in mesh_uses(robot, description):
+        if not use.collides or not use.exists or use.path is None or use.uri in told:
+            continue
+        told.add(use.uri)
+        try:
+            key = stamp(use.path)
+        except OSError:
+            continue
+        found = _surface(key)
+        if found is not None:
+            yield use, key, found
+
+
+def _together(found: list[tuple[MeshUse, str]], message: Callable[[MeshUse], str]) -> list[Problem]:
+    """One finding for the robot: the first mesh, with a word of the case, and the others' links."""
+    if not found:
+        return []
+    (use, what), rest = found[0], found[1:]
+    others = ", ".join(f"'{other.link.name}'" for other, _ in rest)
+    text = message(use).format(what) + (f"; so are those of {others}" if rest else "")
+    return [Problem(use.link, text, at=use.mesh.element.attribute_place("filename"))]
+
+
+@rule(INFO, effects={"every tool": "cannot tell its volume, mass or inertia"})
+def not_watertight(robot: Robot, description: Description) -> Iterator[Problem]:
+    """The surface of a collision mesh has a hole.
+
+    What is open has no inside: volume, centre of mass and inertia computed from it mean nothing,
+    and tools that cut a mesh into convex pieces want it closed. One finding names the links.
+    """
+    found = [
+        (use, f"{surface.open_edges} open edges")
+        for use, _, surface in _surfaces(robot, description)
+        if surface.open_edges
+    ]
+    yield from _together(
+        found,
+        lambda use: (
+            f"collision mesh '{use.uri}' of link '{use.link.name}' is not closed, it has {{}}"
+        ),
+    )
+
+
+@rule(
+    WARNING,
+    raised={"mujoco": ERROR},
+    effects={
+        "mujoco": "refuses it: mesh volume is negative",
+        "gazebo, rviz": "light it from the inside",
+    },
+)
+def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
+    """The triangles of a collision mesh look inwards.
+
+    The surface is closed and its volume is negative: every normal points into the body. MuJoCo
+    refuses it, renderers show the far side. Turn the winding of the triangles.
+    """
+    for use, _, surface in _surfaces(robot, description):
+        if surface.inside_out:
+            yield Problem(
+                use.link,
+                f"collision mesh '{use.uri}' of link '{use.link.name}' is inside out; turn its "
+                "triangles round",
+                at=use.mesh.element.attribute_place("filename"),
+            )
+
+
+@rule(INFO, effects={"gazebo, moveit": "divide by the length of their normals"})
+def degenerate_triangles(
+    robot: Robot, description: Description, *, most: float = 0.01
+) -> Iterator[Problem]:
+    """Triangles of a collision mesh have no area.
+
+    Two of their corners are one, or all three lie on a line. They have no normal, contacts on them
+    are not a number, and programs that make hulls stumble. ``most`` is the part that is let pass.
+    One finding names the links.
+    """
+    found = [
+        (use, f"{surface.flat} of its {surface.faces} triangles")
+        for use, _, surface in _surfaces(robot, description)
+        if surface.flat > most * surface.faces
+    ]
+    yield from _together(
+        found,
+        lambda use: (
+            f"collision mesh '{use.uri}' of link '{use.link.name}' has slivers: {{}} have no area"
+        ),
+    )
+
+
+@rule(
+    INFO,
+    on=("mujoco", "pybullet"),
+    effects={
+        "mujoco": "collides with its convex hull",
+        "pybullet": "collides with its convex hull, unless told otherwise",
+    },
+)
+def nonconvex_collision_mesh(
+    robot: Robot, description: Description, *, ratio: float = 1.5
+) -> Iterator[Problem]:
+    """A collision mesh is far from convex.
+
+    MuJoCo and PyBullet fill a mesh up to its convex hull: a bowl becomes a plug, and a gripper
+    closes on air. It is told where the hull has more than ``ratio`` times the volume.
+    ``urdftool collision`` cuts it into convex pieces.
+    """
+    for use, key, surface in _surfaces(robot, description):
+        if surface.open_edges or not surface.consistent or surface.volume == 0:
+            continue
+        hull = _hull_volume(key)
+        if hull is None or hull <= ratio * abs(surface.volume):
+            continue
+        yield Problem(
+            use.link,
+            f"collision mesh '{use.uri}' of link '{use.link.name}' is not convex: its hull has "
+            f"{hull / abs(surface.volume):.2g} times its volume",
+            at=use.mesh.element.attribute_place("filename"),
+            hint="'urdftool collision' cuts it into convex pieces",
+        )
