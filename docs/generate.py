@@ -21,6 +21,7 @@ from pathlib import Path
 import click
 
 from urdftool import cli
+from urdftool.finding import Severity
 from urdftool.report.rule_pages import facts
 from urdftool.rules import RULES, all_rules, get_rule
 from urdftool.rules.rule import TARGETS, Rule
@@ -37,7 +38,7 @@ def pages() -> Iterator[tuple[Path, str]]:
     yield DOCS / "rules" / "index.md", rule_index()
     for path in sorted((DOCS / "commands").glob("*.md")):
         yield path, with_output(with_help(path))
-    for path in (DOCS.parent / "README.md", DOCS / "index.md"):
+    for path in (DOCS.parent / "README.md", DOCS / "index.md", DOCS / "adopting.md"):
         yield path, with_output(path.read_text("utf-8"))
 
 
@@ -81,10 +82,16 @@ def rule_index() -> str:
             fact = _markdown(rule.fact).replace("|", "\\|")
             lines.append(f"| [{name}]({name}.md) | {rule.severity.label} | {fact}{off} |")
     lines += ["", "## By target", ""]
+    lines.append(
+        "What is on only for a target, or matters more for it; all others hold everywhere."
+    )
     for target in TARGETS:
+        lines += ["", f"### {target}", "", "| severity | rules |", "|---|---|"]
         special = [r for r in all_rules() if target in (r.on or ()) or target in r.raised]
-        links = ", ".join(f"[{rule.name}]({rule.name}.md)" for rule in special) or "none"
-        lines += [f"**{target}**: on or raised for it: {links}", ""]
+        for severity in reversed(Severity):
+            some = [r for r in special if r.severity_for(frozenset([target])) is severity]
+            links = ", ".join(f"[{rule.name}]({rule.name}.md)" for rule in some)
+            lines += [f"| {severity.label} | {links} |"] if links else []
     return "\n".join(lines).rstrip() + "\n"
 
 
@@ -124,10 +131,11 @@ def with_output(text: str) -> str:
 def _output(command: str, folder: str) -> str:
     """What a command prints on both streams."""
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+    own = {"XDG_CACHE_HOME": f"{folder}/.cache"}
     done = subprocess.run(
         ["bash", "-c", command],
         cwd=folder,
-        env={**os.environ, "PATH": path, "NO_COLOR": "1", "COLUMNS": "100"},
+        env={**os.environ, "PATH": path, "NO_COLOR": "1", "COLUMNS": "100", **own},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
