@@ -88,7 +88,8 @@ def _parse(path: Path, *, required: bool) -> Configuration | None:
     for name in table:
         if name not in TABLES:
             raise ConfigError(
-                f"unknown table '{name}'; the tables are {', '.join(TABLES)}", path=path
+                f"no table is called '{name}'{_nearest(name)}",
+                path=path,
             )
     packages = table.get("packages", {})
     lint = table.get("lint", {})
@@ -102,3 +103,10 @@ def _parse(path: Path, *, required: bool) -> Configuration | None:
     return Configuration(
         str(path), {name: folder / value for name, value in packages.items()}, lint, collision
     )
+
+
+def _nearest(name: str) -> str:
+    from difflib import get_close_matches
+
+    near = get_close_matches(name, TABLES, 1, 0.5)
+    return f"; did you mean '{near[0]}'?" if near else f"; there are {', '.join(TABLES)}"

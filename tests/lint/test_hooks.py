@@ -35,6 +35,7 @@ CONFIGURATION = """repos:
   hooks:
   - id: urdftool-lint
   - id: urdftool-lint-errors
+  - id: urdftool-lint-fix
   - id: urdftool-expand-check
     args: [arm.urdf, arm.urdf.xacro]
 """
@@ -81,6 +82,19 @@ def test_hooks_pass_what_is_right_and_stop_what_is_wrong(repository, write):
     assert done.returncode == 1
     assert "bad.urdf:1:1: error: " in done.stdout
     assert hook("urdftool-lint-errors").returncode == 1
+
+    crooked = (
+        '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous">'
+        '<parent link="a"/><child link="b"/><axis xyz="0 0 2"/><limit effort="1" velocity="1"/>'
+        "</joint></robot>\n"
+    )
+    write("bad.urdf", crooked)
+    done = hook("urdftool-lint-fix")
+    assert done.returncode == 1
+    assert "files were modified by this hook" in done.stdout
+    assert Path("bad.urdf").read_text() == crooked.replace("0 0 2", "0 0 1")
+    done = hook("urdftool-lint-fix")
+    assert done.returncode == 0, done.stdout
 
     write("arm.urdf.xacro", XACRO.format('<link name="b"/>'))
     done = hook("urdftool-expand-check")

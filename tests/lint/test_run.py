@@ -93,6 +93,13 @@ def test_a_rule_that_breaks_is_our_bug_and_the_others_run(write, urdftool, monke
     assert result.code == 3
     assert "the rule zero-axis broke, which is a bug" in result.err
     assert "[missing-name]" in result.out
+    for style in ("json", "sarif", "github", "junit", "html"):
+        again = urdftool("lint", path, "--format", style)
+        assert again.code == 3
+        assert "missing-name" in again.out
+    notes = json.loads(urdftool("lint", path, "--format", "sarif").out)["runs"][0]["invocations"]
+    assert "rule zero-axis" in notes[0]["toolExecutionNotifications"][0]["message"]["text"]
+    assert urdftool("lint", path, "--exit-zero").code == 3
 
 
 def test_exit_codes(write, urdftool):
@@ -123,6 +130,11 @@ def test_fail_on(write, urdftool):
     [
         (["--select", "zero-axes"], "did you mean 'zero-axis'?"),
         (["--ignore", "nothing-*"], "no rule is called 'nothing-*'"),
+        (["--extend-select", "zero-axes"], "did you mean 'zero-axis'?"),
+        (["--select", "mesh,inertai"], "did you mean 'inertia'?"),
+        (["--format", "jsn"], "'jsn' is not one of 'full', 'concise', 'json'"),
+        (["--fail-on", "errors"], "'errors' is not one of 'error', 'warning', 'info'"),
+        (["--fromat", "json"], "Did you mean '--format'"),
         (["--target", "gazebo"], "did you mean 'gazebo-classic'?"),
         (["--explain", "zero-axes"], "did you mean 'zero-axis'?"),
     ],

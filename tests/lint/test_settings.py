@@ -80,7 +80,7 @@ def test_the_command_line_counts_more(robot, write):
         ('[lint.severity]\nzero-axis = "fatal"', "there are off, info"),
         ("[lint.zero-axis]\nsize = 1", "it has shortest"),
         ('[lint.zero-axis]\nshortest = "x"', "wants a number"),
-        ("[lnt]", "unknown table 'lnt'"),
+        ("[lnt]", "no table is called 'lnt'"),
         ("[lint", "not valid TOML"),
         ("[packages]\na = 1", "wants lines like"),
     ],
@@ -104,3 +104,35 @@ def test_targets_are_inferred_and_said(robot, urdftool, write):
     packages._owners.clear()
     assert "(targets: gz, ros2)" in urdftool("lint", robot).err
     assert "(targets: mujoco)" in urdftool("lint", robot, "--target", "mujoco").err
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[lnit]", "no table is called 'lnit'; did you mean 'lint'?"),
+        ("[lint]\nselct = []", "no option is called lint.selct; did you mean 'select'?"),
+        ("[lint]\nselect = ['zero-axes']", "did you mean 'zero-axis'?"),
+        ("[lint]\nextend-select = ['zero-axes']", "did you mean 'zero-axis'?"),
+        ("[lint]\nignore = ['inertai']", "did you mean 'inertia'?"),
+        ("[lint]\nselect = 'mesh'", "lint.select wants a list of names"),
+        ("[lint]\ntargets = ['gazebo-clasic']", "did you mean 'gazebo-classic'?"),
+        ("[lint.severity]\nzero-axes = 'info'", "did you mean 'zero-axis'?"),
+        ("[lint.severity]\nzero-axis = 'warn'", "is 'warn'; did you mean 'warning'?"),
+        ("[lint.severity]\nzero-axis = 3", "is '3'; there are off, info, warning, error"),
+        ("[lint.zero-axis]\nshortes = 1", "no threshold 'shortes'; did you mean 'shortest'?"),
+        ("[lint.zero-axis]\nlength = 1", "no threshold 'length'; it has shortest"),
+        ("[lint.zero-axis]\nshortest = 'a'", "lint.zero-axis.shortest wants a number"),
+        ("[lint.zero-axes]\nshortest = 1", "did you mean 'zero-axis'?"),
+        ("[lint.per-file-ignores]\n'*' = ['mehs']", "did you mean 'mesh'?"),
+        ("[lint.per-file-ignores]\n'*' = [1]", "wants a list of names"),
+        ("[lint]\nper-file-ignore = {}", "did you mean 'per-file-ignores'?"),
+        ("[[lint.variants]]\nfiel = 'r.urdf'", "no option 'fiel'; did you mean 'file'?"),
+        ("[[lint.variants]]\nfile = 'q.urdf'", "there is no file q.urdf"),
+    ],
+)
+def test_whatever_is_wrong_in_it_names_what_would_be_right(write, urdftool, text, message):
+    write("urdftool.toml", text)
+    result = urdftool("lint", write("r.urdf", "<robot name='r'/>"))
+    assert result.code == 2
+    assert message in result.err
+    assert "urdftool.toml: " in result.err

@@ -92,3 +92,29 @@ def test_before_a_call_it_covers_what_that_call_expands_to(write):
     (finding,) = check(path, select=["zero-axis", "lint"])
     assert finding.name == "b"
     assert finding.expansions == 1
+
+
+@pytest.mark.parametrize(
+    ("comment", "message"),
+    [
+        ("urdftool-ignore[zero-axes]", "no rule is called 'zero-axes'; did you mean 'zero-axis'?"),
+        ("urdftool-ignore[mesh, inertai] x", "no rule is called 'inertai'; did you mean 'inertia'"),
+        ("urdftool-ignore-file[mehs-*]", "no rule is called 'mehs-*'; did you mean 'mesh'?"),
+        ("urdftool-ignore[]", "names no rule; write urdftool-ignore[RULE]"),
+        ("urdftool-ignore", "names no rule; write urdftool-ignore[RULE]"),
+        ("urdftool-ingore[mesh]", "no comment is called 'urdftool-ingore'; did you mean 'urdftool"),
+        ("urdftool-ignore-fil[mesh]", "did you mean 'urdftool-ignore-file'?"),
+    ],
+)
+def test_a_comment_that_means_nothing_names_what_is_near(write, urdftool, comment, message):
+    path = write("r.urdf", f'<robot name="r"><!-- {comment} -->\n<link name="a"/></robot>')
+    result = urdftool("lint", path, "--format", "concise")
+    assert result.code == 1
+    assert "r.urdf:1:17: error: " in result.out
+    assert message in result.out
+
+
+def test_a_comment_about_urdftool_is_none_for_it(write, urdftool):
+    text = "urdftool-lint takes this for a wheel; see urdftool-ignore[mesh]"
+    path = write("r.urdf", f'<robot name="r"><!-- {text} --><link name="a"/></robot>')
+    assert "unknown-rule" not in urdftool("lint", path).out

@@ -61,7 +61,7 @@ class Cache:
             *(_FORMAT, self._code, os.getcwd(), str(path), sorted(options.arguments.items())),
             *(_folders(options.packages), [str(path) for path in options.package_paths]),
             *(configuration.path, _folders(configuration.packages), _plain(settings)),
-            getattr(options, "fixes", False),
+            options.fixes,
             getattr(options, "fixes", False),
         ]
         return sha256(repr(facts).encode("utf-8", "surrogateescape")).hexdigest()

@@ -182,9 +182,8 @@ def _severities(table: object, path: str | None) -> dict[str, Severity | None]:
     found: dict[str, Severity | None] = {}
     for selector, level in table.items():
         if level not in _LEVELS:
-            raise ConfigError(
-                f"lint.severity.{selector} is '{level}'; there are {', '.join(_LEVELS)}", path=path
-            )
+            hint = nearest(str(level), _LEVELS) or f"; there are {', '.join(_LEVELS)}"
+            raise ConfigError(f"lint.severity.{selector} is '{level}'{hint}", path=path)
         for name in _expand(check_selectors([selector], path)):
             found[name] = None if level == "off" else Severity[level.upper()]
     return found
@@ -198,8 +197,9 @@ def _thresholds(name: str, table: object, path: str | None) -> dict[str, Any]:
     for key, value in table.items():
         parameter = key.replace("-", "_")
         if parameter not in known:
-            names = ", ".join(k.replace("_", "-") for k in known) or "none"
-            raise ConfigError(f"{name} has no threshold '{key}'; it has {names}", path=path)
+            names = [k.replace("_", "-") for k in known]
+            hint = nearest(key, names) or f"; it has {', '.join(names) or 'none'}"
+            raise ConfigError(f"{name} has no threshold '{key}'{hint}", path=path)
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise ConfigError(f"lint.{name}.{key} wants a number", path=path)
         found[parameter] = value
@@ -213,8 +213,8 @@ def _per_file_ignores(file: str | Path, table: object, path: str | None) -> tupl
     relative = os.path.relpath(os.path.abspath(file), folder).replace(os.sep, "/")
     found: list[str] = []
     for pattern, selectors in table.items():
-        if not isinstance(selectors, list):
-            raise ConfigError(f"lint.per-file-ignores.'{pattern}' wants a list", path=path)
+        if not isinstance(selectors, list) or not all(isinstance(w, str) for w in selectors):
+            raise ConfigError(f"lint.per-file-ignores.'{pattern}' wants a list of names", path=path)
         names = check_selectors(selectors, path)
         if fnmatch(relative, pattern) or fnmatch(os.path.basename(relative), pattern):
             found.extend(names)

@@ -18,8 +18,10 @@ from ..finding import Finding, Severity
 from ..rules import FAMILY_OF
 from ..source.document import Document
 from ..source.location import Place
-from .settings import check_selectors, nearest_rule
+from .settings import check_selectors, nearest, nearest_rule
 
+_WORD = re.compile(r"\s*(urdftool-[\w-]+)\s*(?:\[|$)")
+_WORDS = ("urdftool-ignore", "urdftool-ignore-file")
 _COMMENT = re.compile(r"\s*urdftool-ignore(-file)?\b\s*(?:\[([^\]]*)\])?")
 
 
@@ -68,12 +70,16 @@ def read_suppressions(documents: Iterable[Document]) -> tuple[list[Suppression],
     wrong: list[Finding] = []
     for document in documents:
         for comment in document.comments:
-            if "urdftool-ignore" not in comment.text:
+            if "urdftool-" not in comment.text:
+                continue
+            place = Place(document.file, comment.start, comment.end)
+            word = _WORD.match(comment.text)
+            if word is not None and word[1] not in _WORDS:
+                wrong.append(_unknown(word[1], place))
                 continue
             match = _COMMENT.match(comment.text)
             if match is None:
                 continue
-            place = Place(document.file, comment.start, comment.end)
             wrong.extend(_faults(match[2], place))
             names = tuple(w.strip() for w in (match[2] or "").split(",") if w.strip())
             whole = bool(match[1])
@@ -81,6 +87,12 @@ def read_suppressions(documents: Iterable[Document]) -> tuple[list[Suppression],
             reason = " ".join(comment.text[match.end() :].split())
             found.append(Suppression(names, place, start, end, reason))
     return found, wrong
+
+
+def _unknown(word: str, place: Place) -> Finding:
+    hint = nearest(word, _WORDS) or f"; there are {' and '.join(_WORDS)}"
+    message = f"no comment is called '{word}'{hint}"
+    return Finding("unknown-rule", Severity.ERROR, message, place, "comment")
 
 
 def _faults(names: str | None, place: Place) -> Iterator[Finding]:

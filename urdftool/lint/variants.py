@@ -42,12 +42,12 @@ def variants_for(file: str | Path, configuration: Configuration) -> list[dict[st
 
 def _read(variant: Any, number: int, path: str | None) -> tuple[str, dict[str, str]]:
     where = f"lint.variants {number}"
-    if not isinstance(variant, dict) or not isinstance(variant.get("file"), str):
-        raise ConfigError(f"{where} wants a file and its args", path=path)
-    for key in variant:
+    for key in variant if isinstance(variant, dict) else ():
         if key not in _KEYS:
             hint = nearest(key, _KEYS) or "; there are file and args"
             raise ConfigError(f"{where} has no option '{key}'{hint}", path=path)
+    if not isinstance(variant, dict) or not isinstance(variant.get("file"), str):
+        raise ConfigError(f"{where} wants a file and its args", path=path)
     arguments = variant.get("args", {})
     if not isinstance(arguments, dict):
         raise ConfigError(f"{where}: args wants to be a table, {{name = 'value'}}", path=path)
