@@ -131,3 +131,13 @@ def test_an_input_is_not_harmed(urdftool, write):
     assert done.code == 2
     with open("r.png", encoding="utf-8") as file:
         assert file.read() == ARM
+
+
+def test_a_sheet_beyond_all_measure_is_refused(urdftool, write):
+    joints = "".join(
+        LINK.format(f"b{n}", BOX) + JOINT.format(f"j{n}", "revolute", f"b{n}") for n in range(5)
+    )
+    path = write("r.urdf", ROBOT.format(joints))
+    done = urdftool("view", path, "--contact-sheet", "s.png", "--size", "4096x4096")
+    assert done.code == 2
+    assert "smaller --size" in done.err

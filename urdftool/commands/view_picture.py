@@ -19,8 +19,11 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-LARGEST = 8192
+LARGEST = 4096
 """Width and height of a picture in pixels, at most."""
+
+
+_MOST = 120_000_000
 
 
 def _size(
@@ -204,14 +207,23 @@ def _write_sheet(
     camera: Camera | None,
     cell: tuple[int, int] | None,
 ) -> None:
-    from ..drawing.contact_sheet import contact_sheet, sweeps_of
+    from ..drawing.contact_sheet import contact_sheet, layout_of, sweeps_of
     from ..drawing.png_file import png
     from ..errors import ModelError
 
     sweeps = sweeps_of(robot)
     if not sweeps:
         raise ModelError("no joint of the robot moves; --picture draws it", at=robot.place)
-    image = contact_sheet(robot, shapes, positions=positions, camera=camera, cell=cell)
+    layout = layout_of(len(sweeps), cell)
+    if layout.width * layout.height > _MOST:
+        raise click.UsageError(
+            f"the contact sheet of {len(sweeps)} joints would have {layout.width} × "
+            f"{layout.height} pixels; choose a smaller --size"
+        )
+    with MeshProgress(console, "joints") as progress:
+        image = contact_sheet(
+            robot, shapes, positions=positions, camera=camera, cell=cell, progress=progress
+        )
     write_picture(png(image), target, robot)
     count = f"{len(sweeps)} joint{'s' if len(sweeps) > 1 else ''}"
     console.note(f"wrote {target}, {count}, {image.shape[1]} × {image.shape[0]} pixels")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -80,6 +80,7 @@ def contact_sheet(
     positions: Mapping[str, float] | None = None,
     camera: Camera | None = None,
     cell: tuple[int, int] | None = None,
+    progress: Callable[[int, int, str], None] = lambda *_: None,
 ) -> Image:
     """Two pictures a joint, at its lower and its upper limit, side by side, with its name.
 
@@ -93,6 +94,7 @@ def contact_sheet(
         camera: Where the pictures are taken from; without it, from the side of the robot on which
             the links are that the joint moves.
         cell: Width and height of one picture in pixels; by the number of joints without it.
+        progress: Told of each joint before it is drawn: its number, how many, its name.
 
     Returns:
         Rows of pixels, shape (height, width, 3); for a robot whose joints do not move, a blank
@@ -103,7 +105,7 @@ def contact_sheet(
     seen = corners[there].reshape(-1, 3)
     size = float(np.ptp(seen, axis=0).max()) if len(seen) else 1.0
     sweeps = sweeps_of(robot, slide=_SLIDE * size)
-    layout = layout_of(len(sweeps), cell or _cell(len(sweeps)))
+    layout = layout_of(len(sweeps), cell)
     page = np.full((layout.height, layout.width, 3), 255, np.uint8)
     page[:] = _PAPER
     title = robot.name or "robot"
@@ -114,6 +116,7 @@ def contact_sheet(
         )
     ]
     for number, sweep in enumerate(sweeps):
+        progress(number + 1, len(sweeps), sweep.joint.name)
         left, top = layout.place(number)
         words += _captions(sweep, left, top, layout)
         for side, image in enumerate(_pair(robot, shapes, sweep, given, camera, layout.cell)):
@@ -169,8 +172,14 @@ class Layout:
         return _MARGIN + column * self.block[0], self.head + row * self.block[1]
 
 
-def layout_of(count: int, cell: tuple[int, int]) -> Layout:
-    """As many columns as make the sheet about as wide as a screen."""
+def layout_of(count: int, cell: tuple[int, int] | None = None) -> Layout:
+    """As many columns as make the sheet about as wide as a screen.
+
+    Args:
+        count: Number of joints.
+        cell: Width and height of one picture in pixels; smaller for many joints without it.
+    """
+    cell = cell or _cell(count)
     letter = min(max(cell[1] // 16, 11), 22)
     best = Layout(1, max(count, 1), cell, letter)
     for columns in range(1, count + 1):
@@ -188,7 +197,9 @@ def _cell(count: int) -> tuple[int, int]:
     """Smaller pictures for many joints."""
     if count <= 8:
         return 360, 300
-    return (300, 250) if count <= 24 else (228, 190)
+    if count <= 24:
+        return 300, 250
+    return (228, 190) if count <= 200 else (120, 100)
 
 
 def _leader(name: str, leaders: Mapping[str, str]) -> str | None:

@@ -29,10 +29,10 @@ from .normals import corner_normals
 from .raster import Floats, Indices
 from .texture import Texels, read_texture
 
-OVERLAY: Rgba = (0.98, 0.47, 0.13, 0.38)
+OVERLAY: Rgba = (0.08, 0.70, 0.42, 0.36)
 """Colour of collisions that are drawn over visuals."""
 
-TOUCHED: Rgba = (0.93, 0.62, 0.38, 1.0)
+TOUCHED: Rgba = (0.47, 0.80, 0.64, 1.0)
 """Colour of collisions that are drawn alone."""
 
 AROUND = 64

@@ -34,6 +34,7 @@ LAYERS = 12
 """See-through surfaces one behind the other that are drawn; those in front count."""
 
 _CASTS = 0.5
+_AT_ONCE = 20_000
 _BEFORE = np.float32(1.0005)  # a see-through surface on another one is seen
 
 
@@ -70,7 +71,7 @@ def draw(
     corners, view, middle, scale = _of_size_one(corners, view)
     lights = lights_of(view)
     thrower = corners[shapes.colors[rows, 3] > _CASTS]
-    resolution = min(max(view.size) * 9 // 8, 1536) // 2 * 2
+    resolution = min(max(max(view.size) * 9 // 8, 768), 1536) // 2 * 2
     shadow = ShadowMap(thrower, lights.key, resolution) if len(thrower) else None
     floor = None
     if ground is not False:
@@ -160,8 +161,19 @@ def _put(
     opacity: Colors,
 ) -> None:
     """Lay triangles over samples, as far as they are not under the floor."""
-    if not len(samples):
-        return
+    for begin in range(0, len(samples), _AT_ONCE):
+        some = slice(begin, begin + _AT_ONCE)
+        _put_some(scene, samples[some], triangles[some], floor, light, opacity)
+
+
+def _put_some(
+    scene: Scene,
+    samples: Indices,
+    triangles: Indices,
+    floor: Ground | None,
+    light: Colors,
+    opacity: Colors,
+) -> None:
     color, alpha, heights = scene.shaded(triangles, samples)
     if floor is not None and scene.view.eye[2] > floor.height:
         alpha = np.where(heights < floor.height - 1e-4, np.float32(0), alpha)

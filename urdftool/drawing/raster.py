@@ -16,8 +16,9 @@ Nearness = npt.NDArray[np.float32]
 NOBODY = -1
 """Owner of a sample where nothing is."""
 
-_ROWS_AT_ONCE = 400_000
-_SAMPLES_AT_ONCE = 2_000_000
+# as many as the processor's cache holds
+_ROWS_AT_ONCE = 100_000
+_SAMPLES_AT_ONCE = 250_000
 
 
 class Samples(NamedTuple):
