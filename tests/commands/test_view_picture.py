@@ -141,3 +141,15 @@ def test_a_sheet_beyond_all_measure_is_refused(urdftool, write):
     done = urdftool("view", path, "--contact-sheet", "s.png", "--size", "4096x4096")
     assert done.code == 2
     assert "smaller --size" in done.err
+
+
+def test_links_in_a_loop_are_said_and_the_rest_drawn(urdftool, write):
+    loop = "".join(
+        JOINT.format(name, "fixed", child).replace('link="a"', f'link="{parent}"')
+        for name, parent, child in (("p", "b", "c"), ("q", "c", "b"))
+    )
+    path = write("r.urdf", ROBOT.format(LINK.format("b", BOX) + LINK.format("c", BOX) + loop))
+    done = urdftool("view", path, "--picture", "p.png", "--size", "80x60")
+    assert done.code == 1
+    assert "link 'b' hangs on no root and is not drawn" in done.err
+    assert pixels("p.png").shape == (60, 80, 3)

@@ -179,8 +179,14 @@ def write_pictures(
     poses = link_poses(robot, with_mimics(robot, positions))
     if not len(shapes):
         what = "shape" if show == "both" else show
-        more = "; try --show both" if show != "both" and not shapes.problems else ""
+        other = any(link.collisions if show == "visual" else link.visuals for link in robot.links)
+        more = "; try --show both" if other and show != "both" else ""
         raise ModelError(f"the robot has no {what} that could be drawn{more}", at=robot.place)
+    nowhere = [link for link in robot.links if link.name not in poses and not link.is_frame]
+    for link in nowhere:
+        console.error(
+            ModelError(f"link '{link.name}' hangs on no root and is not drawn", at=link.place)
+        )
     seen_from = None if camera is None else _placed(camera)
     if picture is not None:
         image = draw(shapes, poses, camera=seen_from, size=size or SIZE)
@@ -188,7 +194,7 @@ def write_pictures(
         console.note(f"wrote {picture}, {image.shape[1]} × {image.shape[0]} pixels")
     if contact_sheet is not None:
         _write_sheet(console, robot, shapes, contact_sheet, positions, seen_from, size)
-    return 1 if shapes.problems else 0
+    return 1 if shapes.problems or nowhere else 0
 
 
 def _placed(camera: tuple[float, ...]) -> Camera:
