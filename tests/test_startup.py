@@ -9,7 +9,7 @@ from tests.conftest import FIXTURES
 
 HEAVY = [
     *("numpy", "scipy", "trimesh", "yourdfpy", "pybullet", "coacd", "mujoco", "lxml", "rich"),
-    *("importlib.metadata", "yaml"),
+    *("importlib.metadata", "yaml", "urllib.request"),
 ]
 
 ROBOT = str(FIXTURES / "robots" / "ten_links.urdf")

@@ -12,7 +12,6 @@ import os
 import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from xml.sax.saxutils import escape, unescape
 
 from ..errors import SourceError
 from ..finding import Replacement
@@ -20,6 +19,7 @@ from ..rules.fixes.proposal import Change, Proposal, Span
 from ..source import edit
 from ..source.description import Description
 from ..source.document import STDIN, Element
+from ..source.escape import escape, unescape
 from ..source.location import Place, SourceFile
 from ..source.packages import own_package, shown_path
 

@@ -13,10 +13,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
-from xml.sax.saxutils import escape, unescape
 
 from ..errors import SourceError
 from .document import Document, Element, parse
+from .escape import escape, unescape
 from .location import SourceFile
 from .tags import value_span
 
