@@ -64,7 +64,13 @@ class Robot:
         return found
 
     def meshes(self) -> list[tuple[Element, Element]]:
-        return [(link, mesh) for link in self.links.values() for mesh in link.iter("mesh")]
+        """Meshes in the formats that can be read."""
+        return [
+            (link, mesh)
+            for link in self.links.values()
+            for mesh in link.iter("mesh")
+            if mesh.get("filename", "").lower().endswith((".stl", ".dae", ".obj", ".glb"))
+        ]
 
 
 def damage(check: Damage) -> Damage:
@@ -140,7 +146,8 @@ def inertia_about_the_joint(robot, rng):
     if not far:
         return None
     link, (x, y, z), mass = rng.choice(far)
-    more = dict(zip(SIX, (y * y + z * z, -x * y, -x * z, x * x + z * z, -y * z, x * x + y * y)))
+    shifted = (y * y + z * z, -x * y, -x * z, x * x + z * z, -y * z, x * x + y * y)
+    more = dict(zip(SIX, shifted, strict=True))
     inertia = link.find("inertial/inertia")
     for key in SIX:
         inertia.set(key, f"{float(inertia.get(key, 0)) + mass * more[key]:.9g}")
@@ -515,10 +522,16 @@ def links_overlap_at_rest(robot, rng):
         link = robot.links[robot.child(joint)]
         if link.find("collision") is not None:
             by_parent.setdefault(robot.parent(joint), []).append(joint)
-    groups = [group for group in by_parent.values() if len(group) > 1]
-    if not groups:
+    pairs = [
+        (one, other)
+        for group in by_parent.values()
+        for one in group
+        for other in group
+        if math.dist(numbers(origin(one).get("xyz")), numbers(origin(other).get("xyz"))) > 0.01
+    ]
+    if not pairs:
         return None
-    one, other = rng.sample(rng.choice(groups), 2)
+    one, other = rng.choice(pairs)
     here, there = origin(one), origin(other)
     for name in ("xyz", "rpy"):
         here.set(name, there.get(name, "0 0 0"))

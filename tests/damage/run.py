@@ -41,7 +41,10 @@ def names(finding: Finding, damaged: set[str]) -> bool:
 
 
 def try_damage(sample: Sample, kind: str, seed: int) -> tuple[bool, str] | None:
-    """Whether a damage raises a new finding that names it, and what is new; None if it cannot be done."""
+    """Whether a damage raises a new finding that names it, and what is new.
+
+    None where the robot has nothing that can be damaged so.
+    """
     with tempfile.TemporaryDirectory() as folder:
         root = ElementTree.fromstring(sample.text)
         robot = Robot(root, Path(folder))

@@ -64,7 +64,7 @@ class Sides:
         self.poses: dict[str, Pose] = link_poses(robot) if self.pairs else {}
         self.normal: int | None = None
         self.off: list[tuple[Pair, float]] = []
-        moving = [pair for pair in self.pairs if not pair.left_joint.is_fixed]
+        moving = [pair for pair in self.pairs if _moves(robot, pair)]
         steps = [(pair, *steps) for pair in moving if (steps := self._steps(pair))]
         long = [step for step in steps if max(map(math.hypot, *zip(*step[1:], strict=True))) > 0.01]
         best = 0
@@ -75,7 +75,8 @@ class Sides:
             if right > best and right >= 0.6 * len(long):
                 best, self.normal, self.off = right, normal, wrong
         if best < 2:
-            self.normal, self.off = None, []
+            self.normal = None
+            self.off = [found for pair, a, b in long if (found := _nearly(pair, a, b))]
 
     def _steps(self, pair: Pair) -> tuple[Vector, Vector] | None:
         """From each one's parent to it, in the frame of the root [m]."""
@@ -135,6 +136,14 @@ def _pairs(robot: Robot) -> Iterator[Pair]:
             yield Pair(links[name], links[other], left, right)
 
 
+def _moves(robot: Robot, pair: Pair) -> bool:
+    """Whether a pair is moved, or carries what is; sensors and frames may be where they like."""
+    if not pair.left_joint.is_fixed:
+        return True
+    below = (pair.left.name, *robot.tree.descendants(pair.left.name))
+    return any(not joint.is_fixed for name in below for joint in robot.tree.child_joints(name))
+
+
 def _gap(pair: Pair, left: Vector, right: Vector, normal: int) -> float:
     """How far the step on the right is from the mirror image of that on the left [m]."""
     shared = pair.left_joint.parent == pair.right_joint.parent
@@ -145,6 +154,14 @@ def _gap(pair: Pair, left: Vector, right: Vector, normal: int) -> float:
             for i, (a, b) in enumerate(zip(left, right, strict=True))
         )
     )
+
+
+def _nearly(pair: Pair, left: Vector, right: Vector) -> tuple[Pair, float] | None:
+    """A single pair, as of wheels, that lies left and right and is off the mirror by a little."""
+    shared = pair.left_joint.parent == pair.right_joint.parent
+    gap, length = _gap(pair, left, right, 1), math.hypot(*left)
+    opposite = left[1] * right[1] < 0 and abs(left[1] + right[1]) <= _slack(left)
+    return (pair, gap) if shared and opposite and _slack(left) < gap < 0.3 * length else None
 
 
 def _slack(step: Vector) -> float:
