@@ -50,6 +50,7 @@ def command(
     """  # noqa: D301 -- click reads the escape
     from ..simulation.engines import ENGINES, check_engines
     from .read_lax import read_lax
+    from .simulate_control import controlled
     from .simulate_one import simulate_one
     from .simulate_options import settings_of
 
@@ -58,4 +59,5 @@ def command(
     settings = settings_of(values)
     path, arguments = robot
     model = read_lax(console, path, arguments, package, package_path)
+    settings = controlled(console, settings, model, values["controllers"])
     return simulate_one(console, model, settings, engines, style=style)

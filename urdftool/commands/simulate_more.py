@@ -17,6 +17,12 @@ _OPTIONS = (
         show_default=True,
         help="What simulates; mujoco runs our own MJCF export, both compares the two.",
     ),
+    click.option(
+        "--controllers",
+        metavar="FILE.yaml",
+        help="Drive the joints as the controllers of this ros_control or ros2_control file do, "
+        "told to hold the pose.",
+    ),
 )
 
 

@@ -13,6 +13,7 @@ from ..inertia.tensor import MassProperties, combine, tensor_from_six
 from ..model.elements import Joint, Link, Robot
 from ..model.kinematics import limits_of, link_poses, with_mimics
 from ..model.pose import IDENTITY, Pose, pose_of, rotation_of_rpy
+from .control import NONE
 from .settings import Settings
 from .shapes import Shape, shapes_of
 from .surface import Surface, surface_of
@@ -283,6 +284,9 @@ def held_joints(robot: Robot, bodies: list[Body], settings: Settings) -> tuple[s
     """The joints that are held; those that mimic another follow it anyway."""
     joints = [body.joint for body in bodies if body.joint is not None]
     names = [joint.name for joint in joints if joint.leader is None]
+    if settings.controls is not None:
+        controls = settings.controls
+        return tuple(name for name in names if name in controls and controls[name].kind != NONE)
     if settings.hold == "none":
         return ()
     if settings.hold == "actuated":

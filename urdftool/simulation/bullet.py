@@ -17,6 +17,7 @@ import numpy as np
 from ..errors import MissingDependency, ModelError
 from .bodies import Bodies, JointOf
 from .bullet_read import read_back
+from .control import Pids, driven
 from .recording import GROUND, Array, Contact, Recording
 from .settings import Settings
 from .stillness import PATIENCE, Stillness
@@ -166,7 +167,7 @@ class World:
         for link, joint in zip(self.indices, self.bodies.joints, strict=True):
             if joint.leader is not None and joint.leader in numbers:
                 self.followers.append((link, numbers[joint.leader], joint))
-            elif joint.name in held:
+            elif joint.name in held and not driven(self.settings.controls, joint.name):
                 p.setJointMotorControl2(
                     self.robot,
                     link,
@@ -180,6 +181,34 @@ class World:
                 )
                 p.changeDynamics(self.robot, link, jointDamping=self.damped[joint.name])
         self._follow()
+        self._make_pids()
+
+    def _make_pids(self) -> None:
+        """The joints that gains of a file drive, by their torque."""
+        controls = self.settings.controls or {}
+        some = [
+            (link, joint)
+            for link, joint in zip(self.indices, self.bodies.joints, strict=True)
+            if joint.name in self.bodies.held and driven(controls, joint.name)
+        ]
+        self.driven = [link for link, _ in some]
+        self.pids = Pids(
+            [controls[joint.name] for _, joint in some],
+            [self.bodies.positions[joint.name] for _, joint in some],
+            [joint.effort for _, joint in some],
+            [joint.kind == "continuous" for _, joint in some],
+            self.settings.timestep,
+        )
+
+    def _drive(self) -> None:
+        """Give each joint that gains drive its effort for the next step."""
+        p = self.p
+        states = np.array([s[:2] for s in p.getJointStates(self.robot, self.driven)])
+        efforts = self.pids.step(states[:, 0], states[:, 1])
+        if np.isfinite(efforts).all():
+            p.setJointMotorControlArray(
+                self.robot, self.driven, p.TORQUE_CONTROL, forces=efforts.tolist()
+            )
 
     def _stable_damping(self) -> dict[str, float]:
         """The damping of each joint, no more than its explicit integration bears.
@@ -235,6 +264,8 @@ class World:
             for _ in range(min(every, steps - done)):
                 if self.followers:
                     self._follow()
+                if self.driven:
+                    self._drive()
                 p.stepSimulation()
                 done += 1
             sample = self._sample(done * settings.timestep)
@@ -295,6 +326,8 @@ class World:
             joints = np.array(
                 [(a, b, d) for a, b, _, d in p.getJointStates(self.robot, self.indices)]
             )
+            for link, effort in zip(self.driven, self.pids.efforts, strict=True):
+                joints[self.indices.index(link), 2] = effort
         else:
             joints = np.zeros((0, 3))
         kinetic, potential = self._energy(coms, velocities)

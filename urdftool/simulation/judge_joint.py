@@ -10,6 +10,7 @@ import numpy as np
 from ..model.elements import Joint, Robot
 from ..model.pose import rotation_of_quaternion
 from .bodies import JointOf
+from .control import driven
 from .fault import Fault
 from .judge_rest import FAR, Rest
 from .recording import GROUND
@@ -65,7 +66,7 @@ def _units(joint: JointOf) -> tuple[str, str]:
 def _sag(robot: Robot, run: Run) -> Iterator[Fault]:
     recording = run.recording
     for column, joint in enumerate(run.bodies.joints):
-        if joint.name not in recording.targets:
+        if joint.name not in recording.targets or driven(run.settings.controls, joint.name):
             continue
         target, now = recording.targets[joint.name], float(recording.positions[-1, column])
         if not abs(now - target) > _allowed(joint, SAG, run):
@@ -186,6 +187,8 @@ def _collapsed(robot: Robot, run: Run) -> Iterator[Fault]:
 
 
 def _why_loose(run: Run) -> str:
+    if run.settings.controls is not None:
+        return "no controller drives it"
     if run.settings.hold == "none":
         return "--limp was asked for"
     return "the file actuates other joints; --hold holds every one"

@@ -1,4 +1,4 @@
-"""What drives joints in MuJoCo: a stiff servo within the joint's effort."""
+"""What drives joints in MuJoCo: a stiff servo within the joint's effort, or gains of a file."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .bodies import Bodies
+from .control import Pids, driven
 from .settings import Settings
 
 _STIFF = 0.5  # natural frequency of a servo times the timestep; two is the edge of stability
@@ -37,7 +38,20 @@ class Motors:
         model.actuator_gainprm[:, :] = 0.0  # also of motors that the file brings along
         model.actuator_biasprm[:, :] = 0.0
         joints = {joint.name: joint for joint in bodies.joints}
-        names = [name for name in bodies.held if name in motors]
+        controls = settings.controls or {}
+        gained = [name for name in bodies.held if name in motors and driven(controls, name)]
+        names = [name for name in bodies.held if name in motors and name not in gained]
+        self._driven = np.array([motors[name] for name in gained], dtype=int)
+        numbers = model.actuator_trnid[self._driven, 0]
+        self._driven_at = model.jnt_qposadr[numbers]
+        self._driven_dofs = model.jnt_dofadr[numbers]
+        self._pids = Pids(
+            [controls[name] for name in gained],
+            [bodies.positions[name] for name in gained],
+            [joints[name].effort for name in gained],
+            [joints[name].kind == "continuous" for name in gained],
+            settings.timestep,
+        )
         self.motors = np.array([motors[name] for name in names], dtype=int)
         numbers = model.actuator_trnid[self.motors, 0]
         self._at, dofs = model.jnt_qposadr[numbers], model.jnt_dofadr[numbers]
@@ -50,6 +64,7 @@ class Motors:
         self._sum = np.zeros(len(names))
         self._growth = self._stiffness * settings.timestep / _CREEP
         model.actuator_gainprm[self.motors, 0] = 1.0
+        model.actuator_gainprm[self._driven, 0] = 1.0
         model.actuator_biastype[self.motors] = mj.mjtBias.mjBIAS_AFFINE
         model.actuator_biasprm[self.motors, 2] = -2 * _DAMPED * inertia * fast
         limited = np.isfinite(self._bound)
@@ -58,9 +73,13 @@ class Motors:
 
     def drive(self) -> None:
         """Set what the motors do in the next step."""
+        data = self._data
+        if len(self._driven):
+            data.ctrl[self._driven] = self._pids.step(
+                data.qpos[self._driven_at], data.qvel[self._driven_dofs]
+            )
         if not len(self.motors):
             return
-        data = self._data
         error = self._target - data.qpos[self._at]
         full = np.abs(data.actuator_force[self.motors]) >= 0.999 * self._bound
         grown = np.where(full, 0.0, self._growth * error)

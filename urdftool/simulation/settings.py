@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .control import Control
 
 NUDGE = 0.1
 """How long gravity leans to each side [s]."""
@@ -38,6 +43,8 @@ class Settings:
         nudge: How far gravity leans to one side and then to the other at the start [rad]: what
             balances on a point would stand for ever without it.
         time_limit: The longest the engine may work [s of the user's clock].
+        controls: What drives each joint by name, where a file of controllers says it; ``hold``
+            is then of no account.
     """
 
     duration: float = 5.0
@@ -58,6 +65,7 @@ class Settings:
     sweep: bool = False
     nudge: float = 0.02
     time_limit: float = 60.0
+    controls: Mapping[str, Control] | None = None
 
     def gravity_at(self, time: float) -> tuple[float, float, float]:
         """Gravity in the world [m/s²], in which the plane is level, at a time [s]."""

@@ -9,6 +9,7 @@ from ..model.elements import Robot
 from .fault import Fault
 from .judge_body import judge_bodies
 from .judge_contact import judge_contacts
+from .judge_control import judge_controls
 from .judge_joint import judge_joints
 from .judge_rest import Rest, judge_rest, rest_of
 from .run import Run
@@ -47,3 +48,4 @@ def _faults(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
     yield from judge_rest(robot, run, rest)
     yield from judge_contacts(robot, run, rest)
     yield from judge_joints(robot, run, rest)
+    yield from judge_controls(robot, run)

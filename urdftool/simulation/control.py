@@ -1,0 +1,115 @@
+"""What a controller does to a joint, as numbers: PID as ros_control's toolbox has it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .recording import Array
+
+SERVO, POSITION, VELOCITY, NONE = "servo", "position-pid", "velocity-pid", "none"
+
+
+@dataclass(frozen=True)
+class Pid:
+    """Gains; of an error in rad or m, or rad/s or m/s, to N·m or N.
+
+    Attributes:
+        p: Of the error.
+        i: Of its integral.
+        d: Of its derivative.
+        i_min: The least that the integral's part may be; zero by default, as in ros_control.
+        i_max: The most.
+        antiwindup: Whether the integral itself is bounded, too.
+    """
+
+    p: float
+    i: float = 0.0
+    d: float = 0.0
+    i_min: float = 0.0
+    i_max: float = 0.0
+    antiwindup: bool = False
+
+
+@dataclass(frozen=True)
+class Control:
+    """What holds a joint.
+
+    Attributes:
+        controller: Its name in the file.
+        kind: ``servo``, an interface that takes positions or velocities and is told to stay;
+            ``position-pid`` or ``velocity-pid``, whose output is an effort; or ``none``.
+        pid: The gains of these.
+        at: The file, and first and last byte of what says so.
+    """
+
+    controller: str
+    kind: str
+    pid: Pid | None
+    at: tuple[str, int, int]
+
+
+class Pids:
+    """The PID loops of some joints, stepped together."""
+
+    def __init__(
+        self,
+        controls: Sequence[Control],
+        targets: Sequence[float],
+        efforts: Sequence[float | None],
+        turning: Sequence[bool],
+        timestep: float,
+    ) -> None:
+        """Begin at rest.
+
+        Args:
+            controls: One of each joint, with gains.
+            targets: Where each joint is held [rad, m].
+            efforts: The most that each may use [N·m, N]; None without bound.
+            turning: Which joints are continuous: their error is the shortest turn.
+            timestep: Between steps [s].
+        """
+        gains = [control.pid for control in controls]
+        assert all(gains)
+        self._dt = timestep
+        self._p, self._i, self._d, self._low, self._high = (
+            np.array([float(getattr(pid, name)) for pid in gains])
+            for name in ("p", "i", "d", "i_min", "i_max")
+        )
+        self._windup = np.array([pid.antiwindup and pid.i != 0 for pid in gains if pid], dtype=bool)
+        self._by_position = np.array([control.kind == POSITION for control in controls], dtype=bool)
+        self._target, self._turning = np.array(targets), np.array(turning, dtype=bool)
+        self._bound = np.array([math.inf if effort is None else effort for effort in efforts])
+        self._sum = np.zeros(len(gains))
+        self._last: Array | None = None
+        self.efforts: Array = np.zeros(len(gains))
+
+    def step(self, positions: Array, rates: Array) -> Array:
+        """The effort of each joint for the next step [N·m, N].
+
+        Args:
+            positions: Where each is [rad, m].
+            rates: How fast [rad/s, m/s].
+        """
+        apart = self._target - positions
+        turn = (apart + math.pi) % (2 * math.pi) - math.pi
+        error = np.where(self._by_position, np.where(self._turning, turn, apart), -rates)
+        self._sum = self._sum + self._dt * error
+        some = self._windup
+        ends = np.sort(np.stack([self._low[some], self._high[some]]) / self._i[some], axis=0)
+        self._sum[some] = np.clip(self._sum[some], ends[0], ends[1])
+        integral = np.clip(self._i * self._sum, self._low, self._high)
+        slope = np.zeros_like(error) if self._last is None else (error - self._last) / self._dt
+        self._last = error
+        wanted = self._p * error + integral + self._d * slope
+        self.efforts = np.clip(wanted, -self._bound, self._bound)
+        return self.efforts
+
+
+def driven(controls: Mapping[str, Control] | None, name: str) -> bool:
+    """Whether a joint is driven by gains of a file."""
+    control = None if controls is None else controls.get(name)
+    return control is not None and control.kind in (POSITION, VELOCITY)

@@ -1,0 +1,343 @@
+"""Controllers of ros_control and ros2_control YAML, as Gazebo applies them to a robot.
+
+Every controller is told to hold the pose: what it does then to its joints is the same for a
+trajectory controller without a trajectory as for one that was commanded there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from ..errors import ConfigError
+from ..model.elements import Robot
+from .control import NONE, POSITION, SERVO, VELOCITY, Control, Pid
+from .controllers_yaml import Node, read_yaml
+
+_SILENT = ("Broadcaster", "StateController", "SensorController")
+"""Controllers that only tell."""
+
+_POSITION = ("JointPositionController", "JointGroupPositionController")
+_VELOCITY = ("JointVelocityController", "JointGroupVelocityController")
+_EFFORT = ("JointEffortController", "JointGroupEffortController")
+_FORWARD = ("ForwardCommandController", "MultiInterfaceForwardCommandController")
+_TRAJECTORY = (
+    *("JointTrajectoryController", "ScaledJointTrajectoryController"),
+    *("GripperActionController", "ParallelGripperActionController"),
+)
+_PID = ("PidController",)
+# class -> parameters with joints that are driven by velocity, and by position
+_DRIVES: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "DiffDriveController": (
+        ("left_wheel", "right_wheel", "left_wheel_names", "right_wheel_names"), ()
+    ),
+    "FourWheelSteeringController": (
+        ("front_wheel", "rear_wheel"), ("front_steering", "rear_steering")
+    ),
+    "AckermannSteeringController": (
+        ("rear_wheel", "rear_wheels_names", "traction_joints_names"),
+        ("front_steer", "front_wheels_names", "steering_joints_names"),
+    ),
+    "TricycleController": (("traction_joint_name",), ("steering_joint_name",)),
+    "TricycleSteeringController": (
+        ("rear_wheels_names", "traction_joints_names"),
+        ("front_wheels_names", "steering_joints_names"),
+    ),
+    "BicycleSteeringController": (
+        ("rear_wheels_names", "traction_joints_names"),
+        ("front_wheels_names", "steering_joints_names"),
+    ),
+    "MecanumDriveController": (
+        ("front_left_wheel_command_joint_name", "front_right_wheel_command_joint_name",
+         "rear_left_wheel_command_joint_name", "rear_right_wheel_command_joint_name"), ()
+    ),
+}  # fmt: skip
+
+KNOWN = (*_POSITION, *_VELOCITY, *_EFFORT, *_FORWARD, *_TRAJECTORY, *_PID, *_DRIVES)
+
+_INTERFACES = ("position", "velocity", "effort")
+
+
+@dataclass(frozen=True)
+class Controls:
+    """What a file says.
+
+    Attributes:
+        joints: What holds each joint, by its name.
+        notes: Sentences on what was passed over.
+    """
+
+    joints: dict[str, Control]
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Controller:
+    name: str
+    type: Node
+    parameters: Node
+
+    @property
+    def kind(self) -> str:
+        return (self.type.text or "").rpartition("/")[2].rpartition(":")[2]
+
+    @property
+    def package(self) -> str:
+        return (self.type.text or "").partition("/")[0]
+
+
+def read_controllers(path: str, robot: Robot) -> Controls:
+    """The controllers of a file that are for a robot.
+
+    Raises:
+        ConfigError: It is no file of controllers; a controller is of an unknown type, has no
+            joints or gains, or names joints that the robot has not, or that have another
+            interface.
+        SourceError: It cannot be read.
+    """
+    root = read_yaml(path)
+    controllers = list(_controllers(root))
+    if not controllers:
+        raise ConfigError(
+            "has no controller: a mapping with a 'type' such as "
+            "effort_controllers/JointPositionController is wanted",
+            path=path,
+            line=1,
+        )
+    gains = _simulated_gains(root, robot)
+    joints: dict[str, Control] = {}
+    notes = []
+    for controller in controllers:
+        for node, control in _claims(controller, robot, gains):
+            name = (node.text or "").rpartition("/")[2]
+            if name in joints:
+                notes.append(
+                    f"{node.place}: controllers '{joints[name].controller}' and "
+                    f"'{control.controller}' both drive joint '{name}'; the first is used"
+                )
+                continue
+            joints[name] = control
+    for name, pid in gains.items():
+        if name not in joints:
+            notes.append(f"{pid.place}: gains of joint '{name}', which no controller drives")
+    return Controls(joints, tuple(notes))
+
+
+def _controllers(root: Node) -> Iterator[_Controller]:
+    """Each controller with its parameters, which in ROS 2 stand apart from its type."""
+    parameters: dict[str, Node] = {}
+    for path, node in root.walk():
+        if path and path[-1] == "ros__parameters" and len(path) > 1:
+            parameters.setdefault(path[-2].rpartition("/")[2], node)
+    for path, node in root.walk():
+        kind = (node.fields or {}).get("type")
+        if kind is None or not path or kind.text is None:
+            continue
+        own = path[-2] if path[-1] == "ros__parameters" and len(path) > 1 else path[-1]
+        name = own.rpartition("/")[2]
+        if "/" not in kind.text and "::" not in kind.text:
+            continue  # another thing with a type
+        yield _Controller(name, kind, parameters.get(name, node))
+
+
+def _simulated_gains(root: Node, robot: Robot) -> dict[str, Node]:
+    """``gazebo_ros_control/pid_gains`` by joint."""
+    found: dict[str, Node] = {}
+    for path, node in root.walk():
+        if path and path[-1].rpartition("/")[2] == "pid_gains":
+            for name, gains in (node.fields or {}).items():
+                _in_robot(gains, name, robot)
+                found[name] = gains
+    return found
+
+
+def _claims(
+    controller: _Controller, robot: Robot, simulated: dict[str, Node]
+) -> Iterator[tuple[Node, Control]]:
+    """Each joint that a controller drives, and how."""
+    kind = controller.kind
+    if kind.endswith(_SILENT):
+        return
+    if kind not in KNOWN:
+        near = get_close_matches(kind, KNOWN, 1, 0.5)
+        hint = f"did you mean '{near[0]}'?" if near else "what it does to a joint is not known here"
+        raise controller.type.wrong(
+            f"controller '{controller.name}' is of type '{controller.type.text}', which is not "
+            f"one of ros_control; {hint}"
+        )
+    for node, interface in _joints(controller):
+        joint = (node.text or "").rpartition("/")[2]
+        _in_robot(node, joint, robot)
+        _has_interface(controller, node, joint, interface, robot)
+        yield node, _control(controller, node, joint, interface, simulated)
+
+
+def _joints(controller: _Controller) -> Iterator[tuple[Node, str]]:
+    """The joints of a controller, each with the interface that is commanded."""
+    kind, parameters = controller.kind, controller.parameters
+    if kind in _DRIVES:
+        wheels, steered = _DRIVES[kind]
+        found = False
+        for names, interface in ((wheels, "velocity"), (steered, "position")):
+            for name in names:
+                node = parameters.find(name)
+                if node is not None and (node.text or node.items):
+                    found = True
+                    yield from ((one, interface) for one in node.names(name))
+        if not found:
+            raise controller.type.wrong(
+                f"controller '{controller.name}' names no wheels; write {wheels[0]}"
+            )
+        return
+    interface = _interface(controller)
+    for name in ("joints", "joint", "dof_names", "dof_name"):
+        node = parameters.find(name)
+        if node is not None:
+            named = node.names(name)
+            if not named:
+                raise node.wrong(f"controller '{controller.name}' has an empty list of {name}")
+            yield from ((one, interface) for one in named)
+            return
+    raise controller.type.wrong(
+        f"controller '{controller.name}' names no joint; write joint: NAME or joints: [NAME, …]"
+    )
+
+
+def _interface(controller: _Controller) -> str:
+    """What a controller commands: position, velocity or effort."""
+    for word in _INTERFACES:
+        if controller.package == f"{word}_controllers":
+            return word
+    if controller.kind in _POSITION:
+        return "position"
+    if controller.kind in _VELOCITY:
+        return "velocity"
+    if controller.kind in _EFFORT:
+        return "effort"
+    for name in ("command_interfaces", "interface_name", "interface_names", "command_interface"):
+        node = controller.parameters.find(name)
+        if node is None:
+            continue
+        words = [(one.text or "").rpartition("/")[2] for one in node.names(name)]
+        for word in _INTERFACES:
+            if word in words:
+                return word
+        raise node.wrong(
+            f"{name} of controller '{controller.name}' is {node.said}; it has one of "
+            + ", ".join(_INTERFACES)
+        )
+    if controller.kind in _FORWARD or controller.kind in _PID:
+        raise controller.type.wrong(
+            f"controller '{controller.name}' does not say what it commands; write interface_name "
+            "or command_interface"
+        )
+    return "position"
+
+
+def _in_robot(node: Node, joint: str, robot: Robot) -> None:
+    if joint in robot.joint:
+        if robot.joint[joint].is_fixed:
+            raise node.wrong(f"joint '{joint}' is fixed; no controller can move it")
+        return
+    near = get_close_matches(joint, list(robot.joint), 1, 0.5)
+    hint = f"did you mean '{near[0]}'?" if near else "see 'urdftool graph'"
+    if "$(" in joint:
+        hint = "a launch file would put something in its place: write the name"
+    raise node.wrong(f"the robot has no joint '{joint}'; {hint}")
+
+
+def _has_interface(
+    controller: _Controller, node: Node, joint: str, interface: str, robot: Robot
+) -> None:
+    """Refuse a joint whose hardware takes other commands, as the controller manager does."""
+    there = [
+        word.rpartition("/")[2].lower()
+        for part in robot.transmissions
+        if joint in {one.name for one in part.joints}
+        for words in (
+            *(one.hardware_interfaces for one in part.joints if one.name == joint),
+            *(one.hardware_interfaces for one in part.actuators),
+        )
+        for word in words
+    ]
+    there += [
+        command.name.lower()
+        for block in robot.ros2_controls
+        for one in block.joints
+        if one.name == joint
+        for command in one.command_interfaces
+    ]
+    known = [word for word in there if any(one in word for one in _INTERFACES)]
+    if known and not any(interface in word for word in known):
+        raise node.wrong(
+            f"controller '{controller.name}' commands the {interface} of joint '{joint}', which "
+            f"has {', '.join(dict.fromkeys(known))} in the robot's file; the controller would not "
+            "start"
+        )
+
+
+def _control(
+    controller: _Controller, node: Node, joint: str, interface: str, simulated: dict[str, Node]
+) -> Control:
+    kind = controller.kind
+    if interface == "effort":
+        by_velocity = kind in _VELOCITY or _measures_velocity(controller)
+        if kind in _EFFORT or kind in _FORWARD:
+            return Control(controller.name, NONE, None, node.at)
+        gains = _gains(controller, joint)
+        how = VELOCITY if by_velocity else POSITION
+        return Control(controller.name, how, _pid(gains), gains.at)
+    if joint in simulated:
+        how = POSITION if interface == "position" else VELOCITY
+        return Control(controller.name, how, _pid(simulated[joint]), simulated[joint].at)
+    return Control(controller.name, SERVO, None, node.at)
+
+
+def _measures_velocity(controller: _Controller) -> bool:
+    node = controller.parameters.find("reference_and_state_interfaces")
+    words = [] if node is None else [one.text for one in node.names(node.key)]
+    return bool(words) and "position" not in words
+
+
+def _gains(controller: _Controller, joint: str) -> Node:
+    parameters = controller.parameters
+    for keys in (("pid",), (joint, "pid"), ("gains", joint), ("gains",)):
+        found = parameters.find(*keys)
+        if found is not None and (keys != ("gains",) or found.find("p") is not None):
+            return found
+    wanted = "pid: {p: …, i: …, d: …}"
+    if controller.kind in (*_TRAJECTORY, *_PID):
+        wanted = f"gains: {{{joint}: {{p: …, i: …, d: …}}}}"
+    elif "Group" in controller.kind:
+        wanted = f"{joint}: {{pid: {{p: …, i: …, d: …}}}}"
+    raise controller.type.wrong(
+        f"controller '{controller.name}' has no gains of joint '{joint}'; write {wanted}"
+    )
+
+
+def _pid(node: Node) -> Pid:
+    """The gains of a mapping, with the defaults of control_toolbox."""
+    if node.fields is None:
+        raise node.wrong(f"gains are {node.said}; write {{p: …, i: …, d: …}}")
+    if "p" not in node.fields:
+        raise node.wrong("gains without a p; write {p: …, i: …, d: …}")
+
+    def number(*names: str) -> float | None:
+        for name in names:
+            if name in (node.fields or {}):
+                return (node.fields or {})[name].number(name)
+        return None
+
+    clamp = abs(number("i_clamp") or 0.0)
+    low, high = number("i_clamp_min", "i_min"), number("i_clamp_max", "i_max")
+    windup = node.fields.get("antiwindup")
+    low, high = 0.0 - clamp if low is None else low, clamp if high is None else high
+    return Pid(
+        number("p") or 0.0,
+        number("i") or 0.0,
+        number("d") or 0.0,
+        low,
+        high,
+        windup is not None and windup.truth("antiwindup"),
+    )

@@ -1,0 +1,221 @@
+"""A YAML file of parameters as a tree that knows its places, within bounds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from ..errors import ConfigError
+from ..source.document import read_file
+from ..source.location import Place, SourceFile
+
+MOST_BYTES = 256 * 1024
+MOST_NODES = 50_000
+"""Of a tree, aliases followed: what a few lines of aliases of aliases may grow to."""
+
+_DEEP = 100
+_YES, _NO = ("true", "yes", "on"), ("false", "no", "off")
+
+
+@dataclass(eq=False)
+class Node:
+    """A value.
+
+    Attributes:
+        file: Its file.
+        start: First byte.
+        end: Byte after the last.
+        key: The key it has in the mapping around it.
+        text: Of a scalar; None for others.
+        quoted: Whether the scalar is quoted, so that it is text.
+        items: Of a sequence.
+        fields: Of a mapping.
+    """
+
+    file: SourceFile
+    start: int
+    end: int
+    key: str
+    text: str | None
+    quoted: bool
+    items: list[Node] | None
+    fields: dict[str, Node] | None
+
+    @property
+    def place(self) -> Place:
+        """Where it is."""
+        return Place(self.file, self.start, self.end)
+
+    @property
+    def at(self) -> tuple[str, int, int]:
+        """The same in plain values."""
+        return self.file.path, self.start, self.end
+
+    def find(self, *keys: str) -> Node | None:
+        """What is below some keys, written as mappings in each other or as ``a.b`` or ``a/b``."""
+        if not keys:
+            return self
+        for count in range(1, len(keys) + 1):
+            for mark in ".", "/":
+                inner = (self.fields or {}).get(mark.join(keys[:count]))
+                found = None if inner is None else inner.find(*keys[count:])
+                if found is not None:
+                    return found
+        start = ".".join(keys) + "."
+        parts = {
+            key.removeprefix(start): node
+            for key, node in (self.fields or {}).items()
+            if key.startswith(start)
+        }
+        if not parts:
+            return None
+        first, *_, last = (*parts.values(), *parts.values())
+        return Node(self.file, first.start, last.end, keys[-1], None, False, None, parts)
+
+    def walk(self, *path: str) -> Iterator[tuple[tuple[str, ...], Node]]:
+        """All mappings with the keys that lead to them, this one first."""
+        if self.fields is None:
+            return
+        yield path, self
+        for key, node in self.fields.items():
+            yield from node.walk(*path, key)
+
+    def wrong(self, message: str) -> ConfigError:
+        """An error about it."""
+        return ConfigError(message, at=self.place)
+
+    def number(self, what: str) -> float:
+        """A finite number.
+
+        Raises:
+            ConfigError: It is none.
+        """
+        try:
+            value = float(self.text) if self.text is not None and not self.quoted else math.nan
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise self.wrong(f"{what} is {self.said}, which is no finite number")
+        return value
+
+    def truth(self, what: str) -> bool:
+        """Yes or no.
+
+        Raises:
+            ConfigError: It is neither.
+        """
+        word = (self.text or "").lower()
+        if word in _YES or word in _NO:
+            return word in _YES
+        raise self.wrong(f"{what} is {self.said}; write true or false")
+
+    def names(self, what: str) -> list[Node]:
+        """Names in a list, or one alone, each as a scalar.
+
+        Raises:
+            ConfigError: Something else stands there.
+        """
+        nodes = [self] if self.items is None else self.items
+        for node in nodes:
+            if not node.text:
+                raise node.wrong(f"{what} is {node.said}; the name of a joint is wanted")
+        return nodes
+
+    @property
+    def said(self) -> str:
+        """What it is, in words."""
+        if self.fields is not None:
+            return "a mapping"
+        if self.items is not None:
+            return "a list"
+        text = self.text or ""
+        return f"'{text[:60]}…'" if len(text) > 60 else f"'{text}'"
+
+
+def read_yaml(path: str) -> Node:
+    """The mapping in a file.
+
+    Raises:
+        ConfigError: It is no YAML, no mapping, or beyond the bounds.
+        SourceError: It cannot be read.
+    """
+    import yaml
+
+    file = read_file(path)
+    if len(file.data) > MOST_BYTES:
+        raise ConfigError(
+            f"has {len(file.data)} bytes; parameters of controllers have at most {MOST_BYTES}",
+            path=path,
+        )
+    text = file.data.decode("utf-8", "replace")
+    try:
+        root = yaml.compose(text, Loader=yaml.SafeLoader)
+    except RecursionError:
+        raise ConfigError("is nested too deeply", path=path) from None
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        problem = getattr(error, "problem", None) or "a letter that YAML forbids"
+        line = None if mark is None else mark.line + 1
+        column = None if mark is None else mark.column + 1
+        raise ConfigError(
+            f"is not valid YAML: {problem}", path=path, line=line, column=column
+        ) from None
+    if not isinstance(root, yaml.MappingNode):
+        what = "is empty" if root is None else "is no mapping"
+        raise ConfigError(
+            f"{what}; controllers by name are wanted, each with its type", path=path, line=1
+        )
+    return _Reader(file, text).node(root, "", 0)
+
+
+class _Reader:
+    def __init__(self, file: SourceFile, text: str) -> None:
+        self.file, self.text, self.count = file, text, 0
+        self._ascii = text.isascii()
+
+    def _byte(self, index: int) -> int:
+        return index if self._ascii else len(self.text[:index].encode())
+
+    def node(self, node: Any, key: str, depth: int) -> Node:
+        import yaml
+
+        self.count += 1
+        start, end = self._byte(node.start_mark.index), self._byte(node.end_mark.index)
+        if self.count > MOST_NODES or depth > _DEEP:
+            raise ConfigError(
+                f"has more than {MOST_NODES} values once its aliases are followed, or is more than "
+                f"{_DEEP} deep",
+                path=self.file.path,
+                line=node.start_mark.line + 1,
+                column=node.start_mark.column + 1,
+            )
+        made = Node(self.file, start, end, key, None, False, None, None)
+        if isinstance(node, yaml.ScalarNode):
+            made.text, made.quoted = str(node.value), node.style in ("'", '"')
+        elif isinstance(node, yaml.SequenceNode):
+            made.items = [self.node(item, key, depth + 1) for item in node.value]
+        else:
+            made.fields = self._fields(node, depth)
+        return made
+
+    def _fields(self, node: Any, depth: int) -> dict[str, Node]:
+        merged: dict[str, Node] = {}
+        own: dict[str, Node] = {}
+        for key, value in node.value:
+            name = str(getattr(key, "value", ""))
+            if getattr(key, "tag", "") == "tag:yaml.org,2002:merge":
+                inner = self.node(value, "<<", depth + 1)
+                for source in inner.items if inner.items is not None else [inner]:
+                    merged = {**(source.fields or {}), **merged}
+            elif name in own:
+                raise ConfigError(
+                    f"'{name}' stands here a second time",
+                    path=self.file.path,
+                    line=key.start_mark.line + 1,
+                    column=key.start_mark.column + 1,
+                )
+            else:
+                own[name] = self.node(value, name, depth + 1)
+        return {**merged, **own}

@@ -1,0 +1,185 @@
+"""Joints under gains of a file: too weak to hold, too strong for the timestep, or never still."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..errors import UrdftoolError
+from ..model.elements import Robot
+from ..model.pose import rotation_of_quaternion
+from ..source.document import read_file
+from ..source.location import Place
+from .bodies import JointOf
+from .control import POSITION, VELOCITY, Control
+from .fault import Fault
+from .judge_joint import SAG, needed_effort
+from .run import Run
+
+_SWINGS = 4  # turns of direction in the last second
+_SHAKES = 0.01  # rad; a sliding joint, of the robot's size
+
+
+def judge_controls(robot: Robot, run: Run) -> Iterator[Fault]:
+    """What is to be said of the controllers that a run was given."""
+    controls = run.settings.controls
+    if controls is None:
+        return
+    yield from _loose(robot, run)
+    for column, joint in enumerate(run.bodies.joints):
+        control = controls.get(joint.name)
+        if control is None or control.pid is None or joint.name not in run.recording.targets:
+            continue
+        unstable = _unstable(run, column, joint, control)
+        if unstable:
+            yield _fault(
+                "unstable-gains",
+                f"joint '{joint.name}' shakes under the gains of controller '{control.controller}'",
+                control,
+                joint,
+                unstable,
+            )
+        elif run.recording.ended != "lost":
+            yield from _weak(run, column, joint, control)
+
+
+def _fault(kind: str, message: str, control: Control, joint: JointOf, cause: str) -> Fault:
+    return Fault(kind, message, _place(control), "joint", joint.name, cause)
+
+
+def _place(control: Control) -> Place | None:
+    path, start, end = control.at
+    try:
+        return Place(read_file(path), start, end)
+    except UrdftoolError:
+        return None
+
+
+def _loose(robot: Robot, run: Run) -> Iterator[Fault]:
+    held = set(run.recording.held)
+    names = [j.name for j in run.bodies.joints if j.name not in held and j.leader is None]
+    if not names:
+        return
+    shown = ", ".join(f"'{name}'" for name in names[:4]) + (", …" if len(names) > 4 else "")
+    yield Fault(
+        "not-controlled",
+        f"no controller holds {shown}",
+        robot.joint[names[0]].place,
+        "joint",
+        names[0],
+        fails=False,
+    )
+
+
+def _unstable(run: Run, column: int, joint: JointOf, control: Control) -> str:
+    """Why a joint shakes; empty where it does not, or not because of its gains."""
+    pid, recording = control.pid, run.recording
+    assert pid is not None
+    if recording.ended != "lost" and not _shakes(run, column, joint):
+        return ""
+    step, inertia = run.settings.timestep, moved_inertia(run, column)
+    unit = "kg" if joint.kind == "prismatic" else "kg·m²"
+    if inertia <= 0:
+        return ""
+    slope, stiff = (pid.d, pid.p) if control.kind == POSITION else (pid.p, 0.0)
+    name = "d" if control.kind == POSITION else "p"
+    what = f"it moves {inertia:.3g} {unit} alone, and the timestep is {1000 * step:g} ms"
+    if slope * step / inertia > 2:
+        most = 2 * inertia / step
+        return f"{name} of {slope:g} is too high: {what}, which bears a {name} below {most:.3g}"
+    if stiff * step**2 / inertia > 4:
+        most = 4 * inertia / step**2
+        return f"p of {stiff:g} is too high: {what}, which bears a p below {most:.3g}"
+    if control.kind == POSITION and recording.ended != "lost":
+        damping = pid.d + joint.damping
+        critical = 2 * (pid.p * inertia) ** 0.5
+        if damping < 0.1 * critical and pid.p > 0:
+            return (
+                f"nothing damps it: d and the joint's damping are {damping:.3g} together, and "
+                f"with p of {pid.p:g} for {inertia:.3g} {unit} a d near {critical:.3g} calms it"
+            )
+    return ""
+
+
+def _shakes(run: Run, column: int, joint: JointOf) -> bool:
+    """Whether a joint goes to and fro at the end of a run."""
+    recording = run.recording
+    if recording.still_since is not None:
+        return False
+    late = recording.times > recording.times[-1] - 1.0
+    rates = recording.rates[late, column]
+    positions = recording.positions[late, column]
+    if not np.isfinite(positions).all():
+        return True
+    least = _SHAKES * (max(run.bodies.size, 1e-3) if joint.kind == "prismatic" else 1.0)
+    turns = int((np.diff(np.sign(rates)) != 0).sum())
+    return turns >= _SWINGS and float(np.ptp(positions)) > least
+
+
+def _weak(run: Run, column: int, joint: JointOf, control: Control) -> Iterator[Fault]:
+    pid, recording = control.pid, run.recording
+    assert pid is not None
+    target, now = recording.targets[joint.name], float(recording.positions[-1, column])
+    bound = SAG * (max(run.bodies.size, 1e-3) if joint.kind == "prismatic" else 1.0)
+    if abs(now - target) <= bound:
+        return
+    length, force = ("m", "N") if joint.kind == "prismatic" else ("rad", "N·m")
+    need = needed_effort(run, column)
+    used = abs(float(recording.efforts[-1, column]))
+    load = abs(need) if need is not None else used
+    parts = []
+    if need is not None:
+        parts.append(f"to hold it takes {load:.3g} {force}")
+    if joint.effort is not None and used >= 0.98 * joint.effort:
+        parts.append(f"it may use {joint.effort:.3g} {force}, and does")
+    elif control.kind == VELOCITY:
+        parts.append("gains of a velocity brake a joint and do not bring it back")
+    else:
+        parts.append(
+            f"p of {pid.p:g} gives {pid.p * bound:.3g} {force} at {bound:.2g} {length}; a p of "
+            f"{load / bound:.3g} would do"
+        )
+        if pid.i and not (pid.i_max or pid.i_min):
+            parts.append("i does nothing without an i_clamp, which is zero where none is written")
+        elif not pid.i:
+            parts.append("or an i with an i_clamp above that")
+    yield _fault(
+        "sags",
+        f"joint '{joint.name}' is to be at {target:.3g} {length}, and controller "
+        f"'{control.controller}' leaves it at {now:.3g} {length}",
+        control,
+        joint,
+        "; ".join(parts),
+    )
+
+
+def moved_inertia(run: Run, column: int) -> float:
+    """What a joint moves when it moves alone, at the start of a run [kg·m², kg]."""
+    bodies, first = run.bodies.bodies, column + 1
+    beyond = {first}
+    for number in range(first + 1, len(bodies)):
+        if bodies[number].parent in beyond:
+            beyond.add(number)
+    pose = run.recording.poses[0]
+    joint = bodies[first].joint
+    assert joint is not None
+
+    def turn(number: int) -> np.ndarray:
+        x, y, z, w = pose[number, 3:].tolist()
+        return np.array(rotation_of_quaternion((w, x, y, z)))
+
+    axis = turn(first) @ np.array(joint.axis)
+    total = 0.0
+    for number in beyond:
+        body = bodies[number]
+        if body.properties is None:
+            continue
+        if joint.kind == "prismatic":
+            total += body.mass
+            continue
+        centre = pose[number, :3] + turn(number) @ body.properties.com - pose[first, :3]
+        own = turn(number).T @ axis
+        total += float(own @ body.properties.inertia @ own)
+        total += body.mass * float(np.cross(axis, centre) @ np.cross(axis, centre))
+    return total
