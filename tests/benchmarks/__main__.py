@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import sys
 
-from . import expand, lint, startup
+from . import expand, lint, startup, view
 
-BENCHMARKS = {"startup": startup, "expand": expand, "lint": lint}
+BENCHMARKS = {"startup": startup, "expand": expand, "lint": lint, "view": view}
 
 
 def main(names: list[str]) -> int:

@@ -162,7 +162,8 @@ class Tab:
 
 @contextmanager
 def chromium():
-    """A browser with a profile of its own; gives a function that opens a tab."""
+    """A browser with a profile of its own; gives a function that opens a tab, with the
+    browser's ``pid``."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         process = subprocess.Popen(
             [find(), *OPTIONS, f"--user-data-dir={profile}", "about:blank"],
@@ -183,6 +184,7 @@ def chromium():
                 tabs[-1].size(width, height)
                 return tabs[-1]
 
+            tab.pid = process.pid
             yield tab
         finally:
             for opened in tabs:

@@ -40,7 +40,7 @@ def test_the_numbers_of_a_joint_and_a_link(tmp_path):
     assert rows["children"] == "b"
     assert rows["parent"] == "none, it is a root"
     moved = dict(joint_rows(robot.joint["j"]))
-    assert moved["limits"] == "-1.5708 … 0 rad (-90° … 0°)"
+    assert moved["limits"] == "-1.5708 … 0 rad (−90° … 0°)"
     assert moved["axis"] == "0 1 0"
     assert moved["from"] == "a"
     assert moved["to"] == "b"

@@ -102,7 +102,7 @@ def test_a_slider_moves_its_joint_within_the_limits(show):
     page.joints._slid(page.joints.sliders[0])
     assert page.joints.positions["shoulder"] == 1.25
     assert (handle.min, handle.max) == (-1.5, 1.25)
-    assert handle.label == "shoulder 71.6°"
+    assert handle.label == "shoulder 72°"
 
 
 @pytest.mark.parametrize(("where", "shoulder"), [("zero", 0), ("lower", -1.5), ("upper", 1.25)])
@@ -152,7 +152,7 @@ def test_a_link_is_chosen(show):
     assert tuple(mesh.color) == (255, 196, 0)
     assert page._chooser.value == "upper"
     assert "shoulder" in page._one.content
-    assert "-85.9°" in page._one.content
+    assert "−85.9°" in page._one.content
     page._chooser.value = "none"
     page._chosen()
     assert tuple(mesh.color) != (255, 196, 0)

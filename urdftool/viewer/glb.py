@@ -19,8 +19,10 @@ def glb(
     faces: npt.NDArray[np.uint32],
     normals: npt.NDArray[np.float64],
     uv: npt.NDArray[np.float64],
-    texels: npt.NDArray[np.uint8],
+    image: bytes,
     rgba: tuple[float, float, float, float],
+    *,
+    clear: bool,
 ) -> bytes:
     """One mesh under one image.
 
@@ -29,8 +31,9 @@ def glb(
         faces: Rows of them, shape (m, 3).
         normals: Unit normals, shape (n, 3).
         uv: Where each point lies in the image, shape (n, 2); 0 0 is its lower left corner.
-        texels: The image, the lowest row first, shape (height, width, 4).
+        image: The image as a PNG file.
         rgba: What the image is multiplied with.
+        clear: Whether something can be seen through it.
     """
     down = np.stack([uv[:, 0], 1.0 - uv[:, 1]], axis=1)  # glTF counts v from the top
     pieces = [
@@ -38,7 +41,7 @@ def glb(
         np.ascontiguousarray(normals, dtype="<f4").tobytes(),
         np.ascontiguousarray(np.where(np.isfinite(down), down, 0.0), dtype="<f4").tobytes(),
         np.ascontiguousarray(faces, dtype="<u4").tobytes(),
-        _png(texels),
+        image,
     ]
     views, blob = [], b""
     for number, piece in enumerate(pieces):
@@ -47,7 +50,6 @@ def glb(
             view["target"] = _ELEMENTS if number == 3 else _ARRAY
         views.append(view)
         blob += piece + b"\0" * (-len(piece) % 4)
-    clear = rgba[3] < 1.0 or bool((texels[..., 3] < 255).any())
     document = {
         "asset": {"version": "2.0"},
         "scene": 0,
@@ -102,7 +104,8 @@ def glb(
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
-def _png(texels: npt.NDArray[np.uint8]) -> bytes:
+def png(texels: npt.NDArray[np.uint8]) -> bytes:
+    """An image as a PNG file; its lowest row is the first, shape (height, width, 4)."""
     from PIL import Image
 
     out = BytesIO()

@@ -128,7 +128,7 @@ class Joints:
         self._moved(positions)
         for slider in self._sliders:
             value, handle = positions[slider.name], self._handles[slider.name]
-            words = f"{shortened(slider.name, _LONGEST)} {slider.words(value)}"
+            words = f"{shortened(slider.name, _LONGEST)} {slider.brief(value)}"
             if handle.label != words:
                 handle.label = words
             if slider.name != leader and handle.value != slider.shown(value):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from .glb import glb
+from .glb import glb, png
 
 if TYPE_CHECKING:
     from ..drawing.shapes import Shapes
@@ -38,6 +38,7 @@ class Look:
 def looks_of(shapes: Shapes) -> Iterator[tuple[str, Look]]:
     """The surfaces of each link, with its name."""
     bounds = np.searchsorted(shapes.link, np.arange(len(shapes.links) + 1))
+    images: dict[int, bytes] = {}
     for row, link in enumerate(shapes.links):
         some = slice(int(bounds[row]), int(bounds[row + 1]))
         if some.start == some.stop:
@@ -47,7 +48,7 @@ def looks_of(shapes: Shapes) -> Iterator[tuple[str, Look]]:
         which = which.reshape(-1)
         for number, kind in enumerate(kinds):
             rows = np.flatnonzero(which == number) + some.start
-            yield link, _look(shapes, rows, kind)
+            yield link, _look(shapes, rows, kind, images)
 
 
 def box_around(shapes: Shapes) -> dict[str, tuple[npt.NDArray[np.float64], ...]]:
@@ -64,7 +65,12 @@ def box_around(shapes: Shapes) -> dict[str, tuple[npt.NDArray[np.float64], ...]]
     return found
 
 
-def _look(shapes: Shapes, rows: npt.NDArray[np.intp], kind: npt.NDArray[np.float64]) -> Look:
+def _look(
+    shapes: Shapes,
+    rows: npt.NDArray[np.intp],
+    kind: npt.NDArray[np.float64],
+    images: dict[int, bytes],
+) -> Look:
     red, green, blue, alpha, image = kind
     corners = shapes.corners[rows].reshape(-1, 3).astype(np.float32)
     normals = shapes.normals[rows].reshape(-1, 3)
@@ -78,9 +84,12 @@ def _look(shapes: Shapes, rows: npt.NDArray[np.intp], kind: npt.NDArray[np.float
     rgb, opacity = (int(red), int(green), int(blue)), float(alpha) / 255
     packed = None
     if image >= 0:
+        number = int(image)
+        if number not in images:
+            images[number] = png(shapes.images[number])
+        clear = opacity < 1.0 or bool((shapes.images[number][..., 3] < 255).any())
         rgba = (red / 255, green / 255, blue / 255, opacity)
-        texels = shapes.images[int(image)]
-        packed = glb(vertices, faces, normals[first], uv[first], texels, rgba)
+        packed = glb(vertices, faces, normals[first], uv[first], images[number], rgba, clear=clear)
     return Look(vertices, faces, rgb, opacity, packed)
 
 

@@ -146,8 +146,10 @@ class Page:
         robot, body = self.robot, self.body
         shapes = [body.load(kind) for kind in ("visual", "collision") if self._boxes[kind].value]
         self._low, self._high = body.measure(link_poses(robot))
+        self._floor = self._low[2]
         with self.server.atomic():
             self.joints.take(robot, body.size)
+            self._low, self._high = body.measure(link_poses(robot, self.joints.positions))
             for kind in KINDS:
                 if kind not in MARKS:
                     body.show(kind, self._boxes[kind].value)
@@ -178,8 +180,7 @@ class Page:
             handle.visible = bool(content)
 
     def _ground(self) -> None:
-        height = self._low[2] if self._low[2] < 0 or self._low[2] > 0 else 0.0
-        lay_ground(self.server.scene, self.body.size, height, self._grid_box.value)
+        lay_ground(self.server.scene, self.body.size, self._floor, self._grid_box.value)
 
     def _camera(self) -> None:
         """Have new browsers see all of the robot."""

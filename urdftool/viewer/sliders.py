@@ -75,6 +75,12 @@ class Slider:
         """A position in the unit people think in: degrees, or millimetres."""
         return in_words(position, self.turns)
 
+    def brief(self, position: float) -> str:
+        """The same without decimals, where it need not be exact; a label breaks after a point."""
+        if self.turns:
+            return _signed(f"{math.degrees(position):.0f}") + "°"
+        return _signed(f"{position * 1000:.{0 if abs(position) >= 0.01 else 1}f}") + " mm"
+
 
 def in_words(value: float, turns: bool) -> str:
     """An angle [rad] in degrees, or a length [m] in millimetres, in few digits."""
@@ -82,10 +88,15 @@ def in_words(value: float, turns: bool) -> str:
         return "no limit"
     if turns:
         degrees = round(math.degrees(value), 1) + 0.0
-        return f"{degrees:g}°"
+        return f"{_signed(f'{degrees:g}')}°"
     if abs(value) >= 10:
-        return f"{value:.4g} m"
-    return f"{round(value * 1000, 2) + 0.0:g} mm"
+        return f"{_signed(f'{value:.4g}')} m"
+    return f"{_signed(f'{round(value * 1000, 2) + 0.0:g}')} mm"
+
+
+def _signed(number: str) -> str:
+    """A number with a minus that no line breaks after; minus nothing is nothing."""
+    return number.lstrip("-") if not number.strip("-0.") else number.replace("-", "−")
 
 
 def sliders_of(

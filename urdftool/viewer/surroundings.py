@@ -21,7 +21,7 @@ SHEET = 0.55
 
 AZIMUTH, ELEVATION = math.radians(-40.0), math.radians(22.0)
 
-CELLS = 10
+CELLS = 6
 """Cells of the ground from its middle to its edge."""
 
 LINE, MIDDLE = (205, 209, 214), (150, 155, 162)
@@ -91,7 +91,7 @@ def lay_ground(scene: viser.SceneApi, size: float, height: float, shown: bool) -
 
 
 def cell_for(size: float) -> float:
-    """An eighth to a third of a robot's size [m], in a round number."""
-    wanted = max(size, 1e-6) / 4
+    """A seventh to a third of a robot's size [m], in a round number."""
+    wanted = max(size, 1e-6) / 3
     power = 10.0 ** math.floor(math.log10(wanted))
     return float(power * max(step for step in (1, 2, 5) if step * power <= wanted * 1.0000001))
