@@ -1,8 +1,7 @@
 """Shapes at poses to pixels, with numpy alone.
 
-Libraries that do this were measured and left: VTK (565 MB installed) and MuJoCo want a GL library
-of the system where there is no screen, Numba brings 208 MB and compiles for seconds; this draws a
-robot of 50,000 triangles in a fraction of a second and the same bytes on every machine.
+Why no library: VTK takes 565 MB on disk and draws by the system's EGL or OSMesa, Numba takes
+208 MB; this draws 36,000 triangles with images at 640 × 480 in 0.4 s of processor time.
 """
 
 from __future__ import annotations
