@@ -40,6 +40,8 @@ _V = TypeVar("_V")
 _MANY = 50
 
 _stat, _lstat, _readlink = os.stat, os.lstat, os.readlink
+_ASKED_OF_WINDOWS = ("exists", "isdir", "isfile", "islink", "lexists")
+_paths = {name: getattr(os.path, name) for name in _ASKED_OF_WINDOWS}
 _variable, _variables = os._Environ.__getitem__, os._Environ.__iter__
 _heard: list[Asked] = []
 _hooked = False
@@ -200,7 +202,7 @@ def _note(kind: str, path: Any) -> None:
             return
     if path.endswith((".py", ".pyc", ".so", ".pyd")):
         return
-    if not path.startswith(os.sep):
+    if not os.path.isabs(path):
         path = os.path.join(os.getcwd(), path)
     question = kind, path
     heard = _heard[-1]
@@ -233,12 +235,25 @@ def _wrap(on: bool) -> None:
     environ: Any = os._Environ
     environ.__getitem__ = _heard_variable if on else _variable
     environ.__iter__ = _heard_variables if on else _variables
+    if sys.platform == "win32":  # there they do not go through os.stat
+        for name, function in _paths.items():
+            setattr(os.path, name, _heard_by(name, function) if on else function)
     if sys.version_info < (3, 11):  # its pathlib keeps functions of its own
         import pathlib
 
         accessor: Any = pathlib._NormalAccessor  # type: ignore[attr-defined]
         accessor.stat = staticmethod(os.stat)
         accessor.readlink = staticmethod(os.readlink)
+
+
+def _heard_by(name: str, function: Callable[[Any], bool]) -> Callable[[Any], bool]:
+    kind = "link" if name in ("islink", "lexists") else "file"
+
+    def heard(path: Any) -> bool:
+        _note(kind, path)
+        return function(path)
+
+    return heard
 
 
 def _heard_stat(path: Any, *, dir_fd: Any = None, follow_symlinks: bool = True) -> Any:
