@@ -59,7 +59,7 @@ def fix_files(
     from ..source.document import STDIN, reading_instead
     from .lint_report import report
 
-    options = replace(options, fixes=True, cache=None, weigh=_weigh if unsafe else None)
+    options = replace(options, fixes=True, cache=None, weigh=_Scales() if unsafe else None)
     with ExitStack() as stack:
         given = b""
         if "-" in files:
@@ -204,7 +204,8 @@ def _say(console: Console, did: str, done: _Done) -> None:
         console.note("Nothing to fix.")
         return
     rules = [f"{rule} × {count}" for rule, count in done.applied.most_common()]
-    more = f", and {len(rules) - _MOST} more rules" if len(rules) > _MOST else ""
+    others = len(rules) - _MOST
+    more = f", and {others} more rule{'s' * (others > 1)}" if others > 0 else ""
     files = len(done.after)
     where = f"in {files} file{'s' * (files != 1)}"
     console.note(f"{did} {total} {where}: {', '.join(rules[:_MOST])}{more}")
@@ -234,24 +235,40 @@ def _diff(path: str, before: bytes, after: bytes) -> str:
     return "".join(lines)
 
 
-def _weigh(robot: Robot, names: Sequence[str]) -> dict[str, tuple[float, Any, Any]]:
-    """Mass, centre and tensor of links at the density of water, in the link frame."""
+class _Scales:
+    """Weighs links at the density of water; a mesh is read once, however often it is asked for."""
+
+    def __init__(self) -> None:
+        self.known: dict[tuple[str, str], Any] = {}
+
+    def __call__(self, robot: Robot, names: Sequence[str]) -> dict[str, tuple[float, Any, Any]]:
+        """Mass, centre and tensor of links, in the link frame."""
+        from ..inertia.mesh_files import read_meshes
+
+        description = robot.source
+        assert description is not None
+
+        def read(wanted: Sequence[str]) -> dict[str, Any]:
+            new = [name for name in wanted if (description.path, name) not in self.known]
+            for name, body in read_meshes(description, new, jobs=1).items():
+                self.known[description.path, name] = body
+            return {name: self.known[description.path, name] for name in wanted}
+
+        from ..model.elements import Robot
+
+        links = [robot.link[name] for name in names]
+        return _weighed(Robot(robot.element, robot.name, links=links), read)
+
+
+def _weighed(robot: Robot, read: Any) -> dict[str, tuple[float, Any, Any]]:
     from ..errors import UrdftoolError
     from ..inertia.masses import Masses
-    from ..inertia.mesh_files import read_meshes
     from ..inertia.review import review
     from ..inertia.tensor import six_numbers
     from ..rules.fixes.inertia import DENSITY
 
-    description = robot.source
-    assert description is not None
     try:
-        found = review(
-            robot,
-            lambda wanted: read_meshes(description, wanted, jobs=1),
-            masses=Masses(density=DENSITY, anew=True),
-            only=names,
-        )
+        found = review(robot, read, masses=Masses(density=DENSITY, anew=True))
     except UrdftoolError:
         return {}
     weighed = {}

@@ -230,8 +230,8 @@ def _worse(before: Report, after: Report, chosen: Sequence[Finding]) -> str:
     for level in (Severity.ERROR, Severity.WARNING):
         if _count(after, level) > _count(before, level):
             new = [f for f in after.findings if f.severity >= level and not there[_key(f)]]
-            what = f"{new[0].message} [{new[0].rule}]" if new else "there are more findings"
-            return f"there would be {what}"
+            what = f"then {new[0].message} [{new[0].rule}]" if new else ""
+            return what or "there would be more findings"
     return ""
 
 

@@ -99,11 +99,12 @@ class Reach:
             rule="include-not-found",
         )
 
-    def symbols(self, original: Mapping[str, Any]) -> dict[str, Any]:
+    def symbols(self, original: Mapping[str, Any], warn: Callable[[str], object]) -> dict[str, Any]:
         """What expressions can name, with the bounded functions and guarded files among them.
 
         Args:
             original: xacro's global symbols, with the spaces ``python``, ``math`` and ``xacro``.
+            warn: What is told of a function that is called by its old name, without its space.
         """
         replaced = {
             "python": bounded.PYTHON,
@@ -115,7 +116,10 @@ class Reach:
             space = type(original[name])(original[name])
             space.update(functions)
             found[name] = space
-            found.update({key: f for key, f in functions.items() if key in original})
+            for key, function in functions.items():
+                if key in original:
+                    old = original[key] is not original[name].get(key)
+                    found[key] = _renamed(function, key, name, warn) if old else function
         return found
 
     def checked(self, load_yaml: Callable[[str], Any]) -> Callable[[str], Any]:
@@ -194,3 +198,15 @@ def _is_within(path: Path, root: Path) -> bool:
     if not path.is_relative_to(root):
         return False
     return not any(part.startswith(".") for part in path.relative_to(root).parts)
+
+
+def _renamed(
+    function: Callable[..., Any], name: str, space: str, warn: Callable[[str], object]
+) -> Callable[..., Any]:
+    """A function by its old name, which warns as xacro does."""
+
+    def call(*args: Any, **kwargs: Any) -> Any:
+        warn(f"Using {name}() directly is deprecated. Use {space}.{name}() instead.")
+        return function(*args, **kwargs)
+
+    return call

@@ -82,7 +82,7 @@ class Run:
             "check_attrs": self.check_attrs(xacro.check_attrs),
             "abs_filename_spec": self.abs_filename_spec(xacro.abs_filename_spec),
             "_empty_text_node": Characters("\n\n"),
-            "_global_symbols": self.reach.symbols(xacro._global_symbols),
+            "_global_symbols": self.reach.symbols(xacro._global_symbols, self.warning),
             "safe_eval": safe_eval,
             "warning": self.warning,
             "print_location": lambda *_: None,

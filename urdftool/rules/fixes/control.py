@@ -12,6 +12,7 @@ from .proposal import (
     attribute_at,
     element_at,
     insert,
+    is_computed,
     lines_of,
     meant,
     put,
@@ -24,6 +25,7 @@ from .proposal import (
     sub,
     sub_text,
     unsafe,
+    written,
 )
 
 
@@ -115,7 +117,7 @@ def actuated_joint_without_transmission(problem: Problem, around: Around) -> Pro
     if len(set(used)) > 1:
         return None
     interface = used[0] if used else "hardware_interface/EffortJointInterface"
-    name = quote(joint.name)
+    name = quote(written(joint.element, "name"))
     lines = (
         f'<transmission name="{name}_transmission">',
         "\t<type>transmission_interface/SimpleTransmission</type>",
@@ -165,6 +167,8 @@ def ros2_control_legacy_mimic_param(problem: Problem, around: Around) -> Proposa
     if joint.mimic is None:
         if leader not in around.robot.joint or joint.is_fixed:
             return None
+        if is_computed(around.robot.joint[leader].element):
+            return None
         by = f' multiplier="{quote(factors[0].text.strip())}"' if factors else ""
         changes.append(insert(joint.element, f'<mimic joint="{quote(leader)}"{by}/>'))
         return unsafe("write <mimic> into the joint", *changes)
@@ -202,7 +206,7 @@ def command_without_state(problem: Problem, around: Around) -> Proposal | None:
 def joint_outside_ros2_control(problem: Problem, around: Around) -> Proposal | None:
     """In the one block there is, with its states and no command."""
     joint = around.joint(problem)
-    if len(around.robot.ros2_controls) != 1:
+    if len(around.robot.ros2_controls) != 1 or is_computed(joint.element):
         return None
     block = around.robot.ros2_controls[0].element
     lines = (

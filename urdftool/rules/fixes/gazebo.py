@@ -16,6 +16,7 @@ from .proposal import (
     attribute_at,
     element_at,
     insert,
+    is_computed,
     lines_of,
     meant,
     put,
@@ -27,6 +28,7 @@ from .proposal import (
     sub,
     to_write,
     unsafe,
+    written,
 )
 
 _FRICTION = {"caster": "0.0"}
@@ -57,9 +59,13 @@ def misplaced_extension(problem: Problem, around: Around) -> Proposal | None:
     robot = around.robot
     if name in robot.link:
         joint = robot.tree.parent_joint(name)
-        right, wrong = (joint.name if joint is not None else ""), JOINT_KEYWORDS
+        if joint is None or is_computed(joint.element):
+            return None
+        right, wrong = joint.name, JOINT_KEYWORDS
     elif name in robot.joint:
         right, wrong = robot.joint[name].child, LINK_KEYWORDS
+        if right not in robot.link or is_computed(robot.link[right].element):
+            return None
     else:
         return None
     moved = [child for child in block.children if child.tag in wrong]
@@ -76,7 +82,10 @@ def misplaced_extension(problem: Problem, around: Around) -> Proposal | None:
 
 
 def surface_without_collision(problem: Problem, around: Around) -> Proposal | None:
-    """Gone; the block too, where nothing else is in it."""
+    """Gone, where nothing is seen either; the block too, where nothing else is in it."""
+    link = around.robot.link.get(problem.element.get("reference") or "")
+    if link is None or link.visuals:
+        return None  # the collision is what is missing
     return _emptied(problem.element, SURFACE)
 
 
@@ -112,7 +121,8 @@ def bad_extension_number(problem: Problem, around: Around) -> Proposal | None:
 def deprecated_cfm_damping(problem: Problem, around: Around) -> Proposal | None:
     """By its new name."""
     element = element_at(problem)
-    if element is None:
+    parent = element.parent if element is not None else None
+    if element is None or parent is None or parent.child("implicitSpringDamper") is not None:
         return None
     return safe("write <implicitSpringDamper>", retag(element, "implicitSpringDamper"))
 
@@ -197,7 +207,7 @@ def missing_gazebo_tags(problem: Problem, around: Around) -> Proposal | None:
     if not inside:
         return None
     block = (
-        f'<gazebo reference="{quote(link.name)}">',
+        f'<gazebo reference="{quote(written(link.element, "name"))}">',
         *(f"\t{line}" for line in inside),
         "</gazebo>",
     )
@@ -212,7 +222,7 @@ def missing_contact_parameters(problem: Problem, around: Around) -> Proposal | N
     if blocks:
         return unsafe("write them", Change("insert", blocks[0].element, blocks=lines))
     block = (
-        f'<gazebo reference="{quote(link.name)}">',
+        f'<gazebo reference="{quote(written(link.element, "name"))}">',
         *(f"\t{line}" for one in lines for line in one),
         "</gazebo>",
     )
@@ -264,6 +274,8 @@ def root_not_anchored(problem: Problem, around: Around) -> Proposal | None:
     robot = around.robot
     root = robot.tree.root
     if root is None or "world" in robot.link or "world_joint" in robot.joint:
+        return None
+    if is_computed(root.element):
         return None
     blocks = (
         ('<link name="world"/>',),
@@ -336,7 +348,7 @@ def missing_gz_frame_id(problem: Problem, around: Around) -> Proposal | None:
     """Its link."""
     sensor = problem.element
     block = sensor.parent
-    name = block.get("reference") if block is not None else None
+    name = written(block, "reference") if block is not None else ""
     if not name:
         return None
     line = f"<gz_frame_id>{quote(name)}</gz_frame_id>"

@@ -19,6 +19,7 @@ from .proposal import (
     drop,
     figures,
     first,
+    is_computed,
     put,
     quote,
     remove,
@@ -86,9 +87,7 @@ def _weighed(link: Link, around: Around) -> tuple[float, tuple[float, float, flo
     """Mass, centre and tensor of a link in its frame, as its meshes have them."""
     if around.weigh is None:
         return None
-    if around.weighed is None:
-        around.weighed = around.weigh(around.robot, [one.name for one in around.robot.links])
-    return around.weighed.get(link.name)
+    return around.weigh(around.robot, [link.name]).get(link.name)
 
 
 def massless_moving_body(problem: Problem, around: Around) -> Proposal | None:
@@ -314,13 +313,10 @@ def root_link_has_inertia(problem: Problem, around: Around) -> Proposal | None:
     robot, link = around.robot, around.link(problem)
     if link.name == "world" or link.element.parent is not robot.element:
         return None
-    name = "base_footprint" if link.name == "base_link" else f"{link.name}_root"
+    name, joint = f"{link.name}_root", f"{link.name}_root_joint"
     taken = {*robot.link, *robot.joint}
-    joint = f"{name}_joint"
-    if name in taken or joint in taken:
-        name, joint = f"{link.name}_dummy", f"{link.name}_dummy_joint"
-        if name in taken or joint in taken:
-            return None
+    if name in taken or joint in taken or is_computed(link.element):
+        return None
     if around.targets & {"moveit"}:
         return None  # the virtual joint and the groups of the SRDF name the root
     changes: tuple[Change, ...] = (

@@ -26,6 +26,8 @@ from .proposal import (
     unsafe,
 )
 
+_FAR, _FARTHEST = 100.0, 1e4  # [m]
+
 
 def unknown_joint_type(problem: Problem, around: Around) -> Proposal | None:
     """The type that was meant."""
@@ -185,7 +187,7 @@ def locked_by_limits(problem: Problem, around: Around) -> Proposal | None:
     driven = {part.name for t in robot.transmissions for part in t.joints}
     driven |= {part.name for control in robot.ros2_controls for part in control.joints}
     driven |= {other.mimic.joint for other in robot.joints if other.mimic is not None}
-    if joint.name in driven:
+    if joint.name in driven or robot.extensions.get(joint.name):
         return None
     return unsafe("make it fixed", put(joint.element, "type", "fixed"))
 
@@ -218,7 +220,7 @@ def limit_in_degrees(problem: Problem, around: Around) -> Proposal | None:
 
 
 def prismatic_in_millimetres(problem: Problem, around: Around) -> Proposal | None:
-    """The thousandth."""
+    """The thousandth, of what is too far for metres and not for a number that means none."""
     found = attribute_at(problem)
     joint = around.joint(problem)
     if found is None:
@@ -226,9 +228,13 @@ def prismatic_in_millimetres(problem: Problem, around: Around) -> Proposal | Non
     element, name = found
     if name == "xyz":
         values = [float(word) / 1000 for word in (element.get("xyz") or "").split()]
+        if not _FAR / 1000 <= max(map(abs, values)) <= _FARTHEST / 1000:
+            return None
         text = figures(values, 12)
         return unsafe(f'write xyz="{text}"', put(element, "xyz", text))
     if joint.limit is None:
+        return None
+    if not _FAR <= max(abs(joint.limit.lower or 0.0), abs(joint.limit.upper or 0.0)) <= _FARTHEST:
         return None
     changes = [
         put(element, bound, figures([value / 1000], 12))

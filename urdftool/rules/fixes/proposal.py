@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 from ...model.elements import Joint, Link, Robot
-from ...model.tensor3 import Six
 from ...source.description import Description
 from ...source.document import Document, Element
+from ...source.edit import Source, literal, parsed
 from ...source.location import Place, SourceFile
 from ..fix_table import Weigh
 from ..rule import Problem
@@ -93,8 +94,6 @@ class Around:
     targets: frozenset[str]
     document: Document | None = None
     weigh: Weigh | None = None
-    weighed: dict[str, tuple[float, Any, Six]] | None = None
-    settled: dict[Any, Any] = field(default_factory=dict)
 
     def joint(self, problem: Problem) -> Joint:
         """The joint a problem is about."""
@@ -247,18 +246,45 @@ def quote(text: str) -> str:
     return text
 
 
+def written(element: Element, name: str) -> str:
+    """An attribute as it is written, expressions and all: for what is put beside it."""
+    raw = _source(element.file).elements.get(element.start)
+    return (literal(raw, name) if raw is not None else None) or element.get(name) or ""
+
+
+def is_computed(element: Element, name: str = "name") -> bool:
+    """Whether an attribute comes from an expression, so that it is another with other arguments."""
+    return "$" in written(element, name)
+
+
+def same(a: Element, b: Element) -> bool:
+    """Whether two elements say the same."""
+    return (
+        (a.tag, a.attributes, a.text.split()) == (b.tag, b.attributes, b.text.split())
+        and len(a.children) == len(b.children)
+        and all(map(same, a.children, b.children))
+    )
+
+
 def lines_of(element: Element) -> Iterator[str]:
-    """An element as lines, after expansion: for one that is written anew elsewhere."""
-    attributes = "".join(f' {k}="{quote(v)}"' for k, v in element.attributes.items())
-    text = quote(element.text.strip())
-    if not element.children:
-        yield (
-            f"<{element.tag}{attributes}>{text}</{element.tag}>"
-            if text
-            else (f"<{element.tag}{attributes}/>")
-        )
-        return
-    yield f"<{element.tag}{attributes}>"
-    for child in element.children:
-        yield from (f"\t{line}" for line in lines_of(child))
-    yield f"</{element.tag}>"
+    """An element as it is written, comments and expressions and all, for one that comes elsewhere.
+
+    The elements in it are indented by tabs, as many as they are deep.
+    """
+    source = _source(element.file)
+    raw = source.elements[element.start]
+    text = element.file.data[raw.start : raw.end].decode(element.file.encoding)
+    own = len((source.indentation(raw) or b"").expandtabs(8))
+    step = len(source.step.expandtabs(8)) or 2
+    head, *rest = text.splitlines()
+    yield head
+    for line in rest:
+        bare = line.lstrip()
+        if bare:
+            deep = len(line[: len(line) - len(bare)].expandtabs(8)) - own
+            yield "\t" * max(0, round(deep / step)) + bare
+
+
+@lru_cache(maxsize=4)
+def _source(file: SourceFile) -> Source:
+    return parsed(file)

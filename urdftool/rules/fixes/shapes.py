@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from ...model.elements import Box, Capsule, Cylinder, Mesh, Sphere
+from ...model.elements import Box, Cylinder, Mesh, Sphere
 from ...model.pose import norm
 from ...model.read import numbers
-from ..rule import Problem
+from ..rule import INFO, Problem
 from .proposal import (
     Around,
     Change,
@@ -25,13 +25,13 @@ from .proposal import (
     unsafe,
 )
 
-_PRIMITIVES = (Box, Cylinder, Sphere, Capsule)
+_PRIMITIVES = (Box, Cylinder, Sphere)
 
 
 def missing_collision(problem: Problem, around: Around) -> Proposal | None:
-    """A copy of each visual, where all are primitives."""
+    """A copy of each visual, where all are primitives; small links are without one on purpose."""
     link = around.link(problem)
-    if not link.visuals or link.collisions:
+    if not link.visuals or link.collisions or problem.severity is INFO:
         return None
     changes = []
     for visual in link.visuals:

@@ -14,7 +14,9 @@ from .proposal import (
     first,
     meant,
     put,
+    remove,
     safe,
+    same,
     say,
     unsafe,
 )
@@ -97,14 +99,12 @@ def renamed_link(root: Element, name: str, new: str) -> Iterator[Change]:
 
 def conflicting_material(problem: Problem, around: Around) -> Proposal | None:
     """The second of two that are equal goes."""
-    from .proposal import lines_of, remove
-
     element = problem.element
     if element.tag != "material" or element.parent is not around.robot.element:
         return None
     name = element.get("name")
     firsts = [m.element for m in around.robot.materials if m.name == name]
-    if firsts[0] is element or list(lines_of(firsts[0])) != list(lines_of(element)):
+    if firsts[0] is element or not same(firsts[0], element):
         return None
     if (firsts[0].file.path, firsts[0].start) == (element.file.path, element.start):
         return None  # one place that is included twice

@@ -28,8 +28,10 @@ from .proposal import (
     replace,
     retag,
     safe,
+    same,
     sub,
     unsafe,
+    written,
 )
 
 _ONE = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
@@ -124,8 +126,8 @@ def _surface(element: Element, collision: Element) -> Proposal | None:
         return None
     if sum(child.tag == "collision" for child in link.children) != 1:
         return None
-    name = link.get("name") or ""
-    if "$" in name or not name:
+    name = written(link, "name")
+    if not name:
         return None
     lines = (
         f'<gazebo reference="{quote(name)}">',
@@ -172,8 +174,7 @@ def repeated_element(problem: Problem, around: Around) -> Proposal | None:
     one = parent.child(element.tag)
     if one is None or one is element:
         return None
-    same = list(lines_of(one)) == list(lines_of(element))
-    if same or element.tag == "material":
+    if same(one, element) or element.tag == "material":
         return safe(f"keep the first <{element.tag}>, which is read", remove(element))
     return unsafe(f"keep the first <{element.tag}>, which is read", remove(element))
 
@@ -203,7 +204,7 @@ def several_shapes_in_geometry(problem: Problem, around: Around) -> Proposal | N
 
 
 def empty_geometry(problem: Problem, around: Around) -> Proposal | None:
-    """A visual or collision of nothing goes."""
+    """The shape of its one counterpart; without one, a visual or collision of nothing goes."""
     element = element_at(problem)
     while element is not None and element.tag not in ("visual", "collision"):
         element = element.parent
@@ -212,6 +213,19 @@ def empty_geometry(problem: Problem, around: Around) -> Proposal | None:
     geometry = element.child("geometry")
     if geometry is not None and geometry.children:
         return None
+    link = element.parent
+    other = "collision" if element.tag == "visual" else "visual"
+    shapes = [g for c in link.all(other) for g in c.all("geometry")] if link is not None else []
+    if len(shapes) == 1 and len(shapes[0].children) == 1:
+        lines = tuple(lines_of(shapes[0]))
+        origin = element.child("origin")
+        if geometry is not None:
+            change = replace(geometry, lines)
+        elif origin is not None:
+            change = Change("after", origin, blocks=(lines,))
+        else:
+            change = Change("first", element, blocks=(lines,))
+        return unsafe(f"give it the shape of the {other}", change)
     return unsafe(f"take the empty <{element.tag}> out", remove(element))
 
 

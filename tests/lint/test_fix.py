@@ -1,0 +1,317 @@
+"""``lint --fix`` on files that are shared, linked, read-only, changed meanwhile, or macros."""
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from tests.conftest import XACRO
+from urdftool import output
+from urdftool.commands import lint_fix
+from urdftool.lint import fix_run
+
+ROBOT = """<?xml version="1.0"?>
+<robot name="r">
+  <link name="base"/>
+  <link name="arm"/>
+  <joint name="swing" type="continuous">
+    <parent link="base"/>
+    <child link="arm"/>
+    <axis xyz="{axis}"/>{dynamics}
+  </joint>
+</robot>
+"""
+LONG = ROBOT.format(axis="0 0 2", dynamics="")
+UNIT = ROBOT.format(axis="0 0 1", dynamics="")
+ONLY = ("--select", "axis-not-unit", "--no-cache")
+
+WHEEL = """<xacro:macro name="wheel" params="name axis">
+  <link name="${name}"/>
+  <joint name="${name}_joint" type="continuous">
+    <parent link="base"/>
+    <child link="${name}"/>
+    <axis xyz="AXIS"/>
+  </joint>
+</xacro:macro>
+<link name="base"/>
+<xacro:wheel name="left" axis="0 0 2"/>
+<xacro:wheel name="right" axis="0 0 SECOND"/>
+"""
+
+
+def wheels(axis, second="2"):
+    return XACRO.format(WHEEL.replace("AXIS", axis).replace("SECOND", second))
+
+
+def test_what_is_fixed_is_said_and_the_rest_reported(write, urdftool):
+    path = write("r.urdf", LONG)
+    result = urdftool("lint", path, "--fix", "--select", "axis-not-unit,missing-base-link")
+    assert Path(path).read_text() == UNIT
+    assert result.err.startswith("Fixed 1 in 1 file: axis-not-unit × 1\n")
+    assert "[missing-base-link]" in result.out
+    assert "axis-not-unit" not in result.out
+    assert result.code == 0, "what is left is info"
+
+
+def test_diff_writes_nothing_and_exits_1_if_it_would(write, urdftool):
+    path = write("r.urdf", LONG)
+    result = urdftool("lint", path, "--diff", *ONLY)
+    assert result.code == 1
+    assert Path(path).read_text() == LONG
+    assert result.out.startswith("--- r.urdf\n+++ r.urdf\n@@ ")
+    assert '-    <axis xyz="0 0 2"/>\n+    <axis xyz="0 0 1"/>\n' in result.out
+    write("r.urdf", UNIT)
+    assert urdftool("lint", path, "--diff", *ONLY).code == 0
+
+
+def test_unsafe_fixes_are_applied_only_when_asked_for(write, urdftool):
+    text = ROBOT.replace("continuous", "revolute").format(axis="0 0 1", dynamics="")
+    path = write("r.urdf", text)
+    words = ("--select", "missing-limit", "--no-cache")
+    result = urdftool("lint", path, "--fix", *words)
+    assert (result.code, Path(path).read_text()) == (1, text)
+    assert "1 more finding has an unsafe fix (--unsafe-fixes)" in result.err
+    assert urdftool("lint", path, "--fix", "--unsafe-fixes", *words).code == 0
+    assert 'type="continuous"' in Path(path).read_text()
+    assert urdftool("lint", path, "--unsafe-fixes").code == 2
+
+
+def test_standard_input_is_fixed_to_standard_output(monkeypatch, urdftool):
+    import io
+    import sys
+
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(LONG.encode())))
+    result = urdftool("lint", "-", "--fix", "--select", "axis-not-unit,missing-base-link")
+    assert result.out == UNIT
+    assert "[missing-base-link]" in result.err
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: text.replace(b"\n", b"\r\n"),
+        lambda text: b"\xef\xbb\xbf" + text,
+        lambda text: text.rstrip(b"\n"),
+        lambda text: text.replace(b'"1.0"', b'"1.0" encoding="ISO-8859-1"').replace(
+            b"<link", "<!-- é -->\n  <link".encode("latin-1"), 1
+        ),
+    ],
+    ids=["crlf", "bom", "no newline at the end", "latin-1"],
+)
+def test_bytes_that_are_not_spoken_of_stay(write, urdftool, change):
+    path = write("r.urdf", change(LONG.encode()))
+    assert urdftool("lint", path, "--fix", *ONLY).code == 0
+    assert Path(path).read_bytes() == change(UNIT.encode())
+
+
+def test_utf_16_is_not_edited(write, urdftool):
+    data = LONG.replace('version="1.0"', 'version="1.0" encoding="UTF-16"').encode("utf-16")
+    path = write("r.urdf", data)
+    result = urdftool("-v", "lint", path, "--fix", *ONLY)
+    assert Path(path).read_bytes() == data
+    assert "UTF-16" in result.err
+
+
+def test_a_link_stays_a_link_and_the_mode_stays(write, urdftool):
+    target = write("real.urdf", LONG)
+    os.chmod(target, 0o640)
+    os.symlink("real.urdf", "link.urdf")
+    assert urdftool("lint", "link.urdf", "--fix", *ONLY).code == 0
+    assert os.path.islink("link.urdf")
+    assert Path(target).read_text() == UNIT
+    assert os.stat(target).st_mode & 0o777 == 0o640
+
+
+def test_a_read_only_file_is_left(write, urdftool, monkeypatch):
+    path = write("r.urdf", LONG)
+    os.chmod(path, 0o444)
+    real = os.access
+    monkeypatch.setattr(os, "access", lambda p, mode: mode != os.W_OK and real(p, mode))
+    result = urdftool("lint", path, "--fix", *ONLY)
+    assert result.code == 2
+    assert "r.urdf: is not fixed: it is read-only" in result.err
+    assert "[axis-not-unit]" in result.out, "what is not fixed is still reported"
+    assert Path(path).read_text() == LONG
+
+
+def test_a_file_that_was_changed_meanwhile_is_left(write, urdftool, monkeypatch):
+    path = write("r.urdf", LONG)
+    original = fix_run.mend
+
+    def and_change(*args, **kwargs):
+        mended = original(*args, **kwargs)
+        write("r.urdf", LONG + "\n<!-- typed in the editor -->\n")
+        return mended
+
+    monkeypatch.setattr(fix_run, "mend", and_change)
+    result = urdftool("lint", path, "--fix", *ONLY)
+    assert result.code == 2
+    assert "was changed meanwhile" in result.err
+    assert "typed in the editor" in Path(path).read_text()
+
+
+def test_interrupted_between_two_files_neither_is_changed(write, monkeypatch):
+    names = [write("a.xacro", "one"), write("b.xacro", "two")]
+    calls = []
+
+    def second_is_interrupted(path, data):
+        calls.append(path)
+        if len(calls) == 2:
+            raise KeyboardInterrupt
+        original(path, data)
+
+    original = output.write_file
+    monkeypatch.setattr(output, "write_file", second_is_interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        lint_fix.rewrite(
+            dict.fromkeys(names, b"one") | {names[1]: b"two"}, dict.fromkeys(names, b"x")
+        )
+    assert [Path(name).read_text() for name in names] == ["one", "two"]
+    assert sorted(os.listdir(".")) == ["a.xacro", "b.xacro"]
+
+
+def test_a_macro_is_edited_where_all_its_expansions_agree(write, urdftool):
+    path = write("r.urdf.xacro", wheels("0 0 2"))
+    assert urdftool("lint", path, "--fix", *ONLY).code == 0
+    assert Path(path).read_text() == wheels("0 0 1")
+
+
+def test_what_an_expression_computes_is_not_overwritten(write, urdftool):
+    path = write("r.urdf.xacro", wheels("${axis}"))
+    result = urdftool("-v", "lint", path, "--fix", *ONLY)
+    assert result.code == 1
+    assert Path(path).read_text() == wheels("${axis}")
+    assert "is not fixed [axis-not-unit]" in result.err
+
+
+DISAGREE = """<xacro:macro name="rod" params="name length">
+  <link name="${name}">
+    <visual>
+      <geometry>
+        <cylinder radius="0.02" length="${length}"/>
+      </geometry>
+    </visual>
+  </link>
+  <joint name="${name}_joint" type="fixed">
+    <parent link="base"/>
+    <child link="${name}"/>
+  </joint>
+</xacro:macro>
+<link name="base"/>
+<xacro:rod name="left" length="0.2"/>
+<xacro:rod name="right" length="RIGHT"/>
+"""
+
+
+@pytest.mark.parametrize(("right", "agree"), [("0.2", True), ("0.3", False)])
+def test_a_macro_is_not_edited_where_its_expansions_differ(write, urdftool, right, agree):
+    text = XACRO.format(DISAGREE.replace("RIGHT", right))
+    path = write("r.urdf.xacro", text)
+    words = ("--fix", "--unsafe-fixes", "--select", "missing-inertial", "--no-cache")
+    result = urdftool("-v", "lint", path, *words)
+    assert (Path(path).read_text() != text) is agree
+    assert ("in a way" in result.err or "in this way" in result.err) is not agree
+
+
+def test_an_expansion_that_a_comment_excuses_keeps_the_macro_as_it_is(write, urdftool):
+    excuse = '<!-- urdftool-ignore[axis-not-unit] it is so -->\n<xacro:wheel name="right"'
+    text = wheels("0 0 2").replace('<xacro:wheel name="right"', excuse)
+    path = write("r.urdf.xacro", text)
+    urdftool("lint", path, "--fix", *ONLY)
+    assert Path(path).read_text() == text
+
+
+def test_a_file_that_two_descriptions_include_is_edited_once(write, urdftool):
+    write(
+        "wheel.xacro", XACRO.format(WHEEL.replace("AXIS", "0 0 2").split('<link name="base"/>')[0])
+    )
+    body = '<xacro:include filename="wheel.xacro"/>\n<link name="base"/>\n'
+    body += '<xacro:wheel name="left" axis=""/>'
+    paths = [write(f"{name}.urdf.xacro", XACRO.format(body)) for name in "ab"]
+    before = [Path(path).read_text() for path in paths]
+    result = urdftool("lint", *paths, "--fix", *ONLY)
+    assert result.code == 0
+    assert "Fixed 1 in 1 file" in result.err
+    assert Path("wheel.xacro").read_text().count('xyz="0 0 1"') == 1
+    assert [Path(path).read_text() for path in paths] == before
+    write("wheel.xacro", Path("wheel.xacro").read_text().replace("0 0 1", "0 0 2"))
+    assert urdftool("lint", *paths, "--diff", *ONLY).out.count("+++ ") == 1
+
+
+def test_a_file_of_another_package_is_not_edited(write, urdftool):
+    text = XACRO.format(WHEEL.replace("AXIS", "0 0 2").split('<link name="base"/>')[0])
+    there = write("other/urdf/wheel.xacro", text)
+    write("other/package.xml", "<package><name>other</name></package>")
+    write("own/package.xml", "<package><name>own</name></package>")
+    body = '<xacro:include filename="$(find other)/urdf/wheel.xacro"/>\n<link name="base"/>\n'
+    body += '<xacro:wheel name="left" axis=""/>'
+    path = write("own/urdf/r.urdf.xacro", XACRO.format(body))
+    result = urdftool("lint", path, "--fix", *ONLY, "-p", "other=other")
+    assert result.code == 1
+    assert Path(there).read_text() == text
+    assert "1 fix is not made in other/urdf/wheel.xacro, outside of own" in result.err
+
+
+def test_a_fix_that_makes_things_worse_is_taken_back_and_said(write, urdftool, monkeypatch):
+    from urdftool.rules.fixes import joint
+    from urdftool.rules.fixes.proposal import put, safe
+
+    def wrong(problem, around):
+        return safe("break it", put(problem.subject.axis.element, "xyz", "0 0"))
+
+    monkeypatch.setattr(joint, "axis_not_unit", wrong)
+    path = write("r.urdf", LONG)
+    result = urdftool("lint", path, "--fix", "--no-cache")
+    assert Path(path).read_text() == LONG
+    assert "the fix of axis-not-unit would make things worse and is not made" in result.err
+
+
+def test_a_fix_that_breaks_is_a_bug_of_ours(write, urdftool, monkeypatch):
+    from urdftool.rules.fixes import joint
+
+    def broken(problem, around):
+        raise ZeroDivisionError("no axis")
+
+    monkeypatch.setattr(joint, "axis_not_unit", broken)
+    path = write("r.urdf", ROBOT.format(axis="0 0 2", dynamics="\n    <dynamics/>"))
+    result = urdftool("lint", path, "--fix", "--no-cache")
+    assert result.code == 3
+    assert "axis-not-unit" in result.err
+    assert "Traceback" not in result.err
+    assert "<dynamics/>" not in Path(path).read_text(), "the other fixes are made"
+
+
+def test_what_cannot_be_read_is_mended_until_it_can(write, urdftool):
+    text = "<!-- a -- b -->\n" + LONG.replace("<link", "<!-- c -- d -->\n  <link", 1)
+    path = write("r.urdf", text)
+    assert urdftool("lint", path, "--fix", "--no-cache").code == 0
+    mended = Path(path).read_text()
+    assert mended.startswith('<?xml version="1.0"?>\n<!-- a - - b -->\n<robot')
+    assert '<axis xyz="0 0 1"/>' in mended
+
+
+def test_json_says_what_would_be_written_where(write, urdftool):
+    path = write("r.urdf", LONG)
+    found = json.loads(urdftool("lint", path, "--format", "json", *ONLY).out)
+    (finding,) = found["findings"]
+    assert finding["fix"] == {
+        "applicability": "safe",
+        "message": 'write xyz="0 0 1"',
+        "edits": [
+            {
+                "path": "r.urdf",
+                "start": {"line": 8, "column": 16},
+                "end": {"line": 8, "column": 21},
+                "replacement": "0 0 1",
+            }
+        ],
+    }
+
+
+def test_the_report_for_people_says_how_to_apply_it(write, urdftool):
+    path = write("r.urdf", LONG)
+    assert '= fix: write xyz="0 0 1" (--fix)\n' in urdftool("lint", path, *ONLY).out
+    assert "axis-not-unit (fix: safe)" in urdftool("lint", path, *ONLY, "--statistics").out
+    assert "Fix: safe (--fix)" in urdftool("lint", "--explain", "axis-not-unit").out
+    assert "[fix: safe or unsafe]" in urdftool("lint", "--list-rules").out
