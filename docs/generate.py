@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
+from difflib import unified_diff
 from pathlib import Path
 
 import click
@@ -24,6 +25,7 @@ from urdftool import cli
 from urdftool.finding import Severity
 from urdftool.report.rule_pages import facts
 from urdftool.rules import RULES, all_rules, get_rule
+from urdftool.rules.fix_table import FIXABLE
 from urdftool.rules.rule import TARGETS, Rule
 
 DOCS = Path(__file__).resolve().parent
@@ -56,11 +58,26 @@ def rule_page(rule: Rule) -> str:
                 text = path.read_text("utf-8", "replace").rstrip()
                 parts.append(f"## {title}\n\n```xml\n{text}\n```")
                 break
+    if rule.name in FIXABLE:
+        parts.append(fix_shown(rule.name))
     parts.append(
         f"Silence it where it is meant: `<!-- urdftool-ignore[{rule.name}] reason -->` "
         "on the line or before the element."
     )
     return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def fix_shown(rule: str) -> str:
+    """What the fix of a rule makes of a fixture, as a diff."""
+    option = "--fix" if FIXABLE[rule] == "safe" else "--fix --unsafe-fixes"
+    for fixed in sorted((FIXTURES / rule).glob("fixed*")):
+        bad = fixed.with_name(fixed.name.replace("fixed", "bad", 1))
+        old, new = (path.read_text("utf-8", "replace").splitlines() for path in (bad, fixed))
+        lines = list(unified_diff(old, new, bad.name, bad.name, n=2, lineterm=""))
+        text = "\n".join(line.rstrip() for line in lines)
+        how = f"`urdftool lint {option}`, which is {FIXABLE[rule]}:"
+        return f"## Fixed\n\n{how}\n\n```diff\n{text}\n```"
+    return ""
 
 
 def _markdown(text: str) -> str:
@@ -75,12 +92,13 @@ def rule_index() -> str:
         names = [name for group in RULES[family].values() for name in group]
         if not names:
             continue
-        lines += ["", f"## {family}", "", "| rule | severity | what it says |", "|---|---|---|"]
+        lines += ["", f"## {family}", "", "| rule | severity | what it says | fix |", "|---|---|---|---|"]
         for name in names:
             rule = get_rule(name)
             off = "" if rule.default else " *(off)*"
             fact = _markdown(rule.fact).replace("|", "\\|")
-            lines.append(f"| [{name}]({name}.md) | {rule.severity.label} | {fact}{off} |")
+            fix = FIXABLE.get(name, "")
+            lines.append(f"| [{name}]({name}.md) | {rule.severity.label} | {fact}{off} | {fix} |")
     lines += ["", "## By target", ""]
     lines.append(
         "What is on only for a target, or matters more for it; all others hold everywhere."
