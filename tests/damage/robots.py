@@ -36,7 +36,7 @@ EXAMPLES = (
     "xarm_description/urdf/xarm7.urdf",
     "z1_description/urdf/z1.urdf",
 )
-SHORT = ("laikago_toes_zup", "panda", "solo12", "ur5_robot")
+SHORT = ("laikago_toes_zup", "z1")
 """Those of the short form."""
 
 

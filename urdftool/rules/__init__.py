@@ -314,6 +314,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "simulation": {
         "stability": ("mass-ratio",),
+        "spawn": ("stiff-joint-damping", "below-ground-at-spawn"),
         "readers": (
             "pybullet-ignores-inertia",
             "mujoco-welds-root",
@@ -331,6 +332,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "end-effector-group",
             "missing-acceleration-limits",
         ),
+        "adjacent": ("adjacent-pair-not-disabled",),
     },
     "name": {
         "spelling": (
@@ -351,6 +353,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "lint": {
         "suppressions": ("unused-suppression", "unknown-rule"),
+        "analysis": ("analysis-incomplete",),
         "comments": ("suppression-without-reason", "blanket-suppression"),
     },
 }
@@ -361,6 +364,7 @@ ONLY_WITH: dict[str, tuple[str, ...]] = {
     "xacro.expansion": (),
     "package.resolution": ("mesh",),
     "lint.suppressions": (),
+    "lint.analysis": ("mesh",),
     "joint.mimic": ("mimic", "joint"),
     "joint.safety": ("safety_controller",),
     "visual.materials": ("material",),

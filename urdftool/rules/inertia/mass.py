@@ -96,7 +96,7 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
             severity, so = ERROR, "Gazebo leaves it out, with all that hangs on it"
         elif alone and moved and "mujoco" in targets:
             severity, so = ERROR, "MuJoCo rejects it"
-        elif link.collisions and (alone or moved):
+        elif link.collisions and alone and joint is not None:
             severity, so = ERROR, "write what it weighs"
         elif alone and moved:
             severity, so = WARNING, "write what it weighs"

@@ -163,7 +163,7 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
         if use.path is None or not use.exists or use.path in told:
             continue
         told.add(use.path)
-        wrong = _what_is_wrong(use.path)
+        wrong = what_is_wrong(use.path)
         if wrong:
             yield Problem(
                 use.link,
@@ -172,7 +172,8 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
             )
 
 
-def _what_is_wrong(path: Path) -> str:
+def what_is_wrong(path: Path) -> str:
+    """What keeps a file from being a mesh, to be read after its name; empty where nothing does."""
     try:
         if path.suffix.lower() != ".stl":
             with open(path, "rb") as file:

@@ -1,0 +1,43 @@
+"""Neighbours that touch and are not let touch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ...source.description import Description
+from ..collision.pieces import pieces
+from ..rule import WARNING, Problem, rule
+from .semantic import semantics
+
+
+@rule(WARNING, on=("moveit",), effects={"moveit": "the start state is in collision"})
+def adjacent_pair_not_disabled(robot: Robot, description: Description) -> Iterator[Problem]:
+    """Two neighbours touch, and the SRDF does not say that they may.
+
+    Links that a joint joins overlap there. MoveIt checks every pair that is not named in a
+    ``<disable_collisions>``, finds the robot in collision before it has moved, and plans nothing.
+    """
+    for document in semantics(robot, description):
+        disabled = {
+            frozenset((element.get("link1", ""), element.get("link2", "")))
+            for element in document.root.walk()
+            if element.tag == "disable_collisions"
+        }
+        known = pieces(robot)
+        for joint in robot.joints:
+            one, other = (known.body_of.get(n, n) for n in (joint.parent, joint.child))
+            if one == other or one not in known.bodies or other not in known.bodies:
+                continue
+            deepest = known.deepest(other, one)
+            if deepest is None:
+                continue
+            link, above, _ = deepest
+            if frozenset((link.name, above.name)) not in disabled:
+                yield Problem(
+                    joint,
+                    f"links '{above.name}' and '{link.name}' touch at joint '{joint.name}', and "
+                    f"the SRDF checks them for collisions; write <disable_collisions "
+                    f'link1="{above.name}" link2="{link.name}" reason="Adjacent"/>',
+                    at=document.root,
+                )
