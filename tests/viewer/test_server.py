@@ -31,6 +31,7 @@ def test_the_page_has_our_title_and_may_fetch_nothing(page):
     status, headers, text = get(page)
     assert status == 200
     assert "<title>&lt;/title&gt;&lt;b&gt;robot&lt;/b&gt;</title>" in text
+    assert "wait === 50 ? 16 : wait" in text
     policy = headers["Content-Security-Policy"]
     assert policy.startswith("default-src 'self' data: blob:")
     assert f"ws://127.0.0.1:{page}" in policy
