@@ -34,7 +34,9 @@ BELOW = {
     ),
     "formats": ("finding", "model", "source", "meshes", "inertia", "output", "errors"),
     "graph": ("finding", "model", "source", "errors"),
-    "simulation": ("formats", "finding", "meshes", "inertia", "model", "source", "errors"),
+    "simulation": (
+        *("drawing", "formats", "finding", "meshes", "inertia", "model", "source", "errors"),
+    ),
     "report": (
         *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),
         *("collision", "simulation", "inertia", "errors"),

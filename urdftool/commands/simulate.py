@@ -53,11 +53,14 @@ def command(
     from .simulate_control import controlled
     from .simulate_one import simulate_one
     from .simulate_options import settings_of
+    from .simulate_outputs import Outputs
 
     engines = ENGINES[values["engine"]]
+    outputs = Outputs(values["plot"], values["picture"], values["video"])
+    outputs.check()
     check_engines(engines)
     settings = settings_of(values)
     path, arguments = robot
     model = read_lax(console, path, arguments, package, package_path)
     settings = controlled(console, settings, model, values["controllers"])
-    return simulate_one(console, model, settings, engines, style=style)
+    return simulate_one(console, model, settings, engines, style=style, outputs=outputs)

@@ -23,6 +23,13 @@ _OPTIONS = (
         help="Drive the joints as the controllers of this ros_control or ros2_control file do, "
         "told to hold the pose.",
     ),
+    click.option(
+        "--plot",
+        metavar="FILE.png",
+        help="Draw height, tilt, kinetic energy, joints and their efforts over time.",
+    ),
+    click.option("--picture", metavar="FILE.png", help="Draw the robot where it came to rest."),
+    click.option("--video", metavar="FILE.gif", help="Draw it on its way there."),
 )
 
 

@@ -12,6 +12,7 @@ from .simulate_options import Progress
 if TYPE_CHECKING:
     from ..model.elements import Robot
     from ..simulation.settings import Settings
+    from .simulate_outputs import Outputs
 
 
 def simulate_one(
@@ -21,6 +22,7 @@ def simulate_one(
     engines: tuple[str, ...],
     *,
     style: str,
+    outputs: Outputs,
 ) -> int:
     """Simulate a robot in one engine or two, and say how it went; the exit code.
 
@@ -30,6 +32,7 @@ def simulate_one(
         settings: How it is spawned.
         engines: Modules of ``simulation``; two are compared.
         style: ``text`` or ``json``.
+        outputs: What is drawn of the first trial.
 
     Raises:
         UrdftoolError: It cannot be simulated.
@@ -38,6 +41,7 @@ def simulate_one(
     from ..simulation.run import simulate
     from ..simulation.verdict import judge
 
+    outputs.read(console, robot)
     runs = []
     for engine in engines:
         with Progress(console) as progress:
@@ -50,4 +54,5 @@ def simulate_one(
     else:
         for some in verdicts:
             click.echo(report.text(robot, some, colors=console.colors()), nl=False)
+    outputs.write(console, robot, [some[0] for some in runs])
     return 0 if stands else 1

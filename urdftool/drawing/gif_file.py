@@ -1,0 +1,41 @@
+"""Pictures one after the other as the bytes of a GIF file."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+
+import numpy as np
+
+from .png_file import Image
+
+_SEEN = 12  # pictures from which the palette is made
+_COLORS = 255  # one is left for what does not change
+
+
+def gif(frames: Sequence[Image], seconds: Sequence[float]) -> bytes:
+    """A film that starts again when it is over, in one palette.
+
+    Args:
+        frames: At least one, all of one size.
+        seconds: How long each is shown; a GIF counts in hundredths.
+    """
+    from PIL import Image as Pillow
+
+    pictures = [Pillow.fromarray(frame) for frame in frames]
+    some = frames[:: max(1, len(frames) // _SEEN)]
+    together = Pillow.fromarray(np.concatenate([frame[::2, ::2] for frame in some]))
+    palette = together.quantize(_COLORS, method=Pillow.Quantize.MEDIANCUT)
+    flat = [picture.quantize(palette=palette, dither=Pillow.Dither.NONE) for picture in pictures]
+    out = io.BytesIO()
+    flat[0].save(
+        out,
+        format="GIF",
+        save_all=True,
+        append_images=flat[1:],
+        duration=[max(20, round(100 * time) * 10) for time in seconds],
+        loop=0,
+        disposal=1,
+        optimize=False,
+    )
+    return out.getvalue()

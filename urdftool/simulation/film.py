@@ -1,0 +1,157 @@
+"""A run to look at: the robot where an engine measured it, once or many times."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from ..drawing.camera import Camera, View
+from ..drawing.gif_file import gif
+from ..drawing.picture import SIZE, draw
+from ..drawing.png_file import Image
+from ..drawing.raster import Indices
+from ..drawing.shapes import Shapes
+from ..model.pose import Pose, rotation_of_quaternion
+from .recording import Array, Recording
+from .run import Run
+
+FILM = (480, 360)
+"""Width and height of a film in pixels."""
+
+RATE = 20.0
+"""Pictures a second, of a film that is not too long."""
+
+MOST = 240
+"""Pictures of a film; a longer run has fewer a second."""
+
+_STILL = 2e-4  # of the robot's size, or rad: a smaller change is not drawn anew
+_HOLD = 1.0  # s that the last picture stays
+_AWAY = 3.0  # sizes from the start, beyond which the camera does not follow
+
+Progress = Callable[[int, int], None]
+
+
+def link_poses(run: Run, poses: Array) -> dict[str, Pose]:
+    """Where each link is in the world.
+
+    Args:
+        run: A run.
+        poses: Of its bodies, shape (b, 7), as in ``Recording``.
+    """
+    found = {}
+    for body, row in zip(run.bodies.bodies, poses, strict=True):
+        x, y, z, qx, qy, qz, qw = row.tolist()
+        pose = Pose(rotation_of_quaternion((qw, qx, qy, qz)), (x, y, z))
+        for link, place in body.places.items():
+            found[link] = pose @ place
+    return found
+
+
+def settled_picture(
+    run: Run, shapes: Shapes, *, camera: Camera | None = None, size: tuple[int, int] = SIZE
+) -> Image:
+    """The robot on the plane where a run ended.
+
+    Args:
+        run: A run.
+        shapes: Of its robot.
+        camera: Where the picture is taken from.
+        size: Width and height in pixels.
+    """
+    last = run.recording.poses[_sane(run.recording)[-1]]
+    return draw(shapes, link_poses(run, last), camera=camera, size=size, ground=_floor(run, last))
+
+
+def film(
+    run: Run,
+    shapes: Shapes,
+    *,
+    camera: Camera | None = None,
+    size: tuple[int, int] = FILM,
+    progress: Progress = lambda *_: None,
+) -> bytes:
+    """A run as a GIF, from a camera that stands still.
+
+    Args:
+        run: A run.
+        shapes: Of its robot.
+        camera: Where it is taken from.
+        size: Width and height in pixels.
+        progress: Told of each picture: its number, how many.
+    """
+    view = _view(run, shapes, camera or Camera(), size)
+    frames: list[Image] = []
+    seconds: list[float] = []
+    drawn: Array | None = None
+    moments = list(_moments(run.recording))
+    for number, (poses, time) in enumerate(moments, 1):
+        progress(number, len(moments))
+        if drawn is not None and _alike(run, poses, drawn):
+            seconds[-1] += time
+            continue
+        drawn = poses
+        frames.append(draw(shapes, link_poses(run, poses), camera=view, ground=_floor(run, poses)))
+        seconds.append(time)
+    seconds[-1] += _HOLD
+    return gif(frames, seconds)
+
+
+def _sane(recording: Recording) -> Indices:
+    """The rows whose poses are numbers."""
+    rows: Indices = np.flatnonzero(np.isfinite(recording.poses).all(axis=(1, 2)))
+    return rows
+
+
+def _floor(run: Run, poses: Array) -> float | bool:
+    """The plane, but where the robot is under it all the same."""
+    reach = max(run.bodies.size, 0.1)
+    return False if float(poses[:, 2].max()) < -reach else 0.0
+
+
+def _moments(recording: Recording) -> Iterator[tuple[Array, float]]:
+    """Poses of the bodies at even steps of time, and how long each is shown [s]."""
+    rows = _sane(recording)
+    times = recording.times[rows]
+    length = float(times[-1])
+    step = max(1 / RATE, math.ceil(100 * length / MOST) / 100)
+    for number in range(int(length / step + 1e-6) + 1):
+        time = number * step
+        after = min(int(np.searchsorted(times, time)), len(rows) - 1)
+        before = max(0, after - 1)
+        one, two = recording.poses[rows[before]], recording.poses[rows[after]]
+        gap = float(times[after] - times[before])
+        part = (time - float(times[before])) / gap if gap > 0 else 1.0
+        yield _between(one, two, part), step
+
+
+def _between(one: Array, two: Array, part: float) -> Array:
+    """Poses between two others that are close to each other."""
+    turns = np.where((one[:, 3:] * two[:, 3:]).sum(axis=1, keepdims=True) < 0, -1.0, 1.0)
+    poses = one * (1 - part)
+    poses[:, :3] += part * two[:, :3]
+    poses[:, 3:] += part * turns * two[:, 3:]
+    poses[:, 3:] /= np.linalg.norm(poses[:, 3:], axis=1, keepdims=True)
+    return poses
+
+
+def _alike(run: Run, one: Array, two: Array) -> bool:
+    moved = float(np.abs(one[:, :3] - two[:, :3]).max()) / max(run.bodies.size, 1e-3)
+    turned = float(np.abs(np.abs((one[:, 3:] * two[:, 3:]).sum(axis=1)) - 1).max())
+    return moved < _STILL and turned < _STILL**2
+
+
+def _view(run: Run, shapes: Shapes, camera: Camera, size: tuple[int, int]) -> View:
+    """A camera that has the whole run in its sight, as far as the robot stays near."""
+    recording = run.recording
+    rows = _sane(recording)
+    apart = np.linalg.norm(recording.poses[rows, 0, :3] - recording.poses[0, 0, :3], axis=1)
+    near = rows[apart < _AWAY * max(run.bodies.size, 0.1)]
+    some = near[np.unique(np.linspace(0, len(near) - 1, 9).astype(int))]
+    boxes = []
+    for row in some:
+        corners, _, there = shapes.posed(link_poses(run, recording.poses[row]))
+        boxes.append(corners[there].reshape(-1, 3))
+    points = np.concatenate(boxes)
+    return camera.view(points, size)
