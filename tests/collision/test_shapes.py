@@ -117,7 +117,7 @@ def test_a_bracket_is_cut_in_two():
 
 
 def test_coacd_that_dies_is_replaced_and_said(monkeypatch):
-    from urdftool.collision import choose as module
+    from urdftool.collision import cut as module
     from urdftool.collision.decompose import DecompositionError
 
     def dies(*_, **__):

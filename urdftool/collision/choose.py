@@ -1,7 +1,8 @@
 """The methods, and ``auto``: the cheapest geometry whose error is small enough.
 
 Cheapest is what engines pay: primitives before hulls, few hulls before many, few vertices before
-many. A concave mesh comes last, since most engines take the hull of it.
+many. A concave mesh is never among what ``auto`` takes: of a body that moves PyBullet and MuJoCo
+touch its hull, which is measured already.
 """
 
 from __future__ import annotations
@@ -14,28 +15,25 @@ import numpy as np
 from ..errors import MeshError
 from ..meshes.solid import body_labels, edges_of
 from .convex import capped_hull, thickened
-from .decompose import DecompositionError, decompose
+from .cut import Cutter
+from .decompose import DecompositionError
 from .measure import Measures, Target, measure
 from .piece import PRIMITIVES, Piece, mesh_piece
 from .primitives import fit_primitives, signed_distance
 from .quadric import simplify
 from .settings import FEW_HULLS, Settings
-from .surface import Prepared
+from .surface import Prepared, flat_labels
 
-LADDER = (0.2, 0.08, 0.04)
-"""CoACD's thresholds that ``auto`` tries, coarse ones first; each takes several times as long."""
+LADDER = (3.0, 1.0)
+"""Distances that ``auto`` has CoACD cut to, in parts of the error, coarse ones first: often few
+pieces are near enough, and each step takes several times as long."""
 
 PLATE = 0.002
 """Thickness, relative to its size, that a flat mesh is given."""
 
-TRIMMED = (0.005, 0.008)
-"""Distances, relative to the size, that vertices of CoACD's pieces may be left out: the second
-where the first leaves more than ``MANY`` triangles."""
-
-MANY = 1000
-
 _MEASURED = 3  # primitives that are measured: those that fit best
 _SHARE = 0.3  # part of the error that leaving out vertices of a hull may take
+_SLACK = 1.4  # by which CoACD's own pieces exceed their threshold often
 _COARSER = 3.0
 _SIMPLER = 0.05  # part of the mean distance by which a dearer primitive has to be better
 
@@ -73,7 +71,7 @@ def choose(surface: Prepared, settings: Settings) -> Choice:
         best = min(found, key=lambda choice: (choice.measures.error, choice.measures.mean))
         return Choice(best.method, best.pieces, best.measures, tuple(notes))
     tried: list[Choice] = []
-    for step in (_primitives, _hulls, _bodies, _ladder, _simplified):
+    for step in (_primitives, _hulls, _bodies, _sheets, _ladder):
         fits = []
         for choice in step(target, settings, notes):
             tried.append(choice)
@@ -84,7 +82,7 @@ def choose(surface: Prepared, settings: Settings) -> Choice:
         if fits:
             best = min(fits, key=_dearness)
             return Choice(best.method, best.pieces, best.measures, tuple(notes))
-    best = min(tried, key=_regret)
+    best = min(tried, key=lambda choice: choice.measures.error)
     return Choice(best.method, best.pieces, best.measures, tuple(notes))
 
 
@@ -93,11 +91,6 @@ def _dearness(choice: Choice) -> float:
     kind = choice.pieces[0].kind
     rank = PRIMITIVES.index(kind) if kind in PRIMITIVES else 0
     return choice.measures.mean * (1 + _SIMPLER * rank)
-
-
-def _regret(choice: Choice) -> float:
-    """The error where none is small enough; a concave mesh has to be better by a quarter."""
-    return choice.measures.error * (1.25 if choice.method == "simplify" else 1.0)
 
 
 def _is_flat(surface: Prepared) -> bool:
@@ -167,65 +160,62 @@ def _bodies(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
         yield Choice("hull", pieces, measure(target, pieces))
 
 
+def _sheets(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
+    """A plate for each flat side of an open mesh, where there are not too many."""
+    surface = target.surface
+    if surface.closed:
+        return
+    labels = flat_labels(surface)
+    if int(labels.max()) + 1 > (settings.max_hulls or FEW_HULLS):
+        return
+    try:
+        pieces = []
+        for label in range(int(labels.max()) + 1):
+            points = surface.vertices[np.unique(surface.faces[labels == label])]
+            plate = thickened(points, PLATE * surface.size)
+            pieces.append(mesh_piece(*capped_hull(plate, settings.max_vertices)))
+    except MeshError:  # a sliver
+        return
+    yield Choice("hull", pieces, measure(target, pieces))
+
+
 def _ladder(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
     """CoACD, finer and finer, until more pieces are not allowed."""
-    tolerance = _SHARE * settings.max_error * target.size
-    for threshold in LADDER:
-        if threshold < 1.5 * settings.max_error:
-            return
+    cutter = Cutter(target, settings)
+    wanted = settings.max_error * target.size
+    for factor in LADDER:
         try:
-            pieces = _cut(target, settings, threshold, tolerance)
+            made = cutter.cut(factor * wanted, wanted, last=factor == LADDER[-1])
         except DecompositionError as error:
-            notes.append(f"{error.message}, at a threshold of {threshold:g}; it was left out.")
+            notes.append(f"{error.message}, at {factor:g} times the error; it was left out.")
             return
-        if len(pieces) > (settings.max_hulls or FEW_HULLS):
-            return
-        yield Choice("coacd", pieces, measure(target, pieces))
+        if made is not None and len(made[0]) <= (settings.max_hulls or FEW_HULLS):
+            yield Choice("coacd", *made)
 
 
 def _coacd(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
     """CoACD at its threshold; coarser where it fails, and one hull where that fails, too."""
+    cutter = Cutter(target, settings, most=settings.max_hulls)
     for threshold in (settings.threshold, settings.threshold * _COARSER):
+        wanted = threshold * target.longest / 2
         try:
-            pieces = _cut(target, settings, threshold, TRIMMED[0] * target.size)
+            made = cutter.cut(wanted, _SLACK * wanted)
         except DecompositionError as error:
             notes.append(f"{error.message}, at a threshold of {threshold:g}.")
             continue
-        if sum(len(piece.faces) for piece in pieces) > MANY:
-            pieces = [_trimmed(piece, settings, TRIMMED[1] * target.size) for piece in pieces]
-        yield Choice("coacd", pieces, measure(target, pieces))
+        assert made is not None
+        yield Choice("coacd", *made)
         return
     notes.append("One convex hull was taken instead.")
     yield from _hulls(target, settings, notes)
 
 
-def _trimmed(piece: Piece, settings: Settings, tolerance: float) -> Piece:
-    return mesh_piece(*capped_hull(piece.vertices, settings.max_vertices, tolerance))
-
-
-def _cut(target: Target, settings: Settings, threshold: float, tolerance: float) -> list[Piece]:
-    # merged down to a number they are far worse than coarser ones, and it takes long
-    most = None if settings.method == "auto" else settings.max_hulls
-    return decompose(
-        target.surface,
-        threshold,
-        max_hulls=most or -1,
-        max_vertices=settings.max_vertices,
-        time_limit=settings.time_limit,
-        tolerance=tolerance,
-    )
-
-
 def _simplified(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
-    """Fewer triangles; under ``auto`` a quarter of what is allowed first."""
+    """Fewer triangles."""
     surface = target.surface
-    counts = [settings.max_triangles]
-    if settings.method == "auto":
-        counts = [settings.max_triangles // 4, settings.max_triangles]
-    for count in counts:
-        vertices, faces = simplify(surface.vertices, surface.faces, count)
-        pieces = [mesh_piece(vertices, faces, convex=False)]
-        yield Choice("simplify", pieces, measure(target, pieces))
+    vertices, faces = simplify(surface.vertices, surface.faces, settings.max_triangles)
+    pieces = [mesh_piece(vertices, faces, convex=False)]
+    yield Choice("simplify", pieces, measure(target, pieces))
 
 
 _METHODS: dict[str, Callable[[Target, Settings, list[str]], Iterator[Choice]]] = {

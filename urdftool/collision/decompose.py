@@ -2,6 +2,8 @@
 
 CoACD's time grows fast with the number of triangles, and its pieces have as many as the cuts left
 them with. So the mesh is simplified first, and each piece is a hull of few vertices afterwards.
+What is not one closed body, CoACD would give a surface of tens of thousands of triangles; here that
+surface is made first (``remesh``), and simplified like any other.
 """
 
 from __future__ import annotations
@@ -22,10 +24,14 @@ from ..meshes.solid import body_labels, edges_of
 from .convex import capped_hull
 from .piece import Piece, mesh_piece
 from .quadric import simplify
+from .remesh import common, remesh
 from .surface import Prepared, prepare
 
 TRIANGLES = 1500
 """Triangles that a mesh has at most when it is cut."""
+
+PART_TRIANGLES = 600
+"""Triangles that a piece has at most when it is cut again."""
 
 _SLOWEST = 4.0  # share of a processor that a child may be left with before the watch ends it
 
@@ -34,19 +40,27 @@ class DecompositionError(UrdftoolError):
     """CoACD ended without a result."""
 
 
+def solid_of(surface: Prepared) -> Prepared:
+    """A closed surface of few triangles near to a mesh, which CoACD takes as it is."""
+    vertices, faces = surface.vertices, surface.faces
+    if not _is_one_body(surface):
+        vertices, faces = remesh(surface.corners)
+    return prepare(*simplify(vertices, faces, TRIANGLES)) or surface
+
+
 def decompose(
-    surface: Prepared,
+    solid: Prepared,
     threshold: float,
     *,
-    max_hulls: int,
+    max_hulls: int = -1,
     max_vertices: int,
     time_limit: float,
     tolerance: float = 0.0,
 ) -> list[Piece]:
-    """Convex pieces that together are near to a surface.
+    """Convex pieces that together are near to a solid.
 
     Args:
-        surface: The mesh.
+        solid: From :func:`solid_of`.
         threshold: Concavity at which CoACD stops to cut, relative to half the longest side.
         max_hulls: Pieces it may make; -1 is any number.
         max_vertices: Vertices each may have.
@@ -57,10 +71,6 @@ def decompose(
         DecompositionError: It died, took too long, or gave nothing.
         MissingDependency: coacd is not installed.
     """
-    vertices, faces = simplify(surface.vertices, surface.faces, TRIANGLES)
-    made = prepare(vertices, faces)
-    if made is not None:
-        vertices, faces = made.vertices, made.faces
     options = {
         "threshold": float(np.clip(threshold, 0.01, 1.0)),
         "max_convex_hull": max_hulls,
@@ -68,20 +78,45 @@ def decompose(
         "mcts_nodes": 10,
         "mcts_max_depth": 1,
         "resolution": 500,
-        # a closed body needs no remeshing, which takes long and makes it fatter
-        "preprocess_mode": "off" if _is_one_body(made) else "auto",
-        "preprocess_resolution": 40,
+        "merge": max_hulls != -1,  # joined by what is measured, they are fewer
+        "preprocess_mode": "off",
         "seed": 0,
         "time_limit": time_limit,
     }
-    return _hulls(run_child(vertices, faces, options), max_vertices, tolerance)
+    return _hulls(run_child(solid.vertices, solid.faces, options), max_vertices, tolerance)
 
 
-def _is_one_body(surface: Prepared | None) -> bool:
-    if surface is None or not surface.closed:
+def divided(
+    solid: Prepared, piece: Piece, distance: float, *, max_vertices: int, time_limit: float
+) -> list[Piece]:
+    """Smaller pieces in the place of one that is too far from the solid.
+
+    Args:
+        solid: What was cut.
+        piece: A piece of it.
+        distance: How far from it the new pieces may be [m].
+        max_vertices: Vertices each may have.
+        time_limit: Processor time [s] it may take.
+
+    Raises:
+        DecompositionError: It died, took too long, or gave nothing.
+    """
+    part = common(solid.corners, piece.vertices, piece.faces)
+    if part is None:
+        return []
+    made = prepare(*simplify(*part, PART_TRIANGLES))
+    if made is None:
+        return []
+    longest = float(np.ptp(made.vertices, axis=0).max())
+    return decompose(made, 2 * distance / longest, max_vertices=max_vertices, time_limit=time_limit)
+
+
+def _is_one_body(surface: Prepared) -> bool:
+    if not surface.closed:
         return False
-    labels = body_labels(len(surface.faces), edges_of(surface.faces))
-    return int(labels.max()) == 0
+    edges = edges_of(surface.faces)
+    twice = bool((edges.forward == 1).all() and (edges.backward == 1).all())
+    return twice and int(body_labels(len(surface.faces), edges).max()) == 0
 
 
 def _hulls(parts: list[Points], max_vertices: int, tolerance: float) -> list[Piece]:

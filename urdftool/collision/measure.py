@@ -76,6 +76,7 @@ class Target:
         """Keep it; nothing is computed before it is asked for."""
         self.surface = surface
         self.size = surface.size
+        self.longest = float(np.ptp(surface.vertices, axis=0).max())
 
     @cached_property
     def corners(self) -> Points:
@@ -130,7 +131,7 @@ class Target:
 
 def measure(target: Target, pieces: Sequence[Piece]) -> Measures:
     """How good some pieces are for a visual."""
-    outer = [_outer(index, pieces, target) for index in range(len(pieces))]
+    outer = _outer_samples(pieces, target)
     points = np.concatenate([samples.points for samples in outer])
     collision = _surface_of(pieces, outer)
     back = target.nearest.distance(points)
@@ -157,6 +158,25 @@ def measure(target: Target, pieces: Sequence[Piece]) -> Measures:
     )
 
 
+def piece_distances(target: Target, pieces: Sequence[Piece]) -> list[float]:
+    """How far [m] each piece's outer surface is from the visual at most."""
+    outer = _outer_samples(pieces, target)
+    off = target.nearest.distance(np.concatenate([samples.points for samples in outer]))
+    parts = np.split(off, np.cumsum([len(samples) for samples in outer])[:-1])
+    return [float(part.max(initial=0.0)) for part in parts]
+
+
+def _outer_samples(pieces: Sequence[Piece], target: Target) -> list[Samples]:
+    """Points on each piece that lie in no other and can be touched, if there are any such."""
+    outer = [_outer(index, pieces, target) for index in range(len(pieces))]
+    if len(pieces) == 1:
+        return outer
+    # faces in narrow gaps between pieces are left out as those of the visual are
+    around = flood(np.concatenate([piece.corners for piece in pieces]))
+    seen = [samples.only(around.touches(samples.points)) for samples in outer]
+    return seen if any(map(len, seen)) else outer
+
+
 def _outer(index: int, pieces: Sequence[Piece], target: Target) -> Samples:
     """Points on a piece that lie in no other, and that can be touched."""
     piece = pieces[index]
@@ -164,11 +184,20 @@ def _outer(index: int, pieces: Sequence[Piece], target: Target) -> Samples:
     samples = spread(piece.corners, share)
     if piece.kind == "mesh":
         return samples.only(flood(piece.corners).touches(samples.points))
-    others = [other for other in pieces if other is not piece and other.kind != "mesh"]
+    others = _others(piece, pieces, _SEAM * target.size)
     if not others:
         return samples
     buried = depths(samples.points, others) < _SEAM * target.size
     return samples.only(~buried)
+
+
+def _others(piece: Piece, pieces: Sequence[Piece], gap: float) -> list[Piece]:
+    """The convex ones beside a piece in which points of it can lie."""
+    return [
+        other
+        for other in pieces
+        if other is not piece and other.kind != "mesh" and piece.is_near(other, gap)
+    ]
 
 
 def _surface_of(pieces: Sequence[Piece], outer: Sequence[Samples]) -> Surface:
@@ -180,7 +209,7 @@ def _surface_of(pieces: Sequence[Piece], outer: Sequence[Samples]) -> Surface:
         dense = spread(triangles, max(_DENSE // len(pieces), 800))
         alone = len(pieces) == 1
         if not alone and piece.kind != "mesh":
-            others = [other for other in pieces if other is not piece and other.kind != "mesh"]
+            others = _others(piece, pieces, 0.0)
             dense = dense.only(depths(dense.points, others) >= -1e-9) if others else dense
         corners.append(triangles)
         points += [dense.points, seen.points]
@@ -204,7 +233,7 @@ def _depth(points: Points, piece: Piece) -> Points:
     if piece.is_primitive:
         return primitives.signed_distance(piece, points)
     if piece.kind == "convex":
-        return convex.signed_distance(points, convex.planes(piece.vertices, piece.faces))
+        return convex.signed_distance(points, piece.sides)
     corners = piece.corners
     inside = np.abs(winding_numbers(points, boxes_of(corners))) > 0.5
     off = Surface(corners, spread(corners, SAMPLES)).distance(points)

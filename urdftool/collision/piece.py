@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -45,6 +46,23 @@ class Piece:
     def corners(self) -> Points:
         """The triangles of its surface [m], shape (m, 3, 3)."""
         return self.vertices[self.faces]
+
+    @cached_property
+    def sides(self) -> Points:
+        """The planes of a convex piece's faces, from :func:`.convex.planes`."""
+        from .convex import planes
+
+        return planes(self.vertices, self.faces)
+
+    @cached_property
+    def bounds(self) -> Points:
+        """The lowest and the highest corner [m] of its box, shape (2, 3)."""
+        return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+
+    def is_near(self, other: Piece, gap: float) -> bool:
+        """Whether the boxes of two pieces are at most a gap [m] apart along each axis."""
+        apart = np.maximum(self.bounds[0] - other.bounds[1], other.bounds[0] - self.bounds[1])
+        return bool((apart <= gap).all())
 
     def local(self, points: Points) -> Points:
         """Points of the mesh's frame in the primitive's own."""

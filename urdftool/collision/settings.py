@@ -24,7 +24,8 @@ class Settings:
             ``coacd``, and ``FEW_HULLS`` for ``auto``.
         max_vertices: Vertices that a convex piece may have.
         max_triangles: Triangles that ``simplify`` may leave.
-        threshold: CoACD's concavity, at which it stops to cut, for the method ``coacd``.
+        threshold: CoACD's concavity, at which it stops to cut, for the method ``coacd``: a
+            distance, relative to half the longest side.
         time_limit: Processor time [s] that one run of CoACD may take.
     """
 
@@ -33,7 +34,7 @@ class Settings:
     max_hulls: int | None = None
     max_vertices: int = 64
     max_triangles: int = 1000
-    threshold: float = 0.08
+    threshold: float = 0.06
     time_limit: float = 120.0
 
     def changed(self, table: Mapping[str, Any]) -> Settings:

@@ -7,15 +7,19 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from ..errors import MeshError
 from ..inertia.repair import drop_duplicates, orient
 from ..meshes.load import load_mesh
 from ..meshes.mesh import Faces, Points
-from ..meshes.solid import collapsed, edges_of, weld
+from ..meshes.solid import collapsed, components, edges_of, neighbours, weld
 
 SLIVER = 1e-14
 """Area of a face, relative to the square of the mesh's size, at which it is degenerate."""
+
+FLAT = 1 - 1e-6
+"""Cosine of the angle of neighbours that are one flat side."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,3 +115,14 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[str] = ()) -> Pre
     if not closed:
         said.append(f"The mesh is open ({edges.open_count} edges have an odd number of faces).")
     return Prepared(points, kept, triangles, count, closed, prepared.size, tuple(said))
+
+
+def flat_labels(surface: Prepared) -> npt.NDArray[np.int64]:
+    """For each face the number, from 0, of the flat side it belongs to."""
+    corners = surface.corners
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    unit = normals / np.where(lengths > 0, lengths, 1.0)
+    first, second = neighbours(edges_of(surface.faces))
+    same = np.abs(np.einsum("ij,ij->i", unit[first], unit[second])) > FLAT
+    return components(len(surface.faces), first[same], second[same])

@@ -1,0 +1,112 @@
+"""What is cut: the solid around any mesh, cuts within a distance, and pieces joined again."""
+
+import numpy as np
+import pytest
+
+from tests.collision.shapes import finer, l_profile, noisy
+from tests.conftest import FIXTURES
+from urdftool.collision.choose import choose
+from urdftool.collision.decompose import solid_of
+from urdftool.collision.distance import Surface, spread
+from urdftool.collision.measure import Target
+from urdftool.collision.merge import Joiner
+from urdftool.collision.piece import mesh_piece
+from urdftool.collision.remesh import Outside, common, remesh
+from urdftool.collision.settings import Settings
+from urdftool.collision.surface import prepare, read_surface
+from urdftool.collision.tessellate import primitive
+from urdftool.meshes.solid import edges_of
+
+
+def soup():
+    """Two boxes through each other, one of them without a lid, and a loose triangle."""
+    one, faces = noisy("box", (0.3, 0.2, 0.1))
+    other = primitive("box", (0.1, 0.1, 0.3), np.eye(3), (0.05, 0, 0))
+    loose = np.array([[0.2, 0.2, 0], [0.25, 0.2, 0], [0.2, 0.25, 0.0]])
+    points = np.concatenate([one, other.vertices, loose])
+    more = other.faces[2:] + len(one)
+    last = np.array([[0, 1, 2]]) + len(one) + len(other.vertices)
+    return prepare(points, np.concatenate([faces, more, last]))
+
+
+def test_what_is_made_of_any_mesh_is_closed_and_near_to_it():
+    surface = soup()
+    vertices, faces = remesh(surface.corners)
+    edges = edges_of(faces)
+    assert (edges.forward == 1).all()
+    assert (edges.backward == 1).all()
+    off = Surface(surface.corners, spread(surface.corners, 40_000)).distance(vertices)
+    assert off.max() < 0.005 * surface.size
+    corners = vertices[faces]
+    volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+    assert volume > 0
+
+
+def test_one_closed_body_is_cut_as_it_is():
+    surface = prepare(*l_profile())
+    assert (solid_of(surface).vertices == surface.vertices).all()
+
+
+def test_what_a_solid_and_a_box_have_in_common():
+    solid = primitive("box", (0.2, 0.2, 0.2), np.eye(3), (0, 0, 0))
+    other = primitive("box", (0.2, 0.2, 0.2), np.eye(3), (0.1, 0, 0))
+    vertices, _ = common(solid.corners, other.vertices, other.faces)
+    assert vertices.min(axis=0) == pytest.approx((0, -0.1, -0.1), abs=0.004)
+    assert vertices.max(axis=0) == pytest.approx((0.1, 0.1, 0.1), abs=0.004)
+    away = primitive("box", (0.1, 0.1, 0.1), np.eye(3), (1, 0, 0))
+    assert common(solid.corners, away.vertices, away.faces) is None
+
+
+def test_the_distance_outside_is_read_from_a_grid():
+    sphere = primitive("sphere", (0.1,), np.eye(3), (0, 0, 0))
+    points = np.array([[0, 0, 0], [0.05, 0, 0], [0.105, 0, 0], [0, 0, 0.103]])
+    found = Outside(sphere.corners).distance(points)
+    assert found == pytest.approx([0, 0, 0.005, 0.003], abs=0.001)
+
+
+def test_pieces_are_joined_where_their_hull_is_near_enough():
+    surface = prepare(*l_profile())
+    boxes = [
+        primitive("box", (0.05, 0.05, 0.1), np.eye(3), (0.025 + 0.05 * k, 0.025, 0.05))
+        for k in range(4)
+    ] + [
+        primitive("box", (0.05, 0.05, 0.1), np.eye(3), (0.025, 0.075 + 0.05 * k, 0.05))
+        for k in range(3)
+    ]
+    pieces = [mesh_piece(box.vertices, box.faces) for box in boxes]
+    joined = Joiner(Target(surface)).joined(pieces, 0.003)
+    assert len(joined) == 2
+    covered = np.concatenate([piece.vertices for piece in joined])
+    assert np.ptp(covered, axis=0) == pytest.approx((0.2, 0.2, 0.1))
+
+
+def test_a_shell_of_a_few_flat_sides_becomes_plates():
+    choice = choose(read_surface(FIXTURES / "meshes/open_box.stl"), Settings())
+    assert (choice.method, len(choice.pieces)) == ("hull", 5)
+    assert choice.measures.error < 0.002
+
+
+def test_auto_never_takes_a_concave_mesh(monkeypatch):
+    from urdftool.collision import cut as module
+    from urdftool.collision.decompose import DecompositionError
+
+    def dies(*_, **__):
+        raise DecompositionError("CoACD died (SIGABRT)")
+
+    monkeypatch.setattr(module, "decompose", dies)
+    choice = choose(prepare(*l_profile()), Settings())
+    assert choice.method in ("primitive", "hull")
+    assert choice.measures.error > 0.01
+    assert "CoACD died" in choice.notes[0]
+
+
+@pytest.mark.slow
+def test_cuts_keep_to_their_distance():
+    vertices, faces = finer(*finer(*l_profile()))
+    loose = np.array([[0.05, 0.0, 0.1], [0.1, 0.0, 0.1], [0.05, 0.05, 0.1]])
+    more = np.array([[0, 1, 2]]) + len(vertices)
+    surface = prepare(np.concatenate([vertices, loose]), np.concatenate([faces, more]))
+    choice = choose(surface, Settings(method="coacd"))
+    assert 2 <= len(choice.pieces) <= 4
+    assert choice.measures.hausdorff <= 1.4 * 0.03 * 0.2
+    assert choice.measures.volume_ratio == pytest.approx(1, abs=0.1)

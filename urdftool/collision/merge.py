@@ -1,0 +1,97 @@
+"""Pieces joined again where their common hull is near enough to the mesh.
+
+Cuts go through the whole of a part, and leave more pieces than its shape needs. What a join costs
+is measured here by what counts in the end: how far the hull bulges out of the mesh, and how deep it
+buries what of the mesh can be touched.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Sequence
+from itertools import combinations
+
+import numpy as np
+
+from ..errors import MeshError
+from ..meshes.mesh import Points
+from .convex import hull, signed_distance
+from .distance import spread
+from .measure import Target
+from .piece import Piece, mesh_piece
+from .remesh import Outside
+
+_TOUCH = 0.01  # gap of neighbours, relative to the size
+_PROBES = 300
+_BURIED = 6000
+
+
+class Joiner:
+    """Joins pieces of one mesh."""
+
+    def __init__(self, target: Target) -> None:
+        """Take the mesh."""
+        self.outside = Outside(target.corners)
+        even = target.even
+        self.seen = even[:: max(1, len(even) // _BURIED)]
+        self.gap = _TOUCH * target.size
+
+    def joined(self, pieces: Sequence[Piece], distance: float) -> list[Piece]:
+        """The pieces, joined as long as no hull is farther off than a distance [m]."""
+        living = dict(enumerate(pieces))
+        queue: list[tuple[float, int, int]] = []
+        made: dict[tuple[int, int], Piece] = {}
+
+        def offer(a: int, b: int) -> None:
+            if not living[a].is_near(living[b], self.gap):
+                return
+            both = self._hull(living[a], living[b])
+            if both is None:
+                return
+            cost = self._cost(both, distance)
+            if cost <= distance:
+                made[a, b] = both
+                heapq.heappush(queue, (cost, a, b))
+
+        for a, b in combinations(list(living), 2):
+            offer(a, b)
+        number = len(living)
+        while queue:
+            _, a, b = heapq.heappop(queue)
+            if a not in living or b not in living:
+                continue
+            del living[a], living[b]
+            living[number] = made.pop((a, b))
+            for other in list(living)[:-1]:
+                offer(other, number)
+            number += 1
+        return self._needed(list(living.values()), distance / 2)
+
+    def _needed(self, pieces: list[Piece], distance: float) -> list[Piece]:
+        """The pieces without those, small ones first, to all of which the others are near."""
+        depth = np.stack([signed_distance(self.seen, piece.sides) for piece in pieces])
+        kept = np.ones(len(pieces), dtype=bool)
+        sizes = [float(np.linalg.norm(np.ptp(piece.vertices, axis=0))) for piece in pieces]
+        for index in np.argsort(sizes, kind="stable"):
+            kept[index] = False
+            own = depth[index] < self.gap / 2
+            kept[index] = not kept.any() or bool((depth[kept][:, own].min(axis=0) > distance).any())
+        return [piece for piece, keep in zip(pieces, kept, strict=True) if keep]
+
+    @staticmethod
+    def _hull(one: Piece, other: Piece) -> Piece | None:
+        try:
+            return mesh_piece(*hull(np.concatenate([one.vertices, other.vertices])))
+        except MeshError:
+            return None
+
+    def _cost(self, piece: Piece, distance: float) -> float:
+        """How far the piece is off at most [m]; more than the distance as soon as that is sure."""
+        bulge = float(self.outside.distance(spread(piece.corners, _PROBES).points).max())
+        if bulge > distance:
+            return bulge
+        low, high = piece.bounds
+        within: Points = self.seen[((self.seen > low) & (self.seen < high)).all(axis=1)]
+        if not len(within):
+            return bulge
+        return max(bulge, -float(signed_distance(within, piece.sides).min()))

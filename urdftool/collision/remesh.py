@@ -1,0 +1,181 @@
+"""A closed surface around any mesh: what can be touched of it, as one solid's boundary.
+
+Meshes of robots are open, of many bodies, or pass through themselves, and cuts need a solid. The
+space is cut into cells; where a corner of a cell is near to the mesh, or cannot be reached from
+outside, is solid. Its boundary is found by marching tetrahedra, which leave no hole and no edge
+with more than two faces (Doi and Koide 1991), and is then drawn back onto the mesh.
+"""
+
+from __future__ import annotations
+
+from itertools import permutations
+
+import numpy as np
+import numpy.typing as npt
+
+from ..inertia.winding import boxes_of, winding_numbers
+from ..meshes.mesh import Faces, Points
+from .convex import planes, signed_distance
+from .distance import Surface, areas_of, spread
+
+CELLS = 64
+"""Cells along the longest side of the mesh's box; gaps narrower than two are closed."""
+
+_WALL = 0.9  # cells: more than half a cell's diagonal, so that no sheet slips between corners
+_LEFT = 0.2  # cells that remain of it, so that a sheet keeps two sides
+_MARKS = 9  # points a cell's face of surface
+_MOST_MARKS = 400_000
+_RIM = 3
+_PART_CELLS = 24
+_FAR = 9.0  # cells: what stands for any distance that is not near
+_NEAR = 0.7  # cells: about the nearest that such a corner is
+
+Numbers = npt.NDArray[np.int64]
+
+
+def remesh(corners: Points) -> tuple[Points, Faces]:
+    """The boundary of what triangles enclose, and of a thin layer on them.
+
+    Args:
+        corners: The triangles [m], shape (m, 3, 3).
+
+    Returns:
+        Vertices [m] and triangles, outwards; every edge has two of them.
+    """
+    low, side, surface, shape = _grid(corners)
+    vertices, faces = _boundary(_field(surface, low, side, shape))
+    vertices = low + vertices * side
+    # back onto the mesh but for a part of the layer
+    ends = np.concatenate([surface.samples.points, np.unique(corners.reshape(-1, 3), axis=0)])
+    from scipy.spatial import cKDTree
+
+    _, nearest = cKDTree(ends).query(vertices)
+    feet = ends[nearest]
+    return feet + (vertices - feet) * (_LEFT / _WALL), faces
+
+
+def _grid(corners: Points) -> tuple[Points, float, Surface, Numbers]:
+    """The first corner [m] of the cells, their side [m], the surface, and how many corners."""
+    points = corners.reshape(-1, 3)
+    extent = np.ptp(points, axis=0)
+    side = float(extent.max()) / CELLS
+    count = int(min(_MOST_MARKS, _MARKS * areas_of(corners).sum() / side**2 + 20_000))
+    shape = np.ceil(extent / side).astype(np.int64) + 2 * _RIM + 1
+    return points.min(axis=0) - _RIM * side, side, Surface(corners, spread(corners, count)), shape
+
+
+class Outside:
+    """How far points outside of a mesh are from it, read from a grid."""
+
+    def __init__(self, corners: Points) -> None:
+        """Fill the grid around triangles [m], shape (m, 3, 3)."""
+        from scipy import ndimage
+
+        self.low, self.side, surface, shape = _grid(corners)
+        field = _field(surface, self.low, self.side, shape)
+        far = field == _FAR
+        away = ndimage.distance_transform_edt(far) + _NEAR
+        self.values = np.maximum(np.where(far, away, field + _WALL), 0.0) * self.side
+
+    def distance(self, points: Points) -> Points:
+        """The distance [m] of points from the mesh; 0 for those that it encloses."""
+        from scipy import ndimage
+
+        at = ((points - self.low) / self.side).T
+        return np.asarray(ndimage.map_coordinates(self.values, at, order=1, mode="nearest"))
+
+
+def common(solid: Points, vertices: Points, faces: Faces) -> tuple[Points, Faces] | None:
+    """The boundary of what a solid and a convex shape have in common; None where that is nothing.
+
+    Args:
+        solid: Triangles [m] of a closed surface, shape (m, 3, 3), outwards.
+        vertices: Points [m] of the convex shape.
+        faces: Its triangles, outwards.
+    """
+    extent = np.ptp(vertices, axis=0)
+    side = float(extent.max()) / _PART_CELLS
+    low = vertices.min(axis=0) - _RIM * side
+    shape = np.ceil(extent / side).astype(np.int64) + 2 * _RIM + 1
+    nodes = np.argwhere(np.ones(tuple(shape), dtype=bool)) * side + low
+    field = signed_distance(nodes, planes(vertices, faces))
+    near = np.flatnonzero(field < side)
+    off = Surface(solid, spread(solid, 20_000)).distance(nodes[near])
+    inside = winding_numbers(nodes[near], boxes_of(solid)) > 0.5
+    field[near] = np.maximum(field[near], np.where(inside, -off, off))
+    field = np.where(np.abs(field) < 1e-6 * side, 1e-6 * side, field)
+    if not (field < 0).any():
+        return None
+    points, triangles = _boundary(field.reshape(tuple(shape)))
+    return low + points * side, triangles
+
+
+def _field(surface: Surface, low: Points, side: float, shape: Numbers) -> Points:
+    """At each corner of the cells the distance from the layer, in cells; negative in the solid."""
+    from scipy import ndimage
+
+    marked = np.zeros(tuple(shape), dtype=bool)
+    for some in (surface.samples.points, surface.corners.reshape(-1, 3)):
+        at = np.rint((some - low) / side).astype(np.int64)
+        marked[at[:, 0], at[:, 1], at[:, 2]] = True
+    near = ndimage.binary_dilation(marked, np.ones((3, 3, 3), dtype=bool))
+    field = np.full(marked.shape, _FAR)
+    field[near] = surface.distance(np.argwhere(near) * side + low) / side - _WALL
+    labels, _ = ndimage.label(field > 0)
+    inner = (field > 0) & (labels != labels[0, 0, 0])
+    field[inner] = -1.0
+    return np.where(np.abs(field) < 1e-6, 1e-6, field)
+
+
+def _boundary(field: Points) -> tuple[Points, Faces]:
+    """Where a field changes its sign, in cells."""
+    solid = field < 0
+    some = np.zeros(tuple(np.array(field.shape) - 1), dtype=np.int64)
+    for x, y, z in np.ndindex(2, 2, 2):
+        some += solid[x:, y:, z:][: some.shape[0], : some.shape[1], : some.shape[2]]
+    cubes = np.argwhere((some > 0) & (some < 8))
+    keys: list[Numbers] = []
+    for order in permutations(range(3)):
+        ends = [np.zeros(3, dtype=np.int64)]
+        for axis in order:
+            ends.append(ends[-1] + np.eye(3, dtype=np.int64)[axis])
+        keys += _triangles(np.stack([cubes + end for end in ends], axis=1), solid)
+    edges = np.concatenate(keys)
+    # an edge by the number of its first corner and where its second lies from that
+    strides = np.array([field.shape[1] * field.shape[2], field.shape[2], 1])
+    begin, end = edges[..., 0, :], edges[..., 1, :]
+    number = (begin @ strides) * 8 + (end - begin) @ np.array([4, 2, 1])
+    _, first, inverse = np.unique(number.reshape(-1), return_index=True, return_inverse=True)
+    a, b = begin.reshape(-1, 3)[first], end.reshape(-1, 3)[first]
+    at_a, at_b = field[tuple(a.T)], field[tuple(b.T)]
+    share = np.clip(at_a / (at_a - at_b), 0.02, 0.98)
+    return a + share[:, None] * (b - a), inverse.reshape(-1, 3).astype(np.int64)
+
+
+def _triangles(tetrahedra: Numbers, solid: npt.NDArray[np.bool_]) -> list[Numbers]:
+    """For each triangle the ends of the three edges it cuts, shape (m, 3, 2, 3)."""
+    inside = solid[tetrahedra[..., 0], tetrahedra[..., 1], tetrahedra[..., 2]]
+    code = inside @ np.array([1, 2, 4, 8])
+    found = []
+    for case in range(1, 15):
+        some = tetrahedra[code == case]
+        if not len(some):
+            continue
+        within = [k for k in range(4) if case >> k & 1]
+        without = [k for k in range(4) if k not in within]
+        if len(within) == 2:
+            (a, b), (c, d) = within, without
+            ring = [(a, c), (a, d), (b, d), (b, c)]
+            parts = [[ring[0], ring[1], ring[2]], [ring[0], ring[2], ring[3]]]
+        else:
+            parts = [[(i, o) for i in within for o in without]]
+        for part in parts:
+            pairs = [sorted(pair) for pair in part]
+            cut = np.stack([some[:, pair] for pair in pairs], axis=1)
+            middle = cut.mean(axis=2)
+            normal = np.cross(middle[:, 1] - middle[:, 0], middle[:, 2] - middle[:, 0])
+            out = some[:, without].mean(axis=1) - some[:, within].mean(axis=1)
+            inwards = np.einsum("ij,ij->i", normal, out) < 0
+            cut[inwards] = cut[inwards][:, ::-1]
+            found.append(cut)
+    return found
