@@ -135,6 +135,7 @@ def _trial(verdict: Verdict) -> dict[str, Any]:
         "bodies": list(recording.bodies),
         "joints": list(recording.joints),
         "contacts": [asdict(contact) for contact in recording.contacts],
+        "sweep": [asdict(joint) for joint in run.swept],
         "steps": recording.steps,
         "seconds": recording.seconds,
         "series": {

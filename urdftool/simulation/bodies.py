@@ -11,7 +11,7 @@ import numpy as np
 from ..inertia.lump import placed as moved
 from ..inertia.tensor import MassProperties, combine, tensor_from_six
 from ..model.elements import Joint, Link, Robot
-from ..model.kinematics import limits_of, link_poses, with_mimics
+from ..model.kinematics import limits_of, link_poses, movable_joints, with_mimics
 from ..model.pose import IDENTITY, Pose, pose_of, rotation_of_rpy
 from .control import NONE
 from .settings import Settings
@@ -245,7 +245,7 @@ def joint_of(joint: Joint, robot: Robot) -> JointOf:
         effort if effort is not None and effort > 0 else None,
         max(0.0, (dynamics.damping or 0.0) if dynamics else 0.0),
         max(0.0, (dynamics.friction or 0.0) if dynamics else 0.0),
-        mimic.joint if mimic is not None else None,
+        mimic.joint if mimic is not None and mimic.joint in movable_joints(robot) else None,
         mimic.multiplier if mimic is not None else 1.0,
         mimic.offset if mimic is not None else 0.0,
     )

@@ -18,7 +18,7 @@ from ..errors import MissingDependency, ModelError
 from .bodies import Bodies, JointOf
 from .bullet_read import read_back
 from .control import Pids, driven
-from .recording import GROUND, Array, Contact, Recording
+from .recording import GROUND, Array, Contact, ReadBack, Recording
 from .settings import Settings
 from .stillness import PATIENCE, Stillness
 from .urdf import NAME, principal_frame
@@ -34,6 +34,7 @@ UNBOUND = 1e6
 
 RUNAWAY = 1e3  # m/s or sizes away
 _ITERATIONS = 100
+_BREAKING = 0.005  # m; contacts kept longer lag behind what rolls, and push it on
 
 
 def bullet_module() -> Any:
@@ -89,7 +90,9 @@ class World:
         p.connect(p.DIRECT)
         p.setTimeStep(settings.timestep)
         p.setPhysicsEngineParameter(
-            numSolverIterations=_ITERATIONS, deterministicOverlappingPairs=1
+            numSolverIterations=_ITERATIONS,
+            deterministicOverlappingPairs=1,
+            contactBreakingThreshold=_BREAKING,
         )
         self.plane = p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE))
         p.changeDynamics(self.plane, -1, lateralFriction=1.0, restitution=0.0)
@@ -130,8 +133,18 @@ class World:
         for number, joint in zip(self.indices, self.bodies.joints, strict=True):
             p.resetJointState(self.robot, number, self.bodies.positions[joint.name], 0.0)
 
+    def _check_friction(self, number: int, said: float) -> None:
+        body = self.bodies.bodies[number]
+        got = self.p.getDynamicsInfo(self.robot, self.link_of[number])[1]
+        if body.shapes and abs(got - said) > 1e-9:
+            name = body.name
+            self.read_back.append(ReadBack("link", name, "friction", f"{said:g}", f"{got:g}"))
+
     def _make_dynamics(self) -> None:
         p, settings = self.p, self.settings
+        # of the whole robot, and in calls of their own: for a link they undo what comes with them
+        p.changeDynamics(self.robot, -1, linearDamping=0.0, angularDamping=0.0)
+        p.changeDynamics(self.robot, -1, maxJointVelocity=1e6)
         for number, body in enumerate(self.bodies.bodies):
             surface = body.surface
             options: dict[str, float] = {
@@ -139,15 +152,13 @@ class World:
                 if surface.friction is None
                 else surface.friction,
                 "restitution": 0.0,
-                "linearDamping": 0.0,
-                "angularDamping": 0.0,
                 "jointDamping": 0.0,
-                "maxJointVelocity": 1e6,
             }
             if surface.stiffness is not None:
                 options["contactStiffness"] = surface.stiffness
                 options["contactDamping"] = surface.damping or 1.0
             p.changeDynamics(self.robot, self.link_of[number], **options)
+            self._check_friction(number, options["lateralFriction"])
         if not settings.self_collision:
             count = len(self.bodies.bodies)
             for one in range(count):
@@ -248,13 +259,28 @@ class World:
                 force=joint.effort if joint.effort is not None else UNBOUND,
             )
 
+    def lift(self) -> None:
+        """Take the robot off the plane, which is not to matter."""
+        at, turn = self.p.getBasePositionAndOrientation(self.robot)
+        up = (at[0], at[1], at[2] + 10 * max(1.0, self.bodies.size))
+        self.p.resetBasePositionAndOrientation(self.robot, up, turn)
+
+    def put(self, joint: int, value: float) -> None:
+        """Put a joint somewhere, with those that mimic it, without a step."""
+        self.p.resetJointState(self.robot, self.indices[joint], value, 0.0)
+        for link, leader, follower in self.followers:
+            if leader == self.indices[joint]:
+                to = follower.multiplier * value + follower.offset
+                self.p.resetJointState(self.robot, link, to, 0.0)
+        self.p.performCollisionDetection()
+
     def settle(self) -> Recording:
         """Step until nothing moves, the time is over, or the robot is lost."""
         p, settings = self.p, self.settings
         every = max(1, round(SAMPLE / settings.timestep))
         steps = max(1, round(settings.duration / settings.timestep))
         watch = Stillness(self.bodies.size, every * settings.timestep)
-        start_contacts = self._overlaps()
+        start_contacts = self.overlaps()
         samples = [self._sample(0.0)]
         began = perf_counter()
         still: float | None = None
@@ -287,7 +313,7 @@ class World:
             held=self.bodies.held,
             targets={name: self.bodies.positions[name] for name in self.bodies.held},
             start_contacts=start_contacts,
-            contacts=self._contacts() + self._overlaps(ground=False),
+            contacts=self._contacts() + self.overlaps(ground=False),
             read_back=self.read_back,
             still_since=still,
             ended=ended,
@@ -402,7 +428,7 @@ class World:
         )
         return where
 
-    def _overlaps(self, *, ground: bool = True) -> list[Contact]:
+    def overlaps(self, *, ground: bool = True) -> list[Contact]:
         """The deepest place of each two bodies that are in each other, whether they push or not."""
         p, found = self.p, []
         solid = [n for n, body in enumerate(self.bodies.bodies) if body.shapes]

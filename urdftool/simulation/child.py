@@ -20,6 +20,8 @@ from ..errors import UrdftoolError
 
 _PARENT_ENDED = 1  # PR_SET_PDEATHSIG of prctl(2)
 
+MODULES = __package__
+
 
 class EngineDied(UrdftoolError):  # noqa: N818 -- reads as what happened
     """The engine ended without an answer, or took too long."""
@@ -66,7 +68,7 @@ class Child:
             EngineDied: It took longer, or the process ended.
             UrdftoolError: As the function.
         """
-        job = pickle.dumps((module, function, arguments, time_limit))
+        job = pickle.dumps((f"{MODULES}.{module}", function, arguments, time_limit))
         try:
             out, _ = self._process.communicate(job, timeout=time_limit)
         except subprocess.TimeoutExpired:
@@ -108,7 +110,7 @@ def main() -> None:
     module, function, arguments, time_limit = pickle.load(sys.stdin.buffer)
     _limit_time(time_limit)
     try:
-        result = getattr(import_module(f".{module}", __package__), function)(*arguments)
+        result = getattr(import_module(module), function)(*arguments)
     except UrdftoolError as error:
         result = error
     with os.fdopen(answer, "wb") as out:

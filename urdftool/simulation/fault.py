@@ -34,4 +34,4 @@ class Fault:
     @property
     def group(self) -> tuple[str, bool, str]:
         """Faults of one group are alike but for their part."""
-        return self.kind, self.fails, self.cause
+        return self.kind, self.fails, self.cause + self.name * (self.kind == "blocked")

@@ -18,15 +18,19 @@ from .urdf import ROUNDED
 REACH = 1.2
 """How far out a link's mass may sit on average, as a part of how far its shapes reach."""
 
-DENSEST = 20_000.0
-"""Denser than tungsten, gold or platinum allow [kg/m³]."""
+FAR_OUT = 3.0
+"""The same of a link so light that its inertia hardly matters."""
+
+DENSEST = 12_000.0
+"""Denser than lead [kg/m³]."""
 
 LARGEST = 30.0
 """A part larger than this, on a robot of smaller parts, is in millimetres [m]."""
 
 _THIN = 1.0  # kg/m³, a bit less than air
 _SHARE = 0.5
-_HOLLOW = 50.0  # kg/m³: a rigid body lighter than this lacks the mass of a part
+_HOLLOW = 100.0  # kg/m³: a rigid body lighter than this lacks the mass of a part
+_HEAVY = 0.1
 _LIGHT = 0.02  # of the robot's mass: what is lighter stands for a camera or a frame
 
 
@@ -174,18 +178,19 @@ def _tensor(robot: Robot, body: Body) -> Iterator[Fault]:
 def _size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
     """Mass and inertia that no shape of this size could have."""
     own = mass_of(link)
-    if own is None or not _has_shapes(robot, link.name):
+    if own is None or link.inertial is None:
         return
-    if own.mass < _LIGHT * run.bodies.mass:
+    share = own.mass / run.bodies.mass
+    if not _has_shapes(robot, link.name) and share < _HEAVY:
         return
     spread = math.sqrt(max(0.0, float(np.trace(own.inertia)) / 2 / own.mass))
-    extent = extent_of(robot, link.name, only_collisions=True)
+    extent = _around(robot, link, run, only_collisions=True)
     if _fits(extent, spread, own.mass, own.com):
         return
-    extent = extent_of(robot, link.name)
-    assert link.inertial is not None
+    extent = _around(robot, link, run)
     reach = extent.reach(own.com)
-    if reach and spread > REACH * reach:
+    matters = share > _LIGHT or _rules(own.inertia, link.name, run)
+    if reach and matters and spread > (REACH if share > _LIGHT else FAR_OUT) * reach:
         yield Fault(
             "inertia-too-large",
             f"the inertia of link '{link.name}' is that of mass {spread:.3g} m from its centre; "
@@ -196,7 +201,7 @@ def _size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
             "a tensor of ones, or of other units; the link turns far too slowly",
             "inertia-exceeds-geometry",
         )
-    if extent.volume and own.mass > DENSEST * extent.volume:
+    if share > _LIGHT and extent.volume and own.mass > DENSEST * extent.volume:
         yield Fault(
             "too-dense",
             f"link '{link.name}' weighs {own.mass:.4g} kg, {own.mass / extent.volume:,.0f} kg/m³ "
@@ -204,9 +209,34 @@ def _size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
             link.inertial.place,
             "link",
             link.name,
-            "no metal is so dense: its mass is in grams, or its shapes in another unit",
+            "lead is lighter: its mass is in grams, or its shapes in another unit",
             "implausible-density",
         )
+
+
+def _rules(tensor: Array, name: str, run: Run) -> bool:
+    """Whether a light link's tensor is most of its rigid body's all the same."""
+    body = next(body for body in run.bodies.bodies if name in body.links)
+    assert body.properties is not None
+    return bool(np.trace(tensor) > _SHARE * np.trace(body.properties.inertia))
+
+
+def _around(robot: Robot, link: Link, run: Run, *, only_collisions: bool = False) -> Extent:
+    """The extent of a link; of one without shapes, that of its rigid body, in its own frame."""
+    if _has_shapes(robot, link.name):
+        return extent_of(robot, link.name, only_collisions=only_collisions)
+    body = next(body for body in run.bodies.bodies if link.name in body.links)
+    back = body.places[link.name].inverse()
+    found = []
+    for name in body.links:
+        extent = extent_of(robot, name, only_collisions=only_collisions)
+        pose = back @ body.places[name]
+        points = extent.points @ np.array(pose.rotation).T + np.array(pose.translation)
+        found.append(Extent(points, extent.volume))
+    return Extent(
+        np.concatenate([extent.points for extent in found]),
+        sum(extent.volume for extent in found),
+    )
 
 
 def _fits(extent: Extent, spread: float, mass: float, com: Array) -> bool:

@@ -154,8 +154,12 @@ def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
     """Moving bodies that are seen on the floor and have nothing to touch it with."""
     for number, body in enumerate(run.bodies.bodies):
         seen = [name for name in body.links if robot.link[name].visuals]
-        if body.shapes or not seen or (number == 0 and run.bodies.nailed):
+        if not seen or (number == 0 and run.bodies.nailed):
             continue
+        highest = -NEAR
+        if body.shapes:
+            seen = [name for name in seen if not robot.link[name].collisions]
+            highest = -_deep(run, SUNK)
         x, y, z, w = run.recording.poses[-1, number, 3:].tolist()
         at = run.recording.poses[-1, number, :3].tolist()
         pose = Pose(rotation_of_quaternion((w, x, y, z)), (at[0], at[1], at[2]))
@@ -166,7 +170,7 @@ def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
             place = pose @ body.places[name]
             heights = points @ np.array(place.rotation[2]) + place.translation[2]
             lowest = float(heights.min())
-            if lowest < NEAR:
+            if lowest < (highest if body.shapes else NEAR):
                 where = "on" if lowest > -NEAR else f"{-lowest:.3g} m below"
                 yield Fault(
                     "no-contact-shape",

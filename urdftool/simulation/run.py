@@ -6,7 +6,7 @@ import math
 import random
 import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
 
@@ -16,6 +16,7 @@ from .child import Child
 from .prepare import prepare
 from .recording import Recording
 from .settings import Settings
+from .sweep import Swept
 from .urdf import write_folder
 
 Progress = Callable[[int, int], None]
@@ -32,11 +33,13 @@ class Run:
         settings: Of this trial.
         bodies: The robot as it started.
         recording: What the engine measured.
+        swept: Each joint moved through its limits; empty where that was not asked for.
     """
 
     settings: Settings
     bodies: Bodies
     recording: Recording
+    swept: list[Swept] = field(default_factory=list)
 
 
 def simulate(
@@ -71,7 +74,10 @@ def simulate(
             _write(robot, bodies, trial, engine, Path(folder))
             left = max(0.1, ends - perf_counter()) if number > 1 else settings.time_limit
             recording = child.call(engine, "run", bodies, trial, Path(folder), time_limit=left)
-        runs.append(Run(trial, bodies, recording))
+            swept = []
+            if settings.sweep and number == 1:
+                swept = _sweep(bodies, trial, Path(folder))
+        runs.append(Run(trial, bodies, recording, swept))
     return runs
 
 
@@ -83,6 +89,15 @@ def _write(robot: Robot, bodies: Bodies, settings: Settings, engine: str, folder
         write_model(robot, bodies, settings, folder)
     else:
         write_folder(bodies, folder)
+
+
+def _sweep(bodies: Bodies, settings: Settings, folder: Path) -> list[Swept]:
+    """Joints moved through their limits: geometry, which PyBullet knows whichever engine ran."""
+    with Child("pybullet") as child:
+        found: list[Swept] = child.call(
+            "bullet_sweep", "sweep", bodies, settings, folder, time_limit=settings.time_limit
+        )
+    return found
 
 
 def trials(settings: Settings) -> list[Settings]:

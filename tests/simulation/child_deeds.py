@@ -1,0 +1,29 @@
+"""What a child process is made to do in tests."""
+
+import os
+import signal
+import time
+
+from urdftool.errors import ModelError
+
+
+def double(number):
+    return 2 * number
+
+
+def talk():
+    os.write(1, b"noise on stdout\n")
+    os.write(2, b"noise on stderr\n")
+    return "said"
+
+
+def refuse():
+    raise ModelError("no legs")
+
+
+def crash():
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+
+def hang():
+    time.sleep(60)

@@ -1,0 +1,50 @@
+"""An engine that dies, hangs or talks does no harm."""
+
+import os
+import time
+
+import pytest
+
+from urdftool.errors import ModelError
+from urdftool.simulation.child import Child, EngineDied
+
+
+def call(function, *arguments, time_limit=20.0):
+    with Child("json") as child:
+        return child.call("child_deeds", function, *arguments, time_limit=time_limit)
+
+
+@pytest.fixture(autouse=True)
+def _deeds(monkeypatch):
+    """The module with what a child is made to do lies beside this test."""
+    monkeypatch.setattr("urdftool.simulation.child.MODULES", "tests.simulation")
+
+
+def test_an_answer():
+    assert call("double", 21) == 42
+
+
+def test_what_the_engine_prints_is_swallowed(capfd):
+    assert call("talk") == "said"
+    assert capfd.readouterr() == ("", "")
+
+
+def test_an_error_of_ours_comes_through():
+    with pytest.raises(ModelError, match="no legs"):
+        call("refuse")
+
+
+def test_a_crash_is_one_message():
+    with pytest.raises(EngineDied, match="SIGSEGV"):
+        call("crash")
+
+
+def test_a_hang_ends_in_time_and_leaves_nobody():
+    began = time.monotonic()
+    with Child("json") as child:
+        with pytest.raises(EngineDied, match="was not done after 1 s"):
+            child.call("child_deeds", "hang", time_limit=1.0)
+        number = child._process.pid
+    assert time.monotonic() - began < 5
+    with pytest.raises(ProcessLookupError):
+        os.kill(number, 0)
