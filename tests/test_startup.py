@@ -13,6 +13,7 @@ HEAVY = [
 ]
 
 ROBOT = str(FIXTURES / "robots" / "ten_links.urdf")
+SOUND = str(FIXTURES / "rules" / "axis-not-unit" / "good.urdf")
 XACRO = str(FIXTURES / "robots" / "demo_arm" / "urdf" / "arm_sound.urdf.xacro")
 
 PROBE = """
@@ -60,7 +61,17 @@ def test_lint_of_a_plain_urdf_needs_no_xacro():
         capture_output=True,
         text=True,
     )
-    assert done.stdout.splitlines()[-1] == "LOADED"
+    assert done.stdout.splitlines()[-1].split() == ["LOADED"]
+
+
+@pytest.mark.parametrize("style", ["full", "concise", "json"])
+def test_lint_of_a_sound_robot_imports_no_fix(style):
+    heavy = ["urdftool.lint.fix", "urdftool.rules.fixes", "urdftool.source.edit"]
+    words = ["lint", SOUND, "--no-cache", "--format", style]
+    done = subprocess.run(
+        [sys.executable, "-c", PROBE.format(heavy=heavy), *words], capture_output=True, text=True
+    )
+    assert done.stdout.splitlines()[-1].split() == ["LOADED"]
 
 
 def test_importing_the_package_imports_nothing_of_it():

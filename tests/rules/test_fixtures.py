@@ -51,7 +51,9 @@ def _expected(path):
         return sorted((line[0], int(line[1]), rule) for line in named for rule in line[2:])
     marks = []
     for file in sorted(path.parent.glob("*")):
-        if file != path and (file.name.startswith(("bad", "good", "fixed")) or file.suffix == ".toml"):
+        if file != path and (
+            file.name.startswith(("bad", "good", "fixed")) or file.suffix == ".toml"
+        ):
             continue
         if file.suffix not in (".urdf", ".xacro"):
             continue

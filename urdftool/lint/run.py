@@ -14,7 +14,7 @@ from ..inputs import listen
 from ..model.elements import Robot
 from ..model.read import read_robot
 from ..rules import ONLY_WITH, speaks_of
-from ..rules.fix_table import FIXABLE
+from ..rules.fix_table import FIXABLE, may_have_fix
 from ..rules.rule import Problem, Rule
 from ..source.description import Description, is_xacro, read_description
 from ..source.document import Document, Element, parse, read_file
@@ -38,6 +38,7 @@ def check(
     ignore: Iterable[str] = (),
     targets: Iterable[str] = (),
     config: str | None = None,
+    fixes: bool = False,
 ) -> list[Finding]:
     """What is wrong with a robot.
 
@@ -51,6 +52,7 @@ def check(
         ignore: The same, taken away.
         targets: Simulators and middlewares; none means that they are inferred.
         config: A configuration file, instead of the nearest above the description.
+        fixes: Whether each finding is to have its ``fix``, as bytes of the source.
 
     Raises:
         SourceError: The file cannot be read.
@@ -67,9 +69,10 @@ def check(
         configuration = find_configuration(robot.source.path, config)
         settings = settings_for(robot.source.path, configuration, line)
         report = Report(robot.source.path)
-        _check_description(robot.source, robot, settings, report, [], Options())
+        _check_description(robot.source, robot, settings, report, [], Options(fixes=fixes))
     else:
         options = Options(line, args or {}, packages or {}, tuple(package_paths), config)
+        options.fixes = fixes
         report = lint_file(robot, options)
         if report.error is not None:
             raise report.error
@@ -250,7 +253,7 @@ def _check_description(
         idle = {name for name in selected if not speaks_of(name, tags)}
         stale = unused(suppressions, ran | idle) if robot is not None else ()
         findings += [f for f in (*wrong, *stale) if f.rule in selected]
-    if options.fixes and any(finding.rule in FIXABLE for finding in findings):
+    if options.fixes and any(may_have_fix(f.rule, f.kind) for f in findings):
         from .fix import Origin, add_fixes
 
         made = {number: Origin(*origin) for number, origin in origins.items()}

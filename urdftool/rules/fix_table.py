@@ -212,3 +212,16 @@ FIXABLE = {rule: how for rules in FIXES.values() for rule, how in rules.items()}
 
 FIX_FILE = {rule: file for file, rules in FIXES.items() for rule in rules}
 """The file in ``fixes`` by rule."""
+
+
+def may_have_fix(rule: str, kind: str) -> bool:
+    """Whether a finding may be mended.
+
+    Nearly every plain robot gets the one remark that it has no tag for Gazebo at all, which has no
+    fix; for that alone nothing is imported.
+
+    Args:
+        rule: Its rule.
+        kind: What it is about.
+    """
+    return rule in FIXABLE and (rule, kind) != ("missing-gazebo-tags", "robot")

@@ -14,6 +14,7 @@ from .proposal import (
     Proposal,
     after,
     attribute_at,
+    depends_on_a_call,
     element_at,
     insert,
     is_computed,
@@ -162,6 +163,8 @@ def _material(link: Link, robot: Robot) -> tuple[str, ...] | None:
     found = set()
     for visual in link.visuals:
         material = visual.material
+        if material is not None and depends_on_a_call(link.element, "visual"):
+            return None
         if material is not None and material.color is None:
             material = colours.get(material.name)
         found.add(None if material is None else material.color)

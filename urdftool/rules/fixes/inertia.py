@@ -16,6 +16,7 @@ from .proposal import (
     Change,
     Proposal,
     attribute_at,
+    depends_on_a_call,
     drop,
     figures,
     first,
@@ -62,6 +63,8 @@ def missing_inertial(problem: Problem, around: Around) -> Proposal | None:
 
 def _of_shapes(link: Link, around: Around) -> tuple[str, ...] | None:
     """The inertial of a link's shapes at the density of water; None where they do not tell."""
+    if depends_on_a_call(link.element, "visual", "collision"):
+        return None
     shape = _only_shape(link)
     volume = solid_volume(shape.geometry) if shape is not None else 0.0
     if shape is not None and volume > 0:
@@ -176,7 +179,11 @@ def _recomputed(problem: Problem, around: Around) -> Proposal | None:
     """What the link's shapes have at its mass, about the centre of mass that is written."""
     link = around.link(problem)
     inertial = link.inertial
-    if inertial is None or not inertial.mass or inertial.mass <= 0:
+    if inertial is None or not inertial.mass or inertial.mass <= 0 or inertial.inertia is None:
+        return None
+    if any(is_computed(inertial.inertia.element, name) for name in SIX):
+        return None  # before meshes are read for nothing
+    if depends_on_a_call(link.element):
         return None
     shape = _only_shape(link)
     six = solid_tensor(link)
@@ -297,7 +304,7 @@ def inertial_not_at_com_suspect(problem: Problem, around: Around) -> Proposal | 
     """At the centre of its shapes."""
     link = around.link(problem)
     box = box_of(link)
-    if box is None or link.inertial is None:
+    if box is None or link.inertial is None or depends_on_a_call(link.element):
         return None
     centre = figures(box.centre, 6)
     origin = link.inertial.origin

@@ -257,6 +257,30 @@ def is_computed(element: Element, name: str = "name") -> bool:
     return "$" in written(element, name)
 
 
+def stands_in(inner: Element, outer: Element) -> bool:
+    """Whether an element is written inside another, and not put there by a call."""
+    raw = _source(outer.file).elements.get(outer.start)
+    return raw is not None and inner.file is outer.file and raw.start <= inner.start < raw.end
+
+
+def depends_on_a_call(element: Element, *parts: str) -> bool:
+    """Whether an element comes from a macro, and what is in it from the arguments of its call.
+
+    Args:
+        element: The element.
+        parts: Tags of what matters in it, with all below them.
+    """
+    if not any(call.macro for call in element.calls):
+        return False
+    for child in element.children:
+        if parts and child.tag not in parts:
+            continue
+        for one in child.walk():
+            if not stands_in(one, element) or any(is_computed(one, n) for n in one.attributes):
+                return True
+    return False
+
+
 def same(a: Element, b: Element) -> bool:
     """Whether two elements say the same."""
     return (

@@ -22,6 +22,7 @@ from .proposal import (
     replace,
     retag,
     safe,
+    stands_in,
     unsafe,
 )
 
@@ -37,6 +38,8 @@ def missing_collision(problem: Problem, around: Around) -> Proposal | None:
     for visual in link.visuals:
         geometry = visual.geometry
         if not isinstance(geometry, _PRIMITIVES):
+            return None
+        if not stands_in(geometry.element, visual.element):
             return None
         lines = (
             "<collision>",
@@ -56,6 +59,8 @@ def missing_visual(problem: Problem, around: Around) -> Proposal | None:
     changes = []
     for collision in link.collisions:
         if collision.geometry is None:
+            return None
+        if not stands_in(collision.geometry.element, collision.element):
             return None
         lines = (
             "<visual>",
