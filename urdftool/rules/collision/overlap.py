@@ -233,12 +233,15 @@ def _sweep(
     outside = [body for body in known.bodies if body not in bodies and body not in along]
     at = known.poses[joint.parent] @ pose_of(joint.origin)
     back = (at @ motion_of(joint, rest)).inverse()
-    pairs = [
-        (one, other)
+    apart = known.neighbours | taken
+    partners = {
+        one: [
+            (other, *known.spheres[other])
+            for other in outside
+            if frozenset((one, other)) not in apart
+        ]
         for one in inside
-        for other in outside
-        if frozenset((one, other)) not in known.neighbours and frozenset((one, other)) not in taken
-    ]
+    }
     into = _depth_of_middle(known, joint, IDENTITY)[0] <= 0
     count = 0
     for value in _positions(joint, rest):
@@ -247,13 +250,16 @@ def _sweep(
             depth, link = _depth_of_middle(known, joint, moved)
             if depth > 0.3 and link is not None:
                 return (robot.link[joint.child], link, value), count
-        for one, other in pairs:
-            if not known.near(one, other, moved):
-                continue
-            count += 1
-            deepest = known.deepest(one, other, moved, deeper)
-            if deepest is not None:
-                return (deepest[0], deepest[1], value), count
+        for one in inside:
+            middle, radius = known.spheres[one]
+            there = moved.transform(middle)
+            for other, place, reach in partners[one]:
+                if math.dist(there, place) >= radius + reach:
+                    continue
+                count += 1
+                deepest = known.deepest(one, other, moved, deeper)
+                if deepest is not None:
+                    return (deepest[0], deepest[1], value), count
     return None, count
 
 

@@ -83,8 +83,14 @@ class Pieces:
         """The two links of two bodies that overlap most, the first body being moved; or None."""
         found: tuple[Link, Link, float] | None = None
         for link, piece in self.bodies.get(one, ()):
-            placed = piece if moved is IDENTITY else piece.moved(moved)
-            for against, fixed in self.bodies.get(other, ()):
+            at = moved.transform(piece.pose.translation)
+            near = [
+                (against, fixed)
+                for against, fixed in self.bodies.get(other, ())
+                if math.dist(at, fixed.pose.translation) < piece.radius + fixed.radius
+            ]
+            placed = piece if moved is IDENTITY or not near else piece.moved(moved)
+            for against, fixed in near:
                 enough = least
                 if not (placed.filled and fixed.filled):
                     enough = max(least, min(HOLLOW, 0.1 * min(placed.radius, fixed.radius)))
@@ -110,10 +116,10 @@ class Pieces:
                     more = True
         return found
 
-    def near(self, one: str, other: str, moved: Pose = IDENTITY) -> bool:
-        """Whether spheres around two bodies meet, the first being moved."""
+    def near(self, one: str, other: str) -> bool:
+        """Whether spheres around two bodies meet."""
         (a, r), (b, q) = self.spheres[one], self.spheres[other]
-        return math.dist(moved.transform(a), b) < r + q
+        return math.dist(a, b) < r + q
 
     def strangers(self) -> Iterator[tuple[str, str]]:
         """Pairs of bodies that no joint joins."""

@@ -31,11 +31,13 @@ def _hull_volume(key: Stamp) -> float | None:
 
 
 def _surfaces(robot: Robot, description: Description) -> Iterator[tuple[MeshUse, Stamp, Surface]]:
-    """The collision meshes that can be read, each once."""
+    """The collision meshes that are STL or OBJ files and can be read, each once."""
     told: set[str] = set()
     for use in mesh_uses(robot, description):
         if not use.collides or not use.exists or use.path is None or use.uri in told:
             continue
+        if use.path.suffix.lower() not in (".stl", ".obj"):
+            continue  # slow to read, and made to be looked at
         told.add(use.uri)
         try:
             key = stamp(use.path)
