@@ -15,7 +15,7 @@ from itertools import pairwise
 
 from ..errors import SourceError
 from ..finding import Replacement
-from ..rules.fixes.proposal import Change, Proposal, Span
+from ..rules.fixes.proposal import Change, Proposal, Span, source_of
 from ..source import edit
 from ..source.description import Description
 from ..source.document import STDIN, Element
@@ -96,7 +96,7 @@ class Settler:
         if file.path not in self.sources:
             self._check_file(file)
             try:
-                self.sources[file.path] = edit.Source(file)
+                self.sources[file.path] = source_of(file)
             except SourceError as error:
                 raise RefusedError(error.message) from None
         return self.sources[file.path]

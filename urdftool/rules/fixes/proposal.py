@@ -248,7 +248,7 @@ def quote(text: str) -> str:
 
 def written(element: Element, name: str) -> str:
     """An attribute as it is written, expressions and all: for what is put beside it."""
-    raw = _source(element.file).elements.get(element.start)
+    raw = source_of(element.file).elements.get(element.start)
     return (literal(raw, name) if raw is not None else None) or element.get(name) or ""
 
 
@@ -259,7 +259,7 @@ def is_computed(element: Element, name: str = "name") -> bool:
 
 def stands_in(inner: Element, outer: Element) -> bool:
     """Whether an element is written inside another, and not put there by a call."""
-    raw = _source(outer.file).elements.get(outer.start)
+    raw = source_of(outer.file).elements.get(outer.start)
     return raw is not None and inner.file is outer.file and raw.start <= inner.start < raw.end
 
 
@@ -295,7 +295,7 @@ def lines_of(element: Element) -> Iterator[str]:
 
     The elements in it are indented by tabs, as many as they are deep.
     """
-    source = _source(element.file)
+    source = source_of(element.file)
     raw = source.elements[element.start]
     text = element.file.data[raw.start : raw.end].decode(element.file.encoding)
     own = len((source.indentation(raw) or b"").expandtabs(8))
@@ -309,6 +309,11 @@ def lines_of(element: Element) -> Iterator[str]:
             yield "\t" * max(0, round(deep / step)) + bare
 
 
-@lru_cache(maxsize=4)
-def _source(file: SourceFile) -> Source:
+@lru_cache(maxsize=8)
+def source_of(file: SourceFile) -> Source:
+    """A file as it is written, parsed once for all that ask.
+
+    Raises:
+        SourceError: It is in an encoding that is not edited.
+    """
     return parsed(file)
