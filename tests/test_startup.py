@@ -39,6 +39,7 @@ def loaded(*words):
         ("--version",),
         ("--help",),
         ("expand", "--help"),
+        ("view", "--help"),
         ("lint", "--help"),
         ("lint", ROBOT),
         ("lint", ROBOT, "--no-cache"),

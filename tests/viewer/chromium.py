@@ -67,7 +67,7 @@ class Tab:
         self.asked = []
         self._sessions = set()
         self.call(
-            "Target.setAutoAttach", autoAttach=True, waitForDebuggerOnStart=False, flatten=True
+            "Target.setAutoAttach", autoAttach=True, waitForDebuggerOnStart=True, flatten=True
         )
         for domain in ("Page", "Runtime", "Network"):
             self.call(f"{domain}.enable")
@@ -93,9 +93,10 @@ class Tab:
         elif event.get("method") == "Network.webSocketCreated":
             self.asked.append(parameters["url"])
         elif event.get("method") == "Target.attachedToTarget":
-            number = next(self._numbers)
-            enable = {"id": number, "method": "Network.enable", "params": {}}
-            self._socket.send(json.dumps({**enable, "sessionId": parameters["sessionId"]}))
+            # a worker waits until it is looked at, so that none of its requests is missed
+            for method in ("Network.enable", "Runtime.runIfWaitingForDebugger"):
+                message = {"id": next(self._numbers), "method": method, "params": {}}
+                self._socket.send(json.dumps({**message, "sessionId": parameters["sessionId"]}))
 
     def size(self, width, height):
         self.call(
