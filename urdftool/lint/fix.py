@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from ..finding import Finding, Fix
 from ..model.elements import Robot
 from ..rules.fix_table import FIX_FILE, FIXABLE
-from ..rules.fixes.proposal import Around, Proposal
+from ..rules.fixes.proposal import Around, Proposal, source_of
 from ..rules.rule import Problem
 from ..source.description import Description
 from ..source.document import Document
@@ -72,6 +72,7 @@ def add_fixes(
         if replacements:
             safe = all(proposal.safe for proposal in whole)
             group[0].fix = Fix(safe, whole[0].message, replacements)
+    source_of.cache_clear()
 
 
 def _proposal(finding: Finding, origin: Origin | None, around: Around) -> Proposal | None:

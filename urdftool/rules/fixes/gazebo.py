@@ -257,7 +257,7 @@ def named_geometry_loses_extensions(problem: Problem, around: Around) -> Proposa
         return None
     element, attribute = found
     name = element.get(attribute) or ""
-    if any(name in one.text for one in around.robot.element.walk() if one.text):
+    if name in around.texts:
         return None
     new = f"{link.name}_{name}"
     return safe(f"call it '{new}'", put(element, attribute, new))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 from ...model.elements import Joint, Link, Robot
@@ -94,6 +94,11 @@ class Around:
     targets: frozenset[str]
     document: Document | None = None
     weigh: Weigh | None = None
+
+    @cached_property
+    def texts(self) -> str:
+        """All texts of the robot's elements, where plugins and sensors name things."""
+        return "\n".join(one.text for one in self.robot.element.walk() if one.text)
 
     def joint(self, problem: Problem) -> Joint:
         """The joint a problem is about."""
