@@ -34,6 +34,7 @@ UNBOUND = 1e6
 
 RUNAWAY = 1e3  # m/s or sizes away
 _ITERATIONS = 100
+_NEAR = 1e-4  # m; of two boxes it finds nothing when it is asked for a distance of zero
 _BREAKING = 0.005  # m; contacts kept longer lag behind what rolls, and push it on
 
 
@@ -439,14 +440,14 @@ class World:
                 if (a[0] > b[1]).any() or (b[0] > a[1]).any():
                     continue
                 points = p.getClosestPoints(
-                    self.robot, self.robot, 0.0, self.link_of[one], self.link_of[other]
+                    self.robot, self.robot, _NEAR, self.link_of[one], self.link_of[other]
                 )
-                if points:
+                if points and min(point[8] for point in points) < 0:
                     deepest = min(points, key=lambda point: point[8])
                     name = self._link(other, deepest[6])
                     found.append(self._contact(deepest, name))
             if ground and boxes[one][0][2] < 0:
-                points = p.getClosestPoints(self.robot, self.plane, 0.0, self.link_of[one], -1)
+                points = p.getClosestPoints(self.robot, self.plane, _NEAR, self.link_of[one], -1)
                 if points:
                     found.append(self._contact(min(points, key=lambda point: point[8]), GROUND))
         return found

@@ -1,0 +1,113 @@
+"""What a user of ``urdftool simulate`` sees: words, JSON, exit codes, refusals in one message."""
+
+import json
+
+import jsonschema
+import pytest
+
+from tests.conftest import FIXTURES, ROOT
+from tests.simulation.robots import body, inertial
+
+BOX = body('<box size="0.4 0.3 0.2"/>', 2, (0.0216667, 0.0333333, 0.0416667))
+MIRA = FIXTURES / "robots" / "mira_description" / "urdf" / "mira.urdf"
+
+
+JOINT_AND_END = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>'
+LIMIT = '<limit lower="-1" upper="1" effort="9" velocity="1"/>'
+
+
+def two_links(kind="revolute", second="b", limit=LIMIT):
+    part = inertial(1, 0.01, 0.01, 0.01)
+    return (
+        f'<robot name="r"><link name="a">{part}<collision><geometry><box size="1 1 .1"/></geometry>'
+        f'</collision></link><link name="{second}">{part}</link><joint name="j" type="{kind}">'
+        f'<parent link="a"/><child link="b"/><axis xyz="0 0 1"/>{limit}</joint></robot>'
+    )
+
+
+def test_words(urdftool):
+    result = urdftool("simulate", MIRA)
+    assert result.code == 0
+    assert result.out.startswith("mira: stands\n")
+    assert "stands on      base_link" in result.out
+
+
+def test_json_is_as_its_schema_says(urdftool, write):
+    result = urdftool("simulate", write("r.urdf", BOX), "--format", "json", "--trials", "2")
+    assert result.code == 0
+    said = json.loads(result.out)
+    schema = json.loads((ROOT / "docs" / "schemas" / "simulate.json").read_text("utf-8"))
+    jsonschema.validate(said, schema)
+    assert len(said["trials"]) == 2
+
+
+def test_a_box_that_is_dropped_stands(urdftool, write):
+    assert urdftool("simulate", write("r.urdf", BOX), "--height", "0.5").code == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (two_links("planar", limit=""), "is planar"),
+        (two_links(second="c"), "does not exist"),
+        (two_links().replace("</robot>", '<link name="x"/></robot>'), "hangs on nothing"),
+        (two_links().replace("</robot>", JOINT_AND_END), "there already"),
+        (BOX.replace('value="2"', 'value="nan"'), "not a finite number"),
+        (BOX.replace('value="2"', 'value="-2"'), "weighs -2 kg"),
+        (BOX.replace('<box size="0.4 0.3 0.2"/>', '<mesh filename="a.glb"/>'), "no such mesh"),
+        (BOX.replace('<box size="0.4 0.3 0.2"/>', '<box size="0 1 1"/>'), "size of 0 m"),
+        ('<robot name="r"/>', "no link"),
+    ],
+)  # fmt: skip
+def test_what_no_engine_can_be_given_is_refused_in_one_message(urdftool, write, text, said):
+    result = urdftool("simulate", write("r.urdf", text))
+    assert result.code == 2
+    assert said in result.err
+    assert "r.urdf:" in result.err.splitlines()[0]
+    assert result.out == ""
+
+
+def test_a_robot_of_ten_thousand_links_is_refused_in_time(urdftool, write):
+    part = inertial(1, 0.01, 0.01, 0.01)
+    links = "".join(f'<link name="l{i}">{part}</link>' for i in range(10_000))
+    joints = "".join(
+        f'<joint name="j{i}" type="continuous"><parent link="l{i}"/><child link="l{i + 1}"/>'
+        "</joint>"
+        for i in range(9_999)
+    )
+    result = urdftool("simulate", write("r.urdf", f'<robot name="r">{links}{joints}</robot>'))
+    assert result.code == 2
+    assert "at most" in result.err
+
+
+def test_a_zero_mass_is_a_verdict(urdftool, write):
+    result = urdftool("simulate", write("r.urdf", BOX.replace('value="2"', 'value="0"')))
+    assert result.code == 1
+    assert "weighs nothing" in result.out
+
+
+def test_the_time_limit_holds(urdftool, write):
+    result = urdftool(
+        "simulate", write("r.urdf", BOX), "--timestep", "0.00001", "--duration", "3600",
+        "--height", "9000", "--time-limit", "1",
+    )  # fmt: skip
+    assert result.code == 2
+    assert "--time-limit" in result.err
+
+
+def test_a_pose_or_payload_of_nothing_is_refused(urdftool, write):
+    path = write("r.urdf", two_links())
+    assert urdftool("simulate", path, "--pose", "k=1").code == 2
+    assert "no link 'c'" in urdftool("simulate", path, "--payload", "c=1").err
+    assert urdftool("simulate", path, "--payload", "b").code == 2
+
+
+def test_the_swept_joint_that_hits_is_named(urdftool, write):
+    text = two_links().replace('xyz="0 0 1"/>', 'xyz="0 1 0"/><origin xyz="0 0 0.3"/>')
+    far = (
+        '<link name="far"><collision><origin xyz="0.4 0 0"/><geometry><box size=".3 .1 .1"/>'
+        '</geometry></collision></link><joint name="f" type="fixed"><parent link="b"/>'
+        '<child link="far"/></joint></robot>'
+    )
+    result = urdftool("simulate", write("r.urdf", text.replace("</robot>", far)), "--sweep")
+    assert "joint 'j' may go from -1 to 1" in result.out
