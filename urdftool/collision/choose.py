@@ -181,7 +181,7 @@ def _sheets(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
 
 def _ladder(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
     """CoACD, finer and finer, until more pieces are not allowed."""
-    cutter = Cutter(target, settings)
+    cutter = Cutter(target, settings, few=settings.max_hulls or FEW_HULLS)
     wanted = settings.max_error * target.size
     for factor in LADDER:
         try:

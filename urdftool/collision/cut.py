@@ -22,23 +22,35 @@ JOINS = (1.0, 0.8, 0.6)
 TRIMS = (0.5, 0.25)
 """Parts of the distance that vertices may be left out, tried in turn."""
 
+HOPELESS = 6
+"""Times as many pieces as are wanted, from which joins never come down to so few."""
+
 _SAME = 1.05
 
 
 class Cutter:
     """Cuts one mesh, made ready once."""
 
-    def __init__(self, target: Target, settings: Settings, *, most: int | None = None) -> None:
+    def __init__(
+        self,
+        target: Target,
+        settings: Settings,
+        *,
+        most: int | None = None,
+        few: int | None = None,
+    ) -> None:
         """Take a mesh.
 
         Args:
             target: The mesh.
             settings: Limits of vertices and of time.
             most: Pieces that CoACD may make; None is any number.
+            few: Pieces that are to be left in the end; None is any number.
         """
         self.target = target
         self.settings = settings
         self.most = most
+        self.few = few
 
     @cached_property
     def solid(self) -> Prepared:
@@ -80,6 +92,8 @@ class Cutter:
         )
         if self.most is not None:
             return self._best([cuts], within)
+        if self.few is not None and len(cuts) > HOPELESS * self.few:
+            return None
         if not last and measure(self.target, cuts).hausdorff > within:
             return None
         cuts = self._mended(cuts, distance)

@@ -65,18 +65,7 @@ class Joiner:
             for other in list(living)[:-1]:
                 offer(other, number)
             number += 1
-        return self._needed(list(living.values()), distance / 2)
-
-    def _needed(self, pieces: list[Piece], distance: float) -> list[Piece]:
-        """The pieces without those, small ones first, to all of which the others are near."""
-        depth = np.stack([signed_distance(self.seen, piece.sides) for piece in pieces])
-        kept = np.ones(len(pieces), dtype=bool)
-        sizes = [float(np.linalg.norm(np.ptp(piece.vertices, axis=0))) for piece in pieces]
-        for index in np.argsort(sizes, kind="stable"):
-            kept[index] = False
-            own = depth[index] < self.gap / 2
-            kept[index] = not kept.any() or bool((depth[kept][:, own].min(axis=0) > distance).any())
-        return [piece for piece, keep in zip(pieces, kept, strict=True) if keep]
+        return list(living.values())
 
     @staticmethod
     def _hull(one: Piece, other: Piece) -> Piece | None:
