@@ -11,7 +11,7 @@ from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
 from .proposals import remedy_text
 from .solids import solid_moments, solid_text, spread_ratio
-from .tensors import is_positive, is_zero, moments_of, tensors
+from .tensors import is_positive, is_zero, moments_of, six_of, tensors
 
 
 @rule(
@@ -170,6 +170,8 @@ def inertial_not_at_com_suspect(robot: Robot, *, far: float = 0.2) -> Iterator[P
             continue
         if inertial.origin is not None and any(inertial.origin.xyz):
             continue
+        if inertial.inertia is not None and _is_placeholder(link, six_of(inertial.inertia)):
+            continue  # all of it is made up, which is said
         box = reach.link(link)
         if box is None:
             continue

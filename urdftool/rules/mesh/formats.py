@@ -136,13 +136,16 @@ _UP = re.compile(rb"<up_axis\s*>\s*(\w+)\s*<")
         "moveit": "heeds neither",
     },
 )
-def dae_unit_or_axis(robot: Robot, description: Description) -> Iterator[Problem]:
+def dae_unit_or_axis(
+    robot: Robot, description: Description, *, together: float = 3
+) -> Iterator[Problem]:
     """A COLLADA file is not in metres with z up.
 
     It may say its unit and which way is up, and readers differ in what they do with it: the same
     mesh is lying in one and standing in the next, or larger by a thousand. Export it in metres,
-    with z up.
+    with z up. More than ``together`` meshes that say the same are one finding.
     """
+    found: dict[str, list[MeshUse]] = {}
     for use in _first_uses(robot, description):
         if use.path is None or not use.exists or _ending(use) != "dae":
             continue
@@ -158,9 +161,14 @@ def dae_unit_or_axis(robot: Robot, description: Description) -> Iterator[Problem
         if up and up[1].upper() != b"Z_UP":
             said.append(f"it says {up[1].decode('ascii', 'replace')}")
         if said:
+            found.setdefault(" and ".join(said), []).append(use)
+    for what, uses in found.items():
+        several = len(uses) > together
+        more = f" (and of {len(uses) - 1} more)" if several else ""
+        for use in uses[:1] if several else uses:
             yield Problem(
                 use.link,
-                f"mesh '{use.uri}': {' and '.join(said)}, which readers take differently; "
+                f"mesh '{use.uri}'{more}: {what}, which readers take differently; "
                 "export it in metres with z up",
                 at=use.mesh.element.attribute_place("filename"),
             )
