@@ -35,7 +35,8 @@ BELOW = {
     "formats": ("finding", "model", "source", "meshes", "inertia", "output", "errors"),
     "graph": ("finding", "model", "source", "errors"),
     "simulation": (
-        *("drawing", "formats", "finding", "meshes", "inertia", "model", "source", "errors"),
+        *("drawing", "formats", "finding", "meshes", "inertia", "model", "source", "workers"),
+        *("errors",),
     ),
     "report": (
         *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),

@@ -39,6 +39,15 @@ def robot_argument(function: F) -> F:
 def _robot(
     ctx: click.Context, parameter: click.Parameter, words: tuple[str, ...]
 ) -> tuple[str, dict[str, str]]:
+    return one_robot(ctx, words)
+
+
+def one_robot(ctx: click.Context, words: tuple[str, ...]) -> tuple[str, dict[str, str]]:
+    """The one path among words, and the xacro arguments.
+
+    Raises:
+        UsageError: There is none, or more than one.
+    """
     paths, arguments = split_arguments(words)
     if not paths:
         raise click.UsageError("a robot is wanted: a .urdf or .xacro file, or '-'", ctx)

@@ -8,28 +8,28 @@ from typing import Any
 import click
 
 from ..console import Console
-from .options import package_options, robot_argument
-from .simulate_more import more_options
+from .options import package_options
+from .simulate_more import more_options, robots_argument
 from .simulate_options import settings_options
 
 
 @click.command("simulate")
-@robot_argument
+@robots_argument
 @settings_options
 @more_options
 @click.option(
     "--format",
     "style",
-    type=click.Choice(["text", "json"]),
+    type=click.Choice(["text", "json", "junit"]),
     default="text",
-    help="How the verdict is shown; json has the time series, too.",
+    help="How the verdict is shown; json has the time series of one robot, too.",
 )
 @package_options
 @click.pass_obj
 def command(
     console: Console,
     /,
-    robot: tuple[str, dict[str, str]],
+    robot: tuple[list[str], dict[str, str]],
     style: str,
     package: dict[str, Path],
     package_path: tuple[str, ...],
@@ -46,21 +46,36 @@ def command(
         urdftool simulate arm.urdf.xacro --limp
         urdftool simulate rover.urdf --trials 10 --seed 1 --slope 10
 
-    Exit 0 if it stands, 1 if it does not, 2 if it could not be tried.
+    Exit 0 if it stands, 1 if it does not, 2 if it could not be tried; of a --fleet 2 if one could
+    not be tried, else 1 if one does not stand.
     """  # noqa: D301 -- click reads the escape
     from ..simulation.engines import ENGINES, check_engines
     from .read_lax import read_lax
     from .simulate_control import controlled
+    from .simulate_fleet import Fleet, simulate_fleet
     from .simulate_one import simulate_one
     from .simulate_options import settings_of
-    from .simulate_outputs import Outputs
+    from .simulate_outputs import Outputs, check_output
 
     engines = ENGINES[values["engine"]]
+    controllers, junit = values["controllers"], values["junit"]
     outputs = Outputs(values["plot"], values["picture"], values["video"])
     outputs.check()
+    if junit is not None:
+        check_output("--junit", junit, "")
     check_engines(engines)
     settings = settings_of(values)
-    path, arguments = robot
-    model = read_lax(console, path, arguments, package, package_path)
-    settings = controlled(console, settings, model, values["controllers"])
-    return simulate_one(console, model, settings, engines, style=style, outputs=outputs)
+    paths, arguments = robot
+    if values["fleet"]:
+        if outputs.wanted:
+            raise click.UsageError("--plot, --picture and --video are of one robot, not a --fleet")
+        fleet = Fleet(
+            console, arguments, package, package_path, settings, engines, controllers,
+            frozenset(paths),
+        )  # fmt: skip
+        return simulate_fleet(fleet, paths, style=style, junit=junit, jobs=values["jobs"])
+    model = read_lax(console, paths[0], arguments, package, package_path)
+    settings = controlled(console, settings, model, controllers)
+    return simulate_one(
+        console, model, settings, engines, style=style, outputs=outputs, junit=junit
+    )

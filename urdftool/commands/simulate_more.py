@@ -7,6 +7,8 @@ from typing import Any, TypeVar
 
 import click
 
+from .options import one_robot, split_arguments
+
 F = TypeVar("F", bound=Callable[..., Any])
 
 _OPTIONS = (
@@ -30,7 +32,45 @@ _OPTIONS = (
     ),
     click.option("--picture", metavar="FILE.png", help="Draw the robot where it came to rest."),
     click.option("--video", metavar="FILE.gif", help="Draw it on its way there."),
+    click.option(
+        "--fleet",
+        is_flag=True,
+        is_eager=True,
+        help="Simulate many: every IN, and each .urdf and .urdf.xacro below an IN that is a "
+        "folder; one line each.",
+    ),
+    click.option(
+        "--junit", metavar="FILE", help="Write JUnit XML there, too, with a case for each robot."
+    ),
+    click.option(
+        "-j",
+        "--jobs",
+        type=click.IntRange(1),
+        metavar="N",
+        help="Robots of a --fleet at once.  [default: one for each core]",
+    ),
 )
+
+
+def robots_argument(function: F) -> F:
+    """``IN [name:=value …]``: a path, or with ``--fleet`` several, and the xacro arguments."""
+    return click.argument(
+        "robot", nargs=-1, type=str, metavar="IN [name:=value ...]", callback=_robots
+    )(function)
+
+
+def _robots(
+    ctx: click.Context, parameter: click.Parameter, words: tuple[str, ...]
+) -> tuple[list[str], dict[str, str]]:
+    paths, arguments = split_arguments(words)
+    if not ctx.params.get("fleet"):
+        path, arguments = one_robot(ctx, words)
+        return [path], arguments
+    if not paths:
+        raise click.UsageError("robots are wanted: files, or folders that have some", ctx)
+    if "-" in paths:
+        raise click.UsageError("a fleet is not read from standard input", ctx)
+    return paths, arguments
 
 
 def more_options(function: F) -> F:

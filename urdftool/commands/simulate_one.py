@@ -11,8 +11,33 @@ from .simulate_options import Progress
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
+    from ..simulation.fault import Fault
+    from ..simulation.run import Progress as Told
     from ..simulation.settings import Settings
+    from ..simulation.verdict import Verdict
     from .simulate_outputs import Outputs
+
+
+def judged(
+    robot: Robot,
+    settings: Settings,
+    engines: tuple[str, ...],
+    progress: Told = lambda *_: None,
+) -> tuple[list[list[Verdict]], list[Fault]]:
+    """The verdicts of each engine, and in what two engines differ.
+
+    Raises:
+        UrdftoolError: The robot cannot be simulated.
+    """
+    from ..simulation.agreement import differences
+    from ..simulation.run import simulate
+    from ..simulation.verdict import judge
+
+    runs = [simulate(robot, settings, engine=engine, progress=progress) for engine in engines]
+    verdicts = [[judge(robot, run) for run in some] for some in runs]
+    if len(engines) < 2:
+        return verdicts, []
+    return verdicts, differences(robot, settings, *verdicts)
 
 
 def simulate_one(
@@ -23,6 +48,7 @@ def simulate_one(
     *,
     style: str,
     outputs: Outputs,
+    junit: str | None,
 ) -> int:
     """Simulate a robot in one engine or two, and say how it went; the exit code.
 
@@ -31,28 +57,35 @@ def simulate_one(
         robot: The robot.
         settings: How it is spawned.
         engines: Modules of ``simulation``; two are compared.
-        style: ``text`` or ``json``.
+        style: ``text``, ``json`` or ``junit``.
         outputs: What is drawn of the first trial.
+        junit: A file for JUnit XML, beside what is shown.
 
     Raises:
-        UrdftoolError: It cannot be simulated.
+        UrdftoolError: It cannot be simulated, or a file cannot be written.
     """
+    from ..output import write_file
     from ..report import simulate as report
-    from ..simulation.run import simulate
-    from ..simulation.verdict import judge
+    from ..report import simulate_fleet as rows
+    from ..report.simulate_differences import differences_text, with_differences
+    from ..simulation.fleet import row_of
 
     outputs.read(console, robot)
-    runs = []
-    for engine in engines:
-        with Progress(console) as progress:
-            runs.append(simulate(robot, settings, engine=engine, progress=progress))
-    verdicts = [[judge(robot, run) for run in some] for some in runs]
-    stands = all(verdict.stands for some in verdicts for verdict in some)
+    with Progress(console) as progress:
+        verdicts, differ = judged(robot, settings, engines, progress)
+    everything = [verdict for some in verdicts for verdict in some]
+    path = robot.source.path if robot.source is not None else ""
+    row = row_of(path, robot.name, everything, differ)
     if style == "json":
-        everything = [verdict for some in verdicts for verdict in some]
-        click.echo(report.to_json(robot, everything), nl=False)
+        click.echo(with_differences(report.to_json(robot, everything), differ), nl=False)
+    elif style == "junit":
+        click.echo(rows.to_junit([row]), nl=False)
     else:
         for some in verdicts:
             click.echo(report.text(robot, some, colors=console.colors()), nl=False)
-    outputs.write(console, robot, [some[0] for some in runs])
-    return 0 if stands else 1
+        if len(engines) > 1:
+            click.echo(differences_text(differ, colors=console.colors()), nl=False)
+    if junit is not None:
+        write_file(junit, rows.to_junit([row]).encode("utf-8"))
+    outputs.write(console, robot, [some[0].run for some in verdicts])
+    return 0 if row.stands else 1

@@ -48,6 +48,7 @@ def simulate(
     *,
     engine: str = "bullet",
     progress: Progress = lambda *_: None,
+    alter: Callable[[Bodies], Bodies] | None = None,
 ) -> list[Run]:
     """Spawn a robot and let it settle, as often as the settings say.
 
@@ -56,6 +57,7 @@ def simulate(
         settings: How it is spawned.
         engine: A key of ``LIBRARIES``.
         progress: Told before each trial: its number, how many.
+        alter: Changes the bodies before an engine has them.
 
     Raises:
         ModelError: The robot is one that no engine can be given.
@@ -71,6 +73,8 @@ def simulate(
             tempfile.TemporaryDirectory(prefix="urdftool-") as folder,
         ):
             bodies = prepare(robot, trial)
+            if alter is not None:
+                bodies = alter(bodies)
             _write(robot, bodies, trial, engine, Path(folder))
             left = max(0.1, ends - perf_counter()) if number > 1 else settings.time_limit
             recording = child.call(engine, "run", bodies, trial, Path(folder), time_limit=left)

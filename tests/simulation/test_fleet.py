@@ -1,0 +1,156 @@
+"""Many robots at once: what breaks one leaves the others alone."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from xml.etree import ElementTree
+
+import pytest
+
+from tests.conftest import FIXTURES, ROOT
+from urdftool.errors import UrdftoolError
+from urdftool.formats.defects import Refused
+from urdftool.simulation.fleet import Row, in_parallel
+
+ROBOTS = FIXTURES / "robots"
+MIRA = ROBOTS / "mira_description" / "urdf"
+
+
+def _work(path):
+    if path == "error":
+        raise UrdftoolError("is wrong", path=path, line=3, column=4)
+    if path == "refused":
+        from urdftool.model.load import load
+
+        raise Refused(list(__import__("urdftool.formats.defects", fromlist=["x"]).defects(
+            load(ROBOTS / "ros2_arm" / "urdf" / "robot2.urdf.xacro"))))  # fmt: skip
+    if path == "bug":
+        raise ZeroDivisionError("oh")
+    if path == "dies":
+        os.kill(os.getpid(), signal.SIGKILL)
+    if path == "hangs":
+        time.sleep(60)
+    return Row(path, stands=True)
+
+
+def test_each_robot_has_a_row_whatever_becomes_of_the_others():
+    paths = ["a", "error", "bug", "refused", "dies", "hangs", "b"]
+    rows = {row.path: row for row in in_parallel(paths, _work, jobs=3, limit=2.0)}
+    assert set(rows) == set(paths)
+    assert rows["a"].stands
+    assert rows["b"].stands
+    assert str(rows["error"].error) == "error:3:4: is wrong"
+    assert "bug in urdftool" in rows["bug"].error.message
+    assert "is not a finite number" in rows["refused"].error.message
+    assert rows["refused"].error.notes
+    assert "exit code -9" in rows["dies"].error.message
+    assert "was not done after 2 s" in rows["hangs"].error.message
+
+
+def test_whoever_stops_early_leaves_no_process():
+    rows = in_parallel(["hangs", "a", "hangs"], _work, jobs=3)
+    assert next(rows).path == "a"
+    rows.close()
+    time.sleep(0.1)
+    children = subprocess.run(
+        ["ps", "--ppid", str(os.getpid()), "-o", "stat=,args="], capture_output=True, text=True
+    ).stdout.splitlines()
+    assert not [line for line in children if "python" in line and not line.startswith("Z")]
+
+
+@pytest.fixture
+def fleet(urdftool, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "robots" / ".hidden").mkdir(parents=True)
+    for name in ("mira.urdf", "mira_geometric.urdf"):
+        sound = "mira_simple_collisions_inertias.urdf"
+        text = (MIRA / (sound if name == "mira.urdf" else name)).read_bytes()
+        (tmp_path / "robots" / name).write_bytes(text)
+        (tmp_path / "robots" / ".hidden" / name).write_bytes(text)
+    macros = '<robot name="m" xmlns:xacro="http://www.ros.org/wiki/xacro"/>'
+    (tmp_path / "robots" / "macros.urdf.xacro").write_text(macros)
+
+    def call(*arguments):
+        return urdftool("simulate", "--engine", "mujoco", "--fleet", "robots", *arguments)
+
+    return call
+
+
+def test_a_folder_is_one_table(fleet):
+    result = fleet()
+    assert result.code == 1
+    lines = result.out.splitlines()
+    assert [line.split()[0] for line in lines[:2]] == [
+        "robots/mira.urdf",
+        "robots/mira_geometric.urdf",
+    ]
+    assert "stands" in lines[0]
+    assert "nothing-touches" in lines[1]
+    assert lines[2] == "3 robots: 1 stand, 1 do not, 1 skipped"
+
+
+def test_a_robot_that_cannot_be_tried_is_a_row(fleet, tmp_path):
+    (tmp_path / "broken.urdf").write_text("<robot name='r'><link name='a'/>\n<link name='b'/></r")
+    result = fleet("broken.urdf", "none.urdf", "--format", "json", "--junit", "out.xml")
+    assert result.code == 2
+    robots = {robot["path"]: robot for robot in json.loads(result.out)["robots"]}
+    assert robots["robots/mira.urdf"]["stands"] is True
+    assert robots["robots/macros.urdf.xacro"]["skipped"]
+    assert robots["broken.urdf"]["error"]["line"] == 2
+    assert robots["none.urdf"]["error"]["message"] == "no such file"
+    assert "none.urdf: no such file" in result.err
+    root = ElementTree.parse(tmp_path / "out.xml").getroot()
+    assert {name: root.get(name) for name in ("tests", "failures", "errors")} == {
+        "tests": "5",
+        "failures": "1",
+        "errors": "2",
+    }
+    (case,) = root.findall(".//testcase[@classname='robots/mira_geometric.urdf']")
+    assert "missing-collision" in case.find("failure").text
+    (skipped,) = root.findall(".//skipped")
+    assert "only macros" in skipped.get("message")
+
+
+def test_one_robot_is_a_junit_case_too(urdftool):
+    result = urdftool("simulate", MIRA / "mira.urdf", "--engine", "mujoco", "--format", "junit")
+    assert result.code == 0
+    assert ElementTree.fromstring(result.out.encode()).get("tests") == "1"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--fleet"], "robots are wanted"),
+        (["--fleet", "-"], "not read from standard input"),
+        (["--fleet", "a.urdf", "--plot", "a.png"], "are of one robot, not a --fleet"),
+        (["a.urdf", "b.urdf"], "one robot is wanted, not 2"),
+        (["--fleet", "empty"], "no .urdf or .urdf.xacro below empty"),
+        (["a.urdf", "--junit", "none/a.xml"], "the folder of none/a.xml does not exist"),
+    ],
+)
+def test_a_wrong_call_is_said(urdftool, tmp_path, monkeypatch, arguments, said):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "empty").mkdir()
+    result = urdftool("simulate", "--engine", "mujoco", *arguments)
+    assert result.code == 2
+    assert said in result.err
+
+
+@pytest.mark.slow
+def test_interrupted_it_stops_and_leaves_nothing(tmp_path):
+    """Ctrl-C in the middle: exit 130, no process, no temporary folder."""
+    environment = {**os.environ, "TMPDIR": str(tmp_path)}
+    process = subprocess.Popen(
+        [sys.executable, "-m", "urdftool", "simulate", "--engine", "mujoco", "--duration", "3600",
+         "--timestep", "1e-5", "--slope", "40", "--friction", "0", "--fleet", str(ROBOTS)],
+        cwd=ROOT, env=environment, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    time.sleep(6)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(20) == 130
+    assert process.stderr.read().endswith("urdftool: stopped\n")
+    time.sleep(0.5)
+    assert not list(tmp_path.glob("urdftool-*"))

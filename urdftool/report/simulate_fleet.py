@@ -1,0 +1,154 @@
+"""Many robots in one table, as JSON, or as JUnit XML with a case a robot."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from .findings import Painter, clean
+from .simulate import _fault
+
+if TYPE_CHECKING:
+    from ..simulation.fault import Fault
+    from ..simulation.fleet import Row
+
+
+def table(rows: Sequence[Row], *, colors: bool = False, skipped: bool = False) -> str:
+    """A line a robot: whether it stands, when it came to rest, and what went wrong.
+
+    Args:
+        rows: What became of each.
+        colors: Whether words are coloured.
+        skipped: Whether those that were passed over have a line, too.
+    """
+    paint = Painter(colors)
+    shown = [row for row in rows if skipped or not row.skipped]
+    paths = [clean(row.path) for row in shown]
+    width = max((len(path) for path in paths), default=0)
+    lines = []
+    for path, row in zip(paths, shown, strict=True):
+        word, color = _word(row)
+        rest = "" if row.settled is None else f"{row.settled:.2f} s"
+        lines.append(f"{path:<{width}}  {paint(f'{word:<14}', color)}  {rest:>7}  {_what(row)}")
+    lines.append(summary(rows))
+    return "".join(f"{line.rstrip()}\n" for line in lines)
+
+
+def summary(rows: Sequence[Row]) -> str:
+    """How many of each there are."""
+    counts = {
+        "stand": sum(row.stands is True for row in rows),
+        "do not": sum(row.stands is False for row in rows),
+        "could not be tried": sum(row.error is not None for row in rows),
+        "skipped": sum(bool(row.skipped) for row in rows),
+    }
+    said = ", ".join(f"{count} {what}" for what, count in counts.items() if count)
+    return f"{len(rows)} robot{'s' * (len(rows) != 1)}: {said or 'none'}"
+
+
+def _word(row: Row) -> tuple[str, str]:
+    if row.error is not None:
+        return "error", "red"
+    if row.skipped:
+        return "skipped", "yellow"
+    return ("stands", "green") if row.stands else ("does not stand", "red")
+
+
+def _what(row: Row) -> str:
+    if row.error is not None:
+        own = row.error.path == row.path and row.error.line is not None
+        place = f"{row.error.line}:{row.error.column}: " if own else ""
+        return clean(place + row.error.message if own or not row.error.path else str(row.error))
+    if row.skipped:
+        return clean(row.skipped)
+    kinds: dict[str, list[str]] = {}
+    for fault in row.faults:
+        if fault.fails:
+            kinds.setdefault(fault.kind, []).append(fault.name)
+    return ", ".join(
+        f"{kind} ({clean(names[0])}{', …' if len(names) > 1 else ''})" if names[0] else kind
+        for kind, names in kinds.items()
+    )
+
+
+def to_json(rows: Sequence[Row]) -> str:
+    """Everything but time series."""
+    said = {"version": 1, "stands": all(row.stands for row in rows if not row.skipped),
+            "robots": [_row(row) for row in rows]}  # fmt: skip
+    return json.dumps(said, ensure_ascii=False, indent=1) + "\n"
+
+
+def _row(row: Row) -> dict[str, Any]:
+    error = row.error
+    return {
+        "path": row.path,
+        "name": row.name,
+        "stands": row.stands,
+        "settled": row.settled,
+        "mass": row.mass,
+        "engine": row.engine or None,
+        "faults": [_fault(fault) for fault in row.faults],
+        "error": None
+        if error is None
+        else {
+            "message": error.message,
+            "path": error.path,
+            "line": error.line,
+            "column": error.column,
+        },
+        "skipped": row.skipped or None,
+        "seconds": round(row.seconds, 3),
+    }
+
+
+def to_junit(rows: Sequence[Row]) -> str:
+    """A suite with a case for each robot; remarks are the output of its case."""
+    root = Element("testsuites", name="urdftool simulate")
+    suite = SubElement(root, "testsuite", name="urdftool simulate")
+    for row in rows:
+        case = SubElement(
+            suite,
+            "testcase",
+            classname=clean(row.path),
+            name=clean(row.name) or "simulate",
+            time=f"{row.seconds:.3f}",
+        )
+        _told(case, row)
+    for count, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
+        suite.set(count, str(len(suite.findall(f"testcase/{tag}"))))
+    suite.set("tests", str(len(rows)))
+    suite.set("time", f"{sum(row.seconds for row in rows):.3f}")
+    for count in ("tests", "failures", "errors"):
+        root.set(count, suite.get(count, "0"))
+    indent(root, " ")
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+
+
+def _told(case: Element, row: Row) -> None:
+    if row.error is not None:
+        error = SubElement(case, "error", type="not tried", message=clean(row.error.message))
+        error.text = "\n".join(clean(line) for line in (str(row.error), *row.error.notes))
+        return
+    if row.skipped:
+        SubElement(case, "skipped", message=clean(row.skipped))
+        return
+    wrong = [fault for fault in row.faults if fault.fails]
+    remarks = [fault for fault in row.faults if not fault.fails]
+    if wrong:
+        kinds = ", ".join(dict.fromkeys(fault.kind for fault in wrong))
+        failure = SubElement(case, "failure", type=kinds, message=clean(wrong[0].message))
+        failure.text = "\n".join(line for fault in wrong for line in _lines(fault))
+    if remarks:
+        out = SubElement(case, "system-out")
+        out.text = "\n".join(line for fault in remarks for line in _lines(fault))
+
+
+def _lines(fault: Fault) -> Iterator[str]:
+    place = "" if fault.place is None else f"{clean(str(fault.place))}: "
+    yield f"{place}{clean(fault.message)} [{fault.kind}]"
+    if fault.cause:
+        yield f"  {clean(fault.cause)}"
+    if fault.rule:
+        yield f"  urdftool lint --explain {fault.rule}"
