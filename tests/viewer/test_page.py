@@ -145,6 +145,22 @@ def test_what_is_shown_is_made_once_and_hidden(show):
     assert len(page.body._nodes["axes"]) == 4
 
 
+def test_visuals_are_seen_through_also_after_a_reload(show):
+    page, path = show(ARM)
+    opacities = lambda: {node.opacity for _, node in page.body._nodes["visual"]}  # noqa: E731
+    assert opacities() == {None}
+    page._clear_box.value = True
+    page._clear()
+    assert opacities() == {0.35}
+    rewrite(path, ARM.replace('name="arm"', 'name="b"'))
+    tend(page)
+    assert opacities() == {0.35}
+    page._clear_box.value = False
+    page._clear()
+    assert opacities() == {None}
+    assert not page._banner.visible
+
+
 def test_a_link_is_chosen(show):
     page, _ = show(ARM)
     page.select("upper")

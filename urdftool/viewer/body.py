@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 KINDS = ("visual", "collision", "frames", "names", "axes", "com", "inertia", "errors", "warnings")
 """What of a robot can be shown and hidden."""
 
+CLEAR = 0.35
+"""Opacity of a visual that is seen through."""
+
 COLLISION = (240, 140, 40)
 BOXES = {True: (60, 120, 230), False: (220, 30, 30)}
 """Inertia that a rigid body can have, and that none has."""
@@ -67,6 +70,7 @@ class Body:
         self._selected: str | None = None
         self._tinted: list[tuple[Any, tuple[int, int, int]]] = []
         self._outline: list[Any] = []
+        self._opacity: dict[str, float | None] = {}
         self._findings: Mapping[str, list[Finding]] = {}
         self._paths: dict[str, str] = {}
         self._frames: dict[str, Any] = {}
@@ -144,6 +148,13 @@ class Body:
             self._nodes[kind] = list(getattr(self, f"_make_{kind}")())
         for _, node in self._nodes[kind]:
             node.visible = wanted
+
+    def see_through(self, wanted: bool) -> None:
+        """Have visuals let see what is in them, or not; those with an image stay as they are."""
+        for _, node in self._nodes.get("visual", []):
+            if hasattr(node, "opacity"):
+                before = self._opacity.setdefault(node.name, node.opacity)
+                node.opacity = min(before or 1.0, CLEAR) if wanted else before
 
     def mark(self, findings: Mapping[str, list[Finding]], shown: Iterable[str]) -> None:
         """Say at each link what was found on it.

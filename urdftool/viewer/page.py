@@ -120,6 +120,8 @@ class Page:
             for kind in KINDS:
                 self._boxes[kind] = gui.add_checkbox(LABELS[kind], kind in shown)
                 self._boxes[kind].on_update(lambda _, kind=kind: self._safely(self.refresh, kind))
+            self._clear_box = gui.add_checkbox("see through", False)
+            self._clear_box.on_update(lambda _: self._safely(self._clear))
             self._grid_box = gui.add_checkbox("ground", True)
             self._grid_box.on_update(lambda _: self._safely(self._ground))
         with tabs.add_tab("Parts"):
@@ -153,6 +155,7 @@ class Page:
             for kind in KINDS:
                 if kind not in MARKS:
                     body.show(kind, self._boxes[kind].value)
+            self._clear()
             self._ground()
             self._camera()
             self._choices()
@@ -178,6 +181,10 @@ class Page:
             handle.content = content
         if handle.visible != bool(content):
             handle.visible = bool(content)
+
+    def _clear(self) -> None:
+        with self.server.atomic():
+            self.body.see_through(self._clear_box.value)
 
     def _ground(self) -> None:
         lay_ground(self.server.scene, self.body.size, self._floor, self._grid_box.value)
@@ -254,6 +261,7 @@ class Page:
         """Show one of ``KINDS`` or not, as its box says."""
         with self.server.atomic():
             self.body.show(kind, self._boxes[kind].value)
+            self._clear()
             if kind in ("visual", "collision"):
                 self._say(list(self.body.shapes.values()))
 
