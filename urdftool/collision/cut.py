@@ -13,7 +13,7 @@ from .piece import Piece, mesh_piece
 from .settings import Settings
 from .surface import Prepared
 
-AGAIN = 4
+AGAIN = 8
 """Pieces that are cut again at most: those that are farthest off."""
 
 JOINS = (1.0, 0.8, 0.6)
@@ -25,7 +25,7 @@ TRIMS = (0.5, 0.25)
 HOPELESS = 6
 """Times as many pieces as are wanted, from which joins never come down to so few."""
 
-_SAME = 1.05
+_SAME = 1.25  # by so much more is still about as near, and has fewer pieces
 
 
 class Cutter:

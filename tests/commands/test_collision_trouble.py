@@ -1,0 +1,102 @@
+"""``urdftool collision`` in trouble: full disks, killed workers, odd meshes."""
+
+import os
+import resource
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.collision.shapes import l_profile, noisy, stl, turned
+from tests.commands.test_collision import robot
+from urdftool.collision.cache import Cache
+from urdftool.collision.compute import Task, attempt
+from urdftool.collision.parallel import compute_all
+from urdftool.collision.settings import Settings
+from urdftool.collision.tessellate import primitive
+from urdftool.errors import UrdftoolError
+
+HULL = Settings(method="hull")
+
+
+def dies(task):
+    if task.path.name == "bad.stl":
+        os.kill(os.getpid(), signal.SIGKILL)
+    return attempt(task)
+
+
+def test_a_worker_that_is_killed_is_said_and_the_others_are_done(tmp_path, monkeypatch):
+    from urdftool.collision import parallel
+
+    for name in ("good", "bad", "fine"):
+        (tmp_path / f"{name}.stl").write_bytes(stl(*l_profile()) + name.encode())
+    monkeypatch.setattr(parallel, "attempt", dies)
+    tasks = [Task(tmp_path / f"{name}.stl", settings=HULL) for name in ("bad", "good", "fine")]
+    found = compute_all(tasks, Cache(None), jobs=2)
+    assert isinstance(found[tasks[0]], UrdftoolError)
+    assert "killed" in found[tasks[0]].message
+    assert [found[task].method for task in tasks[1:]] == ["hull", "hull"]
+
+
+def test_a_full_disk_leaves_no_half_file(write):
+    write("meshes/bracket.stl", stl(*l_profile()))
+    write("r.urdf", robot(("a", "meshes/bracket.stl", "")))
+    words = ["collision", "r.urdf", "-o", "out.urdf", "--method", "hull", "--cache-dir", "kept"]
+    done = subprocess.run(
+        [sys.executable, "-m", "urdftool", *words],
+        capture_output=True,
+        text=True,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100)),
+    )
+    assert done.returncode == 2, done.stderr
+    assert "cannot be written" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not os.path.exists("out.urdf")
+    assert not os.path.exists("out_collision")
+    assert not [p for p in Path("kept").rglob("*") if p.is_file()]
+
+
+def bodies(count):
+    rng = np.random.default_rng(0)
+    boxes = [
+        primitive("box", (0.02, 0.03, 0.04), turned(rng), rng.uniform(-0.5, 0.5, 3))
+        for _ in range(count)
+    ]
+    points = np.concatenate([box.vertices for box in boxes])
+    faces = np.concatenate([box.faces + 8 * n for n, box in enumerate(boxes)])
+    return points, faces
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        pytest.param(bodies(300), id="300 bodies"),
+        pytest.param((l_profile()[0], l_profile()[1][:-1]), id="open"),
+        pytest.param((l_profile()[0], l_profile()[1][:, ::-1]), id="inverted"),
+        pytest.param(
+            (
+                np.concatenate([l_profile()[0], l_profile()[0] + [0.2, 0.05, 0]]),
+                np.concatenate([l_profile()[1], l_profile()[1] + 12]),
+            ),
+            id="two at an edge",
+        ),
+        pytest.param(
+            (
+                np.concatenate([l_profile()[0], noisy("box", (0.1, 0.1, 0.3))[0]]),
+                np.concatenate([l_profile()[1], noisy("box", (0.1, 0.1, 0.3))[1] + 12]),
+            ),
+            id="through itself",
+        ),
+    ],
+)
+@pytest.mark.parametrize(
+    "method", ["simplify", *(pytest.param(m, marks=pytest.mark.slow) for m in ("hull", "coacd"))]
+)
+def test_a_poor_mesh_comes_out(urdftool, write, mesh, method):
+    path = write("poor.stl", stl(*mesh))
+    done = urdftool("collision", "mesh", path, "--method", method, "-o", "out.stl", "--no-cache")
+    assert done.code == 0, done.err
+    assert os.path.getsize("out.stl") > 84
