@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import sys
 
-from . import expand, lint, startup, view
+from . import expand, lint, simulate, startup, view
 
-BENCHMARKS = {"startup": startup, "expand": expand, "lint": lint, "view": view}
+BENCHMARKS = {"startup": startup, "expand": expand, "lint": lint, "view": view, "simulate": simulate}
 
 
 def main(names: list[str]) -> int:

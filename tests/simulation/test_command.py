@@ -49,6 +49,7 @@ def test_a_box_that_is_dropped_stands(urdftool, write):
     ("text", "said"),
     [
         (two_links("planar", limit=""), "is planar"),
+        (two_links("spherical", limit=""), "is spherical"),
         (two_links(second="c"), "does not exist"),
         (two_links().replace("</robot>", '<link name="x"/></robot>'), "hangs on nothing"),
         (two_links().replace("</robot>", JOINT_AND_END), "there already"),

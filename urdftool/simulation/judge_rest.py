@@ -117,18 +117,37 @@ def support_margin(points: Array, at: Array) -> float:
         points: Shape (n, 2), at least one.
         at: Shape (2,).
     """
-    from scipy.spatial import ConvexHull, QhullError
-
-    try:
-        equations = ConvexHull(points).equations
-    except (QhullError, ValueError):  # a point or a line has no inside
+    corners = _corners(sorted(set(map(tuple, points.tolist()))))
+    if len(corners) < 3:  # a point or a line has no inside
         along = points - points.mean(axis=0)
         _, _, axes = np.linalg.svd(along, full_matrices=True)
         lengths = along @ axes[0]
         where = float(np.clip((at - points.mean(axis=0)) @ axes[0], lengths.min(), lengths.max()))
         nearest = points.mean(axis=0) + where * axes[0]
         return -float(np.linalg.norm(at - nearest))
-    return -float((equations[:, :2] @ at + equations[:, 2]).max())
+    x, y = at.tolist()
+    pairs = zip(corners, [*corners[1:], corners[0]], strict=True)
+    margin: float = min(
+        ((c - a) * (y - b) - (d - b) * (x - a)) / math.hypot(c - a, d - b)
+        for (a, b), (c, d) in pairs
+    )
+    return margin
+
+
+def _corners(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Corners of the convex hull of sorted points, counter-clockwise, by Andrew's chains."""
+    found: list[tuple[float, float]] = []
+    for order in (points, points[::-1]):
+        chain: list[tuple[float, float]] = []
+        for c, d in order:
+            while len(chain) > 1:
+                (a, b), (e, f) = chain[-2:]
+                if (e - a) * (d - b) - (f - b) * (c - a) > 1e-15:
+                    break
+                chain.pop()
+            chain.append((c, d))
+        found += chain[:-1]
+    return found
 
 
 def judge_rest(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:

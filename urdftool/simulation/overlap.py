@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ..errors import UrdftoolError
 from ..inertia.winding import boxes_of, winding_numbers
@@ -103,6 +102,8 @@ def _deepest(one: Array, other: Array) -> float:
 
 def _inside(one: Array, other: Array, low: Array, high: Array) -> float:
     """How far points of one surface get into the other, looked for in a box that both share."""
+    from scipy.spatial import cKDTree  # takes a tenth of a second, and few robots come here
+
     points = _points(one)
     points = points[((points >= low) & (points <= high)).all(axis=1)]
     if not len(points):

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ..errors import ModelError
 from ..finding import Finding
-from ..formats.defects import FATAL, defect, defects, refuse
+from ..formats.defects import BALL_TYPES, FATAL, defect, defects, refuse
 from ..model.elements import Robot
 from ..model.kinematics import check_positions
 from .bodies import Bodies, bodies_of
@@ -55,7 +55,7 @@ def check_settings(robot: Robot, settings: Settings) -> None:
 def _unable(robot: Robot) -> Iterator[Finding]:
     root = robot.tree.root
     for joint in robot.joints:
-        if joint.type not in ("planar", "floating"):
+        if joint.type not in ("planar", "floating", *BALL_TYPES):
             continue
         if (
             joint.type == "floating"
