@@ -1,8 +1,8 @@
 """The method coacd beside CoACD itself: ``python -m tests.benchmarks.collision_coacd FILE``.
 
-For each mesh that is named the seconds, triangles, pieces and the two-sided largest distance over
-all surfaces of all pieces, relative to the diagonal. CoACD's own runs take minutes, and some end
-the process, so each runs in one of its own.
+For each mesh that is named the seconds, triangles, pieces and two largest distances, both two-sided
+and relative to the diagonal: over all surfaces of all pieces, and of what can be touched.
+CoACD's own runs take minutes, and some end the process, so each runs in one of its own.
 """
 
 import subprocess
@@ -14,6 +14,8 @@ import numpy as np
 
 from urdftool.collision.compute import Task, compute
 from urdftool.collision.distance import Surface, spread
+from urdftool.collision.measure import Target, measure
+from urdftool.collision.piece import mesh_piece
 from urdftool.collision.settings import Settings
 from urdftool.collision.surface import read_surface
 
@@ -24,8 +26,9 @@ given = np.load(sys.argv[1])
 begin = time.perf_counter()
 parts = coacd.run_coacd(coacd.Mesh(given["v"], given["f"]))
 seconds = time.perf_counter() - begin
-corners = np.concatenate([np.asarray(v)[np.asarray(f)] for v, f in parts])
-np.savez(sys.argv[2], corners=corners, seconds=seconds, pieces=len(parts))
+arrays = {f"v{k}": np.asarray(v, float) for k, (v, _) in enumerate(parts)}
+arrays |= {f"f{k}": np.asarray(f, int) for k, (_, f) in enumerate(parts)}
+np.savez(sys.argv[2], seconds=seconds, pieces=len(parts), **arrays)
 """
 
 
@@ -45,25 +48,28 @@ def by_default(surface):
         if subprocess.run(words, capture_output=True).returncode:
             return None
         with np.load(made) as found:
-            return float(found["seconds"]), found["corners"], int(found["pieces"])
+            count = int(found["pieces"])
+            pieces = [mesh_piece(found[f"v{k}"], found[f"f{k}"]) for k in range(count)]
+            return float(found["seconds"]), pieces
 
 
 def main(paths):
     for path in paths:
         surface = read_surface(path)
         result = compute(Task(Path(path), settings=Settings(method="coacd")))
-        corners = np.concatenate([piece.corners for piece in result.pieces])
-        rows = [("default", by_default(surface))]
-        rows.append(("ours", (result.seconds, corners, len(result.pieces))))
+        rows = [("default", by_default(surface)), ("ours", (result.seconds, result.pieces))]
+        target = Target(surface)
         for name, row in rows:
             if row is None:
                 print(f"{Path(path).name:50} {name:8} died")
                 continue
-            seconds, made, pieces = row
+            seconds, pieces = row
+            made = np.concatenate([piece.corners for piece in pieces])
             error = apart(surface.corners, made, surface.size)
+            touched = measure(target, pieces).error
             print(
                 f"{Path(path).name:50} {name:8} {seconds:7.1f} s {len(made):6} triangles "
-                f"{pieces:4} pieces {error:.2%}"
+                f"{len(pieces):4} pieces {error:.2%} touched {touched:.2%}"
             )
 
 
