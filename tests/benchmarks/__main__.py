@@ -10,7 +10,13 @@ import sys
 
 from . import expand, lint, simulate, startup, view
 
-BENCHMARKS = {"startup": startup, "expand": expand, "lint": lint, "view": view, "simulate": simulate}
+BENCHMARKS = {
+    "startup": startup,
+    "expand": expand,
+    "lint": lint,
+    "view": view,
+    "simulate": simulate,
+}
 
 
 def main(names: list[str]) -> int:
