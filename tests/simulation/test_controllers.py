@@ -246,10 +246,12 @@ def test_a_joint_without_a_controller_is_limp(arm, write, engine):
 def test_the_command_takes_a_file(urdftool, write):
     write("arm.urdf", ARM.format(damping=1, more=""))
     write("c.yaml", ROS1.format(gains="{p: 20, d: 4}"))
-    result = urdftool("simulate", "arm.urdf", "--controllers", "c.yaml")
+    result = urdftool("simulate", "--engine", "mujoco", "arm.urdf", "--controllers", "c.yaml")
     assert result.code == 1
     assert "c.yaml:5:10: error: joint 'swing' is to be at 0 rad" in result.out
-    result = urdftool("simulate", "arm.urdf", "--controllers", "none.yaml")
+    result = urdftool("simulate", "--engine", "mujoco", "arm.urdf", "--controllers", "none.yaml")
     assert (result.code, result.err) == (2, "none.yaml: no such file\n")
-    result = urdftool("simulate", "arm.urdf", "--limp", "--controllers", "c.yaml")
+    result = urdftool(
+        "simulate", "--engine", "mujoco", "arm.urdf", "--limp", "--controllers", "c.yaml"
+    )
     assert result.code == 2

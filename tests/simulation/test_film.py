@@ -120,6 +120,6 @@ def test_what_cannot_be_drawn_is_said_before_the_simulation(
     write("bare.urdf", BARE)
     os.mkdir("folder.png")
     monkeypatch.setattr("urdftool.simulation.run.simulate", None)
-    result = urdftool("simulate", "bare.urdf", *options)
+    result = urdftool("simulate", "--engine", "mujoco", "bare.urdf", *options)
     assert result.code == 2
     assert said in result.err
