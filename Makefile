@@ -6,7 +6,7 @@ BIN    := $(VENV)/bin
 DEMO   := fixtures/robots/demo_arm/urdf/arm.urdf.xacro
 SOUND  := fixtures/robots/demo_arm/urdf/arm_sound.urdf.xacro
 
-.PHONY: demo test test-all check format docs bench clean
+.PHONY: demo test test-all check format docs site bench clean
 
 $(BIN)/urdftool: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -16,6 +16,10 @@ $(BIN)/urdftool: pyproject.toml
 
 $(VENV)/.dev: pyproject.toml $(BIN)/urdftool
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@touch $@
+
+$(VENV)/.docs: $(VENV)/.dev
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
 	@touch $@
 
 # lint exits 1 because the demo robot has mistakes; anything else is a failure.
@@ -45,6 +49,10 @@ format: $(VENV)/.dev
 
 docs: $(VENV)/.dev
 	$(BIN)/python docs/generate.py
+
+site: $(VENV)/.docs
+	$(BIN)/python -m sphinx -W --keep-going -n -b html -d build/trees docs build/site
+	@echo "build/site/index.html"
 
 bench: $(VENV)/.dev
 	$(BIN)/python -m tests.benchmarks

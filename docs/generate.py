@@ -9,17 +9,17 @@ from __future__ import annotations
 
 import argparse
 import inspect
-import os
 import re
-import shutil
-import subprocess
 import sys
-import tempfile
 from collections.abc import Iterator
 from difflib import unified_diff
 from pathlib import Path
 
 import click
+from generator.completions import completions
+from generator.console import BLOCK, how, same, with_output, written_pages
+from generator.man import man_pages
+from generator.python_page import with_names
 
 from urdftool import cli
 from urdftool.finding import Severity
@@ -30,7 +30,8 @@ from urdftool.rules.rule import TARGETS, Rule
 
 DOCS = Path(__file__).resolve().parent
 FIXTURES = DOCS.parent / "fixtures" / "rules"
-BEGIN, END = "<!-- help begins -->", "<!-- help ends -->"
+BEGIN, END = "<!-- help begins", "<!-- help ends -->"
+HELP = re.compile(rf"(?P<begin>{BEGIN}(?:: (?P<words>[a-z ]+))? -->).*?{END}", re.DOTALL)
 
 
 def pages() -> Iterator[tuple[Path, str]]:
@@ -39,9 +40,10 @@ def pages() -> Iterator[tuple[Path, str]]:
         yield DOCS / "rules" / f"{rule.name}.md", rule_page(rule)
     yield DOCS / "rules" / "index.md", rule_index()
     for path in sorted((DOCS / "commands").glob("*.md")):
-        yield path, with_output(with_help(path))
-    for path in (DOCS.parent / "README.md", DOCS / "index.md", DOCS / "adopting.md"):
-        yield path, with_output(path.read_text("utf-8"))
+        yield path, with_help(path)
+    yield DOCS / "python.md", with_names((DOCS / "python.md").read_text("utf-8"))
+    yield from man_pages()
+    yield from completions()
 
 
 def rule_page(rule: Rule) -> str:
@@ -92,7 +94,13 @@ def rule_index() -> str:
         names = [name for group in RULES[family].values() for name in group]
         if not names:
             continue
-        lines += ["", f"## {family}", "", "| rule | severity | what it says | fix |", "|---|---|---|---|"]
+        lines += [
+            "",
+            f"## {family}",
+            "",
+            "| rule | severity | what it says | fix |",
+            "|---|---|---|---|",
+        ]
         for name in names:
             rule = get_rule(name)
             off = "" if rule.default else " *(off)*"
@@ -114,56 +122,43 @@ def rule_index() -> str:
 
 
 def with_help(path: Path) -> str:
-    """A command's page with the help between its marks as it is now."""
-    text = path.read_text("utf-8")
-    words = path.stem.split("-")
+    """A page with the help between its marks as it is now.
+
+    The mark names the command, as in ``<!-- help begins: export sdf -->``; the first of a command's
+    page need not.
+    """
+
+    def shown(match: re.Match[str]) -> str:
+        words = (match["words"] or path.stem).split()
+        return f"{match['begin']}\n```text\n{help_of(words)}\n```\n{END}"
+
+    return HELP.sub(shown, path.read_text("utf-8"))
+
+
+def help_of(words: list[str]) -> str:
+    """What ``urdftool WORDS --help`` prints, in 88 columns."""
     command: click.Command = cli.main
     settings = {**cli.main.context_settings, "terminal_width": 88}
     context = click.Context(cli.main, info_name="urdftool", **settings)
     for word in words:
         assert isinstance(command, click.Group)
         found = command.get_command(context, word)
-        assert found is not None, f"{path}: no command {word}"
+        assert found is not None, f"no command {' '.join(words)}"
         command = found
         context = click.Context(command, info_name=word, parent=context, terminal_width=88)
-    shown = f"{BEGIN}\n```text\n{command.get_help(context)}\n```\n{END}"
-    pattern = re.compile(re.escape(BEGIN) + ".*?" + re.escape(END), re.DOTALL)
-    return pattern.sub(lambda _: shown, text)
+    return command.get_help(context)
 
 
-def with_output(text: str) -> str:
-    """A page with what its commands print now; the commands of a page run one after the other."""
-    block = re.compile(r"(?<=```console\n).*?(?=```)", re.DOTALL)
-    if not block.search(text):
-        return text
-    with tempfile.TemporaryDirectory() as folder:
-        shutil.copytree(FIXTURES.parent, Path(folder) / "fixtures")
-
-        def run(match: re.Match[str]) -> str:
-            commands = [line for line in match[0].splitlines() if line.startswith("$ ")]
-            return "".join(f"{line}\n{_output(line[2:], folder)}" for line in commands)
-
-        return block.sub(run, text)
-
-
-def _output(command: str, folder: str) -> str:
-    """What a command prints on both streams."""
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
-    own = {"XDG_CACHE_HOME": f"{folder}/.cache"}
-    done = subprocess.run(
-        ["bash", "-c", command],
-        cwd=folder,
-        env={**os.environ, "PATH": path, "NO_COLOR": "1", "COLUMNS": "100", **own},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        check=False,
-    )
-    return re.sub(r"[ \t]+$", "", done.stdout, flags=re.MULTILINE)
+def run_pages() -> Iterator[tuple[Path, str, str]]:
+    """Every page with commands: as it is, and with what they print now."""
+    for path in written_pages():
+        text = path.read_text("utf-8")
+        if BLOCK.search(text) and how(text).is_possible:
+            yield path, text, with_output(text)
 
 
 def stale() -> list[Path]:
-    """Generated pages that are not as they would be written now, or whose rule is gone."""
+    """Generated files that are not as they would be written now, or whose rule is gone."""
     fresh = dict(pages())
     wrong = [p for p, text in fresh.items() if not p.exists() or p.read_text("utf-8") != text]
     return wrong + [path for path in (DOCS / "rules").glob("*.md") if path not in fresh]
@@ -173,17 +168,26 @@ def main() -> int:
     """Write the pages, or check them."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--check", action="store_true", help="write nothing; name stale pages")
-    if parser.parse_args().check:
+    parser.add_argument("--no-commands", action="store_true", help="run no command of a page")
+    options = parser.parse_args()
+    if options.check:
         wrong = stale()
-        for path in wrong:
-            print(f"{path}: is stale; run python docs/generate.py")
-        return int(bool(wrong))
-    for path in (DOCS / "rules").glob("*.md"):
-        path.unlink()
-    for path, text in pages():
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(text, "utf-8")
-    return 0
+    else:
+        for path in (DOCS / "rules").glob("*.md"):
+            path.unlink()
+        for path, text in pages():
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(text, "utf-8")
+    for path, old, new in () if options.no_commands else run_pages():
+        if same(old, new, how(old)):
+            continue
+        if options.check:
+            wrong.append(path)
+        else:
+            path.write_text(new, "utf-8")
+    for path in wrong if options.check else ():
+        print(f"{path}: is stale; run python docs/generate.py")
+    return int(options.check and bool(wrong))
 
 
 if __name__ == "__main__":

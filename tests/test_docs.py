@@ -1,36 +1,112 @@
-import importlib.util
 import re
+from importlib.util import find_spec
 
+import generate
 import pytest
+from generator.console import BLOCK, how, same, with_output, written_pages
 
 from tests.conftest import ROOT
 
-SPEC = importlib.util.spec_from_file_location("generate", ROOT / "docs" / "generate.py")
-generate = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(generate)
-
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(ROOT.glob("docs/**/*.md"))]
+RUN = [path for path in written_pages() if BLOCK.search(path.read_text("utf-8"))]
+
+
+def named(path):
+    return str(path.relative_to(ROOT))
+
+
+def of_pages(slow):
+    """The pages with commands, slow ones marked as such."""
+    for page in RUN:
+        is_slow = how(page.read_text("utf-8")).slow
+        if is_slow == slow:
+            yield pytest.param(page, id=named(page), marks=[pytest.mark.slow] if slow else [])
 
 
 def test_generated_pages_are_fresh():
-    wrong = [str(path.relative_to(ROOT)) for path in generate.stale()]
-    assert wrong == [], "run python docs/generate.py"
+    wrong = [named(path) for path in generate.stale()]
+    assert wrong == [], "run make docs"
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda p: str(p.relative_to(ROOT)))
+@pytest.mark.parametrize("page", [*of_pages(slow=False), *of_pages(slow=True)])
+def test_commands_print_what_is_shown(page):
+    text = page.read_text("utf-8")
+    if not how(text).is_possible:
+        pytest.skip(f"it needs {', '.join(how(text).needs)}")
+    new = with_output(text)
+    if not same(text, new, how(text)):
+        assert text == new, "run make docs"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=named)
 def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)#]+)\)", page.read_text("utf-8")):
         if not target.startswith("http"):
             assert (page.parent / target).exists(), target
 
 
+@pytest.mark.parametrize("page", [page for page in PAGES if page.parent.name == "commands"])
+def test_a_page_of_a_command_has_its_help(page):
+    assert generate.BEGIN in page.read_text("utf-8")
+
+
+def test_every_command_has_a_page():
+    for name in generate.cli.COMMANDS:
+        assert (ROOT / "docs" / "commands" / f"{name}.md").exists(), name
+
+
 def test_the_readme_is_short():
     assert len((ROOT / "README.md").read_text("utf-8").splitlines()) < 150
 
 
-def test_python_of_the_readme_runs(tmp_path, monkeypatch, capsys):
-    text = (ROOT / "README.md").read_text("utf-8")
-    (code,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-    monkeypatch.chdir(ROOT / "fixtures" / "robots" / "demo_arm" / "urdf")
+def test_how_a_page_is_run():
+    said = how("# Title\n\n<!-- run: slow, needs mujoco, numbers vary -->\n")
+    assert said.slow
+    assert said.needs == ("mujoco",)
+    assert said.numbers_vary
+    assert how("# Title\n").is_possible
+    assert not how("<!-- run: needs no_such_library -->").is_possible
+    with pytest.raises(AssertionError):
+        how("<!-- run: slowly -->")
+
+
+def test_words_count_where_numbers_vary():
+    shown = "```console\n$ x\nlink   0.31 s\n```\n"
+    vary = how("<!-- run: numbers vary -->")
+    assert same(shown, shown.replace("0.31 s", "12 s"), vary)
+    assert not same(shown, shown.replace("link", "joint"), vary)
+    assert not same(shown, shown + "more", vary)
+    assert not same(shown, shown.replace("0.31", "12"), how(""))
+
+
+def python_blocks():
+    found = []
+    for page in written_pages():
+        codes = re.findall(r"```python\n(.*?)```", page.read_text("utf-8"), re.DOTALL)
+        if codes and "import urdftool" in codes[0]:
+            for number, code in enumerate(codes):
+                if "import " in code:
+                    found.append(pytest.param(code, id=f"{named(page)}-{number}"))
+    return found
+
+
+@pytest.mark.parametrize("code", python_blocks())
+def test_python_of_the_pages_runs(code, stand_ins, monkeypatch, capsys):
+    monkeypatch.chdir(stand_ins)
     exec(code, {})
-    assert "left_base_link" in capsys.readouterr().out
+    assert capsys.readouterr().out.strip()
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(find_spec("sphinx") is None, reason="pip install '.[docs]'")
+def test_the_site_builds_without_a_warning(tmp_path):
+    from sphinx.cmd.build import build_main
+
+    words = ["-q", "-W", "-n", "-b", "html", "-d", str(tmp_path / "trees")]
+    assert build_main([*words, str(ROOT / "docs"), str(tmp_path / "site")]) == 0
+    pages = list((tmp_path / "site").rglob("*.html"))
+    assert len(pages) > 270
+    for page in pages:
+        text = page.read_text("utf-8")
+        loaded = re.findall(r'<(?:script|img|link)\b[^>]*?(?:src|href)="(https?:[^"]+)"', text)
+        assert loaded == [], page

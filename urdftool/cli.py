@@ -122,6 +122,10 @@ def call(arguments: list[str] | None = None) -> int:
     for flag in ("--debug", "--trust"):  # wherever they stand on the line
         if flag in words:
             words = [flag, *(word for word in words if word != flag)]
+    if "_URDFTOOL_COMPLETE" in os.environ:  # a shell asks what could follow
+        from .commands.completion import prepare
+
+        prepare()
     console = Console()
     try:
         result: Any = main.main(words, prog_name="urdftool", standalone_mode=False)

@@ -1,0 +1,54 @@
+"""A folder with the files that the examples of help and documentation name."""
+
+import re
+import shutil
+import subprocess
+import sys
+
+from tests.conftest import FIXTURES
+from urdftool import expand
+
+ROBOTS = FIXTURES / "robots"
+ARM = ROBOTS / "demo_arm" / "urdf"
+SRDF = (
+    '<robot name="demo_arm">\n'
+    '  <disable_collisions link1="base_link" link2="shoulder" reason="Adjacent"/>\n</robot>\n'
+)
+
+
+def make(folder):
+    """The files, in a git repository with the tag v1.2."""
+    packages = folder / "packages"
+    shutil.copytree(ROBOTS, packages)
+    arm = expand(packages / "demo_arm/urdf/arm_sound.urdf.xacro")
+    for name in ("panda.urdf", "urdf/arm.urdf", "robots/arm.urdf"):
+        _put(folder / name, arm)
+    _put(folder / "arm.urdf", re.sub("<inertial>.*?</inertial>", "", arm, count=1, flags=re.DOTALL))
+    shutil.copy(ARM / "arm_sound.urdf.xacro", folder / "arm.urdf.xacro")
+    shutil.copy(ARM / "arm_sound.urdf.xacro", folder / "quadruped.urdf.xacro")
+    shutil.copy(ARM / "link_sound.macro.xacro", folder / "link_sound.macro.xacro")
+    shutil.copytree(ROBOTS / "laser_bot", folder / "src" / "laser_bot")
+    shutil.copy(ROBOTS / "mira_description/urdf/mira.urdf", folder / "mira.urdf")
+    mobile = packages / "my_robot/urdf/mobile_manipulator.urdf.xacro"
+    _put(folder / "rover.urdf", expand(mobile))
+    _put(folder / "arm.srdf", SRDF)
+    for name, mesh in {
+        "link3.stl": "cube.stl",
+        "link3.dae": "inch_y_up.dae",
+        "cover.stl": "open_box.stl",
+        "gripper.stl": "cavity.stl",
+        "wheel.dae": "cube.dae",
+    }.items():
+        shutil.copy(FIXTURES / "meshes" / mesh, folder / name)
+    (folder / "test_results").mkdir()
+    lint = ("lint", "src/", "--write-baseline", "lint-baseline.json", "--no-cache")
+    subprocess.run([sys.executable, "-m", "urdftool", "-q", *lint], cwd=folder, check=True)
+    for words in (("init", "-qb", "main"), ("add", "."), ("commit", "-qm", "one"), ("tag", "v1.2")):
+        who = ("-c", "user.name=nobody", "-c", "user.email=nobody@example.org")
+        subprocess.run(["git", *who, "-c", "tag.gpgsign=false", *words], cwd=folder, check=True)
+    return folder
+
+
+def _put(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, "utf-8")
