@@ -1,6 +1,6 @@
 """Draw the pictures of robots in the documentation: ``python docs/pictures/draw.py``.
 
-Each is what a command of ``urdftool view`` writes for a robot of the fixtures.
+Each is what ``urdftool view`` or ``simulate`` writes for a robot of the fixtures.
 """
 
 from __future__ import annotations
@@ -31,9 +31,25 @@ PICTURES = {
 }
 """By file: the robot, and the words that follow it."""
 
+SIMULATED = {
+    "simulate_plot.png": (
+        "ros2_arm/urdf/robot2_sound.urdf.xacro", "--limp", "--engine", "both", "--plot",
+    ),
+    "simulate_collapse.gif": ("ros2_arm/urdf/robot2_sound.urdf.xacro", "--limp", "--video"),
+    "simulate_settled.png": (
+        "my_robot/urdf/mobile_manipulator.urdf.xacro",
+        *("--pose", "shoulder_joint=0.6", "--pose", "elbow_joint=0.8", "--picture"),
+    ),
+}  # fmt: skip
+"""The same for ``simulate``, which says by its exit code whether the robot stands."""
+
 
 def main() -> int:
     """Draw them all; the exit code is that of the first that fails."""
+    for name, (robot, *words) in SIMULATED.items():
+        code = cli.call(["simulate", str(ROBOTS / robot), *words, str(FOLDER / name)])
+        if code > 1:
+            return code
     for name, (robot, *words) in PICTURES.items():
         code = cli.call(["view", str(ROBOTS / robot), *words, str(FOLDER / name)])
         if code:

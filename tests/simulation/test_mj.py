@@ -98,7 +98,7 @@ def test_a_slope_steeper_than_friction_lets_a_box_slide(write):
         moved, times = run.recording.poses[:, 0, 0], run.recording.times
         if slides:
             rate = 9.81 * (math.sin(angle) - friction * math.cos(angle))
-            assert moved[-1] == pytest.approx(rate * times[-1] ** 2 / 2, rel=0.05)
+            assert moved[-1] == pytest.approx(rate * times[-1] ** 2 / 2, rel=0.01)
         else:
             assert abs(moved[-1]) < 1e-3
 

@@ -97,7 +97,7 @@ def _in_each_other(robot: Robot, run: Run) -> Iterator[Fault]:
             continue
         depth = contact.depth if depth is None else min(depth, contact.depth)
         thin = min(_extents(bodies[owner[name]]).min() for name in (contact.one, contact.other))
-        fails = not adjacent and depth > THICK * thin
+        fails = bool(not adjacent and depth > THICK * thin)
         when = "at the start" if starting else "at rest"
         yield Fault(
             "parts-collide",

@@ -24,7 +24,7 @@ from .recording import Array, Recording
 from .settings import Settings
 from .stillness import PATIENCE, Stillness
 
-_SOFT = 2.5  # timesteps: the time constant of a contact; below two it is unstable
+_SOFT = 5.0  # timesteps: the time constant of a contact; below two it is unstable, near it jumps
 _IMPEDANCE = (0.95, 0.99, 0.001, 0.5, 2.0)
 
 
