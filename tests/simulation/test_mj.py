@@ -152,3 +152,26 @@ def test_a_fixed_base_hangs_where_it_is_put():
     (run,) = simulate(robot, Settings(fixed_base=True, height=1.0), engine="mj")
     assert run.recording.poses[-1, 0, :3] == pytest.approx([0, 0, 1.0])
     assert not run.recording.contacts
+
+
+def test_a_joint_is_swept_until_links_overlap(write):
+    """A bar of 0.5 m that turns about z runs into a post at 90° beside it."""
+    robot = load(
+        write(
+            "robot.urdf",
+            """<robot name="r"><link name="base"><collision><origin xyz="0 0.3 0"/><geometry>
+  <box size="0.1 0.1 0.1"/></geometry></collision></link>
+ <joint name="mid" type="revolute"><parent link="base"/><child link="hub"/><axis xyz="0 0 1"/>
+  <limit lower="-0.1" upper="0.1" effort="1" velocity="1"/></joint><link name="hub"/>
+ <joint name="turn" type="revolute"><parent link="hub"/><child link="bar"/><axis xyz="0 0 1"/>
+  <limit lower="-1.5" upper="1.5" effort="1" velocity="1"/></joint>
+ <link name="bar"><collision><origin xyz="0.25 0 0"/><geometry><box size="0.5 0.02 0.02"/>
+  </geometry></collision></link></robot>""",
+        )
+    )
+    (run,) = simulate(robot, Settings(sweep=True, duration=0.1), engine="mj")
+    turn = next(joint for joint in run.swept if joint.joint == "turn")
+    assert turn.free_lower == -1.5
+    corner = math.atan2(0.25, 0.05) - 0.01 / 0.25  # where the bar's upper edge meets the corner
+    assert turn.free_upper == pytest.approx(corner, abs=3.0 / 36)
+    assert [{hit.one, hit.other} for hit in turn.hits] == [{"bar", "base"}]

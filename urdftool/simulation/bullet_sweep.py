@@ -18,10 +18,7 @@ STEPS = 36
 
 
 def sweep(bodies: Bodies, settings: Settings, folder: Path) -> list[Swept]:
-    """Put each joint that follows none to places between its limits, and look for overlaps.
-
-    What overlaps where the robot starts is left out. A continuous joint, and one without limits,
-    goes through half a turn to each side.
+    """Sweep a robot in PyBullet.
 
     Args:
         bodies: The robot; ``folder`` holds it as ``urdf.write_folder`` wrote it.
@@ -30,6 +27,19 @@ def sweep(bodies: Bodies, settings: Settings, folder: Path) -> list[Swept]:
     """
     world = World(bullet_module(), bodies, settings, folder)
     world.lift()
+    return sweep_world(world, bodies)
+
+
+def sweep_world(world: Any, bodies: Bodies) -> list[Swept]:
+    """Put each joint that follows none to places between its limits, and look for overlaps.
+
+    What overlaps where the robot starts is left out. A continuous joint, and one without limits,
+    goes through half a turn to each side.
+
+    Args:
+        world: Of either engine.
+        bodies: The robot in it.
+    """
     at_start = {_pair(contact) for contact in world.overlaps(ground=False)}
     found = []
     for number, joint in enumerate(bodies.joints):

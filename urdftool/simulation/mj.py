@@ -20,7 +20,7 @@ from .mj_contacts import Touches
 from .mj_file import MOTOR, PLANE, SCENE, moving_name
 from .mj_motors import Motors
 from .mj_read import read_back
-from .recording import Array, Recording
+from .recording import Array, Contact, Recording
 from .settings import Settings
 from .stillness import PATIENCE, Stillness
 
@@ -173,6 +173,19 @@ class World:
                 mj.mju_rotVecQuat(place, places[row], turn)
                 mj.mju_mulQuat(whole, turn, turns[row])
                 places[row], turns[row] = place + at, whole
+
+    def put(self, joint: int, value: float) -> None:
+        """Put a joint somewhere, with those that mimic it, without a step."""
+        name = self.bodies.joints[joint].name
+        for number, one in zip(self.joints, self.bodies.joints, strict=True):
+            if number >= 0 and name in (one.name, one.leader):
+                to = value if one.name == name else one.multiplier * value + one.offset
+                self.data.qpos[self.model.jnt_qposadr[number]] = to
+        self.mj.mj_kinematics(self.model, self.data)
+
+    def overlaps(self, *, ground: bool = True) -> list[Contact]:
+        """The deepest place of each two bodies that are in each other, whether they push or not."""
+        return self.touches.overlaps(ground=ground)
 
     def settle(self) -> Recording:
         """Step until nothing moves, the time is over, or the robot is lost."""

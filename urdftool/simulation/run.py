@@ -80,7 +80,7 @@ def simulate(
             recording = child.call(engine, "run", bodies, trial, Path(folder), time_limit=left)
             swept = []
             if settings.sweep and number == 1:
-                swept = _sweep(bodies, trial, Path(folder))
+                swept = _sweep(bodies, trial, engine, Path(folder))
         runs.append(Run(trial, bodies, recording, swept))
     return runs
 
@@ -95,11 +95,11 @@ def _write(robot: Robot, bodies: Bodies, settings: Settings, engine: str, folder
         write_folder(bodies, folder)
 
 
-def _sweep(bodies: Bodies, settings: Settings, folder: Path) -> list[Swept]:
-    """Joints moved through their limits: geometry, which PyBullet knows whichever engine ran."""
-    with Child("pybullet") as child:
+def _sweep(bodies: Bodies, settings: Settings, engine: str, folder: Path) -> list[Swept]:
+    """Joints moved through their limits, in a process of its own."""
+    with Child(LIBRARIES[engine]) as child:
         found: list[Swept] = child.call(
-            "bullet_sweep", "sweep", bodies, settings, folder, time_limit=settings.time_limit
+            f"{engine}_sweep", "sweep", bodies, settings, folder, time_limit=settings.time_limit
         )
     return found
 
