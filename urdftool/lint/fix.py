@@ -24,6 +24,10 @@ class Origin(NamedTuple):
     document: Document | None
 
 
+FROM_BYTES = "failures"
+"""The file of fixers that have nothing but the finding and the bytes."""
+
+
 def add_fixes(
     report: Report,
     findings: Sequence[Finding],
@@ -76,6 +80,8 @@ def add_fixes(
 
 
 def _proposal(finding: Finding, origin: Origin | None, around: Around) -> Proposal | None:
+    if (origin is None) != (FIX_FILE[finding.rule] == FROM_BYTES):
+        return None  # a rule's finding in a file that could not be expanded
     module = import_module(f"..rules.fixes.{FIX_FILE[finding.rule]}", __package__)
     fixer = getattr(module, finding.rule.replace("-", "_"))
     found: Proposal | None
