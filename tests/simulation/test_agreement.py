@@ -1,10 +1,12 @@
 """Two engines on one robot: they agree, or the cause that was planted is found."""
 
+import json
 from importlib.util import find_spec
 
+import jsonschema
 import pytest
 
-from tests.conftest import FIXTURES
+from tests.conftest import FIXTURES, ROOT
 from urdftool.model.load import load
 from urdftool.simulation.agreement import compare, differences
 from urdftool.simulation.run import simulate
@@ -70,6 +72,18 @@ def test_what_holds_in_both_is_no_difference(write):
     robot = load(write("robot.urdf", HANGING.format(effort=50, more="")))
     chosen, first, second = _both(robot)
     assert differences(robot, chosen, first, second) == []
+
+
+def test_the_command_tells_of_differences_as_json(urdftool, write):
+    result = urdftool(
+        *("simulate", "--engine", "both", "--format", "json", write("robot.urdf", WEIGHTLESS)),
+    )
+    assert result.code == 1, result.err
+    said = json.loads(result.out)
+    schema = json.loads((ROOT / "docs" / "schemas" / "simulate.json").read_text("utf-8"))
+    jsonschema.Draft202012Validator(schema).validate(said)
+    assert [trial["engine"].split()[0] for trial in said["trials"]] == ["PyBullet", "MuJoCo"]
+    assert said["differences"][0]["kind"] == "engines-differ"
 
 
 def test_the_command_compares(urdftool):

@@ -8,6 +8,7 @@ import sys
 import time
 from xml.etree import ElementTree
 
+import jsonschema
 import pytest
 
 from tests.conftest import FIXTURES, ROOT
@@ -96,7 +97,10 @@ def test_a_robot_that_cannot_be_tried_is_a_row(fleet, tmp_path):
     (tmp_path / "broken.urdf").write_text("<robot name='r'><link name='a'/>\n<link name='b'/></r")
     result = fleet("broken.urdf", "none.urdf", "--format", "json", "--junit", "out.xml")
     assert result.code == 2
-    robots = {robot["path"]: robot for robot in json.loads(result.out)["robots"]}
+    said = json.loads(result.out)
+    schema = json.loads((ROOT / "docs" / "schemas" / "simulate-fleet.json").read_text("utf-8"))
+    jsonschema.Draft202012Validator(schema).validate(said)
+    robots = {robot["path"]: robot for robot in said["robots"]}
     assert robots["robots/mira.urdf"]["stands"] is True
     assert robots["robots/macros.urdf.xacro"]["skipped"]
     assert robots["broken.urdf"]["error"]["line"] == 2
