@@ -13,6 +13,9 @@ from .mesh import Piece, Points, Reading
 
 Rgba = tuple[float, float, float, float]
 
+_MOST = 2**48
+"""No file has so many points; numpy could not hold the number of one beyond."""
+
 
 @dataclass
 class Run:
@@ -125,7 +128,7 @@ def _fan(rest: str, points: int, corners: list[int], path: Path, number: int) ->
             ) from error
         # negative numbers count back from the vertex read last
         index = index - 1 if index > 0 else points + index
-        if index < 0 or word.startswith("0"):
+        if not 0 <= index < _MOST or word.startswith("0"):
             raise MeshError(
                 f"line {number} of the OBJ file names vertex {word}, of {points} so far; they are "
                 "counted from 1",
@@ -144,7 +147,8 @@ def _texture_fan(rest: str, texels: int, run: Run) -> None:
             index = int(word.split("/", 2)[1])
         except (IndexError, ValueError):
             index = 0
-        polygon.append(index - 1 if index > 0 else texels + index if index < 0 else -1)
+        place = index - 1 if index > 0 else texels + index if index < 0 else -1
+        polygon.append(place if 0 <= place < _MOST else -1)
     for second in range(1, len(polygon) - 1):
         run.texels += (polygon[0], polygon[second], polygon[second + 1])
 
