@@ -80,10 +80,10 @@ def placed(
 def _outermost(points: Points) -> Points:
     ways = _directions()
     centred = (points - points.mean(axis=0)).astype(np.float32)
-    kept = [
-        (centred @ ways[first : first + 32].T).argmax(axis=0) for first in range(0, len(ways), 32)
-    ]
-    return np.asarray(points[np.unique(np.concatenate(kept))])
+    kept = np.zeros(len(points), dtype=bool)  # np.unique would import numpy.ma
+    for first in range(0, len(ways), 32):
+        kept[(centred @ ways[first : first + 32].T).argmax(axis=0)] = True
+    return np.asarray(points[kept])
 
 
 @cache
