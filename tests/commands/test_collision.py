@@ -222,7 +222,40 @@ def test_check_says_how_good_collisions_are(urdftool, write, box):
     write("r.urdf", Path(path).read_text().replace('size="0.3', 'size="0.4'))
     done = urdftool("collision", path, "--check", "--format", "json")
     assert done.code == 1
-    assert json.loads(done.out)["links"][0]["measures"]["error"] == pytest.approx(0.1336, abs=0.01)
+    found = json.loads(done.out)
+    schema = json.loads((ROOT / "docs/schemas/collision-check.json").read_text())
+    jsonschema.validate(found, schema)
+    (link,) = found["results"][0]["links"]
+    assert link["measures"]["error"] == pytest.approx(0.1336, abs=0.01)
+    assert (link["within"], link["concave_meshes"], link["hull_error"]) == (False, 0, None)
+
+
+def test_check_says_what_engines_touch_of_a_concave_mesh(urdftool, write, bracket, tmp_path):
+    links = [(name, "meshes/bracket.stl", "") for name in "abc"]
+    both = robot(*links).replace("  </link>", "{}  </link>")
+    collision = LINK.split("\n", 1)[1].rsplit("  </link>", 1)[0].replace("visual>", "collision>")
+    path = write("r.urdf", both.format(*[collision.format(mesh="meshes/bracket.stl", more="")] * 3))
+    words = ("collision", path, "--check", "--format", "json")
+    done = urdftool(*words, "-j", "2", "--picture", tmp_path / "p.png")
+    assert done.code == 0, done.err
+    found = json.loads(done.out)["results"][0]["links"]
+    assert [link["link"] for link in found] == ["a", "b", "c"]
+    # the middle of the side that the hull has over the inner corner is farthest from the legs
+    size = (0.2**2 + 0.2**2 + 0.1**2) ** 0.5
+    far = 0.075 / size
+    assert [link["concave_meshes"] for link in found] == [1, 1, 1]
+    assert [link["hull_error"] for link in found] == pytest.approx([far] * 3, rel=0.05)
+    assert found[0]["measures"]["error"] < 1e-3
+    assert done.err.count("touch the hull") == 3
+    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
+    assert urdftool(*words, "-j", "1").out == done.out
+    folder = urdftool("collision", ".", "--check", "--format", "json")
+    assert json.loads(folder.out)["results"][0]["links"] == found
+
+
+def test_check_measures_here(urdftool, write, box):
+    path = write("r.urdf", robot(("a", "meshes/box.stl", "")))
+    assert urdftool("collision", path, "--check", "--scheduler", "tcp://127.0.0.1:1").code == 2
 
 
 def test_settings_of_a_link_come_from_the_configuration(urdftool, write, bracket):

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..errors import UrdftoolError
 from ..meshes.mesh import Points
-from ..model.elements import Box, Capsule, Cylinder, Geometry, Link, Mesh, Robot, Sphere
-from ..model.pose import pose_of
+from ..model.elements import Box, Capsule, Cylinder, Link, Mesh, Robot, Sphere
+from ..model.pose import Pose, pose_of
+from ..workers import cores
 from .convex import hull, planes, signed_distance
 from .links import Shape
 from .measure import Target, measure
+from .parallel import Progress
 from .piece import Piece, mesh_piece
+from .pool import run_all
 from .surface import Prepared, prepare, read_surface
 from .tessellate import primitive
 
@@ -27,77 +32,151 @@ class Checked:
 
     Attributes:
         link: Its name.
-        measures: As :meth:`Measures.as_dict`; None where there is nothing to compare.
+        measures: As :meth:`Measures.as_dict`, each mesh taken as it is written; None where there
+            is nothing to compare.
         trouble: Why it could not be measured; empty where it was.
-        hulled: Collision meshes that are not convex, of which most engines take the hull.
+        concave: Collision meshes that are not convex.
+        hull_error: The error where engines take the hull of those, as PyBullet and MuJoCo do for
+            bodies that move; None where there are none.
     """
 
     link: str
     measures: dict[str, Any] | None
     trouble: str = ""
-    hulled: int = 0
+    concave: int = 0
+    hull_error: float | None = None
 
 
-def check_link(robot: Robot, link: Link) -> Checked | None:
-    """How good a link's collisions are; None where it has no visual.
+@dataclass(frozen=True)
+class Part:
+    """A shape in the frame of its link: a primitive's kind and lengths [m], or a mesh file."""
 
-    Each collision mesh is taken as it is written, and counted if it is not convex.
-    """
-    if not link.visuals:
-        return None
+    pose: Pose
+    kind: str
+    size: tuple[float, ...]
+    path: Path | None = None
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is looked at: a link's shapes, in words that can be sent to another process."""
+
+    link: str
+    visuals: tuple[Part, ...]
+    collisions: tuple[Part, ...]
+    trouble: str = ""
+
+
+def look_at(robot: Robot, link: Link) -> Look | None:
+    """What there is to measure of a link; None where it has no visual."""
     try:
-        visual = _visual(robot, link)
-        if visual is None:
-            return None
-        if not link.collisions:
-            return Checked(link.name, None, "it has no collision")
-        pieces = [piece for shape in link.collisions for piece in shape_pieces(robot, shape)]
-        if not pieces:
-            return Checked(link.name, None, "its collisions have no shape")
-        hulled = sum(piece.kind == "mesh" for piece in pieces)
-        found = measure(Target(visual), pieces)
+        visuals = tuple(part for shape in link.visuals for part in _parts(robot, shape))
+        collisions = tuple(part for shape in link.collisions for part in _parts(robot, shape))
     except UrdftoolError as error:
-        return Checked(link.name, None, str(error))
-    return Checked(link.name, found.as_dict(), hulled=hulled)
-
-
-def _visual(robot: Robot, link: Link) -> Prepared | None:
-    vertices, faces, first = [], [], 0
-    for shape in link.visuals:
-        for piece in shape_pieces(robot, shape):
-            vertices.append(piece.vertices)
-            faces.append(piece.faces + first)
-            first += len(piece.vertices)
-    if not vertices:
+        return Look(link.name, (), (), str(error))
+    if not visuals:
         return None
+    if not collisions:
+        shapeless = "its collisions have no shape" if link.collisions else "it has no collision"
+        return Look(link.name, visuals, (), shapeless)
+    return Look(link.name, visuals, collisions)
+
+
+def check_all(
+    looks: Sequence[Look], *, jobs: int | None = None, progress: Progress | None = None
+) -> list[Checked]:
+    """How good the collisions of links are, several links at a time.
+
+    Args:
+        looks: The links.
+        jobs: Processes to use; None is one per core.
+        progress: Told of every link.
+    """
+
+    def under_way(done: int, now: Sequence[Look]) -> None:
+        if progress is not None:
+            progress(done, len(looks), [look.link for look in now])
+
+    found: list[Checked | None] = [None] * len(looks)
+    workers = jobs or cores()
+    for index, checked in run_all(
+        check_link, looks, workers=workers, lost=_lost, under_way=under_way
+    ):
+        found[index] = checked
+    return [checked for checked in found if checked is not None]
+
+
+def _lost(look: Look) -> Checked:
+    return Checked(look.link, None, "the process that measured it was killed twice")
+
+
+def check_link(look: Look) -> Checked:
+    """How good a link's collisions are."""
+    if look.trouble:
+        return Checked(look.link, None, look.trouble)
+    try:
+        visual = _visual(look.visuals)
+        if visual is None:
+            return Checked(look.link, None, "its visuals have no area")
+        target = Target(visual)
+        pieces = [_piece(part) for part in look.collisions]
+        found = measure(target, pieces).as_dict()
+        concave = sum(piece.kind == "mesh" for piece in pieces)
+        if not concave:
+            return Checked(look.link, found)
+        hulls = [mesh_piece(*hull(p.vertices)) if p.kind == "mesh" else p for p in pieces]
+        return Checked(look.link, found, concave=concave, hull_error=measure(target, hulls).error)
+    except UrdftoolError as error:
+        return Checked(look.link, None, str(error))
+    except (MemoryError, RecursionError) as error:
+        return Checked(look.link, None, f"it is too large to be measured ({type(error).__name__})")
+
+
+def _visual(parts: Sequence[Part]) -> Prepared | None:
+    vertices, faces, first = [], [], 0
+    for part in parts:
+        piece = _piece(part)
+        vertices.append(piece.vertices)
+        faces.append(piece.faces + first)
+        first += len(piece.vertices)
     return prepare(np.concatenate(vertices), np.concatenate(faces))
 
 
 def shape_pieces(robot: Robot, shape: Shape) -> list[Piece]:
-    """A shape in the link's frame."""
-    geometry = shape.geometry
-    pose = pose_of(shape.origin)
-    rotation = np.array(pose.rotation, dtype=np.float64)
-    xyz = np.array(pose.translation, dtype=np.float64)
-    piece = _piece(robot, geometry)
-    return [] if piece is None else [piece.posed(rotation, xyz)]
+    """A shape in the link's frame.
+
+    Raises:
+        UrdftoolError: Its mesh cannot be read.
+    """
+    return [_piece(part) for part in _parts(robot, shape)]
 
 
-def _piece(robot: Robot, geometry: Geometry | None) -> Piece | None:
-    upright, middle = np.eye(3), np.zeros(3)
+def _parts(robot: Robot, shape: Shape) -> Iterator[Part]:
+    """A shape as it is written; nothing where it has none that is known."""
+    geometry, pose = shape.geometry, pose_of(shape.origin)
     if isinstance(geometry, Box):
-        return primitive("box", geometry.size, upright, middle)
-    if isinstance(geometry, Cylinder):
-        return primitive("cylinder", (geometry.radius, geometry.length), upright, middle)
-    if isinstance(geometry, Capsule):
-        return primitive("capsule", (geometry.radius, geometry.length), upright, middle)
-    if isinstance(geometry, Sphere):
-        return primitive("sphere", (geometry.radius,), upright, middle)
-    if isinstance(geometry, Mesh):
+        yield Part(pose, "box", geometry.size)
+    elif isinstance(geometry, Cylinder):
+        yield Part(pose, "cylinder", (geometry.radius, geometry.length))
+    elif isinstance(geometry, Capsule):
+        yield Part(pose, "capsule", (geometry.radius, geometry.length))
+    elif isinstance(geometry, Sphere):
+        yield Part(pose, "sphere", (geometry.radius,))
+    elif isinstance(geometry, Mesh):
         assert robot.source is not None
-        surface = read_surface(robot.source.resolve(geometry.filename), geometry.scale)
-        return mesh_piece(surface.vertices, surface.faces, convex=_is_convex(surface))
-    return None
+        path = Path(robot.source.resolve(geometry.filename))
+        yield Part(pose, "mesh", geometry.scale, path)
+
+
+def _piece(part: Part) -> Piece:
+    rotation = np.array(part.pose.rotation, dtype=np.float64)
+    xyz = np.array(part.pose.translation, dtype=np.float64)
+    if part.path is None:
+        return primitive(part.kind, part.size, rotation, xyz)
+    x, y, z = part.size
+    surface = read_surface(part.path, (x, y, z))
+    piece = mesh_piece(surface.vertices, surface.faces, convex=_is_convex(surface))
+    return piece.posed(rotation, xyz)
 
 
 def _is_convex(surface: Prepared) -> bool:

@@ -36,6 +36,7 @@ _SHARE = 0.3  # part of the error that leaving out vertices of a hull may take
 _SLACK = 1.4  # by which CoACD's own pieces exceed their threshold often
 _COARSER = 3.0
 _SIMPLER = 0.05  # part of the mean distance by which a dearer primitive has to be better
+_ALIKE = 0.02  # part of the error by which it has to be, too
 
 
 @dataclass(frozen=True)
@@ -80,17 +81,18 @@ def choose(surface: Prepared, settings: Settings) -> Choice:
                 if step is not _primitives:
                     break
         if fits:
-            best = min(fits, key=_dearness)
+            wanted = settings.max_error * target.size
+            best = min(fits, key=lambda choice: _dearness(choice, wanted))
             return Choice(best.method, best.pieces, best.measures, tuple(notes))
     best = min(tried, key=lambda choice: choice.measures.error)
     return Choice(best.method, best.pieces, best.measures, tuple(notes))
 
 
-def _dearness(choice: Choice) -> float:
-    """The mean distance; between shapes that are about as near, the one cheaper to collide."""
+def _dearness(choice: Choice, wanted: float) -> float:
+    """The mean distance [m]; between shapes that are about as near, the one cheaper to collide."""
     kind = choice.pieces[0].kind
     rank = PRIMITIVES.index(kind) if kind in PRIMITIVES else 0
-    return choice.measures.mean * (1 + _SIMPLER * rank)
+    return choice.measures.mean * (1 + _SIMPLER * rank) + _ALIKE * wanted * rank
 
 
 def _is_flat(surface: Prepared) -> bool:

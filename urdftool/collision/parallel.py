@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 from ..errors import MeshError, UrdftoolError
 from ..workers import cores
 from .cache import Cache, key_of
 from .compute import Result, Task, attempt, result_of
+from .pool import run_all
 
 Progress = Callable[[int, int, Sequence[str]], None]
 """Called with how many meshes are done, of how many, and which are worked on."""
 
 Outcome = bytes | UrdftoolError
-_TRIES = 2
 
 
 def compute_all(
@@ -51,15 +49,21 @@ def compute_all(
     # the largest first, so that none is left alone at the end
     ordered = sorted(todo, key=lambda key: (-_size(todo[key].path), key))
     work = [todo[key] for key in ordered]
+    known_before = count - len(work)
+
+    def under_way(done: int, now: Sequence[Task]) -> None:
+        if progress is not None:
+            progress(known_before + done, count, [task.path.name for task in now])
+
+    outcomes: Iterator[tuple[int, Outcome]]
     if scheduler is not None and work:
         from .cluster import on_cluster
 
-        outcomes = on_cluster(work, scheduler)
+        outcomes = _counted(on_cluster(work, scheduler), work, under_way)
     else:
-        outcomes = _outcomes(work, jobs or cores(), count, progress)
-    done = count - len(work)
+        workers = jobs or cores()
+        outcomes = run_all(attempt, work, workers=workers, lost=_lost, under_way=under_way)
     for index, outcome in outcomes:
-        done += 1
         key = ordered[index]
         result: Result | UrdftoolError
         if isinstance(outcome, bytes):
@@ -68,75 +72,26 @@ def compute_all(
         else:
             result = outcome
         found.update(dict.fromkeys(groups[key], result))
-        if progress is not None:
-            progress(done, count, [todo[key].path.name])
     return {task: found[task] for task in tasks}
 
 
-def _outcomes(
-    tasks: Sequence[Task], workers: int, count: int, progress: Progress | None
+def _counted(
+    outcomes: Iterator[tuple[int, Outcome]],
+    tasks: Sequence[Task],
+    under_way: Callable[[int, Sequence[Task]], None],
 ) -> Iterator[tuple[int, Outcome]]:
-    if min(workers, len(tasks)) <= 1:
-        for index, task in enumerate(tasks):
-            if progress is not None:
-                progress(count - len(tasks) + index, count, [task.path.name])
-            yield index, attempt(task)
-        return
-    left = list(range(len(tasks)))
-    for turn in range(_TRIES):
-        # a worker that is killed takes the pool with it; what was not done is begun again
-        alone = turn > 0
-        for index, outcome in _pooled(tasks, left, 1 if alone else workers):
-            left.remove(index)
-            yield index, outcome
-        if not left:
-            return
-    for index in left:
-        yield (
-            index,
-            MeshError(
-                "the process that simplified the mesh was killed twice, perhaps for want of "
-                "memory; try --method hull for its link",
-                path=tasks[index].path,
-            ),
-        )
+    """Outcomes of a cluster, of which it is not known what it works on; the last one is shown."""
+    for done, (index, outcome) in enumerate(outcomes, 1):
+        under_way(done, [tasks[index]])
+        yield index, outcome
 
 
-def _pooled(
-    tasks: Sequence[Task], todo: Sequence[int], workers: int
-) -> Iterator[tuple[int, Outcome]]:
-    import multiprocessing
-
-    methods = multiprocessing.get_all_start_methods()
-    context = multiprocessing.get_context("fork" if "fork" in methods else None)
-    if workers == 1:  # a pool each, so that only the one that dies is lost
-        for index in list(todo):
-            with ProcessPoolExecutor(1, context, _in_worker) as pool:
-                try:
-                    yield index, pool.submit(attempt, tasks[index]).result()
-                except BrokenProcessPool:
-                    continue
-        return
-    pool = ProcessPoolExecutor(min(workers, len(todo)), context, _in_worker)
-    try:
-        futures: dict[Future[Outcome], int] = {
-            pool.submit(attempt, tasks[index]): index for index in todo
-        }
-        waiting = set(futures)
-        while waiting:
-            ready, waiting = wait(waiting, return_when=FIRST_COMPLETED)
-            for future in ready:
-                try:
-                    outcome = future.result()
-                except BrokenProcessPool:
-                    continue
-                yield futures[future], outcome
-    except BaseException:
-        for process in list((getattr(pool, "_processes", None) or {}).values()):
-            process.terminate()
-        pool.shutdown(wait=False, cancel_futures=True)
-        raise
-    pool.shutdown()
+def _lost(task: Task) -> Outcome:
+    return MeshError(
+        "the process that simplified the mesh was killed twice, perhaps for want of "
+        "memory; try --method hull for its link",
+        path=task.path,
+    )
 
 
 def _size(path: Path) -> int:
@@ -144,11 +99,3 @@ def _size(path: Path) -> int:
         return path.stat().st_size
     except OSError:
         return 0
-
-
-def _in_worker() -> None:
-    """Ctrl-C ends the parent, which ends its workers."""
-    import signal
-
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)

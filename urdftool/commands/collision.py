@@ -89,6 +89,8 @@ def command(ctx: click.Context, /, words: tuple[str, ...], **values: Any) -> int
         raise click.UsageError("one of -o OUT, --in-place and --check is wanted")
     if in_place and "-" in paths:
         raise click.UsageError("standard input cannot be edited in place; use -o OUT")
+    if check and values["scheduler"]:
+        raise click.UsageError("--check measures here; --scheduler is for making collisions")
     checked_picture(values["picture"])
     one_thread_each()
     from . import collision_robot as robots

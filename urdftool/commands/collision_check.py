@@ -3,41 +3,53 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..collision.check import check_link
+from ..collision.check import Checked, check_all, look_at
+from ..collision.links import check_names
 from ..console import Console
+from ..report import collision_check as report
+from .collision_options import Progress
 
 if TYPE_CHECKING:
     from ..collision.links import Wishes
     from ..model.elements import Robot
 
 
-def check(console: Console, robot: Robot, wishes: Wishes, values: dict[str, Any]) -> int:
-    """Measure a robot's collisions; the exit code."""
-    from ..collision.links import check_names
-    from ..report import collision_check as report
-
-    check_names(robot, (*wishes.only, *wishes.skip))
-    found = []
-    for link in robot.links:
-        if (wishes.only and link.name not in wishes.only) or link.name in wishes.skip:
-            continue
-        checked = check_link(robot, link)
-        if checked is not None:
-            found.append(checked)
-    assert robot.source is not None
-    limit = wishes.settings.max_error
+def check(console: Console, robots: Sequence[tuple[Robot, Wishes]], values: dict[str, Any]) -> int:
+    """Measure the collisions of robots; the exit code."""
+    looks, owners = [], []
+    for number, (robot, wishes) in enumerate(robots):
+        check_names(robot, (*wishes.only, *wishes.skip))
+        for link in robot.links:
+            if (wishes.only and link.name not in wishes.only) or link.name in wishes.skip:
+                continue
+            look = look_at(robot, link)
+            if look is not None:
+                looks.append(look)
+                owners.append(number)
+    with Progress(console) as progress:
+        found = check_all(looks, jobs=values["jobs"], progress=progress)
+    results, code = [], 0
+    for number, (robot, wishes) in enumerate(robots):
+        own = [item for item, owner in zip(found, owners, strict=True) if owner == number]
+        assert robot.source is not None
+        path, limit = robot.source.path, wishes.settings.max_error
+        results.append(report.as_dict(path, own, limit))
+        if values["style"] == "table":
+            click.echo(report.table(own, limit), nl=False)
+        code = max(code, _tell(console, path, own, limit))
     if values["style"] == "json":
-        click.echo(json.dumps(report.as_dict(robot.source.path, found, limit), indent=2))
-    else:
-        click.echo(report.table(found, limit), nl=False)
+        click.echo(json.dumps({"version": 1, "results": results}, indent=2))
+    return code
+
+
+def _tell(console: Console, path: str, found: Sequence[Checked], limit: float) -> int:
     for line in report.remarks(found, limit):
         console.say(line)
     bad = sum(not report.is_good(item, limit) for item in found)
-    console.note(
-        f"{robot.source.path}: {len(found)} links with visuals, {bad} not within {limit:.2%}"
-    )
+    console.note(f"{path}: {len(found)} links with visuals, {bad} not within {limit:.2%}")
     return int(bad > 0)

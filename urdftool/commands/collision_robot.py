@@ -53,7 +53,10 @@ def one(
     if values["check"]:
         from .collision_check import check
 
-        return check(console, robot, wishes, values)
+        code = check(console, [(robot, wishes)], values)
+        if values["picture"]:
+            _draw(values["picture"], robot, [], {})
+        return code
     job = _planned(console, path, robot, wishes, values["output"])
     cache = cache_of(values)
     results = _compute(console, job.tasks, cache, values)
@@ -63,13 +66,19 @@ def one(
     text = _write(console, job, done, values)
     _tell(console, [text], values)
     if values["picture"]:
-        from ..collision.picture import robot_picture
-        from ..output import write_file
-
-        write_file(values["picture"], robot_picture(robot, job.plans, done))
+        _draw(values["picture"], robot, job.plans, done)
     if cache.trouble:
         console.note(f"results could not be kept in the cache: {cache.trouble}")
     return 0
+
+
+def _draw(
+    picture: str, robot: Robot, plans: Sequence[LinkPlan], results: dict[Task, Result]
+) -> None:
+    from ..collision.picture import robot_picture
+    from ..output import write_file
+
+    write_file(picture, robot_picture(robot, plans, results))
 
 
 def fleet(
@@ -89,7 +98,9 @@ def fleet(
         raise click.UsageError("--picture draws one robot, not several")
     root = os.path.commonpath([os.path.abspath(p) for p in paths])
     root = root if os.path.isdir(root) else os.path.dirname(root)
-    code, jobs = 0, []
+    code = 0
+    jobs: list[Job] = []
+    checks: list[tuple[Robot, Wishes]] = []
     for path in files:
         try:
             robot = _read(console, path, arguments, values)
@@ -98,16 +109,16 @@ def fleet(
                 continue
             wishes = _wishes(ctx, console, path, values)
             if values["check"]:
-                from .collision_check import check
-
-                code = max(code, check(console, robot, wishes, values))
+                checks.append((robot, wishes))
                 continue
             jobs.append(_planned(console, path, robot, wishes, _place(values, path, root)))
         except UrdftoolError as error:
             console.error(error)
             code = 2
     if values["check"]:
-        return code
+        from .collision_check import check
+
+        return max(code, check(console, checks, values))
     cache = cache_of(values)
     results = _compute(console, [task for job in jobs for task in job.tasks], cache, values)
     reports = []

@@ -15,9 +15,8 @@ def is_good(item: Checked, limit: float) -> bool:
 
 
 def as_dict(path: str, found: Sequence[Checked], limit: float) -> dict[str, Any]:
-    """One object."""
+    """A robot's part of the JSON form."""
     return {
-        "version": 1,
         "input": path,
         "max_error": limit,
         "links": [
@@ -25,7 +24,8 @@ def as_dict(path: str, found: Sequence[Checked], limit: float) -> dict[str, Any]
                 "link": item.link,
                 "within": is_good(item, limit),
                 "measures": item.measures,
-                "concave_meshes": item.hulled,
+                "concave_meshes": item.concave,
+                "hull_error": item.hull_error,
                 "trouble": item.trouble,
             }
             for item in found
@@ -68,8 +68,8 @@ def remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
             yield f"link '{item.link}': {item.trouble}"
         elif item.measures is not None and item.measures["error"] > limit:
             yield f"link '{item.link}': error {item.measures['error']:.2%} of its size"
-        if item.hulled:
+        if item.hull_error is not None:
             yield (
-                f"link '{item.link}': {item.hulled} collision mesh{'es' * (item.hulled > 1)} not "
-                "convex; PyBullet and MuJoCo take the hull"
+                f"link '{item.link}': {item.concave} collision mesh{'es' * (item.concave > 1)} not "
+                f"convex; PyBullet and MuJoCo touch the hull, whose error is {item.hull_error:.2%}"
             )
