@@ -266,7 +266,7 @@ class World:
         if self.joints:
             positions = data.qpos[model.jnt_qposadr[self.joints]]
             rates = data.qvel[model.jnt_dofadr[self.joints]]
-            efforts = data.qfrc_actuator[model.jnt_dofadr[self.joints]]
+            efforts = self.motors.efforts(model.jnt_dofadr[self.joints])
         up = -np.array(self.settings.gravity_at(math.inf))
         return {
             "times": time,

@@ -1,27 +1,34 @@
-"""What drives joints in MuJoCo: a stiff servo within the joint's effort, or gains of a file."""
+"""What drives joints in MuJoCo: a brake and a servo within their effort, or gains of a file."""
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
 from .bodies import Bodies
+from .bullet import UNBOUND
 from .control import Pids, driven
+from .recording import Array
 from .settings import Settings
 
-_STIFF = 0.5  # natural frequency of a servo times the timestep; two is the edge of stability
-_DAMPED = 5.0  # damping over critical of an unloaded joint; a load on it lowers that
+_RIGID = (2.5, 1.0)  # of a brake: time constant in timesteps, damping over critical
+_IMPEDANCE = (0.9999, 0.9999, 0.001, 0.5, 2.0)
+_STIFF = 0.5  # natural frequency of an unloaded joint under its servo, times the timestep
+_DAMPED = 10.0  # its damping over critical; a load on it lowers that
 _CREEP = 0.25  # s: how soon what is left of an error is integrated away
+_FAR = 0.02  # rad, m: a joint that gave way so far is driven back
+_NEAR = 2e-3  # rad, m: and is held again here,
+_SLOW = 0.1  # rad/s, m/s: when it is so slow
 
 
 class Motors:
-    """Servos that hold joints where they start.
+    """What holds joints where they start.
 
-    Each has a stiffness by the inertia that it feels, so that it is as stiff as the timestep bears
-    whatever the robot's size; damping is integrated implicitly, so it may be large. An integral
-    part takes away what a load leaves, so a joint sags only where its effort is too small.
+    While a joint is there, it is held by dry friction as large as its effort: a constraint that the
+    solver keeps within its bound together with contacts, however stiff, without an error or a swing
+    of its own. Where that gives way, a servo of the same effort drives it back: a spring and damper
+    by the inertia that the joint feels, and an integral part.
     """
 
     def __init__(
@@ -34,17 +41,13 @@ class Motors:
         motors: dict[str, int],
     ) -> None:
         """Take a model at its start, and the motor of each joint by name."""
-        self._data = data
+        self._mj, self._model, self._data = mj, model, data
         model.actuator_gainprm[:, :] = 0.0  # also of motors that the file brings along
         model.actuator_biasprm[:, :] = 0.0
         joints = {joint.name: joint for joint in bodies.joints}
         controls = settings.controls or {}
         gained = [name for name in bodies.held if name in motors and driven(controls, name)]
         names = [name for name in bodies.held if name in motors and name not in gained]
-        self._driven = np.array([motors[name] for name in gained], dtype=int)
-        numbers = model.actuator_trnid[self._driven, 0]
-        self._driven_at = model.jnt_qposadr[numbers]
-        self._driven_dofs = model.jnt_dofadr[numbers]
         self._pids = Pids(
             [controls[name] for name in gained],
             [bodies.positions[name] for name in gained],
@@ -52,24 +55,44 @@ class Motors:
             [joints[name].kind == "continuous" for name in gained],
             settings.timestep,
         )
-        self.motors = np.array([motors[name] for name in names], dtype=int)
-        numbers = model.actuator_trnid[self.motors, 0]
-        self._at, dofs = model.jnt_qposadr[numbers], model.jnt_dofadr[numbers]
-        self._target = np.array([bodies.positions[name] for name in names])
-        efforts = [joints[name].effort for name in names]
-        self._bound = np.array([math.inf if effort is None else effort for effort in efforts])
-        inertia = _felt(mj, model, data, dofs)
-        fast = _STIFF / settings.timestep
-        self._stiffness = inertia * fast**2
-        self._sum = np.zeros(len(names))
-        self._growth = self._stiffness * settings.timestep / _CREEP
-        model.actuator_gainprm[self.motors, 0] = 1.0
+        self._driven, self._driven_at, self._driven_dofs = self._found(gained, motors)
         model.actuator_gainprm[self._driven, 0] = 1.0
-        model.actuator_biastype[self.motors] = mj.mjtBias.mjBIAS_AFFINE
-        model.actuator_biasprm[self.motors, 2] = -2 * _DAMPED * inertia * fast
-        limited = np.isfinite(self._bound)
-        model.actuator_forcelimited[self.motors] = limited
-        model.actuator_forcerange[self.motors[limited]] = np.outer(self._bound[limited], [-1, 1])
+        self._held, self._at, self._dofs = self._found(names, motors)
+        self._target = np.array([bodies.positions[name] for name in names])
+        self._bound = np.array([joints[name].effort or UNBOUND for name in names])
+        self._friction = np.array(model.dof_frictionloss[self._dofs])
+        self._make_servos(settings.timestep)
+        self._braked = np.ones(len(names), dtype=bool)
+        model.dof_solref[self._dofs] = (_RIGID[0] * settings.timestep, _RIGID[1])
+        model.dof_solimp[self._dofs] = _IMPEDANCE
+        self._brake()
+
+    def _found(self, names: list[str], motors: dict[str, int]) -> tuple[Any, Any, Any]:
+        """The motors of joints, and where position and rate of each are."""
+        numbers = np.array([motors[name] for name in names], dtype=int)
+        joints = self._model.actuator_trnid[numbers, 0]
+        return numbers, self._model.jnt_qposadr[joints], self._model.jnt_dofadr[joints]
+
+    def _make_servos(self, timestep: float) -> None:
+        model = self._model
+        inertia = _felt(self._mj, model, self._data, self._dofs)
+        fast = _STIFF / timestep
+        self._stiffness = inertia * fast**2
+        # the implicit Euler method's spring: its force is that of the position after the step
+        self._damping = 2 * _DAMPED * inertia * fast + self._stiffness * timestep
+        self._growth = self._stiffness * timestep / _CREEP
+        self._sum = np.zeros(len(self._dofs))
+        model.actuator_gainprm[self._held, 0] = 1.0
+        model.actuator_biastype[self._held] = self._mj.mjtBias.mjBIAS_AFFINE
+        model.actuator_forcelimited[self._held] = True
+        model.actuator_forcerange[self._held] = np.outer(self._bound, [-1, 1])
+
+    def _brake(self) -> None:
+        """Tighten the brakes of joints that are held by one, and loosen the others."""
+        tight = np.where(self._braked, self._bound, 0.0)
+        self._model.dof_frictionloss[self._dofs] = self._friction + tight
+        self._model.actuator_biasprm[self._held, 2] = np.where(self._braked, 0.0, -self._damping)
+        self._sum[self._braked] = 0.0
 
     def drive(self) -> None:
         """Set what the motors do in the next step."""
@@ -78,13 +101,37 @@ class Motors:
             data.ctrl[self._driven] = self._pids.step(
                 data.qpos[self._driven_at], data.qvel[self._driven_dofs]
             )
-        if not len(self.motors):
+        if not len(self._held):
             return
         error = self._target - data.qpos[self._at]
-        full = np.abs(data.actuator_force[self.motors]) >= 0.999 * self._bound
-        grown = np.where(full, 0.0, self._growth * error)
+        far, near = np.abs(error) > _FAR, np.abs(error) < _NEAR
+        slow = np.abs(data.qvel[self._dofs]) < _SLOW
+        braked = np.where(self._braked, ~far, near & slow)
+        if (braked != self._braked).any():
+            self._braked = braked
+            self._brake()
+        if braked.all():
+            data.ctrl[self._held] = 0.0
+            return
+        full = np.abs(data.actuator_force[self._held]) >= 0.999 * self._bound
+        grown = np.where(full | braked, 0.0, self._growth * error)
         self._sum = np.clip(self._sum + grown, -self._bound, self._bound)
-        data.ctrl[self.motors] = self._stiffness * error + self._sum
+        data.ctrl[self._held] = np.where(braked, 0.0, self._stiffness * error + self._sum)
+
+    def efforts(self, dofs: Any) -> Array:
+        """What drives or holds each degree of freedom now [N·m, N]."""
+        data = self._data
+        whole = np.array(data.qfrc_actuator)
+        kind = self._mj.mjtConstraint.mjCNSTR_FRICTION_DOF
+        rows = np.flatnonzero(np.array(data.efc_type[: data.nefc]) == int(kind))
+        numbers = np.array(data.efc_id)[rows]
+        forces = np.zeros_like(whole)
+        forces[numbers] = np.array(data.efc_force)[rows]
+        held = self._dofs[self._braked]
+        bound = self._bound[self._braked]
+        whole[held] += np.clip(forces[held], -bound, bound)
+        found: Array = whole[dofs]
+        return found
 
 
 def _felt(mj: Any, model: Any, data: Any, dofs: Any) -> Any:
