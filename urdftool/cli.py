@@ -18,11 +18,15 @@ import click
 from . import __version__
 from .console import Console
 from .errors import UrdftoolError
+from .terminal import guard
 
 COMMANDS = (
     *("expand", "lint", "inertia", "collision", "graph", "info", "diff", "view", "simulate"),
     "export",
 )
+
+EVERYWHERE = ("--debug", "--trust", "-q", "--quiet", "-v", "--verbose")
+"""Options of urdftool itself that may stand anywhere on the line."""
 
 REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"
 
@@ -102,6 +106,8 @@ def run(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit code."""
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # what a library would tell a programmer
+    if sys.platform != "win32":  # there click translates colours for the console
+        guard()
     gc.set_threshold(500_000, 50, 50)  # trees of many small objects, and then the process ends
     code = call(arguments)
     try:
@@ -119,9 +125,8 @@ def call(arguments: list[str] | None = None) -> int:
     """
     words = sys.argv[1:] if arguments is None else arguments
     debug = "--debug" in words
-    for flag in ("--debug", "--trust"):  # wherever they stand on the line
-        if flag in words:
-            words = [flag, *(word for word in words if word != flag)]
+    general = [word for word in words if word in EVERYWHERE]
+    words = [*general, *(word for word in words if word not in EVERYWHERE)]
     if "_URDFTOOL_COMPLETE" in os.environ:  # a shell asks what could follow
         from .commands.completion import prepare
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import click
 
 from .errors import UrdftoolError
+from .terminal import visible
 
 
 @dataclass
@@ -49,17 +50,20 @@ class Console:
 
     def say(self, message: str) -> None:
         """A message that is always said."""
-        click.echo(f"urdftool: {message}", err=True)
+        self._write(f"urdftool: {message}")
 
     def note(self, message: str, level: int = 0) -> None:
         """A message for those who did not ask for quiet; above level 0, for those who asked."""
         if self.verbosity >= level:
-            click.echo(message, err=True)
+            self._write(message)
 
     def error(self, error: UrdftoolError) -> None:
         """An error: its place and sentence, the calls it came through, its notes."""
-        click.echo(str(error) if error.path else f"urdftool: {error}", err=True)
+        self._write(str(error) if error.path else f"urdftool: {error}")
         for call in error.calls:
-            click.echo(f"  from {call.file.path}:{call.line}:{call.column}: {call.what}", err=True)
+            self._write(f"  from {call.file.path}:{call.line}:{call.column}: {call.what}")
         for note in error.notes:
-            click.echo(f"  {note}", err=True)
+            self._write(f"  {note}")
+
+    def _write(self, line: str) -> None:
+        click.echo(visible(line), err=True)

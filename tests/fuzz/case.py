@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import multiprocessing.process
 import os
 import random
+import re
 import resource
 import shutil
 import signal
@@ -15,14 +17,18 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from .commands import COMMANDS
-from .damage import damaged
+from .damage import damaged, damaged_yaml
+from .meshes import copied_mesh, damage_some
 from .robots import copied
 
 OWN = ("urdftool", ".cache", ".sdformat")
 """What may be left in the home folder: the cache, and the log of the library that reads SDF."""
 
-OWN = ("urdftool", ".cache", ".sdformat")
-"""What may be left in the home folder: the cache, and the log of the library that reads SDF."""
+EDITED = (".urdf", ".xacro", ".srdf")
+"""What a fix may edit: descriptions, and an SRDF that belongs to one."""
+
+CONTROL = re.compile("\r(?!\n)|[\0-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
+"""What a terminal obeys instead of showing it."""
 
 SECONDS = 60
 MEMORY = 8 << 30
@@ -54,17 +60,21 @@ def run_case(seed, number, robots, scratch, only=None):
     dice = random.Random(f"{seed}-{number}")
     name = only or dice.choice(list(COMMANDS))
     path, folder = dice.choice(dice.choice(robots))
-    words = list(dice.choice(COMMANDS[name]))
+    words = dice.choice(COMMANDS[name])
     scratch = Path(scratch)
     shutil.rmtree(scratch, ignore_errors=True)
     (scratch / "in").mkdir(parents=True)
     (scratch / "out").mkdir()
     (scratch / "home").mkdir()
-    robot = copied(path, folder, scratch / "in")
-    original = robot.with_name(f"original_{robot.name}")
-    original.write_bytes(robot.read_bytes())
-    robot.write_bytes(damaged(robot.read_bytes(), dice, scratch))
-    filled = {"IN": str(robot), "ORIGINAL": str(original), "OUT": str(scratch / "out")}
+    filled = {"OUT": str(scratch / "out")}
+    if "MESH" in words:
+        path = copied_mesh(dice, scratch / "in")
+        filled["MESH"] = str(path)
+    else:
+        filled |= _robot(path, folder, dice, scratch)
+    if "YAML" in words:
+        filled["YAML"] = str(scratch / "in" / "controllers.yaml")
+        Path(filled["YAML"]).write_bytes(damaged_yaml(dice))
     words = [_filled(word, filled) for word in words]
     before = _contents(scratch / "in")
     start = time.monotonic()
@@ -74,6 +84,17 @@ def run_case(seed, number, robots, scratch, only=None):
     if not outcome.problems:
         shutil.rmtree(scratch)
     return outcome
+
+
+def _robot(path, folder, dice, scratch):
+    """Copy a robot with what lies beside it, and damage it, sometimes one of its meshes too."""
+    robot = copied(path, folder, scratch / "in")
+    original = robot.with_name(f"original_{robot.name}")
+    original.write_bytes(robot.read_bytes())
+    robot.write_bytes(damaged(robot.read_bytes(), dice, scratch))
+    if dice.random() < 0.15:
+        damage_some(scratch / "in", dice)
+    return {"IN": str(robot), "ORIGINAL": str(original), "FOLDER": str(robot.parent)}
 
 
 def _filled(word, values):
@@ -89,6 +110,8 @@ def _call(words, scratch):
     if child == 0:
         os.setsid()
         os.chdir(scratch / "out")
+        # a worker of a pool may have no children; the command may
+        multiprocessing.process.current_process()._config["daemon"] = False
         for stream, name in ((0, os.devnull), (1, scratch / "stdout"), (2, scratch / "stderr")):
             flags = os.O_RDONLY if stream == 0 else os.O_WRONLY | os.O_CREAT | os.O_TRUNC
             os.dup2(os.open(name, flags), stream)
@@ -144,13 +167,16 @@ def _problems(outcome, scratch, before):
         found.append(f"exit code {outcome.code}")
     if "Traceback (most recent" in err + out:
         found.append("a traceback")
-    if outcome.code == 2 and not err.strip():
+    said = err + out if "--fleet" in outcome.words else err  # its table says it
+    if outcome.code == 2 and not said.strip():
         found.append("could not be done, and nothing is said")
+    if control := CONTROL.search(err if "json" in outcome.words else err + out):
+        found.append(f"a control character is printed: {control[0]!r}")
     found += _harm(outcome, scratch, before)
     written = sorted((scratch / "out").rglob("*"))
     if any(p.is_file() and not p.stat().st_size for p in written):
         found.append("an empty output")
-    if outcome.code == 2 and written:
+    if outcome.code == 2 and written and "--fleet" not in outcome.words:
         found.append(f"could not be done, and wrote {written[0].name}")
     return found
 
@@ -160,7 +186,7 @@ def _harm(outcome, scratch, before):
     after = _contents(scratch / "in")
     changed = {name for name in before | after if before.get(name) != after.get(name)}
     if "--fix" in outcome.words:
-        changed = {n for n in changed if not (n in before and n.endswith((".urdf", ".xacro")))}
+        changed = {n for n in changed if not (n in before and n.endswith(EDITED))}
     if changed:
         yield f"inputs changed: {sorted(changed)[:3]}"
     expected = ("in", "out", "home", "stdout", "stderr")

@@ -39,6 +39,9 @@ NAMES = (
         b"[red]",
         b"\\033[31m",
         b"&#x202e;",
+        b"&#x9b;31m",
+        b"| a | b |",
+        b"![x](javascript:alert(1))",
         b"x" * 5000,
     ),
 )
@@ -62,6 +65,9 @@ PIECES = (
         b"\0",
         b"\xff",
         b"\xef\xbb\xbf",
+        b"\x1b[31m",
+        b"\x1b]0;owned\x07",
+        b"\xc2\x9b2J",
     ),
     *(b"${", b"}", b"$(", b"$$", b"${x}", b"$(find x)", b"$(arg y)", b"$(env HOME)", b"${[].x}"),
     *(b"<link/>", b"<joint/>", b"<robot>", b"</robot>", b"<gazebo/>", b"<mimic joint='x'/>"),
@@ -176,3 +182,49 @@ _KINDS = (
     _swapped(_FILE, FILES, 1),
 )
 _WEIGHTS = (1, 0.5, 1, 2, 0.5, 6, 5, 7, 5, 5)
+
+CONTROLLERS = b"""controller_manager:
+  ros__parameters:
+    update_rate: 100
+    arm: {type: joint_trajectory_controller/JointTrajectoryController}
+arm:
+  type: effort_controllers/JointTrajectoryController
+  joints: [a, b, elbow, joint1]
+  gains:
+    a: {p: 100, i: 0.01, d: 10, i_clamp: 1}
+    elbow: {p: 1.0e+3, d: 1}
+  ros__parameters:
+    joints: [a]
+    gains: {a: {p: 10.0, d: 1.0}}
+"""
+ALIASES = b"a0: &a0 [x, x]\n" + b"".join(
+    b"a%d: &a%d [*a%d, *a%d, *a%d]\n" % (n + 1, n + 1, n, n, n) for n in range(24)
+)
+_YAML_WORDS = (b"&a", b"*a", b"!!python/object/apply:os.system ['id']", b"!degrees 9", b"- ", b": ")
+_YAML_WORDS += (
+    b"[" * 3000,
+    b"{",
+    b"\x1b[31m",
+    b"~",
+    b"nan",
+    b"1e999",
+    b"<<: *a",
+    b"\n---\n",
+    b"\t",
+)
+
+
+def damaged_yaml(dice):
+    """Gains of controllers with damage, or a bomb of aliases."""
+    if dice.random() < 0.05:
+        return ALIASES + b"arm: {gains: *a24}\n"
+    data = CONTROLLERS
+    for _ in range(dice.choice((1, 1, 2, 3))):
+        kind = dice.choice((_cut, _truncate, _move, _flip, None, None))
+        if kind is not None:
+            data = kind(data, dice)
+            continue
+        words = list(re.finditer(rb"[\w./]+", data)) or [re.match(b"", data)]
+        word = dice.choice(words)
+        data = data[: word.start()] + dice.choice(_YAML_WORDS + NUMBERS) + data[word.end() :]
+    return data

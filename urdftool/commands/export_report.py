@@ -9,6 +9,7 @@ import click
 
 from ..console import Console
 from ..report.counted import counted
+from ..terminal import visible
 
 if TYPE_CHECKING:
     from ..finding import Finding
@@ -26,7 +27,7 @@ def say_refused(findings: Sequence[Finding], *, as_json: bool) -> int:
         click.echo(to_json(None, (), findings, ()), nl=False)
     said = list(lines(findings))
     for line in said:
-        click.echo(line, err=True)
+        click.echo(visible(line), err=True)
     click.echo(f"urdftool: nothing is written: {counted(len(said), 'error')}", err=True)
     return 2
 
@@ -80,7 +81,7 @@ def say_written(
         for line in said.lines(shown):
             console.note(line)
         if checks:
-            click.echo(check_table(checks), nl=False, err=output == "-")
+            click.echo(visible(check_table(checks)), nl=False, err=output == "-")
     if output != "-":
         more = f", {counted(hidden, 'note')} (-v shows them)" if hidden else ""
         files = counted(len(written.files), "file")

@@ -26,6 +26,8 @@ def read_texture(source: Path | bytes) -> Texels:
     """
     from PIL import Image
 
+    if isinstance(source, Path) and source.exists() and not source.is_file():
+        raise MeshError("this is no file; an image is needed", path=source)
     try:
         with Image.open(BytesIO(source) if isinstance(source, bytes) else source) as image:
             image.draft("RGB", (LARGEST, LARGEST))

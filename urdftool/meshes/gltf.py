@@ -96,6 +96,7 @@ def _looks(path: Path) -> tuple[dict[str, Image], BytesIO]:
         (length,) = struct.unpack_from("<I", data, 12)
         rest = data[20 + length :]
     tree = json.loads(data[20 : 20 + length] if binary else data)
+    _check_files(tree, path)
     looks: dict[str, Image] = {}
     for number, material in enumerate(tree.get("materials", ())):
         material["name"] = str(number)
@@ -109,6 +110,14 @@ def _looks(path: Path) -> tuple[dict[str, Image], BytesIO]:
     text += b" " * (-len(text) % 4)
     head = struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A)
     return looks, BytesIO(head + text + rest)
+
+
+def _check_files(tree: dict[str, Any], path: Path) -> None:
+    """Refuse what is no file: a device or a pipe is read without end."""
+    for thing in (*tree.get("buffers", ()), *tree.get("images", ())):
+        uri = str(thing.get("uri", "data:"))
+        if not uri.startswith("data:") and not (path.parent / unquote(uri)).is_file():
+            raise ValueError(f"there is no file '{uri}' beside it")
 
 
 def _image(tree: dict[str, Any], image: dict[str, Any], path: Path, rest: bytes) -> Image:

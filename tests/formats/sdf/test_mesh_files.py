@@ -13,6 +13,7 @@ from urdftool.model.load import load
 from .robots import tree
 
 STL = b"\0" * 80 + struct.pack("<I", 0)
+PICTURE = b"\x89PNG\r\n\x1a\n"
 
 
 def shape(name, kind="visual"):
@@ -57,10 +58,10 @@ def test_packages_do_not_mix(write):
 
 def test_textures_of_meshes_come_along(write):
     write("pkg/meshes/x.dae", "<COLLADA><init_from>../textures/wood.png</init_from></COLLADA>")
-    write("pkg/meshes/y.obj", "mtllib y.mtl\n")
+    write("pkg/meshes/y.obj", "mtllib y.mtl\nv 0 0 0\nf 1 1 1\n")
     write("pkg/meshes/y.mtl", "newmtl m\nmap_Kd skin.jpg\n")
     for name in ("textures/wood.png", "meshes/skin.jpg"):
-        write(f"pkg/{name}", b"picture")
+        write(f"pkg/{name}", PICTURE)
     robot = description(
         write, shape("package://pkg/meshes/x.dae"), shape("package://pkg/meshes/y.obj")
     )
@@ -78,7 +79,7 @@ TEXTURED = '<visual><geometry><box size="1 1 1"/></geometry><material name="w"/>
 
 
 def test_a_texture_is_a_map_of_the_material(write):
-    write("pkg/textures/wood.png", b"picture")
+    write("pkg/textures/wood.png", PICTURE)
     robot = description(write, TEXTURED, extra=MATERIAL.format("wood.png"))
     written = export(robot, Options())
     assert b"<albedo_map>meshes/textures/wood.png</albedo_map>" in written.files["model.sdf"]
@@ -86,7 +87,7 @@ def test_a_texture_is_a_map_of_the_material(write):
 
 
 def test_a_texture_for_classic_has_a_script(write):
-    write("pkg/textures/Wood 1.PNG", b"picture")
+    write("pkg/textures/Wood 1.PNG", PICTURE)
     robot = description(write, TEXTURED, extra=MATERIAL.format("Wood 1.PNG"))
     written = export(robot, Options(target="gazebo-classic", folder="arm"))
     script = tree(written).find("link/visual/material/script")
@@ -107,8 +108,8 @@ def test_a_texture_for_classic_has_a_script(write):
 
 
 def test_pictures_of_one_name_do_not_mix(write):
-    write("pkg/textures/a/x.png", b"one")
-    write("pkg/textures/b/x.png", b"two")
+    write("pkg/textures/a/x.png", PICTURE + b"one")
+    write("pkg/textures/b/x.png", PICTURE + b"two")
     extra = "".join(
         MATERIAL.format(f"{name}/x.png").replace('"w"', f'"{name}"') for name in ("a", "b")
     )
@@ -121,7 +122,7 @@ def test_pictures_of_one_name_do_not_mix(write):
 
 @pytest.mark.parametrize("choices", [{"file": "m.sdf"}, {"uri": "file"}, {"uri": "package"}])
 def test_a_script_that_nothing_can_find_is_not_written(write, choices):
-    write("pkg/textures/wood.png", b"picture")
+    write("pkg/textures/wood.png", PICTURE)
     robot = description(write, TEXTURED, extra=MATERIAL.format("wood.png"))
     written = export(robot, Options(target="gazebo-classic", **choices))
     assert [loss.rule for loss in written.losses] == ["lossy-texture"]
@@ -132,7 +133,7 @@ def test_a_script_that_nothing_can_find_is_not_written(write, choices):
 @pytest.mark.parametrize("target", ["gz", "gazebo-classic"])
 @pytest.mark.parametrize("spoiled", [False, True])
 def test_textures_are_verified(write, tmp_path, target, spoiled):
-    write("pkg/textures/wood.png", b"picture")
+    write("pkg/textures/wood.png", PICTURE)
     robot = description(write, TEXTURED, extra=MATERIAL.format("wood.png"))
     options = Options(target=target, folder="out")
     written = export(robot, options)

@@ -44,6 +44,7 @@ def _png_bytes(image: Path | bytes) -> bytes | None:
         with Image.open(BytesIO(image) if isinstance(image, bytes) else image) as picture:
             target = BytesIO()
             picture.convert("RGBA").save(target, "PNG")
-    except (OSError, ValueError):
+    # image readers meet damaged files with whatever their arithmetic raises
+    except Exception:
         return None
     return target.getvalue()

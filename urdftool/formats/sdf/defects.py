@@ -46,16 +46,21 @@ def written_defects(robot: Robot) -> Iterator[Finding]:
 
 
 def mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
-    """Meshes that are not there, each once."""
+    """Meshes that are not there, or are none, each once."""
     seen = set()
     for link, shape in robot.shapes:
         mesh = shape.geometry
         if isinstance(mesh, Mesh) and not meshes.known(mesh) and mesh.filename not in seen:
             seen.add(mesh.filename)
+            why = meshes.refused.get(mesh.filename)
+            wrong = (
+                f"cannot be used: {why}"
+                if why
+                else "is not found; give its package with --package NAME=DIR, or mend its name"
+            )
             yield defect(
-                "mesh-not-found",
-                f"mesh '{mesh.filename}' of link '{link.name}' is not found; give its package with "
-                "--package NAME=DIR, or mend its name",
+                "corrupt-mesh" if why else "mesh-not-found",
+                f"mesh '{mesh.filename}' of link '{link.name}' {wrong}",
                 mesh.element.attribute_place("filename"),
                 "link",
                 link.name,

@@ -27,7 +27,8 @@ def material(node: Node, t: Translation, link: Link, part: Visual) -> None:
     color = own.color
     there = bool(own.texture) and t.meshes.found.get(own.texture or "") is not None
     if own.texture and not there:
-        text = f"texture '{own.texture}' of material '{own.name}' is missing; it is left out"
+        why = t.meshes.refused.get(own.texture, "it is missing")
+        text = f"texture '{own.texture}' of material '{own.name}' is left out: {why}"
         t.lose("texture", text, own, link)
     if color is None and not there:
         return

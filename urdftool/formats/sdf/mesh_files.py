@@ -10,6 +10,7 @@ from pathlib import Path, PurePosixPath
 from ...errors import UrdftoolError
 from ...model.elements import Mesh, Robot
 from ...source.packages import own_package
+from ..copied import is_companion, is_image, why_no_mesh
 from .names import model_name
 from .options import Options
 from .scripts import SCRIPTS, TEXTURES, material_name, picture_names, plain, script
@@ -29,7 +30,8 @@ class MeshFiles:
 
     Attributes:
         options: The choices of the export.
-        found: The file of each URI; None for one that is missing.
+        found: The file of each URI; None for one that is missing or refused.
+        refused: Of each URI that is there and no mesh or image: why.
         places: Where each file goes, relative to the model.
         pictures: Names of the textures that a script of Ogre shows.
         robot: The name of the model.
@@ -38,6 +40,7 @@ class MeshFiles:
     options: Options
     robot: str = ""
     found: dict[str, Path | None] = field(default_factory=dict)
+    refused: dict[str, str] = field(default_factory=dict)
     places: dict[Path, str] = field(default_factory=dict)
     pictures: dict[Path, str] = field(default_factory=dict)
 
@@ -101,7 +104,10 @@ def find_meshes(robot: Robot, options: Options) -> MeshFiles:
         textures += [v.material.texture for v in link.visuals if v.material and v.material.texture]
     meshes = MeshFiles(options, model_name(robot))
     for name in dict.fromkeys([*names, *textures]):
-        meshes.found[name] = _find(robot, name)
+        meshes.found[name] = path = _find(robot, name)
+        why = _refusal(path, mesh=name in names) if path is not None else ""
+        if why:
+            meshes.found[name], meshes.refused[name] = None, why
     if options.classic:
         if options.uri_style in ("model", "relative"):
             meshes.pictures = picture_names(meshes.robot, _there(meshes, textures))
@@ -128,6 +134,13 @@ def _find(robot: Robot, name: str) -> Path | None:
         return path if path.is_file() else None
     except (UrdftoolError, OSError, ValueError):
         return None
+
+
+def _refusal(path: Path, *, mesh: bool) -> str:
+    """Why a file is not what it is named as; empty where it is."""
+    if mesh:
+        return why_no_mesh(path)
+    return "" if is_image(path) else "it is no image"
 
 
 def _package_uri(filename: str, path: Path) -> str:
@@ -190,6 +203,8 @@ def _add_companions(meshes: MeshFiles, path: Path, place: str) -> None:
         other = path.parent / name
         target = os.path.normpath(os.path.join(os.path.dirname(place), name))
         if other in meshes.places or target.startswith("..") or not other.is_file():
+            continue
+        if not is_companion(other):
             continue
         meshes.places[other] = Path(target).as_posix()
         _add_companions(meshes, other, meshes.places[other])

@@ -54,7 +54,8 @@ def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
     if isinstance(geometry, Mesh) and not t.meshes.known(geometry):
         t.lose(
             "mesh",
-            f"mesh '{geometry.filename}' of link '{link.name}' is missing; the "
+            f"mesh '{geometry.filename}' of link '{link.name}' is "
+            f"{'no mesh' if geometry.filename in t.meshes.refused else 'missing'}; the "
             f"{shape.element.tag} is left out",
             geometry,
             link,

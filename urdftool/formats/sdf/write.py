@@ -81,7 +81,8 @@ def _files(t: Translation, root: Node, node: Node) -> None:
     if t.written.renamed:
         name = NAMES_FILE if not options.file else f"{options.file.rpartition('.')[0]}.{NAMES_FILE}"
         files[name] = _sidecar(t)
-    files.update(t.meshes.files)
+    for name, content in t.meshes.files.items():
+        files.setdefault(name, content)  # no mesh takes the place of the model
     for name, text in t.meshes.scripts.items():
         files[name] = b"// " + mark(text, source)
 

@@ -1,0 +1,101 @@
+"""What is copied into an export: meshes and images, and nothing that only bears their name.
+
+A description may come from a stranger, and an export is given away. A mesh or texture that is named
+``/home/me/.ssh/id_rsa``, or a link that leads there, is not to be in it. So a file is looked into
+before it is copied.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+from ..errors import MeshError
+from ..meshes.facts import is_lfs_pointer, stl_facts
+
+_HEAD = 65536
+_TGA_KINDS = (1, 2, 3, 9, 10, 11)
+_STARTS = (
+    *(b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"GIF8", b"BM", b"II*\0", b"MM\0*", b"DDS "),
+    *(b"#?RADIANCE", b"\x76\x2f\x31\x01", b"\xabKTX", b"8BPS"),
+)
+_POINT = re.compile(rb"(?m)^\s*v[ \t]+[-+.\d]")
+_FACE = re.compile(rb"(?m)^\s*f[ \t]+[-\d]")
+_MATERIAL = re.compile(rb"(?m)^\s*newmtl\s")
+
+
+def why_no_mesh(path: Path) -> str:
+    """Why a file is no mesh of the format that its name says; empty where it is one."""
+    suffix = path.suffix.lower()
+    looks = _MESHES.get(suffix)
+    if looks is None:
+        return f"'{suffix}' is no mesh format; those are {', '.join(s[1:] for s in _MESHES)}"
+    try:
+        if is_lfs_pointer(path):
+            return "it is a git-LFS pointer; fetch the mesh with `git lfs pull`"
+        return "" if looks(path) else f"there is no {suffix[1:].upper()} mesh in it"
+    except (OSError, MeshError) as error:
+        return str(getattr(error, "strerror", None) or error)
+
+
+def is_image(path: Path) -> bool:
+    """Whether a file is an image, by its bytes."""
+    head = _head(path)
+    return head.startswith(_STARTS) or head[8:12] == b"WEBP" or _is_tga(path, head)
+
+
+def is_companion(path: Path) -> bool:
+    """Whether a file is what meshes name: an image, materials of OBJ, or numbers of glTF."""
+    suffix = path.suffix.lower()
+    if suffix == ".mtl":
+        return _MATERIAL.search(_head(path)) is not None
+    if suffix == ".bin":  # has no mark of its own; a link must not make one of another file
+        return path.resolve().suffix.lower() == ".bin"
+    return is_image(path)
+
+
+def _head(path: Path) -> bytes:
+    if not path.is_file():  # nor read from what never ends
+        return b""
+    with open(path, "rb") as stream:
+        return stream.read(_HEAD)
+
+
+def _is_tga(path: Path, head: bytes) -> bool:
+    """Whether the head is one of Truevision, which has no mark."""
+    if path.suffix.lower() != ".tga" or len(head) < 18:
+        return False
+    return head[1] in (0, 1) and head[2] in _TGA_KINDS and head[16] in (8, 15, 16, 24, 32)
+
+
+def _is_stl(path: Path) -> bool:
+    facts = stl_facts(path)
+    if facts.kind == "ascii":
+        return b"facet" in _head(path).lower()
+    return facts.expected_bytes is not None and facts.bytes >= facts.expected_bytes
+
+
+def _is_obj(path: Path) -> bool:
+    data = path.read_bytes()
+    return _POINT.search(data) is not None and _FACE.search(data) is not None
+
+
+def _starts(*words: bytes) -> Callable[[Path], bool]:
+    return lambda path: _head(path).startswith(words)
+
+
+def _has(*words: bytes) -> Callable[[Path], bool]:
+    return lambda path: any(word in _head(path) for word in words)
+
+
+_MESHES: dict[str, Callable[[Path], bool]] = {
+    ".stl": _is_stl,
+    ".obj": _is_obj,
+    ".dae": _has(b"<COLLADA", "<COLLADA".encode("utf-16-le"), "<COLLADA".encode("utf-16-be")),
+    ".ply": _starts(b"ply"),
+    ".gltf": _has(b'"asset"'),
+    ".glb": _starts(b"glTF"),
+    ".fbx": _starts(b"Kaydara FBX Binary", b"; FBX"),
+    ".3ds": _starts(b"MM"),
+}
