@@ -9,6 +9,7 @@ import numpy as np
 
 from ..drawing.chart import COLORS, Color, Line, Panel, chart
 from ..drawing.png_file import Image
+from ..drawing.raster import Indices
 from ..model.pose import rotation_of_quaternion
 from .recording import Array, Recording
 from .run import Run
@@ -84,11 +85,11 @@ def _joints(runs: Sequence[Run], of: object) -> tuple[Line, ...]:
     """The curve of each joint; of many, those that reach farthest have colours and names."""
     assert callable(of)
     names = runs[0].recording.joints
-    first = np.nan_to_num(np.asarray(of(runs[0].recording)))
-    order = np.argsort(-np.ptp(first, axis=0) - np.abs(first).max(axis=0), kind="stable")
-    colors = {int(column): COLORS[rank] for rank, column in enumerate(order[:MOST_NAMED])}
+    order = _by_weight(runs[0].recording)
+    named = sorted(order[:MOST_NAMED].tolist())
+    colors = {column: COLORS[rank] for rank, column in enumerate(named)}
     lines = []
-    for column in [*reversed(order[MOST_NAMED:].tolist()), *order[:MOST_NAMED].tolist()]:
+    for column in [*reversed(order[MOST_NAMED:].tolist()), *named]:
         for number, run in enumerate(runs):
             label = names[column] if column in colors and not number else ""
             values = np.asarray(of(run.recording))[:, column]
@@ -105,3 +106,13 @@ def _joints(runs: Sequence[Run], of: object) -> tuple[Line, ...]:
     if more > 0:
         lines.append(Line(f"{more} more", np.zeros(0), np.zeros(0), _OTHERS))
     return tuple(lines)
+
+
+def _by_weight(recording: Recording) -> Indices:
+    """The joints, first those that move or work most, of what any does."""
+    weight = np.zeros(len(recording.joints))
+    for values in (_moved(recording), _efforts(recording)):
+        most = np.abs(np.nan_to_num(values)).max(axis=0)
+        weight += most / max(float(most.max()), 1e-12)
+    order: Indices = np.argsort(-weight, kind="stable")
+    return order
