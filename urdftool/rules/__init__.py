@@ -228,6 +228,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "gazebo-path-not-exported",
             "wrong-package-in-uri",
         ),
+        "launching": ("obsolete-cli-option",),
     },
     "gazebo": {
         "tags": ("missing-gazebo-tags", "missing-gazebo-material", "missing-friction"),

@@ -1,0 +1,63 @@
+"""How a package's launch files and build call xacro."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from ...model.elements import Robot
+from ...source.description import Description
+from ...source.location import Place, SourceFile
+from ...source.packages import own_package, shown_path
+from ..rule import INFO, ROS, Problem, rule
+
+_OBSOLETE = re.compile(rb"(?<![\w./-])(?:--inorder|--legacy|xacro\.py)\b")
+_INSTEAD = {
+    "--inorder": "leave it out: in order is how xacro works since ROS Melodic",
+    "--legacy": "leave it out: there is no other way since ROS Melodic",
+    "xacro.py": "call xacro, the one program there is",
+}
+_MOST_FILES = 60
+_MOST_BYTES = 200_000
+
+
+@rule(INFO, on=ROS, effects={"xacro": "passes over the option, or is not found by that name"})
+def obsolete_cli_option(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A launch file or the build calls xacro as it was called long ago.
+
+    ``--inorder`` is the default since ROS Melodic, ``--legacy`` is gone, and ``xacro.py`` is not
+    installed any more: in ROS 2 such a call fails. Looked at are lines that name this description,
+    in the launch files, ``CMakeLists.txt`` and README of its package.
+    """
+    own = own_package(description.packages.file)
+    if own is None:
+        return
+    name = description.packages.file.name.encode()
+    for path in _callers(own[1]):
+        try:
+            data = path.read_bytes()[:_MOST_BYTES]
+        except OSError:
+            continue
+        if name not in data:
+            continue
+        file = SourceFile(shown_path(path), data)
+        for match in _OBSOLETE.finditer(data):
+            line_start = data.rfind(b"\n", 0, match.start()) + 1
+            line_end = data.find(b"\n", match.end())
+            if name in data[line_start : line_end if line_end >= 0 else len(data)]:
+                word = match[0].decode()
+                yield Problem(
+                    robot,
+                    f"'{word}' is obsolete; {_INSTEAD[word]}",
+                    at=Place(file, match.start(), match.end()),
+                )
+
+
+def _callers(package: Path) -> Iterator[Path]:
+    """The files of a package that may call xacro."""
+    found = [*(package / "launch").glob("**/*"), *package.glob("README*")]
+    found += [package / "CMakeLists.txt"]
+    for path in sorted(found)[:_MOST_FILES]:
+        if path.is_file():
+            yield path
