@@ -149,12 +149,12 @@ def help_of(words: list[str]) -> str:
     return command.get_help(context)
 
 
-def run_pages() -> Iterator[tuple[Path, str, str]]:
+def run_pages(only: list[Path], pictures: Path | None = None) -> Iterator[tuple[Path, str, str]]:
     """Every page with commands: as it is, and with what they print now."""
-    for path in written_pages():
+    for path in only or written_pages():
         text = path.read_text("utf-8")
         if BLOCK.search(text) and how(text).is_possible:
-            yield path, text, with_output(text)
+            yield path, text, with_output(text, pictures)
 
 
 def stale() -> list[Path]:
@@ -169,6 +169,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--check", action="store_true", help="write nothing; name stale pages")
     parser.add_argument("--no-commands", action="store_true", help="run no command of a page")
+    parser.add_argument("page", nargs="*", type=Path, help="run the commands of these alone")
     options = parser.parse_args()
     if options.check:
         wrong = stale()
@@ -178,7 +179,8 @@ def main() -> int:
         for path, text in pages():
             path.parent.mkdir(exist_ok=True)
             path.write_text(text, "utf-8")
-    for path, old, new in () if options.no_commands else run_pages():
+    pictures = None if options.check else DOCS / "pictures"
+    for path, old, new in () if options.no_commands else run_pages(options.page, pictures):
         if same(old, new, how(old)):
             continue
         if options.check:

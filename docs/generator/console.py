@@ -21,6 +21,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 FIXTURES = ROOT / "fixtures"
 BLOCK = re.compile(r"(?<=```console\n).*?(?=```)", re.DOTALL)
+FILE = re.compile(r"<!-- file: (\S+) -->\n\n```\w+\n(.*?)```", re.DOTALL)
+PICTURE = re.compile(r"!\[[^\]]*\]\([^)]*pictures/([^)/]+)\)")
 RUN = re.compile(r"<!-- run: (.*?) -->")
 UNSEEN = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "FORCE_COLOR", "URDFTOOL_TRUST")
 
@@ -57,18 +59,32 @@ def written_pages() -> Iterator[Path]:
             yield path
 
 
-def with_output(text: str) -> str:
-    """A page with what its commands print now; the commands of a page run one after the other."""
+def with_output(text: str, pictures: Path | None = None) -> str:
+    """A page with what its commands print now; the commands of a page run one after the other.
+
+    Files that the page shows under a mark, ``<!-- file: NAME -->``, are there when they start.
+
+    Args:
+        text: The page.
+        pictures: Where pictures go that its commands make and that it shows.
+    """
     if not BLOCK.search(text):
         return text
     with tempfile.TemporaryDirectory() as folder:
-        shutil.copytree(FIXTURES, Path(folder) / "fixtures")
+        here = Path(folder)
+        shutil.copytree(FIXTURES, here / "fixtures")
+        for name, content in FILE.findall(text):
+            (here / name).write_text(content, "utf-8")
 
         def run(match: re.Match[str]) -> str:
             commands = [line for line in match[0].splitlines() if line.startswith("$ ")]
             return "".join(f"{line}\n{_output(line[2:], folder)}" for line in commands)
 
-        return BLOCK.sub(run, text)
+        text = BLOCK.sub(run, text)
+        for name in PICTURE.findall(text) if pictures else ():
+            if (here / name).exists():
+                shutil.copy(here / name, pictures / name)
+        return text
 
 
 def same(old: str, new: str, how: How) -> bool:
