@@ -14,7 +14,7 @@ from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.urdf import write_folder
 
-from .timing import PYTHON, URDFTOOL, in_turn, run
+from .timing import PYTHON, URDFTOOL, command, in_turn
 
 ROBOTS = Path(__file__).parents[2] / "fixtures" / "robots"
 
@@ -44,17 +44,17 @@ def rows() -> Iterator[str]:
 
         robots["a1"] = (Path(pybullet_data.getDataPath()) / "a1/a1.urdf", [])
     for name, (path, options) in robots.items():
-        command = [*URDFTOOL, "-q", "simulate", str(path), *options]
-        done = subprocess.run([*command, "--format", "json"], capture_output=True, check=False)
+        words = [*URDFTOOL, "-q", "simulate", str(path), *options]
+        done = subprocess.run([*words, "--format", "json"], capture_output=True, check=False)
         steps = json.loads(done.stdout)["trials"][0]["steps"]
         with tempfile.TemporaryDirectory() as folder:
             bodies = prepare(load(path), Settings())
             urdf = write_folder(bodies, Path(folder))
             height = bodies.start.translation[2]
             bare = [PYTHON, "-c", BARE, str(urdf), str(height), str(steps)]
-            medians = in_turn({"ours": run(command), "bare": run(bare)}, rounds=7)
-        over = medians["ours"] - medians["bare"]
+            medians = in_turn({"ours": command(words), "bare": command(bare)}, rounds=7)
+        ours, theirs = medians["ours"].seconds, medians["bare"].seconds
         yield (
-            f"{name:<18} {steps:>5} steps   bare {medians['bare']:.3f} s   simulate "
-            f"{medians['ours']:.3f} s   {over:+.3f} s"
+            f"{name:<18} {steps:>5} steps   bare {theirs:.3f} s   simulate {ours:.3f} s   "
+            f"{ours - theirs:+.3f} s"
         )

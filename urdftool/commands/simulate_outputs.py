@@ -86,6 +86,8 @@ class Outputs:
         Raises:
             OutputError: One cannot be written.
         """
+        if not self.wanted:
+            return
         from ..drawing.png_file import png
         from ..simulation.film import film, settled_picture
         from ..simulation.plot import plot

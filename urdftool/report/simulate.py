@@ -43,7 +43,14 @@ def _headline(robot: Robot, verdict: Verdict, paint: Painter) -> str:
     if verdict.stands:
         return f"{name}: {paint('stands', 'green', bold=True)}"
     kinds = ", ".join(dict.fromkeys(fault.kind for fault in verdict.faults if fault.fails))
-    return f"{name}: {paint('does not stand', 'red', bold=True)} ({kinds})"
+    return f"{name}: {paint(outcome(verdict), 'red', bold=True)} ({kinds})"
+
+
+def outcome(verdict: Verdict) -> str:
+    """What became of a robot: one that came to rest upright stands, whatever else is wrong."""
+    if verdict.stands:
+        return "stands"
+    return "does not stand" if verdict.fell else "stands, but not as it should"
 
 
 def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:

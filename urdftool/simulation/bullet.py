@@ -17,6 +17,7 @@ import numpy as np
 from ..errors import MissingDependency, ModelError
 from .bodies import Bodies, JointOf
 from .bullet_read import read_back
+from .bullet_rolling import NEARING, forget_contacts, is_lying, round_part
 from .control import Pids, driven
 from .recording import GROUND, Array, Contact, ReadBack, Recording
 from .settings import Settings
@@ -287,12 +288,14 @@ class World:
         still: float | None = None
         ended, done = "time", 0
         while done < steps and ended == "time":
+            rolling = self._rolling(samples[-1]["poses"])
             p.setGravity(*settings.gravity_at(done * settings.timestep))
             for _ in range(min(every, steps - done)):
                 if self.followers:
                     self._follow()
                 if self.driven:
                     self._drive()
+                forget_contacts(p, self.robot, self.plane, rolling)
                 p.stepSimulation()
                 done += 1
             sample = self._sample(done * settings.timestep)
@@ -321,6 +324,17 @@ class World:
             seconds=seconds,
             steps=done,
         )
+
+    def _rolling(self, poses: Array) -> list[int]:
+        """The links that may roll, at these poses of all bodies."""
+        if not hasattr(self, "_round"):
+            found = [(number, round_part(body)) for number, body in enumerate(self.bodies.bodies)]
+            self._round = [(number, part) for number, part in found if part is not None]
+        return [
+            self.link_of[number]
+            for number, (axes, reach) in self._round
+            if poses[number, 2] < reach + NEARING and is_lying(axes, poses[number, 3:])
+        ]
 
     def _is_sane(self, sample: dict[str, Any]) -> bool:
         poses = sample["poses"]

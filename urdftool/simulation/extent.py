@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -17,12 +19,16 @@ class Extent:
 
     Attributes:
         points: Corners of its shapes in the link's frame [m], shape (n, 3).
-        volume: Of its visual or its collision shapes, whichever is larger; of meshes their convex
-            hulls [m³].
+        groups: Its collision shapes and its visual ones, each with its corners.
     """
 
     points: Array = field(default_factory=lambda: np.zeros((0, 3)))
-    volume: float = 0.0
+    groups: tuple[tuple[tuple[Collision | Visual, Array], ...], ...] = ()
+
+    @cached_property
+    def volume(self) -> float:
+        """Of the visual or the collision shapes, whichever is larger, and of hulls [m³]."""
+        return max((sum(_volume(*shape) for shape in group) for group in self.groups), default=0.0)
 
     def reach(self, centre: Array) -> float:
         """How far the farthest corner is from a point [m]; 0 where there is none."""
@@ -43,14 +49,43 @@ def extent_of(robot: Robot, name: str, *, only_collisions: bool = False) -> Exte
     groups: list[list[Collision] | list[Visual]] = [link.collisions]
     if not only_collisions:
         groups.append(link.visuals)
-    points, volumes = [], [0.0]
+    read = []
     for group in groups:
         found = [(shape, shape_points(robot, shape)) for shape in group]
-        points += [corners for _, corners in found if corners is not None]
-        volumes.append(sum(_volume(shape, c) for shape, c in found if c is not None))
-    if not points:
-        return Extent()
-    return Extent(np.concatenate(points), max(volumes))
+        read.append(tuple((shape, corners) for shape, corners in found if corners is not None))
+    points = [corners for shapes in read for _, corners in shapes]
+    return Extent(np.concatenate(points), tuple(read)) if points else Extent()
+
+
+def is_beside(robot: Robot, name: str) -> bool:
+    """Whether what touches of a link lies beside what is seen of it, or else beside its mass.
+
+    That is where less than half of the smaller one's box is in the other's, along one axis.
+    """
+    link = robot.link[name]
+    touches, seen = (_box(robot, group) for group in (link.collisions, link.visuals))
+    if touches is None:
+        return False
+    if seen is None:
+        if not link.mass or link.inertial is None:
+            return False
+        centre = np.array(link.inertial.origin.xyz if link.inertial.origin else (0.0, 0.0, 0.0))
+        slack = (touches[1] - touches[0]) / 2
+        return bool((centre < touches[0] - slack).any() or (centre > touches[1] + slack).any())
+    shared = np.minimum(touches[1], seen[1]) - np.maximum(touches[0], seen[0])
+    smaller = np.minimum(touches[1] - touches[0], seen[1] - seen[0])
+    return bool((shared < 0.5 * smaller - 1e-6).any())
+
+
+def _box(
+    robot: Robot, shapes: Sequence[Collision] | Sequence[Visual]
+) -> tuple[Array, Array] | None:
+    """Two corners of the box around some shapes, along the axes of their link."""
+    found = [corners for shape in shapes if (corners := shape_points(robot, shape)) is not None]
+    if not found:
+        return None
+    points = np.concatenate(found)
+    return points.min(axis=0), points.max(axis=0)
 
 
 def _volume(shape: Collision | Visual, points: Array) -> float:

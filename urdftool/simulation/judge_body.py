@@ -2,36 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 import numpy as np
 
-from ..model.elements import Link, Robot
+from ..model.elements import Robot
 from .bodies import Bodies, Body, mass_of
-from .extent import Extent, extent_of
+from .extent import extent_of
 from .fault import Fault
+from .judge_size import has_shapes, judge_size
 from .recording import Array
 from .run import Run
 from .urdf import ROUNDED
-
-REACH = 1.2
-"""How far out a link's mass may sit on average, as a part of how far its shapes reach."""
-
-FAR_OUT = 3.0
-"""The same of a link so light that its inertia hardly matters."""
-
-DENSEST = 12_000.0
-"""Denser than lead [kg/m³]."""
 
 LARGEST = 30.0
 """A part larger than this, on a robot of smaller parts, is in millimetres [m]."""
 
 _THIN = 1.0  # kg/m³, a bit less than air
 _SHARE = 0.5
-_HOLLOW = 100.0  # kg/m³: a rigid body lighter than this lacks the mass of a part
-_HEAVY = 0.1
-_LIGHT = 0.02  # of the robot's mass: what is lighter stands for a camera or a frame
+_PART = 0.05  # of the volume of all links: what is smaller may be a camera that weighs little
+_HOLLOW = 20.0  # kg/m³ of hulls: an inertial kept apart that is lighter stands for less
 
 
 def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
@@ -50,12 +40,12 @@ def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
     for number, body in enumerate(bodies.bodies):
         if number == 0 and bodies.nailed:
             continue
-        yield from _unweighed(robot, body)
         if body.properties is not None and _is_impossible(body.properties.inertia):
             told.add(body.name)
             yield from _tensor(robot, body)
         for name in body.links:
-            yield from _size(robot, robot.link[name], run)
+            yield from judge_size(robot, robot.link[name], run)
+    yield from _unweighed(robot, bodies)
     yield from _giants(robot, bodies)
     for difference in run.recording.read_back:
         if difference.name in told:
@@ -88,7 +78,7 @@ def _massless(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
                 "drops it: give it one, or nail it down with --fixed-base",
                 "massless-root-body",
             )
-        elif body.shapes or not _is_empty(bodies, number, loads):
+        elif number in loads or any(has_shapes(robot, name) for name in body.links):
             moving.append(body.name)
     if moving:
         more = f" and {len(moving) - 1} more" if len(moving) > 1 else ""
@@ -103,35 +93,54 @@ def _massless(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
         )
 
 
-def _is_empty(bodies: Bodies, number: int, loads: set[int]) -> bool:
-    """Whether a body is a mere frame: it carries nothing that weighs, so that nothing is moved."""
-    return number not in loads and not bodies.bodies[number].shapes
+def _unweighed(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
+    """Links that are a good part of their rigid body or the robot, and have no mass.
 
-
-def _unweighed(robot: Robot, body: Body) -> Iterator[Fault]:
-    """A link that is most of its body, and has no mass: the others cannot stand for it."""
-    without = [name for name in body.links if not robot.link[name].mass]
-    if not body.mass or not without:
+    The mass of a link without shapes counts for those of its body that have some and no mass: so
+    are inertials kept out of a root. A neighbour with shapes of its own has its own mass only.
+    """
+    extents = {
+        name: extent_of(robot, name)
+        for body in bodies.bodies
+        if body.mass and any(_is_hollow(robot, name) for name in body.links)
+        for name in body.links
+        if has_shapes(robot, name)
+    }
+    if not any(_is_hollow(robot, name) for name in extents):
         return
-    extents = {name: extent_of(robot, name) for name in body.links if _has_shapes(robot, name)}
-    whole = sum(extent.volume for extent in extents.values())
-    for name in without:
-        large = name in extents and extents[name].volume > _SHARE * whole > 0
-        if large and body.mass < _HOLLOW * whole:
-            yield Fault(
-                "no-mass",
-                f"link '{name}' is most of its rigid body and weighs nothing; the rest weighs "
-                f"{body.mass:.3g} kg",
-                robot.link[name].place,
-                "link",
-                name,
-                "it has a shape and no <inertial> with a mass",
-                "missing-inertial",
-            )
+    everything = sum(
+        extents[name].volume if name in extents else extent_of(robot, name).volume
+        for body in bodies.bodies
+        for name in body.links
+        if has_shapes(robot, name)
+    )
+    for number, body in enumerate(bodies.bodies):
+        hollow = [name for name in body.links if _is_hollow(robot, name) and name in extents]
+        if not hollow or (number == 0 and bodies.nailed):
+            continue
+        bare = sum(robot.link[name].mass for name in body.links if not has_shapes(robot, name))
+        if bare > _HOLLOW * sum(extents[name].volume for name in hollow):
+            continue
+        whole = sum(extents[name].volume for name in body.links if name in extents)
+        for name in hollow:
+            volume = extents[name].volume
+            solid = bool(robot.link[name].collisions)  # what is only seen may be a cover
+            if volume > _SHARE * whole > 0 or (solid and volume > _PART * everything):
+                yield Fault(
+                    "no-mass",
+                    f"link '{name}' weighs nothing and is {volume / whole:.0%} of its rigid body, "
+                    f"of which the rest weighs {body.mass:.3g} kg",
+                    robot.link[name].place,
+                    "link",
+                    name,
+                    "it has a shape and no <inertial> with a mass",
+                    "missing-inertial",
+                )
 
 
-def _has_shapes(robot: Robot, name: str) -> bool:
-    return bool(robot.link[name].collisions or robot.link[name].visuals)
+def _is_hollow(robot: Robot, name: str) -> bool:
+    """Whether a link has a shape and no mass."""
+    return not robot.link[name].mass and has_shapes(robot, name)
 
 
 def _is_impossible(tensor: Array) -> bool:
@@ -173,75 +182,6 @@ def _tensor(robot: Robot, body: Body) -> Iterator[Fault]:
         why,
         rule,
     )
-
-
-def _size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
-    """Mass and inertia that no shape of this size could have."""
-    own = mass_of(link)
-    if own is None or link.inertial is None:
-        return
-    share = own.mass / run.bodies.mass
-    if not _has_shapes(robot, link.name) and share < _HEAVY:
-        return
-    spread = math.sqrt(max(0.0, float(np.trace(own.inertia)) / 2 / own.mass))
-    extent = _around(robot, link, run, only_collisions=True)
-    if _fits(extent, spread, own.mass, own.com):
-        return
-    extent = _around(robot, link, run)
-    reach = extent.reach(own.com)
-    matters = share > _LIGHT or _rules(own.inertia, link.name, run)
-    if reach and matters and spread > (REACH if share > _LIGHT else FAR_OUT) * reach:
-        yield Fault(
-            "inertia-too-large",
-            f"the inertia of link '{link.name}' is that of mass {spread:.3g} m from its centre; "
-            f"its shapes reach {reach:.3g} m",
-            (link.inertial.inertia or link.inertial).place,
-            "link",
-            link.name,
-            "a tensor of ones, or of other units; the link turns far too slowly",
-            "inertia-exceeds-geometry",
-        )
-    if share > _LIGHT and extent.volume and own.mass > DENSEST * extent.volume:
-        yield Fault(
-            "too-dense",
-            f"link '{link.name}' weighs {own.mass:.4g} kg, {own.mass / extent.volume:,.0f} kg/m³ "
-            "of its shapes",
-            link.inertial.place,
-            "link",
-            link.name,
-            "lead is lighter: its mass is in grams, or its shapes in another unit",
-            "implausible-density",
-        )
-
-
-def _rules(tensor: Array, name: str, run: Run) -> bool:
-    """Whether a light link's tensor is most of its rigid body's all the same."""
-    body = next(body for body in run.bodies.bodies if name in body.links)
-    assert body.properties is not None
-    return bool(np.trace(tensor) > _SHARE * np.trace(body.properties.inertia))
-
-
-def _around(robot: Robot, link: Link, run: Run, *, only_collisions: bool = False) -> Extent:
-    """The extent of a link; of one without shapes, that of its rigid body, in its own frame."""
-    if _has_shapes(robot, link.name):
-        return extent_of(robot, link.name, only_collisions=only_collisions)
-    body = next(body for body in run.bodies.bodies if link.name in body.links)
-    back = body.places[link.name].inverse()
-    found = []
-    for name in body.links:
-        extent = extent_of(robot, name, only_collisions=only_collisions)
-        pose = back @ body.places[name]
-        points = extent.points @ np.array(pose.rotation).T + np.array(pose.translation)
-        found.append(Extent(points, extent.volume))
-    return Extent(
-        np.concatenate([extent.points for extent in found]),
-        sum(extent.volume for extent in found),
-    )
-
-
-def _fits(extent: Extent, spread: float, mass: float, com: Array) -> bool:
-    reach = extent.reach(com)
-    return spread <= REACH * reach and mass <= DENSEST * extent.volume
 
 
 def _giants(robot: Robot, bodies: Bodies) -> Iterator[Fault]:

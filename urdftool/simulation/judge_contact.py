@@ -6,15 +6,17 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..model.elements import Robot
-from ..model.pose import Pose, rotation_of_quaternion
+from ..formats.mjcf.extent import shape_points
+from ..model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere
+from ..model.pose import Pose, pose_of, rotation_of_quaternion
 from .bodies import Body
-from .extent import extent_of
+from .extent import is_beside
 from .fault import Fault
 from .judge_rest import Rest
-from .overlap import overlap
+from .overlap import overlap, primitive_triangles
 from .recording import GROUND, Array, Contact
 from .run import Run
+from .shapes import lowest
 
 SUNK = 0.01
 """How deep a robot at rest may be in the floor, as a part of its size."""
@@ -28,6 +30,12 @@ THICK = 0.25
 NEAR = 0.002
 """How near to the floor a part is that should touch it [m]."""
 
+INSIDE = 0.4
+"""How much of a misplaced shape is in the part it is joined to, for a fault."""
+
+SHOWS = 0.001
+"""How far what is seen of a foot sticks out of what touches beside it [m]."""
+
 COMPACT = 0.5
 """How far apart joints may be that are one compound joint, as a part of the smaller body."""
 
@@ -40,7 +48,9 @@ def judge_contacts(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
     yield from _in_each_other(robot, run)
     if not rest.fell and run.recording.ended != "lost":
         yield from _sunk(robot, run)
-        yield from _untouching(robot, run)
+        told = {fault.name: fault for fault in _untouching(robot, run)}
+        yield from told.values()
+        yield from (f for f in _unlike(robot, run, rest) if f.name not in told)
 
 
 def _deep(run: Run, part: float) -> float:
@@ -97,20 +107,53 @@ def _in_each_other(robot: Robot, run: Run) -> Iterator[Fault]:
             continue
         depth = contact.depth if depth is None else min(depth, contact.depth)
         thin = min(_extents(bodies[owner[name]]).min() for name in (contact.one, contact.other))
-        fails = bool(not adjacent and depth > THICK * thin)
+        beside = None
+        if adjacent and depth > THICK * thin:
+            pair = (contact.one, contact.other)
+            beside = next(
+                (
+                    name
+                    for name, into in (pair, pair[::-1])
+                    if is_beside(robot, name)
+                    and _share_inside(run, 0 if starting else -1, name, into) > INSIDE
+                ),
+                None,
+            )
+        fails = beside is not None or bool(not adjacent and depth > THICK * thin)
         when = "at the start" if starting else "at rest"
+        named = beside or contact.one
         yield Fault(
             "parts-collide",
             f"links '{contact.one}' and '{contact.other}' are {depth:.3g} m in each other {when}",
-            robot.link[contact.one].place,
+            robot.link[named].place,
             "link",
-            contact.one,
-            "they are joined, so engines let them"
+            named,
+            f"the collision of '{beside}' lies beside what is seen of it, or beside its mass"
+            if beside
+            else "they are joined, so engines let them"
             if adjacent
             else "their collision shapes are too large or misplaced, or the pose is not free",
             "collision-off-visual" if fails else "",
             fails=fails,
         )
+
+
+def _share_inside(run: Run, frame: int, link: str, other: str) -> float:
+    """How much of a link's shapes is inside those of another link, by the boxes around both."""
+    bodies = run.bodies.bodies
+    one, two = (
+        next(n for n, body in enumerate(bodies) if name in body.links) for name in (link, other)
+    )
+    steps = (np.arange(5) + 0.5) / 5
+    grid = np.stack(np.meshgrid(steps, steps, steps), axis=-1).reshape(-1, 3)
+    mine = [shape.bounds() for shape in bodies[one].shapes if shape.link == link]
+    points = np.concatenate([low + grid * (high - low) for low, high in mine])
+    to = _pose(run, two, frame).inverse() @ _pose(run, one, frame)
+    points = points @ np.array(to.rotation).T + np.array(to.translation)
+    inside = np.zeros(len(points), dtype=bool)
+    for low, high in (shape.bounds() for shape in bodies[two].shapes if shape.link == other):
+        inside |= ((points >= low) & (points <= high)).all(axis=1)
+    return float(inside.mean())
 
 
 def _are_joined(run: Run, one: str, other: str) -> bool:
@@ -152,26 +195,28 @@ def _pair(contact: Contact) -> frozenset[str]:
 
 def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
     """Moving bodies that are seen on the floor and have nothing to touch it with."""
+    parents = {body.parent for body in run.bodies.bodies}
     for number, body in enumerate(run.bodies.bodies):
         seen = [name for name in body.links if robot.link[name].visuals]
         if not seen or (number == 0 and run.bodies.nailed):
             continue
-        highest = -NEAR
+        pose = _pose(run, number)
+        highest = NEAR
         if body.shapes:
             seen = [name for name in seen if not robot.link[name].collisions]
             highest = -_deep(run, SUNK)
-        x, y, z, w = run.recording.poses[-1, number, 3:].tolist()
-        at = run.recording.poses[-1, number, :3].tolist()
-        pose = Pose(rotation_of_quaternion((w, x, y, z)), (at[0], at[1], at[2]))
+            if number not in parents:  # a foot on the end of a leg, of which the rest may touch
+                turn, at = np.array(pose.rotation), np.array(pose.translation)
+                highest = min(NEAR, lowest(body.shapes, turn, at) - SHOWS)
         for name in seen:
-            points = extent_of(robot, name).points
+            points = _seen(robot, name)
             if not len(points):
                 continue
             place = pose @ body.places[name]
             heights = points @ np.array(place.rotation[2]) + place.translation[2]
-            lowest = float(heights.min())
-            if lowest < (highest if body.shapes else NEAR):
-                where = "on" if lowest > -NEAR else f"{-lowest:.3g} m below"
+            least = float(heights.min())
+            if least < highest:
+                where = "on" if least > -NEAR else f"{-least:.3g} m below"
                 yield Fault(
                     "no-contact-shape",
                     f"link '{name}' is {where} the floor and has no <collision> to touch it with",
@@ -181,3 +226,62 @@ def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
                     "a wheel or foot that carries nothing; what is beside it does",
                     "missing-collision",
                 )
+
+
+def _unlike(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
+    """Links that look like one on which the robot stands, and have nothing to stand on."""
+    feet = {look: name for name in rest.supports if (look := _look(robot, name)) is not None}
+    for body in run.bodies.bodies[1:]:
+        for name in body.links:
+            look = None if robot.link[name].collisions else _look(robot, name)
+            twin = None if look is None else feet.get(look)
+            if twin is not None:
+                yield Fault(
+                    "no-contact-shape",
+                    f"link '{name}' has no <collision>, and '{twin}', which looks the same, stands "
+                    "on the floor with one",
+                    robot.link[name].place,
+                    "link",
+                    name,
+                    "a wheel or foot that carries nothing; what is beside it does",
+                    "missing-collision",
+                )
+
+
+def _look(robot: Robot, name: str) -> tuple[object, ...] | None:
+    """What is seen of a link, to be compared with others; None where nothing is."""
+    visuals = robot.link[name].visuals
+    if not visuals:
+        return None
+    return tuple(_form(visual.geometry) for visual in visuals)
+
+
+def _form(geometry: Geometry | None) -> tuple[object, ...]:
+    if isinstance(geometry, Mesh):
+        return geometry.filename, *(abs(factor) for factor in geometry.scale)
+    if isinstance(geometry, Box):
+        return ("box", *sorted(geometry.size))
+    if isinstance(geometry, Sphere):
+        return "sphere", geometry.radius
+    if isinstance(geometry, (Cylinder, Capsule)):
+        return "round", geometry.radius, geometry.length
+    return (id(geometry),)
+
+
+def _pose(run: Run, number: int, frame: int = -1) -> Pose:
+    """Where a body is in the world, at the end or at another sample."""
+    a, b, c, x, y, z, w = run.recording.poses[frame, number].tolist()
+    return Pose(rotation_of_quaternion((w, x, y, z)), (a, b, c))
+
+
+def _seen(robot: Robot, name: str) -> Array:
+    """Points of what is seen of a link, in its frame: those of round shapes lie on them."""
+    found = [np.zeros((0, 3))]
+    for shape in robot.link[name].visuals:
+        if isinstance(shape.geometry, (Cylinder, Sphere, Capsule)):
+            pose = pose_of(shape.origin)
+            corners = primitive_triangles(shape).reshape(-1, 3)
+            found.append(corners @ np.array(pose.rotation).T + np.array(pose.translation))
+        elif (points := shape_points(robot, shape)) is not None:
+            found.append(points)
+    return np.concatenate(found)

@@ -13,6 +13,7 @@ from ..model.pose import IDENTITY, matrix_product, rotation_of_quaternion, trans
 from .fault import Fault
 from .recording import GROUND, Array, Recording
 from .run import Run
+from .shapes import lowest
 
 TIPPED = math.radians(30)
 LEANS = math.radians(10)
@@ -21,6 +22,13 @@ FAR = 0.05
 
 GAIN = 0.5
 """Energy gained, as a part of what lifting the robot by its size takes, that is no rounding."""
+
+
+STANDS = 0.003
+"""How much higher than the lowest a link may be that a robot is put on, as a part of its size."""
+
+ARM = 4
+"""Turning joints in one chain from the root that make an arm."""
 
 
 @dataclass(frozen=True)
@@ -209,7 +217,7 @@ def judge_rest(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
             top.place,
             "link",
             top.name,
-            _why_tilted(rest) + "; a robot that is bolted down is simulated with --fixed-base",
+            _why_tilted(run, rest),
         )
     elif rest.drift > FAR * size:
         yield from _slid(robot, run, rest, size)
@@ -241,11 +249,45 @@ def _slid(robot: Robot, run: Run, rest: Rest, size: float) -> Iterator[Fault]:
     )
 
 
-def _why_tilted(rest: Rest) -> str:
+def _why_tilted(run: Run, rest: Rest) -> str:
+    if _is_arm(run):
+        return "an arm is usually bolted down: --fixed-base simulates it so"
+    names = ", ".join(f"'{name}'" for name in stood_on(run)[:4])
     if rest.margin is not None and rest.margin < 0:
-        return "its centre of mass is not above where it touches the floor"
-    names = ", ".join(f"'{name}'" for name in rest.supports[:4])
-    return f"it lies on {names}" if names else "nothing under it touches the floor"
+        why = "its centre of mass is not above where it touches the floor"
+    elif rest.supports:
+        why = "it lies on " + ", ".join(f"'{name}'" for name in rest.supports[:4])
+    else:
+        why = "nothing under it touches the floor"
+    stood = f"it was put on {names}; " if names else ""
+    return f"{stood}{why}; a robot that is bolted down is simulated with --fixed-base"
+
+
+def stood_on(run: Run) -> list[str]:
+    """Links whose shapes reached lowest at the start, within ``STANDS`` of the robot's size."""
+    bottoms: dict[str, float] = {}
+    for body, pose in zip(run.bodies.bodies, run.recording.poses[0], strict=True):
+        x, y, z, w = pose[3:].tolist()
+        turn = np.array(rotation_of_quaternion((w, x, y, z)))
+        for shape in body.shapes:
+            bottom = lowest([shape], turn, pose[:3])
+            bottoms[shape.link] = min(bottom, bottoms.get(shape.link, math.inf))
+    least = min(bottoms.values(), default=0.0)
+    return [name for name, low in bottoms.items() if low < least + STANDS * run.bodies.size]
+
+
+def _is_arm(run: Run) -> bool:
+    """Whether a robot is one chain of turning joints on a base, as arms are, but for its hand."""
+    bodies = run.bodies.bodies
+    chain = [0]
+    while True:
+        children = [number for number, body in enumerate(bodies) if body.parent == chain[-1]]
+        if len(children) != 1:
+            break
+        chain.append(children[0])
+    joints = [bodies[number].joint for number in chain[1:]]
+    turning = [joint for joint in joints if joint is not None and joint.kind != "prismatic"]
+    return len(turning) >= ARM
 
 
 def _why_moving(run: Run) -> str:

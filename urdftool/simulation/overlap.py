@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import UrdftoolError
 from ..inertia.winding import boxes_of, winding_numbers
 from ..meshes.load import load_mesh
-from ..model.elements import Collision, Mesh, Robot
+from ..model.elements import Collision, Mesh, Robot, Visual
 from ..model.pose import Pose, pose_of, rotation_of_quaternion
 from .recording import Array
 from .run import Run
@@ -68,7 +68,7 @@ def _surfaces(robot: Robot, shapes: list[Collision], at: Pose) -> Iterator[Array
         yield corners @ np.array(pose.rotation).T + np.array(pose.translation)
 
 
-def primitive_triangles(shape: Collision) -> Array:
+def primitive_triangles(shape: Collision | Visual) -> Array:
     """Triangles of a box, cylinder, sphere or capsule about its own origin, shape (n, 3, 3)."""
     geometry = shape.geometry
     size = getattr(geometry, "size", None)

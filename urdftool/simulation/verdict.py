@@ -15,6 +15,14 @@ from .judge_rest import Rest, judge_rest, rest_of
 from .judge_sweep import judge_sweep
 from .run import Run
 
+FALLEN = frozenset(
+    {
+        *("nothing-touches", "blew-up", "fell-through", "not-settled", "tipped-over", "leans"),
+        *("slid", "sank-in", "sags", "collapsed", "unstable-gains"),
+    }
+)
+"""Kinds of what is seen to go wrong; the others are errors in the file of a robot that stands."""
+
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
@@ -34,6 +42,11 @@ class Verdict:
     def stands(self) -> bool:
         """Whether nothing went wrong."""
         return not any(fault.fails for fault in self.faults)
+
+    @property
+    def fell(self) -> bool:
+        """Whether it does not stand in the plain sense: it fell, tipped over, slid, or moves."""
+        return any(fault.fails and fault.kind in FALLEN for fault in self.faults)
 
 
 def judge(robot: Robot, run: Run) -> Verdict:

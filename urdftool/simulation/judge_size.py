@@ -1,0 +1,147 @@
+"""Mass and inertia that no shape of a link's size could have."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..inertia.tensor import MassProperties
+from ..model.elements import Link, Robot
+from .bodies import mass_of
+from .extent import Extent, extent_of
+from .fault import Fault
+from .recording import Array
+from .run import Run
+
+REACH = 1.2
+"""How far out a link's mass may sit on average, as a part of how far its shapes reach."""
+
+FAR_OUT = 3.0
+"""The same of a link so light that its inertia hardly matters."""
+
+SPREAD = 2.0
+"""How far out along one axis, as a part of half the length of its shapes along it.
+
+Mass in two lumps at the ends has one; real parts have 0.6. Shapes leave out what is small.
+"""
+
+MADE_UP = 2.0
+"""How much larger than that of a solid box a tensor of equal powers of ten may be."""
+
+DENSEST = 12_000.0
+"""Denser than lead [kg/m³]."""
+
+_HEAVY = 0.1
+_LIGHT = 0.02  # of the robot's mass: what is lighter stands for a camera or a frame
+_THICK = 0.05  # of the longest half: how thick a sheet is at least
+
+
+def has_shapes(robot: Robot, name: str) -> bool:
+    """Whether a link is seen or touches; one that is not is a frame."""
+    return bool(robot.link[name].collisions or robot.link[name].visuals)
+
+
+def judge_size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
+    """Mass and inertia that no shape of this size could have."""
+    own = mass_of(link)
+    if own is None or link.inertial is None:
+        return
+    share = own.mass / run.bodies.mass
+    if not has_shapes(robot, link.name) and share < _HEAVY:
+        return
+    spread = math.sqrt(max(0.0, float(np.trace(own.inertia)) / 2 / own.mass))
+    extent = _around(robot, link, run, only_collisions=True)
+    if _fits(extent, own, spread):
+        return
+    if not (share > _LIGHT or _rules(own.inertia, link.name, run)):
+        return
+    extent = _around(robot, link, run)
+    reach = extent.reach(own.com)
+    if reach and spread > (REACH if share > _LIGHT else FAR_OUT) * reach:
+        said = f"that of mass {spread:.3g} m from its centre; its shapes reach {reach:.3g} m"
+    elif share > _LIGHT and reach:
+        said = _too_wide(own.inertia, own.mass, extent)
+    else:
+        said = ""
+    if said:
+        yield Fault(
+            "inertia-too-large",
+            f"the inertia of link '{link.name}' is {said}",
+            (link.inertial.inertia or link.inertial).place,
+            "link",
+            link.name,
+            "a tensor of ones, or of other units; the link turns far too slowly",
+            "inertia-exceeds-geometry",
+        )
+    if share > _LIGHT and extent.volume and own.mass > DENSEST * extent.volume:
+        yield Fault(
+            "too-dense",
+            f"link '{link.name}' weighs {own.mass:.4g} kg, {own.mass / extent.volume:,.0f} kg/m³ "
+            "of its shapes",
+            link.inertial.place,
+            "link",
+            link.name,
+            "lead is lighter: its mass is in grams, or its shapes in another unit",
+            "implausible-density",
+        )
+
+
+def _too_wide(tensor: Array, mass: float, extent: Extent) -> str:
+    """What a tensor is that spreads its mass beyond the shapes along an axis; empty if none."""
+    moments, axes = np.linalg.eigh(tensor)
+    along = extent.points @ axes
+    half = (along.max(axis=0) - along.min(axis=0)) / 2
+    half = np.maximum(half, _THICK * half.max())
+    spread = np.sqrt(np.maximum(0.0, moments.sum() / 2 - moments) / mass)
+    worst = int((spread / half).argmax())
+    if spread[worst] > SPREAD * half[worst]:
+        return (
+            f"that of mass {spread[worst]:.3g} m to either side of its centre; its shapes reach "
+            f"{half[worst]:.3g} m there"
+        )
+    power = math.log10(tensor[0, 0]) if tensor[0, 0] > 0 else 0.5
+    if abs(power - round(power)) < 1e-9 and np.array_equal(tensor, tensor[0, 0] * np.eye(3)):
+        solid = mass / 3 * (float(half @ half) - half**2)
+        if moments[0] > MADE_UP * solid.min():
+            return (
+                f"{tensor[0, 0]:g} kg·m² about every axis, which is made up; a solid of its size "
+                f"has {solid.min():.2g} to {solid.max():.2g}"
+            )
+    return ""
+
+
+def _rules(tensor: Array, name: str, run: Run) -> bool:
+    """Whether a light link's tensor is most of its rigid body's all the same."""
+    body = next(body for body in run.bodies.bodies if name in body.links)
+    assert body.properties is not None
+    return bool(np.trace(tensor) > 0.5 * np.trace(body.properties.inertia))
+
+
+def _around(robot: Robot, link: Link, run: Run, *, only_collisions: bool = False) -> Extent:
+    """The extent of a link; of one without shapes, that of its rigid body, in its own frame."""
+    if has_shapes(robot, link.name):
+        return extent_of(robot, link.name, only_collisions=only_collisions)
+    body = next(body for body in run.bodies.bodies if link.name in body.links)
+    back = body.places[link.name].inverse()
+    found = []
+    for name in body.links:
+        extent = extent_of(robot, name, only_collisions=only_collisions)
+        pose = back @ body.places[name]
+        points = extent.points @ np.array(pose.rotation).T + np.array(pose.translation)
+        found.append((points, extent.groups))
+    every = zip(*(groups for _, groups in found if groups), strict=False)
+    return Extent(
+        np.concatenate([points for points, _ in found]),
+        tuple(tuple(shape for shapes in group for shape in shapes) for group in every),
+    )
+
+
+def _fits(extent: Extent, own: MassProperties, spread: float) -> bool:
+    reach = extent.reach(own.com)
+    return bool(
+        spread <= REACH * reach
+        and own.mass <= DENSEST * extent.volume
+        and not (reach and _too_wide(own.inertia, own.mass, extent))
+    )
