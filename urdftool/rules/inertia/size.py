@@ -128,7 +128,8 @@ def com_outside_geometry(robot: Robot, *, margin: float = 0.02) -> Iterator[Prob
 
     The mean of a body's mass is inside its hull. Millimetres, or the pose of another frame, put it
     elsewhere; the link then falls to a side it should not. ``margin`` is the part of the box's
-    diagonal that is let pass, of a mesh twice that.
+    diagonal that is let pass, of a mesh twice that. A mesh often shows the cover and not the motor
+    that weighs most, so there it is a warning only beyond half a diagonal.
     """
     reach = reaches(robot)
     for link in robot.links:
@@ -139,7 +140,8 @@ def com_outside_geometry(robot: Robot, *, margin: float = 0.02) -> Iterator[Prob
         if box is None:
             continue
         lower, upper = box
-        slack = margin * math.dist(lower, upper) * (2 if _has_mesh(link) else 1)
+        diagonal, has_mesh = math.dist(lower, upper), _has_mesh(link)
+        slack = margin * diagonal * (2 if has_mesh else 1)
         com = inertial.origin.xyz if inertial.origin is not None else (0.0, 0.0, 0.0)
         off = [
             (max(lower[i] - com[i], com[i] - upper[i]), i)
@@ -153,6 +155,7 @@ def com_outside_geometry(robot: Robot, *, margin: float = 0.02) -> Iterator[Prob
                 f"centre of mass of link '{link.name}' is {distance:.3g} m outside its shapes "
                 f"along {'xyz'[axis]}; they reach from {lower[axis]:.4g} to {upper[axis]:.4g} m",
                 at=inertial.origin if inertial.origin is not None else inertial,
+                severity=INFO if has_mesh and distance < diagonal / 2 else None,
             )
 
 
