@@ -21,7 +21,7 @@ def make(folder):
     packages = folder / "packages"
     shutil.copytree(ROBOTS, packages)
     arm = expand(packages / "demo_arm/urdf/arm_sound.urdf.xacro")
-    for name in ("panda.urdf", "urdf/arm.urdf", "robots/arm.urdf"):
+    for name in ("arm_sim.urdf", "panda.urdf", "urdf/arm.urdf", "robots/arm.urdf"):
         _put(folder / name, arm)
     _put(folder / "arm.urdf", re.sub("<inertial>.*?</inertial>", "", arm, count=1, flags=re.DOTALL))
     shutil.copy(ARM / "arm_sound.urdf.xacro", folder / "arm.urdf.xacro")

@@ -157,6 +157,9 @@ def call(arguments: list[str] | None = None) -> int:
         console.say(f"{where}{error.strerror or error}")
         return 2
     except (Exception, RecursionError) as error:
+        if isinstance(error.__cause__, KeyboardInterrupt):  # in the midst of an import
+            console.say("stopped")
+            return 130
         if debug:
             raise
         console.say(

@@ -105,3 +105,20 @@ def test_colours_follow_the_environment(urdftool, write, monkeypatch):
     monkeypatch.delenv("NO_COLOR")
     assert urdftool("lint", path, "--output-file", "out.txt").code == 1
     assert "\x1b[" not in Path("out.txt").read_text()
+
+
+@pytest.mark.parametrize("where", [("-q", "lint", "r.urdf"), ("lint", "r.urdf", "-q")])
+def test_options_of_urdftool_may_stand_anywhere(urdftool, write, where):
+    write("r.urdf", "<robot/>")
+    assert urdftool("lint", "r.urdf").err != ""
+    assert urdftool(*where).err == ""
+
+
+def test_an_interrupted_import_is_no_bug(urdftool, monkeypatch):
+    def interrupted(*words, **options):
+        raise RuntimeError("Error calling __set_name__") from KeyboardInterrupt()
+
+    monkeypatch.setattr(cli.main, "main", interrupted)
+    result = urdftool("info", "r.urdf")
+    assert result.code == 130
+    assert result.err == "urdftool: stopped\n"
