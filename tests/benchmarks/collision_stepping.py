@@ -1,0 +1,219 @@
+"""How fast engines step: ``python -m tests.benchmarks.collision_stepping FILE...``, as a table.
+
+A file is a robot, or a mesh, which becomes a robot of one free link. Its visual meshes as
+collisions stand beside what ``auto`` makes of them. Of a mesh of a body that moves MuJoCo takes the
+hull, and so does PyBullet unless ``concave="yes"`` is written, when it tests triangle by triangle;
+all three are timed. The robot falls on the ground, limp, and settles for two seconds, or as far as
+twenty seconds of processor time reach; then a step's processor time is taken: the median of three
+turns, the variants one after the other.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+
+from urdftool.collision.mesh_files import mesh_bytes
+from urdftool.collision.piece import mesh_piece
+from urdftool.collision.surface import read_surface
+from urdftool.model.elements import Mesh
+from urdftool.model.load import load
+
+TURNS = 3
+
+BULLET = """
+import json, sys, time, pybullet as p
+p.connect(p.DIRECT)
+p.setTimeStep(0.002)
+p.setGravity(0, 0, -9.81)
+ground = p.createCollisionShape(p.GEOM_BOX, halfExtents=[50, 50, 1])
+p.createMultiBody(0, ground, basePosition=[0, 0, -1])
+flags = p.URDF_USE_INERTIA_FROM_FILE | p.URDF_USE_SELF_COLLISION_EXCLUDE_PARENT
+body = p.loadURDF(sys.argv[1], [0, 0, float(sys.argv[2])], flags=flags)
+for joint in range(p.getNumJoints(body)):
+    p.setJointMotorControl2(body, joint, p.VELOCITY_CONTROL, force=0)
+def steps(most, seconds):
+    begin = time.process_time()
+    for done in range(1, most + 1):
+        p.stepSimulation()
+        if time.process_time() - begin > seconds:
+            break
+    return (time.process_time() - begin) / done
+steps(1000, 20)
+seconds = steps(300, 3)
+contacts = len(p.getContactPoints(body))
+print("STEP " + json.dumps([seconds, contacts]))
+"""
+
+MUJOCO = """
+import json, sys, time, mujoco
+model = mujoco.MjModel.from_xml_path(sys.argv[1])
+model.opt.timestep = 0.002
+data = mujoco.MjData(model)
+def steps(most, seconds):
+    begin = time.process_time()
+    for done in range(1, most + 1):
+        mujoco.mj_step(model, data)
+        if time.process_time() - begin > seconds:
+            break
+    return (time.process_time() - begin) / done
+steps(1000, 20)
+seconds = steps(300, 3)
+print("STEP " + json.dumps([seconds, data.ncon]))
+"""
+
+ROBOT = """<robot name="part">
+  <link name="part">
+    <inertial>
+      <origin xyz="{centre}"/><mass value="1"/>
+      <inertia ixx="{xx}" ixy="0" ixz="0" iyy="{yy}" iyz="0" izz="{zz}"/>
+    </inertial>
+    <visual><geometry><mesh filename="{mesh}"/></geometry></visual>
+  </link>
+</robot>
+"""
+
+
+def of_one_link(mesh: Path, folder: Path) -> Path:
+    """A robot of one link with the inertia of the mesh's box, at 1 kg."""
+    surface = read_surface(mesh)
+    stl = folder / "part.stl"
+    stl.write_bytes(mesh_bytes([mesh_piece(surface.vertices, surface.faces)], ".stl"))
+    x, y, z = np.ptp(surface.vertices, axis=0) ** 2 / 12
+    centre = " ".join(f"{v:.6g}" for v in surface.vertices.mean(axis=0))
+    robot = folder / "part.urdf"
+    robot.write_text(
+        ROBOT.format(centre=centre, xx=y + z, yy=x + z, zz=x + y, mesh="part.stl"), "utf-8"
+    )
+    return robot
+
+
+def with_visuals_as_collisions(source: Path, target: Path, *, concave: bool) -> int:
+    """Write the robot with its visual meshes, as STL files, as collisions; their triangles."""
+    from lxml import etree
+
+    robot = load(source)
+    tree = etree.parse(str(source))
+    attributes = {"concave": "yes"} if concave else {}
+    triangles = 0
+    for link, element in zip(robot.links, tree.getroot().findall("link"), strict=True):
+        for old in element.findall("collision"):
+            element.remove(old)
+        for number, visual in enumerate(link.visuals):
+            if not isinstance(visual.geometry, Mesh):
+                continue
+            surface = read_surface(
+                robot.source.resolve(visual.geometry.filename), visual.geometry.scale
+            )
+            triangles += len(surface.faces)
+            name = f"{link.name}_{number}.stl".replace("/", "_")
+            piece = mesh_piece(surface.vertices, surface.faces)
+            (target.parent / name).write_bytes(mesh_bytes([piece], ".stl"))
+            collision = etree.SubElement(element, "collision", attributes)
+            if visual.origin is not None:
+                etree.SubElement(collision, "origin", dict(visual.origin.element.attributes))
+            geometry = etree.SubElement(collision, "geometry")
+            etree.SubElement(geometry, "mesh", filename=name)
+        for visual in element.findall("visual"):
+            element.remove(visual)
+    tree.write(str(target))
+    return triangles
+
+
+def urdftool(*words: object) -> None:
+    command = [sys.executable, "-m", "urdftool", "-q", *map(str, words)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(done.stderr)
+
+
+def step(code: str, *words: object) -> tuple[float, int]:
+    """Seconds a step, and contacts; infinite where the engine dies."""
+    command = [sys.executable, "-c", code, *map(str, words)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    found = done.stdout.rpartition("STEP ")[2]
+    if done.returncode or not found:
+        return float("nan"), 0
+    seconds, contacts = json.loads(found.splitlines()[0])
+    return seconds, contacts
+
+
+def rows(path: Path, options: list[str]) -> list[str]:
+    """A line an engine."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        if path.suffix.lower() not in (".urdf", ".xacro"):
+            source = of_one_link(path, folder)
+        else:
+            source = folder / "source.urdf"
+            skips = [w for link in load(path).links for w in ("--skip-link", link.name)]
+            urdftool("collision", path, "-o", source, "--uri", "relative", *skips)
+        hulls, concave, ours = (folder / f"{n}.urdf" for n in ("hulls", "concave", "ours"))
+        triangles = with_visuals_as_collisions(source, hulls, concave=False)
+        with_visuals_as_collisions(source, concave, concave=True)
+        urdftool("collision", source, "-o", ours, "--replace-primitives", *options)
+        pieces = sum(len(link.collisions) for link in load(ours).links)
+        for robot in (hulls, ours):
+            words = ("--base", "free", "--scene", "--force", "--actuators", "none")
+            urdftool("export", "mjcf", robot, "-o", folder / f"{robot.stem}_mjcf", *words)
+        height = height_of(source)
+        runs: dict[str, list[tuple[float, int]]] = {}
+        for _ in range(TURNS):
+            for robot in (hulls, concave, ours):
+                found = step(BULLET, robot, height)
+                runs.setdefault(f"bullet {robot.stem}", []).append(found)
+            for robot in (hulls, ours):
+                found = step(MUJOCO, folder / f"{robot.stem}_mjcf" / "scene.xml")
+                runs.setdefault(f"mujoco {robot.stem}", []).append(found)
+    medians = {key: median(seconds for seconds, _ in run) for key, run in runs.items()}
+    lines = []
+    for label, before, after in (
+        ("PyBullet, hull", "bullet hulls", "bullet ours"),
+        ("PyBullet, concave", "bullet concave", "bullet ours"),
+        ("MuJoCo, hull", "mujoco hulls", "mujoco ours"),
+    ):
+        lines.append(
+            f"| {path.name} | {triangles:,} | {pieces} | {label} "
+            f"| {medians[before] * 1e6:,.0f} µs ({runs[before][-1][1]}) "
+            f"| {medians[after] * 1e6:,.0f} µs ({runs[after][-1][1]}) "
+            f"| {medians[before] / medians[after]:.1f} |"
+        )
+    return lines
+
+
+def height_of(robot: Path) -> float:
+    """A height [m] of the root at which all of it is above the ground."""
+    from urdftool.collision.check import shape_pieces
+    from urdftool.model.kinematics import link_poses
+
+    read = load(robot)
+    low = 0.0
+    for link in read.links:
+        pose = link_poses(read)[link.name]
+        for visual in link.visuals:
+            for piece in shape_pieces(read, visual):
+                placed = piece.posed(np.array(pose.rotation), np.array(pose.translation))
+                low = min(low, float(placed.vertices[:, 2].min()))
+    return 0.01 - low
+
+
+def main(words: list[str]) -> None:
+    """Print the table."""
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    files = [word for word in words if Path(word).is_file()]
+    options = [word for word in words if word not in files]
+    print("| robot | visual triangles | pieces | engine | visuals as collisions | ours | ratio |")
+    print("|---|---|---|---|---|---|---|")
+    for word in files:
+        print("\n".join(rows(Path(word), options)), flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
