@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 
 from urdftool import __version__, cli
+from urdftool.commands.collision_mesh import command as collision_mesh
 
 FOLDER = Path(__file__).resolve().parents[1] / "man"
 
@@ -48,15 +49,24 @@ def _command_page(command: click.Command, name: str, above: click.Context) -> li
     context = click.Context(command, info_name=name, parent=above)
     parts = [_head(command, ["urdftool", name]), _synopsis(command, context)]
     parts += [".SH DESCRIPTION", _prose(command), _options(command, context)]
-    if isinstance(command, click.Group):
-        for inner_name in command.list_commands(context):
-            inner = command.get_command(context, inner_name)
-            assert inner is not None
-            below = click.Context(inner, info_name=inner_name, parent=context)
-            parts.append(f'.SH "{inner_name.upper()}"')
-            parts += [f".B {_text(below.command_path)}", _usage(inner, below), ".PP", _prose(inner)]
-            parts.append(_options(inner, below, heading='.SS "Options"'))
+    for inner_name, inner in _inner(command, context):
+        below = click.Context(inner, info_name=inner_name, parent=context)
+        parts.append(f'.SH "{inner_name.upper()}"')
+        called = _text(f"{context.command_path} {inner_name}")
+        parts += [f".B {called}", _usage(inner, below), ".PP", _prose(inner)]
+        parts.append(_options(inner, below, heading='.SS "Options"'))
     return [*parts, _end(r"\fBurdftool\fR(1)", ())]
+
+
+def _inner(command: click.Command, context: click.Context) -> Iterator[tuple[str, click.Command]]:
+    """The commands in a command; `collision` is none and has one all the same."""
+    if context.info_name == "collision":
+        yield "mesh", collision_mesh
+    if isinstance(command, click.Group):
+        for name in command.list_commands(context):
+            inner = command.get_command(context, name)
+            assert inner is not None
+            yield name, inner
 
 
 def _head(command: click.Command, words: list[str]) -> str:
