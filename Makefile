@@ -6,7 +6,7 @@ BIN    := $(VENV)/bin
 DEMO   := fixtures/robots/demo_arm/urdf/arm.urdf.xacro
 SOUND  := fixtures/robots/demo_arm/urdf/arm_sound.urdf.xacro
 
-.PHONY: demo test test-all check format docs site bench clean
+.PHONY: demo test test-all check format docs site bench bench-peers fidelity clean
 
 $(BIN)/urdftool: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -54,8 +54,17 @@ site: $(VENV)/.docs
 	$(BIN)/python -m sphinx -W --keep-going -n -b html -d build/trees docs build/site
 	@echo "build/site/index.html"
 
+# What urdftool is measured beside: the other tools in an environment of their own, then all that
+# takes no long time, into docs/benchmarks.md; `make fidelity` takes longer, for docs/formats/fidelity.md.
 bench: $(VENV)/.dev
-	$(BIN)/python -m tests.benchmarks
+	$(BIN)/python -m tests.benchmarks --write
+
+bench-peers: $(VENV)/.dev
+	$(BIN)/python -m tests.benchmarks.peers
+
+fidelity: $(VENV)/.dev
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev,fidelity]'
+	$(BIN)/python -m tests.benchmarks.fidelity --write --jobs 2
 
 clean:
 	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

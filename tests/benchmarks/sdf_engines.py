@@ -146,6 +146,18 @@ class Target:
         state.inertia = about.CalcRotationalInertia().CopyToFullMatrix3()
         return state
 
+    def limits(self, name: str) -> dict[str, float]:
+        """Range of a joint, and the force it has at most."""
+        joint = self.joints[name]
+        found = {}
+        low, high = joint.position_lower_limit(), joint.position_upper_limit()
+        found["lower"], found["upper"] = float(low), float(high)
+        for index in self.plant.GetJointActuatorIndices():
+            actuator = self.plant.get_joint_actuator(index)
+            if actuator.joint().name() == name:
+                found["effort"] = float(actuator.effort_limit())
+        return found
+
     def _position(self, name: str, value: float) -> tuple:
         positions = self.plant.GetPositions(self.context)
         positions[self.joints[name].position_start()] = value

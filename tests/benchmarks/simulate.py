@@ -1,4 +1,4 @@
-"""``simulate`` against a bare PyBullet loop that loads the same robot and takes the same steps."""
+"""``simulate`` against a bare PyBullet loop"""
 
 from __future__ import annotations
 
@@ -14,9 +14,15 @@ from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.urdf import write_folder
 
+from .robots import FIXTURES, bullet_robots
+from .table import Pairs, Table, number
 from .timing import PYTHON, URDFTOOL, command, in_turn
 
-ROBOTS = Path(__file__).parents[2] / "fixtures" / "robots"
+PEERS = ("pybullet",)
+ROBOTS = FIXTURES / "robots"
+ABOUT = """\
+Whole processes; the loop loads the same URDF into PyBullet, holds the joints and takes the same
+number of steps, and looks at nothing."""
 
 BARE = """
 import sys, pybullet as p
@@ -33,17 +39,14 @@ for _ in range(int(sys.argv[3])):
 """
 
 
-def rows() -> Iterator[str]:
-    """A row for each robot: whole processes; at most half a second and a tenth more is wanted."""
-    robots = {
-        "mobile base, 5 s": (ROBOTS / "my_robot/urdf/robot_base.urdf.xacro", ["--slope", "0.2"]),
-        "arm, limp": (ROBOTS / "ros2_arm/urdf/robot2_sound.urdf.xacro", ["--limp"]),
-    }
-    if find_spec("pybullet_data"):
-        import pybullet_data
-
-        robots["a1"] = (Path(pybullet_data.getDataPath()) / "a1/a1.urdf", [])
-    for name, (path, options) in robots.items():
+def rows() -> Iterator[Table | str]:
+    """A row for each robot: whole processes."""
+    if find_spec("pybullet") is None:
+        yield "PyBullet is not installed (it has wheels up to Python 3.11), so this is left out."
+        return
+    pairs = Pairs("robot", ["bare loop"], extra=["steps"])
+    over = []
+    for name, path, options in _robots():
         words = [*URDFTOOL, "-q", "simulate", str(path), *options]
         done = subprocess.run([*words, "--format", "json"], capture_output=True, check=False)
         steps = json.loads(done.stdout)["trials"][0]["steps"]
@@ -51,10 +54,21 @@ def rows() -> Iterator[str]:
             bodies = prepare(load(path), Settings())
             urdf = write_folder(bodies, Path(folder))
             height = bodies.start.translation[2]
-            bare = [PYTHON, "-c", BARE, str(urdf), str(height), str(steps)]
-            medians = in_turn({"ours": command(words), "bare": command(bare)}, rounds=7)
-        ours, theirs = medians["ours"].seconds, medians["bare"].seconds
-        yield (
-            f"{name:<18} {steps:>5} steps   bare {theirs:.3f} s   simulate {ours:.3f} s   "
-            f"{ours - theirs:+.3f} s"
-        )
+            bare = command([PYTHON, "-c", BARE, urdf, str(height), str(steps)])
+            sides = {"urdftool": command(words), "bare loop": bare}
+            taken = in_turn(sides, rounds=7, budget=15, label=name)
+        over.append(taken["urdftool"].seconds - taken["bare loop"].seconds)
+        pairs.add(name, taken, f"{steps:,}")
+    yield pairs.table(
+        f"Above the bare loop it takes {number(min(over))} to {number(max(over))} s: it reads and "
+        "checks the description, prepares it for the engine in a process of its own, looks at "
+        "contacts as it goes, and judges."
+    )
+
+
+def _robots() -> Iterator[tuple[str, Path, list[str]]]:
+    yield "mobile base, 5 s", ROBOTS / "my_robot/urdf/robot_base.urdf.xacro", ["--slope", "0.2"]
+    yield "arm, limp", ROBOTS / "ros2_arm/urdf/robot2_sound.urdf.xacro", ["--limp"]
+    a1 = next((path for path in bullet_robots() if path.name == "a1.urdf"), None)
+    if a1 is not None:
+        yield "a1, a quadruped with meshes", a1, []
