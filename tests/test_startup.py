@@ -40,6 +40,7 @@ def loaded(*words):
         ("--help",),
         ("expand", "--help"),
         ("view", "--help"),
+        ("simulate", "--help"),
         ("lint", "--help"),
         ("lint", ROBOT),
         ("lint", ROBOT, "--no-cache"),

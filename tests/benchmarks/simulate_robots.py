@@ -6,12 +6,14 @@ Reads the robots of ``pybullet_data`` and ``example-robot-data``, as far as they
 from __future__ import annotations
 
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from urdftool.errors import UrdftoolError
 from urdftool.model.load import load
+from urdftool.report.simulate import outcome
 from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
@@ -51,15 +53,16 @@ def row(named: tuple[str, Path]) -> str:
         if fault.fails:
             first.setdefault(fault.kind, fault.message[:110])
     why = "; ".join(f"{kind}: {message}" for kind, message in first.items())
-    return f"| {name} | {'stands' if verdict.stands else 'does not stand'} | {why} |"
+    return f"| {name} | {outcome(verdict)} | {why} |"
 
 
 def main() -> None:
-    """Print the table."""
-    print("| robot | verdict | why |\n|---|---|---|")
+    """Print the counts and the table."""
     with ThreadPoolExecutor(2) as pool:
-        for line in pool.map(row, robots()):
-            print(line, flush=True)
+        lines = list(pool.map(row, robots()))
+    counts = Counter(line.split(" | ")[1] for line in lines)
+    print(f"{len(lines)} robots: {', '.join(f'{n} {word}' for word, n in counts.most_common())}.\n")
+    print("| robot | verdict | why |\n|---|---|---|", *lines, sep="\n")
 
 
 if __name__ == "__main__":

@@ -58,6 +58,7 @@ WEIGHTLESS = """<robot name="r"><link name="base">
   ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link></robot>"""
 
 
+@pytest.mark.slow
 def test_a_root_without_mass_is_found_to_be_the_cause(write):
     """PyBullet nails it down; MuJoCo, which gives it hardly any, lets it tip."""
     robot = load(write("robot.urdf", WEIGHTLESS))
@@ -86,6 +87,7 @@ def test_the_command_tells_of_differences_as_json(urdftool, write):
     assert said["differences"][0]["kind"] == "engines-differ"
 
 
+@pytest.mark.slow
 def test_the_command_compares(urdftool):
     result = urdftool(
         "simulate", "--engine", "both", ROBOTS / "mira_description" / "urdf" / "mira.urdf"

@@ -68,6 +68,7 @@ def test_what_no_engine_can_be_given_is_refused_in_one_message(urdftool, write, 
     assert result.out == ""
 
 
+@pytest.mark.slow
 def test_a_robot_of_ten_thousand_links_is_refused_in_time(urdftool, write):
     part = inertial(1, 0.01, 0.01, 0.01)
     links = "".join(f'<link name="l{i}">{part}</link>' for i in range(10_000))
@@ -112,3 +113,27 @@ def test_the_swept_joint_that_hits_is_named(urdftool, write):
     )
     result = urdftool("simulate", write("r.urdf", text.replace("</robot>", far)), "--sweep")
     assert "joint 'j' may go from -1 to 1" in result.out
+
+
+def test_an_arm_that_tips_over_is_said_to_be_bolted_down_usually(urdftool, write):
+    part = inertial(1, 0.0017, 0.0017, 0.0017)
+    shape = "<collision><geometry><box size='.1 .1 .1'/></geometry></collision>"
+    links = "".join(f'<link name="l{i}">{part}{shape}</link>' for i in range(5))
+    joints = "".join(
+        f'<joint name="j{i}" type="revolute"><origin xyz="0.3 0 0"/><parent link="l{i}"/>'
+        f'<child link="l{i + 1}"/><axis xyz="0 1 0"/>'
+        '<limit lower="-1" upper="1" effort="900" velocity="1"/></joint>'
+        for i in range(4)
+    ).replace("0.3 0 0", "0.2 0 0.2", 1)
+    path = write("r.urdf", f'<robot name="r">{links}{joints}</robot>')
+    result = urdftool("simulate", path)
+    assert result.code == 1
+    assert "an arm is usually bolted down" in result.out
+    assert urdftool("simulate", path, "--fixed-base").code == 0
+
+
+def test_a_robot_that_stands_in_spite_of_an_error_is_said_to_stand(urdftool, write):
+    sluggish = body('<box size="0.4 0.3 0.2"/>', 2, (1, 1, 1))
+    result = urdftool("simulate", write("r.urdf", sluggish))
+    assert result.code == 1
+    assert result.out.startswith("r: stands, but not as it should (inertia-too-large)")

@@ -25,3 +25,10 @@ def test_the_mobile_base_rests_on_four_wheels():
     assert verdict.stands, verdict.faults
     assert len(verdict.rest.supports) == 4
     assert all("wheel" in name for name in verdict.rest.supports)
+
+
+def test_the_mobile_base_stays_where_it_is_when_nothing_holds_its_wheels():
+    verdict = simulated(ROBOTS / "my_robot" / "urdf" / "robot_base.urdf.xacro", hold="none")
+    assert verdict.stands, verdict.faults
+    assert verdict.rest.drift < 0.002
+    assert verdict.run.recording.kinetic[-1] < 1e-4

@@ -53,7 +53,9 @@ def _word(row: Row) -> tuple[str, str]:
         return "error", "red"
     if row.skipped:
         return "skipped", "yellow"
-    return ("stands", "green") if row.stands else ("does not stand", "red")
+    if row.stands:
+        return "stands", "green"
+    return ("does not stand" if any(fault.fell for fault in row.faults) else "stands, but"), "red"
 
 
 def _what(row: Row) -> str:

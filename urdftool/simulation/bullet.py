@@ -177,6 +177,7 @@ class World:
             joint.name: link for link, joint in zip(self.indices, self.bodies.joints, strict=True)
         }
         self.damped = self._stable_damping()
+        self.capped: dict[str, float] = {}
         for link, joint in zip(self.indices, self.bodies.joints, strict=True):
             if joint.leader is not None and joint.leader in numbers:
                 self.followers.append((link, numbers[joint.leader], joint))
@@ -193,6 +194,8 @@ class World:
                     self.robot, link, p.VELOCITY_CONTROL, targetVelocity=0, force=joint.friction
                 )
                 p.changeDynamics(self.robot, link, jointDamping=self.damped[joint.name])
+                if self.damped[joint.name] < joint.damping:
+                    self.capped[joint.name] = self.damped[joint.name]
         self._follow()
         self._make_pids()
 
@@ -319,6 +322,7 @@ class World:
             start_contacts=start_contacts,
             contacts=self._contacts() + self.overlaps(ground=False),
             read_back=self.read_back,
+            capped=self.capped,
             still_since=still,
             ended=ended,
             seconds=seconds,

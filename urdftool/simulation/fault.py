@@ -6,6 +6,14 @@ from dataclasses import dataclass
 
 from ..source.location import Place
 
+FALLEN = frozenset(
+    {
+        *("nothing-touches", "blew-up", "fell-through", "not-settled", "tipped-over", "leans"),
+        *("slid", "sank-in", "sags", "collapsed", "unstable-gains"),
+    }
+)
+"""Kinds of what is seen to go wrong; the others are errors in the file of a robot that stands."""
+
 
 @dataclass(frozen=True)
 class Fault:
@@ -30,6 +38,11 @@ class Fault:
     cause: str = ""
     rule: str = ""
     fails: bool = True
+
+    @property
+    def fell(self) -> bool:
+        """Whether a robot with it does not stand in the plain sense."""
+        return self.fails and self.kind in FALLEN
 
     @property
     def group(self) -> tuple[str, bool, str]:

@@ -34,6 +34,7 @@ def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
             robot.place,
             cause="give each link a <collision>",
             rule="missing-collision",
+            fails=not bodies.nailed,
         )
     yield from _massless(robot, bodies)
     told = set()

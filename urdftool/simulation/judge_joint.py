@@ -39,6 +39,7 @@ def judge_joints(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
             yield from _nearly(robot, run)
     yield from _unlimited(robot, run)
     yield from _unheld(robot, run)
+    yield from _capped(robot, run)
     for name, value in run.bodies.moved_start.items():
         yield Fault(
             "zero-outside-limits",
@@ -230,6 +231,28 @@ def _unlimited(robot: Robot, run: Run) -> Iterator[Fault]:
             "write <limit effort> to see whether it can bear its load; Gazebo drives no joint of "
             "effort zero",
             "zero-effort-limit",
+            fails=False,
+        )
+
+
+def _capped(robot: Robot, run: Run) -> Iterator[Fault]:
+    for joint in run.bodies.joints:
+        had = run.recording.capped.get(joint.name)
+        if had is None:
+            continue
+        length, force = _units(joint)
+        part = robot.joint[joint.name]
+        least = run.settings.timestep * had / joint.damping
+        yield Fault(
+            "damping-capped",
+            f"joint '{joint.name}' has a damping of {joint.damping:.4g} {force}·s/{length}, of "
+            f"which {had:.4g} was simulated",
+            (part.dynamics or part).place,
+            "joint",
+            joint.name,
+            "more would drive what it moves instead of braking it at this timestep; --timestep "
+            f"{least:.1g} bears all of it",
+            "stiff-joint-damping",
             fails=False,
         )
 

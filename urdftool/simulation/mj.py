@@ -224,6 +224,7 @@ class World:
             targets={name: self.bodies.positions[name] for name in self.bodies.held},
             start_contacts=start_contacts,
             contacts=self.touches.contacts() + self.touches.overlaps(ground=False),
+            capped={},  # its own integration bears any damping
             read_back=self.read_back,
             still_since=still,
             ended=ended,

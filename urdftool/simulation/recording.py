@@ -67,6 +67,8 @@ class Recording:
         start_contacts: Contacts before the first step, also of links of one joint.
         contacts: Those of the last sample.
         read_back: What the engine took for other than it was given.
+        capped: The damping that each joint had, where the timestep bears less than the file says
+            [N·m·s/rad, N·s/m].
         still_since: From when on nothing moved [s]; None where it moved to the end.
         ended: ``still``, ``time`` or ``lost`` (a number was no number, or ran away).
         seconds: What the engine took for the steps [s].
@@ -90,6 +92,7 @@ class Recording:
     start_contacts: list[Contact] = field(default_factory=list)
     contacts: list[Contact] = field(default_factory=list)
     read_back: list[ReadBack] = field(default_factory=list)
+    capped: dict[str, float] = field(default_factory=dict)
     still_since: float | None = None
     ended: str = "time"
     seconds: float = 0.0

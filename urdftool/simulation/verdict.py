@@ -15,14 +15,6 @@ from .judge_rest import Rest, judge_rest, rest_of
 from .judge_sweep import judge_sweep
 from .run import Run
 
-FALLEN = frozenset(
-    {
-        *("nothing-touches", "blew-up", "fell-through", "not-settled", "tipped-over", "leans"),
-        *("slid", "sank-in", "sags", "collapsed", "unstable-gains"),
-    }
-)
-"""Kinds of what is seen to go wrong; the others are errors in the file of a robot that stands."""
-
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
@@ -46,7 +38,7 @@ class Verdict:
     @property
     def fell(self) -> bool:
         """Whether it does not stand in the plain sense: it fell, tipped over, slid, or moves."""
-        return any(fault.fails and fault.kind in FALLEN for fault in self.faults)
+        return any(fault.fell for fault in self.faults)
 
 
 def judge(robot: Robot, run: Run) -> Verdict:
