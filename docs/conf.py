@@ -27,7 +27,7 @@ MENU = {
     ),
     "To look up": (
         *("rules/index", "configuration", "formats/sdf", "formats/mjcf", "python", "completion"),
-        *("benchmarks", "inertia-vendors"),
+        *("benchmarks", "fidelity", "simulate-robots", "inertia-vendors"),
     ),
     "For contributors": ("house", "contributing"),
 }
@@ -42,7 +42,6 @@ source_suffix = {".md": "markdown"}
 exclude_patterns = ["pictures/*.py"]
 myst_enable_extensions = ["colon_fence"]
 myst_heading_anchors = 4
-suppress_warnings = ["toc.not_included"]  # the rules: their index and the search lead to them
 nitpicky = True
 
 html_theme = "furo"
@@ -65,7 +64,7 @@ def for_the_site(app: Sphinx, name: str, source: list[str]) -> None:
     if name == "index":
         source[0] += "".join(_menu(caption, pages) for caption, pages in MENU.items())
     elif name.startswith("rules/") and name != "rules/index":
-        source[0] += "\n[All rules](index.md)\n"
+        source[0] = f"---\norphan: true\n---\n\n{source[0]}\n[All rules](index.md)\n"
     elif name == "contributing":
         above = (DOCS.parent / "CONTRIBUTING.md").read_text("utf-8")
         source[0] = above.replace("](docs/", "](")
