@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable
+from threading import Event, Thread
 from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -178,6 +179,7 @@ def settings_of(values: dict[str, Any]) -> Settings:
 
 
 _PATIENCE = 1.0  # seconds
+_TICK = 0.5  # seconds
 
 
 class Progress:
@@ -187,20 +189,35 @@ class Progress:
         """Begin to wait."""
         self.begin = monotonic()
         self.wanted = sys.stderr.isatty() and not console.quiet
-        self.shown = False
+        self.trial = (1, 1)
+        self._done = Event()
+        self._thread = Thread(target=self._show, daemon=True)
 
     def __call__(self, number: int, count: int) -> None:
         """The trial that begins, of how many."""
-        if self.wanted and count > 1 and monotonic() - self.begin > _PATIENCE:
-            self.shown = True
+        self.trial = (number, count)
+
+    def _show(self) -> None:
+        if self._done.wait(_PATIENCE):
+            return
+        while True:
+            number, count = self.trial
             bar = "#" * round(20 * (number - 1) / count)
-            click.echo(f"\r\033[Ktrial {number}/{count}  [{bar:<20}]", err=True, nl=False)
+            of = f"trial {number}/{count}  [{bar:<20}]  " if count > 1 else ""
+            said = f"{of}simulating for {monotonic() - self.begin:.0f} s"
+            click.echo(f"\r\033[K{said}", err=True, nl=False)
+            if self._done.wait(_TICK):
+                click.echo("\r\033[K", err=True, nl=False)
+                return
 
     def __enter__(self) -> Progress:
         """Itself."""
+        if self.wanted:
+            self._thread.start()
         return self
 
     def __exit__(self, *_: object) -> None:
         """Clear the line."""
-        if self.shown:
-            click.echo("\r\033[K", err=True, nl=False)
+        self._done.set()
+        if self.wanted:
+            self._thread.join()
