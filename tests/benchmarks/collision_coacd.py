@@ -1,10 +1,13 @@
-"""The method coacd beside CoACD itself: ``python -m tests.benchmarks.collision_coacd FILE``.
+"""The method coacd beside CoACD itself: ``python -m tests.benchmarks.collision_coacd FILE...``.
 
 For each mesh that is named the seconds, triangles, pieces and two largest distances, both two-sided
 and relative to the diagonal: over all surfaces of all pieces, and of what can be touched.
-CoACD's own runs take minutes, and some end the process, so each runs in one of its own.
+CoACD's own runs take minutes, and some end the process, so each runs in one of its own. With
+``--defaults FOLDER`` they are kept there, and one that is there already is not run again; the row
+says so, since its seconds are of another time.
 """
 
+import argparse
 import subprocess
 import sys
 import tempfile
@@ -40,12 +43,12 @@ def apart(one, other, size):
     return max(distances) / size
 
 
-def by_default(surface):
+def by_default(surface, made):
     with tempfile.TemporaryDirectory() as folder:
-        given, made = f"{folder}/given.npz", f"{folder}/made.npz"
+        given = f"{folder}/given.npz"
         np.savez(given, v=surface.vertices, f=surface.faces)
-        words = [sys.executable, "-c", DEFAULT, given, made]
-        if subprocess.run(words, capture_output=True).returncode:
+        words = [sys.executable, "-c", DEFAULT, given, str(made)]
+        if not made.exists() and subprocess.run(words, capture_output=True).returncode:
             return None
         with np.load(made) as found:
             count = int(found["pieces"])
@@ -53,11 +56,23 @@ def by_default(surface):
             return float(found["seconds"]), pieces
 
 
-def main(paths):
+def main():
+    reader = argparse.ArgumentParser()
+    reader.add_argument("paths", nargs="+")
+    reader.add_argument("--defaults", type=Path)
+    given = reader.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        compare(given.paths, given.defaults or Path(folder))
+
+
+def compare(paths, folder):
+    folder.mkdir(parents=True, exist_ok=True)
     for path in paths:
+        kept = folder / f"{Path(path).name}.npz"
+        name = "kept" if kept.exists() else "default"
         surface = read_surface(path)
         result = compute(Task(Path(path), settings=Settings(method="coacd")))
-        rows = [("default", by_default(surface)), ("ours", (result.seconds, result.pieces))]
+        rows = [(name, by_default(surface, kept)), ("ours", (result.seconds, result.pieces))]
         target = Target(surface)
         for name, row in rows:
             if row is None:
@@ -74,4 +89,4 @@ def main(paths):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -5,7 +5,9 @@ import pytest
 
 from tests.collision.shapes import finer, l_profile, noisy
 from tests.conftest import FIXTURES
+from urdftool.collision import cut
 from urdftool.collision.choose import choose
+from urdftool.collision.cut import Cutter
 from urdftool.collision.decompose import solid_of
 from urdftool.collision.distance import Surface, spread
 from urdftool.collision.measure import Target
@@ -78,6 +80,41 @@ def test_pieces_are_joined_where_their_hull_is_near_enough():
     assert len(joined) == 2
     covered = np.concatenate([piece.vertices for piece in joined])
     assert np.ptp(covered, axis=0) == pytest.approx((0.2, 0.2, 0.1))
+
+
+def bent(parts):
+    """Boxes along a quarter of a ring."""
+    angles = np.linspace(0, np.pi / 2, parts)
+    found = []
+    for angle in angles:
+        c, s = np.cos(angle), np.sin(angle)
+        turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
+        box = primitive("box", (0.04, 0.05, 0.05), turn, (0.2 * c, 0.2 * s, 0))
+        found.append(mesh_piece(box.vertices, box.faces))
+    return found
+
+
+def test_joins_go_on_beyond_the_distance_until_the_triangles_are_few_enough(monkeypatch):
+    boxes = bent(12)
+    corners = np.concatenate([box.corners for box in boxes])
+    surface = prepare(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+    monkeypatch.setattr(cut, "decompose", lambda *_, **__: boxes)
+    counts, errors = [], []
+    for most in (1000, 100, 40):
+        settings = Settings(method="coacd", max_triangles=most)
+        made = Cutter(Target(surface), settings).cut(0.002, 0.002)
+        assert made is not None
+        counts.append(made[1].triangles)
+        errors.append(made[1].hausdorff)
+        assert counts[-1] <= most
+    assert counts[0] > 100
+    assert errors[0] < errors[2]
+
+
+def test_a_simplified_mesh_says_what_its_hull_is_off():
+    choice = choose(prepare(*l_profile()), Settings(method="simplify"))
+    assert choice.measures.error < 0.001
+    assert "hull of a moving mesh" in choice.notes[0]
 
 
 def test_a_shell_of_a_few_flat_sides_becomes_plates():

@@ -17,7 +17,7 @@ from ..meshes.solid import body_labels, edges_of
 from .convex import capped_hull, thickened
 from .cut import Cutter
 from .decompose import DecompositionError
-from .measure import Measures, Target, measure
+from .measure import Measures, Target, hull_error, measure
 from .piece import PRIMITIVES, Piece, mesh_piece
 from .primitives import fit_primitives, signed_distance
 from .quadric import simplify
@@ -191,6 +191,8 @@ def _ladder(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
         except DecompositionError as error:
             notes.append(f"{error.message}, at {factor:g} times the error; it was left out.")
             return
+        if cutter.hopeless:  # and finer cuts are more
+            return
         if made is not None and len(made[0]) <= (settings.max_hulls or FEW_HULLS):
             yield Choice("coacd", *made)
 
@@ -217,6 +219,9 @@ def _simplified(target: Target, settings: Settings, notes: list[str]) -> Iterato
     surface = target.surface
     vertices, faces = simplify(surface.vertices, surface.faces, settings.max_triangles)
     pieces = [mesh_piece(vertices, faces, convex=False)]
+    felt = hull_error(target, pieces[0])
+    if felt > settings.max_error:
+        notes.append(f"Engines that take the hull of a moving mesh touch it with {felt:.2%} error.")
     yield Choice("simplify", pieces, measure(target, pieces))
 
 

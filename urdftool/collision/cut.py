@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
 from functools import cached_property
 
 from .convex import capped_hull
@@ -16,16 +16,17 @@ from .surface import Prepared
 AGAIN = 8
 """Pieces that are cut again at most: those that are farthest off."""
 
-JOINS = (1.0, 0.8, 0.6)
+JOINS = (1.0, 0.9, 0.8, 0.6, 1.2)
 """Parts of the distance within which pieces are joined, tried in turn."""
 
-TRIMS = (0.5, 0.25)
+TRIMS = (1.0, 0.5, 0.25)
 """Parts of the distance that vertices may be left out, tried in turn."""
+
+COARSER = 1.25
+"""By how much both grow from step to step, where there are too many triangles otherwise."""
 
 HOPELESS = 6
 """Times as many pieces as are wanted, from which joins never come down to so few."""
-
-_SAME = 1.25  # by so much more is still about as near, and has fewer pieces
 
 
 class Cutter:
@@ -51,6 +52,7 @@ class Cutter:
         self.settings = settings
         self.most = most
         self.few = few
+        self.hopeless = False
 
     @cached_property
     def solid(self) -> Prepared:
@@ -68,8 +70,8 @@ class Cutter:
         """As few pieces as are within a distance of the mesh, with as few vertices, and how good.
 
         CoACD judges a piece by few points and sometimes misses one that sticks out; such a piece is
-        cut on its own. What is joined and left out afterwards is measured, and taken back where
-        that made it worse than is wanted.
+        cut on its own. The joins and the vertices left out afterwards that cost least come first,
+        and go on beyond the distance while there are more triangles than may be.
 
         Args:
             distance: Of the pieces from the mesh, that the cuts and joins aim at [m].
@@ -90,27 +92,64 @@ class Cutter:
             max_vertices=self.settings.max_vertices,
             time_limit=self.settings.time_limit,
         )
-        if self.most is not None:
-            return self._best([cuts], within)
         if self.few is not None and len(cuts) > HOPELESS * self.few:
+            self.hopeless = True
             return None
         if not last and measure(self.target, cuts).hausdorff > within:
             return None
-        cuts = self._mended(cuts, distance)
-        joins = (self.joiner.joined(cuts, share * distance) for share in JOINS)
-        pieces, _ = self._best(joins, within)
-        return self._best((self._trimmed(pieces, share * distance) for share in TRIMS), within)
+        if self.most is None:
+            cuts = self._mended(cuts, distance)
+        return self._fewer(cuts, distance, within)
 
-    def _best(self, found: Iterable[list[Piece]], within: float) -> tuple[list[Piece], Measures]:
-        """The first that are near enough; else the first about as near as the nearest."""
-        tried = []
-        for pieces in found:
-            measures = measure(self.target, pieces)
-            if measures.hausdorff <= within:
-                return pieces, measures
-            tried.append((pieces, measures))
-        nearest = min(measures.hausdorff for _, measures in tried)
-        return next(pair for pair in tried if pair[1].hausdorff <= _SAME * nearest)
+    def _fewer(
+        self, cuts: list[Piece], distance: float, within: float
+    ) -> tuple[list[Piece], Measures] | None:
+        """Joined and trimmed: the first near enough of those few enough, else the nearest."""
+        levels = self._levels(cuts)
+        tried: list[tuple[float, int, list[Piece], Measures]] = []
+        for join in JOINS:
+            living = self._living(levels, join * distance)
+            if self.few is not None and len(living) > self.few:
+                continue
+            before = math.inf
+            for trim in TRIMS:
+                pieces = self._trimmed(living, trim * min(distance, within))
+                if not self._affordable(pieces):
+                    break
+                measures = measure(self.target, pieces)
+                if measures.hausdorff <= within:
+                    return pieces, measures
+                tried.append((measures.hausdorff, len(tried), pieces, measures))
+                if measures.hausdorff >= before:  # it is not the vertices that are missing
+                    break
+                before = measures.hausdorff
+        if tried:
+            _, _, pieces, measures = min(tried, key=lambda one: one[:2])
+            return pieces, measures
+        if self.few is not None:
+            return None
+        while True:
+            distance *= COARSER
+            living = self._living(levels, distance)
+            pieces = self._trimmed(living, distance)
+            if self._affordable(pieces) or distance > self.target.size:
+                return pieces, measure(self.target, pieces)
+
+    def _levels(self, cuts: list[Piece]) -> list[tuple[float, list[Piece]]]:
+        """The pieces after each join, with the largest cost of the joins until then."""
+        levels = [(0.0, cuts)]
+        for cost, living in self.joiner.steps(cuts):
+            levels.append((max(cost, levels[-1][0]), living))
+        return levels
+
+    @staticmethod
+    def _living(levels: list[tuple[float, list[Piece]]], distance: float) -> list[Piece]:
+        return next(living for cost, living in reversed(levels) if cost <= distance)
+
+    def _affordable(self, pieces: list[Piece]) -> bool:
+        if self.few is not None:
+            return True
+        return sum(len(piece.faces) for piece in pieces) <= self.settings.max_triangles
 
     def _trimmed(self, pieces: list[Piece], tolerance: float) -> list[Piece]:
         most = self.settings.max_vertices

@@ -15,7 +15,7 @@ from ..inertia.winding import boxes_of, winding_numbers
 from ..meshes.mesh import Points
 from . import convex, primitives
 from .distance import Samples, Surface, spread
-from .piece import Piece
+from .piece import Piece, mesh_piece
 from .surface import Prepared
 from .touchable import Flood, flood
 
@@ -156,6 +156,15 @@ def measure(target: Target, pieces: Sequence[Piece]) -> Measures:
         triangles=sum(len(piece.faces) for piece in pieces if not piece.is_primitive),
         vertices=sum(len(piece.vertices) for piece in pieces if not piece.is_primitive),
     )
+
+
+def hull_error(target: Target, piece: Piece) -> float:
+    """The error of a mesh's convex hull, which is what engines touch of a mesh that moves.
+
+    Raises:
+        MeshError: The mesh is flat.
+    """
+    return measure(target, [mesh_piece(*convex.hull(piece.vertices))]).error
 
 
 def piece_distances(target: Target, pieces: Sequence[Piece]) -> list[float]:

@@ -8,7 +8,7 @@ buries what of the mesh can be touched.
 from __future__ import annotations
 
 import heapq
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 import numpy as np
@@ -38,34 +38,48 @@ class Joiner:
 
     def joined(self, pieces: Sequence[Piece], distance: float) -> list[Piece]:
         """The pieces, joined as long as no hull is farther off than a distance [m]."""
+        found = list(pieces)
+        for cost, living in self.steps(pieces):
+            if cost > distance:
+                break
+            found = living
+        return found
+
+    def steps(self, pieces: Sequence[Piece]) -> Iterator[tuple[float, list[Piece]]]:
+        """One join after another, the cheapest first, until one piece is left of what is near.
+
+        Yields:
+            How far off the hull of the join is [m], and the pieces after it.
+        """
         living = dict(enumerate(pieces))
-        queue: list[tuple[float, int, int]] = []
+        queue: list[tuple[float, bool, int, int]] = []
         made: dict[tuple[int, int], Piece] = {}
 
         def offer(a: int, b: int) -> None:
             if not living[a].is_near(living[b], self.gap):
                 return
             both = self._hull(living[a], living[b])
-            if both is None:
-                return
-            cost = self._cost(both, distance)
-            if cost <= distance:
+            if both is not None:
                 made[a, b] = both
-                heapq.heappush(queue, (cost, a, b))
+                heapq.heappush(queue, (self._bulge(both), False, a, b))
 
         for a, b in combinations(list(living), 2):
             offer(a, b)
         number = len(living)
         while queue:
-            _, a, b = heapq.heappop(queue)
+            cost, whole, a, b = heapq.heappop(queue)
             if a not in living or b not in living:
+                made.pop((a, b), None)
+                continue
+            if not whole:  # what it buries is dear to find, and is asked for where it can matter
+                heapq.heappush(queue, (max(cost, self._burial(made[a, b])), True, a, b))
                 continue
             del living[a], living[b]
             living[number] = made.pop((a, b))
             for other in list(living)[:-1]:
                 offer(other, number)
             number += 1
-        return list(living.values())
+            yield cost, list(living.values())
 
     @staticmethod
     def _hull(one: Piece, other: Piece) -> Piece | None:
@@ -74,13 +88,12 @@ class Joiner:
         except MeshError:
             return None
 
-    def _cost(self, piece: Piece, distance: float) -> float:
-        """How far the piece is off at most [m]; more than the distance as soon as that is sure."""
-        bulge = float(self.outside.distance(spread(piece.corners, _PROBES).points).max())
-        if bulge > distance:
-            return bulge
+    def _bulge(self, piece: Piece) -> float:
+        """How far the piece is out of the mesh at most [m]."""
+        return float(self.outside.distance(spread(piece.corners, _PROBES).points).max())
+
+    def _burial(self, piece: Piece) -> float:
+        """How deep in the piece what can be touched of the mesh is at most [m]."""
         low, high = piece.bounds
         within: Points = self.seen[((self.seen > low) & (self.seen < high)).all(axis=1)]
-        if not len(within):
-            return bulge
-        return max(bulge, -float(signed_distance(within, piece.sides).min()))
+        return -float(signed_distance(within, piece.sides).min()) if len(within) else 0.0

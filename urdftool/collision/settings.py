@@ -23,7 +23,7 @@ class Settings:
         max_hulls: Convex pieces that CoACD may make of a mesh; None is no limit for the method
             ``coacd``, and ``FEW_HULLS`` for ``auto``.
         max_vertices: Vertices that a convex piece may have.
-        max_triangles: Triangles that ``simplify`` may leave.
+        max_triangles: Triangles that ``simplify`` and ``coacd`` may leave of a mesh, in all.
         threshold: CoACD's concavity, at which it stops to cut, for the method ``coacd``: a
             distance, relative to half the longest side.
         time_limit: Processor time [s] that one run of CoACD may take.

@@ -81,7 +81,7 @@ _OPTIONS = (
         default=1000,
         show_default=True,
         metavar="N",
-        help="Triangles that simplify leaves.",
+        help="Triangles that simplify and coacd leave of a mesh.",
     ),
     click.option(
         "--threshold",
