@@ -14,6 +14,7 @@ from .table import Table, cell
 from .timing import URDFTOOL, Call, Taken, command, in_turn
 
 PEERS = ("pybullet", "coacd")
+LIMIT = 150.0
 MESHES = ("wrist_roll_follower_so101_v1.stl", "torso_2.STL")
 ABOUT = """\
 Whole commands, nothing kept. V-HACD is that of PyBullet with its defaults. **Error** is the largest
@@ -44,7 +45,7 @@ def rows() -> Iterator[Table | str]:
                 made["V-HACD"] = folder / "vhacd.obj"
                 given = as_obj(path, folder / "given.obj")
                 words = [chosen, "-c", V_HACD, given, made["V-HACD"]]
-                sides["V-HACD"] = command(words, codes=(0,), limit=120)
+                sides["V-HACD"] = command(words, codes=(0,), limit=LIMIT)
             taken = in_turn(sides, rounds=1, budget=15, label=path.name)
             for side in sides:
                 table.rows.append(line(path, side, taken[side], made[side]))
@@ -59,7 +60,7 @@ def rows() -> Iterator[Table | str]:
 
 def ours(path: Path, made: Path, method: str) -> Call:
     words = [*URDFTOOL, "-q", "collision", "mesh", path, "-o", made, "--method", method]
-    return command([*words, "--no-cache", "--overwrite", "--format", "json"], limit=400)
+    return command([*words, "--no-cache", "--overwrite", "--format", "json"], limit=LIMIT)
 
 
 def line(path: Path, side: str, taken: Taken, made: Path) -> Sequence[str]:

@@ -11,14 +11,15 @@ from pathlib import Path
 from . import peers
 
 PAGE = peers.ROOT / "docs" / "benchmarks.md"
+FIDELITY = peers.ROOT / "docs" / "formats" / "fidelity.md"
+LINK = "[fidelity](formats/fidelity.md)"
 
 HEAD = """\
 # Measured beside other tools
 
 `make bench-peers` installs the other tools that are on PyPI, in an environment of their own, and
 `make bench` measures all of this anew and writes this page, in some ten minutes. One alone:
-`python -m tests.benchmarks NAME --write`; what takes long has to be named: {long}. What each makes
-of a robot, rather than how fast, is in [fidelity](formats/fidelity.md).
+`python -m tests.benchmarks NAME --write`; what takes long has to be named: {long}.
 
 Every command is a process of its own, from its start to its end, and both sides of a row take
 turns in one run on the same input; shown are medians. **Ratio** is urdftool's time over the
@@ -64,6 +65,8 @@ def write(sections: dict[str, str], order: Sequence[str], long: Sequence[str]) -
         match = re.search(pattern, text, re.DOTALL)
         if name in sections or match:
             kept[name] = sections.get(name) or (match[0] if match else "")
+    if not FIDELITY.exists():  # a link to it would lead nowhere
+        kept = {n: text.replace(LINK, "`make fidelity`") for n, text in kept.items()}
     head = HEAD.format(long=", ".join(f"`{name}`" for name in long))
     PAGE.write_text("\n\n".join([head.strip(), *kept.values()]) + "\n", "utf-8")
 

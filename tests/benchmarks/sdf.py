@@ -29,12 +29,13 @@ def rows() -> Iterator[Table | str]:
     copying = Pairs("robot", ["ign sdf -p"])
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
+        (folder / "copied").mkdir()
         for robot, path in _robots(folder):
             ours = [*URDFTOOL, "-q", "export", "sdf", path, *options_of(path), "--overwrite"]
             ours.append("--force")
             sides: dict[str, Call] = {
                 "urdftool": command([*ours, "-o", folder / "x.sdf", "--uri", "package"]),
-                "copying": command([*ours, "-o", folder / "y" / "y.sdf"]),
+                "copying": command([*ours, "-o", folder / "copied" / "x.sdf"]),
             }
             words = theirs.words(resolved(path, folder / "in"), folder / "theirs.sdf")
             if words and peers.version("ign sdf"):
