@@ -24,12 +24,7 @@ def write_result(text: str, target: str | None, *, inputs: Iterable[str | Path] 
     if target is None or target == "-":
         _write_stdout(text)
         return
-    for source in inputs:
-        if _same_file(source, target):
-            raise OutputError(
-                f"is read as an input ({source}); write the output to another file", path=target
-            )
-    write_file(target, text.encode("utf-8"))
+    write_file(target, text.encode("utf-8"), inputs=inputs)
 
 
 def _write_stdout(text: str) -> None:
@@ -56,14 +51,24 @@ def _same_file(one: str | Path, other: str | Path) -> bool:
         return False
 
 
-def write_file(target: str | Path, data: bytes) -> None:
+def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] = ()) -> None:
     """Write a file whole: to a neighbour first, which then takes its place.
 
     A link is followed, and the mode of a file that is there is kept.
 
+    Args:
+        target: Where it goes.
+        data: What is in it.
+        inputs: Files that were read for it, which it must not overwrite.
+
     Raises:
-        OutputError: It cannot be written; what was there is as it was.
+        OutputError: It cannot be written, or would overwrite an input; what was there is as it was.
     """
+    for source in inputs:
+        if _same_file(source, target):
+            raise OutputError(
+                f"is read as an input ({source}); write the output to another file", path=target
+            )
     path = Path(os.path.realpath(target))
     if path.is_dir():
         raise OutputError("is a folder; the name of a file is wanted", path=target)

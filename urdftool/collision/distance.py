@@ -97,6 +97,7 @@ class Surface:
         found, index = self.tree.query(points, k=near)
         if near == 1:
             found, index = found[:, None], index[:, None]
+        index = np.minimum(index, len(self.samples) - 1)  # beyond: none is at a finite distance
         owners = self.samples.owners[index]
         pairs = np.repeat(points, near, axis=0)
         exact = to_triangles(pairs, self.corners[owners.reshape(-1)]).reshape(-1, near)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
@@ -137,7 +138,7 @@ def _task(robot: Robot, shape: Shape, settings: Settings) -> Task | None:
         path = robot.source.resolve(mesh.filename)
     except UrdftoolError as error:
         raise MeshError(error.message, at=place, notes=error.notes) from error
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise MeshError(f"there is no mesh file {path}", at=place)
     if not all(mesh.scale):
         raise MeshError(

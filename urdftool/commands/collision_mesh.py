@@ -90,7 +90,7 @@ def command(
     style = values["style"]
     click.echo(report.as_json([found]) if style == "json" else report.table([row]), nl=False)
     if values["picture"]:
-        _draw(task, result, values["picture"])
+        _draw(task, result, values["picture"], file)
     if style == "table":
         for piece in result.pieces:
             if piece.is_primitive:
@@ -143,8 +143,8 @@ def _write(file: str, result: Result, output: str | None, overwrite: bool) -> tu
     return tuple(names)
 
 
-def _draw(task: Any, result: Result, picture: str) -> None:
+def _draw(task: Any, result: Result, picture: str, file: str | Path) -> None:
     from ..collision.picture import mesh_picture
     from ..output import write_file
 
-    write_file(picture, mesh_picture(task, result))
+    write_file(picture, mesh_picture(task, result), inputs=[file])

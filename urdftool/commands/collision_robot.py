@@ -20,6 +20,7 @@ from ..model.load import robot_of
 from ..report import collision as report
 from ..source.description import read_description
 from .collision_options import Progress, cache_of, given_names, settings_of
+from .picture_file import write_picture
 
 if TYPE_CHECKING:
     from ..collision.cache import Cache
@@ -76,9 +77,8 @@ def _draw(
     picture: str, robot: Robot, plans: Sequence[LinkPlan], results: dict[Task, Result]
 ) -> None:
     from ..collision.picture import robot_picture
-    from ..output import write_file
 
-    write_file(picture, robot_picture(robot, plans, results))
+    write_picture(robot_picture(robot, plans, results), picture, robot)
 
 
 def fleet(

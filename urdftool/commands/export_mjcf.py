@@ -86,6 +86,7 @@ def command(
     from ..formats.mjcf.verify import verify_copy
     from ..formats.mjcf.write import write
     from ..model.load import robot_of
+    from ..viewer.sources import sources
 
     as_json = style == "json"
     description = read_strict(console, robot, package, package_path)
@@ -101,7 +102,7 @@ def command(
     except Refused as refused:
         return say_refused(refused.findings, as_json=as_json)
     checks = verify_copy(robot_of(description), options, written) if verified else []
-    inputs = [source.path for source in description.files]
+    inputs = sorted(sources(robot_of(description)))
     inputs += [str(options.srdf)] if options.srdf is not None else []
     target = output or "-"
     put_files(

@@ -84,6 +84,7 @@ def command(
     from ..formats.defects import Refused
     from ..formats.sdf.write import write
     from ..model.load import robot_of
+    from ..viewer.sources import sources
     from .export_report import put_files, say_refused, say_written
 
     place = output or "-"
@@ -102,7 +103,7 @@ def command(
         place,
         single=bool(options.file),
         overwrite=overwrite,
-        inputs=[file.path for file in description.files],
+        inputs=sorted(sources(model)),
         as_json=as_json,
     )
     checks = _verified(model, options, written, place) if verified else []

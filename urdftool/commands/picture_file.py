@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,14 +27,7 @@ def write_picture(data: bytes, target: str, robot: Robot) -> None:
     Raises:
         OutputError: It cannot be written, or would overwrite an input.
     """
-    from ..errors import OutputError
     from ..output import write_file
+    from ..viewer.sources import sources
 
-    for file in robot.source.files if robot.source is not None else ():
-        if os.path.exists(target) and os.path.exists(file.path):
-            if os.path.samefile(file.path, target):
-                raise OutputError(
-                    f"is read as an input ({file.path}); write the output to another file",
-                    path=target,
-                )
-    write_file(target, data)
+    write_file(target, data, inputs=sorted(sources(robot)))

@@ -98,7 +98,7 @@ def simulate_fleet(
             progress(len(rows), len(found), row.path)
     ordered = [rows[path] for path in found]
     if junit is not None:
-        write_file(junit, report.to_junit(ordered).encode("utf-8"))
+        write_file(junit, report.to_junit(ordered).encode("utf-8"), inputs=found)
     if style == "json":
         click.echo(report.to_json(ordered), nl=False)
     elif style == "junit":

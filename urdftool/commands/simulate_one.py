@@ -69,6 +69,7 @@ def simulate_one(
     from ..report import simulate_fleet as rows
     from ..report.simulate_differences import differences_text, with_differences
     from ..simulation.fleet import row_of
+    from ..viewer.sources import sources
 
     outputs.read(console, robot)
     with Progress(console) as progress:
@@ -86,6 +87,6 @@ def simulate_one(
         if len(engines) > 1:
             click.echo(differences_text(differ, colors=console.colors()), nl=False)
     if junit is not None:
-        write_file(junit, rows.to_junit([row]).encode("utf-8"))
+        write_file(junit, rows.to_junit([row]).encode("utf-8"), inputs=sorted(sources(robot)))
     outputs.write(console, robot, [some[0].run for some in verdicts])
     return 0 if row.stands else 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from io import BytesIO
 from pathlib import Path
 
@@ -26,7 +27,7 @@ def read_texture(source: Path | bytes) -> Texels:
     """
     from PIL import Image
 
-    if isinstance(source, Path) and source.exists() and not source.is_file():
+    if isinstance(source, Path) and os.path.exists(source) and not os.path.isfile(source):
         raise MeshError("this is no file; an image is needed", path=source)
     try:
         with Image.open(BytesIO(source) if isinstance(source, bytes) else source) as image:

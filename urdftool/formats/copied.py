@@ -7,6 +7,7 @@ before it is copied.
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -56,7 +57,7 @@ def is_companion(path: Path) -> bool:
 
 
 def _head(path: Path) -> bytes:
-    if not path.is_file():  # nor read from what never ends
+    if not os.path.isfile(path):  # nor read from what never ends
         return b""
     with open(path, "rb") as stream:
         return stream.read(_HEAD)

@@ -66,6 +66,8 @@ def write_directory(
     """
     folder = Path(os.path.realpath(target))
     _check_place(folder, target)
+    if folder.is_file():
+        raise OutputError("is a file; the name of a folder is wanted", path=target)
     there = folder.is_dir() and any(folder.iterdir())
     if there and not overwrite and not (folder / main).is_file():
         raise OutputError(
@@ -153,8 +155,6 @@ def _check_place(path: Path, shown: str | Path) -> None:
         raise OutputError(f"the folder {path.parent} does not exist", path=shown)
     if path.exists() and not (path.is_dir() or path.is_file()):
         raise OutputError("is neither a file nor a folder", path=shown)
-    if path.is_file() and not path.suffix:
-        raise OutputError("is a file; the name of a folder is wanted", path=shown)
 
 
 def _check_files(

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -14,9 +12,8 @@ from ..model.pose import pose_of
 from ..model.read import read_robot
 from ..source import edit
 from ..source.description import is_xacro
-from ..source.document import Document, Element, parse
+from ..source.document import Document, Element, parse, reading_instead
 from ..source.location import SourceFile
-from ..source.packages import Packages, shown_path
 from .fill import Filling, fill
 from .link_review import NAMES, LinkReview
 from .masses import Masses
@@ -80,19 +77,6 @@ def check_filling(robot: Robot, filling: Filling, edited: Mapping[str, bytes]) -
     return ""
 
 
-class _EditedPackages(Packages):
-    """Finds what the description's own packages find, with edited copies in place of files."""
-
-    def __init__(self, original: Packages, copies: Mapping[str, Path]) -> None:
-        self.__dict__.update(original.__dict__)
-        self.copies = copies
-
-    def installed(self, path: str | Path) -> Path:
-        """As :meth:`Packages.installed`; of an edited file, its copy."""
-        found = super().installed(path)
-        return self.copies.get(shown_path(found), found)
-
-
 def _read(robot: Robot, edited: Mapping[str, bytes]) -> Document:
     description = robot.source
     assert description is not None
@@ -102,14 +86,8 @@ def _read(robot: Robot, edited: Mapping[str, bytes]) -> Document:
         return parse(file)
     from ..source.expand import expand_xacro
 
-    with TemporaryDirectory() as folder:
-        copies = {}
-        for number, path in enumerate(edited):
-            if path != main.path:
-                copies[path] = Path(folder, f"{number}.xacro")
-                copies[path].write_bytes(edited[path])
-        packages = _EditedPackages(description.packages, copies)
-        return expand_xacro(file, description.arguments, packages).document()
+    with reading_instead({path: edited[path] for path in edited if path != main.path}):
+        return expand_xacro(file, description.arguments, description.packages).document()
 
 
 def _outside(

@@ -73,6 +73,8 @@ def read_baseline(path: str) -> Baseline:
         ConfigError: It cannot be read, or is not what ``--write-baseline`` writes.
     """
     try:
+        if os.path.exists(path) and not os.path.isfile(path):
+            raise ConfigError("is no file; a baseline is wanted", path=path)
         with open(path, encoding="utf-8") as stream:
             table = json.load(stream)
     except OSError as error:

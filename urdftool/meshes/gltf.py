@@ -10,6 +10,7 @@ says otherwise; a note says so.
 from __future__ import annotations
 
 import json
+import os
 import struct
 from base64 import b64decode
 from io import BytesIO
@@ -116,7 +117,7 @@ def _check_files(tree: dict[str, Any], path: Path) -> None:
     """Refuse what is no file: a device or a pipe is read without end."""
     for thing in (*tree.get("buffers", ()), *tree.get("images", ())):
         uri = str(thing.get("uri", "data:"))
-        if not uri.startswith("data:") and not (path.parent / unquote(uri)).is_file():
+        if not uri.startswith("data:") and not os.path.isfile(path.parent / unquote(uri)):
             raise ValueError(f"there is no file '{uri}' beside it")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
@@ -77,9 +78,9 @@ def _factors(scale: Sequence[float], file: Path) -> tuple[float, ...]:
 
 
 def _checked_format(file: Path) -> str:
-    if file.is_dir():
+    if os.path.isdir(file):
         raise MeshError("this is a folder; a mesh file is needed", path=file)
-    if not file.exists():
+    if not os.path.exists(file):
         raise MeshError("there is no such mesh file", path=file)
     suffix = file.suffix.lower().removeprefix(".")
     if suffix not in READERS:

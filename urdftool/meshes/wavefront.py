@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -185,7 +186,7 @@ def _materials(path: Path, libraries: list[str], notes: list[str]) -> dict[str, 
     materials: dict[str, Material] = {}
     for library in dict.fromkeys(libraries):
         file = path.parent / library
-        if not file.is_file():
+        if not os.path.isfile(file):
             notes.append(
                 f"The material file {library} is not beside the OBJ file; colours are lost."
             )

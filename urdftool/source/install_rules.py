@@ -7,6 +7,7 @@ moves things. Only what decides that is read: ``project``, ``set``, ``install(DI
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 from typing import NamedTuple
@@ -114,6 +115,6 @@ def installed_path(rules: list[InstallRule], relative: str) -> Path | None:
         target = Path(rule.target).parts
         if wanted[: len(target)] == target:
             candidate = rule.source.joinpath(*wanted[len(target) :])
-            if candidate.exists():
+            if os.path.exists(candidate):
                 return candidate
     return None

@@ -162,7 +162,7 @@ class Packages:
             )
         searched: list[str] = []
         for said, folder in self._candidates(name):
-            if folder is not None and folder.is_dir():
+            if folder is not None and os.path.isdir(folder):
                 self.used[name] = folder
                 return folder
             searched.append(said)
@@ -201,7 +201,7 @@ class Packages:
                     folder_or_none = packages_below(Path(entry)).get(name)
                 else:
                     share = Path(entry) / "share" / name
-                    folder_or_none = share if share.is_dir() else None
+                    folder_or_none = share if os.path.isdir(share) else None
                 yield f"{variable}: {entry}", folder_or_none
         for folder in self.file.parents:
             if folder.name == name:
@@ -216,7 +216,7 @@ class Packages:
             if len(folder.parts) <= 2:
                 break  # never crawl /, /home or /tmp
             roots.append(folder)
-            if any((folder / mark).exists() for mark in _WORKSPACE_MARKS):
+            if any(os.path.exists(folder / mark) for mark in _WORKSPACE_MARKS):
                 return roots
         return roots[:1]
 
@@ -268,4 +268,4 @@ class Packages:
 def _child(path: Path, name: str) -> Path | None:
     """A folder of that name directly in a search path, even without a ``package.xml``."""
     folder = path / name
-    return folder if name and folder.is_dir() else None
+    return folder if name and os.path.isdir(folder) else None

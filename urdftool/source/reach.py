@@ -86,9 +86,13 @@ class Reach:
         Raises:
             XacroError: It is somewhere else, or a link leads there.
         """
+        real = Path(os.path.realpath(path))
+        if os.path.exists(real) and not os.path.isfile(real) and not os.path.isdir(real):
+            raise XacroError(
+                f"{path} is a device or a pipe; a file is wanted", at=at, rule="include-not-found"
+            )
         if self.trusted:
             return
-        real = Path(os.path.realpath(path))
         if own_package(real) or any(_is_within(real, root) for root in self._roots()):
             return
         led = "" if str(real) == os.path.abspath(path) else f" (a link to {real})"
@@ -113,8 +117,8 @@ class Reach:
         }
         found = dict(original)
         for name, functions in replaced.items():
-            space = type(original[name])(original[name])
-            space.update(functions)
+            space = type(original[name])()  # without a parent, which would lead to Python's own
+            space.update({**original[name], **functions})
             found[name] = space
             for key, function in functions.items():
                 if key in original:
@@ -176,7 +180,7 @@ class Reach:
         above = [folder, *folder.parents][:_MAX_CLIMB]
         deep = [place for place in above if len(place.parts) > 2]  # never /, /home or /tmp
         for place in deep:
-            if any((place / mark).exists() for mark in _PROJECT_MARKS):
+            if any(os.path.exists(place / mark) for mark in _PROJECT_MARKS):
                 return place
         return deep[1] if len(deep) > 1 else folder
 

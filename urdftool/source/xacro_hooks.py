@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import ModuleType
@@ -24,6 +25,7 @@ from .expansion import Argument, Expansion, Warned
 from .expressions import BUILTINS, compile_expression
 from .location import Call, Place
 from .packages import Packages, shown_path
+from .patience import Patience
 from .reach import Reach, safe_eval
 from .xacro_parse import parse_xacro
 from .xacro_tree import Characters, Instances, XacroDocument, XacroElement
@@ -61,6 +63,7 @@ class Run:
         self.elements = 0
         self.produced = 0
         self.yaml_safe_load: Callable[..., Any] | None = None
+        self.patience = Patience()
 
     def expand(self) -> None:
         """Parse the file, and let xacro expand it; the hooks are in place."""
@@ -109,7 +112,8 @@ class Run:
                 setattr(substitution, name, function)
             substitution._eval_dict.update(commands)
             sys.setrecursionlimit(max(limit, _RECURSION_LIMIT))
-            yield
+            with self.patience.kept():
+                yield
             self.note_dependencies()
         finally:
             sys.setrecursionlimit(limit)
@@ -292,10 +296,13 @@ class Run:
             elif kind == _EXTENSION:
                 inner = self.eval_text(piece, symbols)
                 try:
+                    self.patience.since = time.process_time()
                     results.append(xacro.eval_extension(f"$({inner})"))
                 except Exception:
                     self.failed_text = self.failed_text or text
                     raise
+                finally:
+                    self.patience.since = None
             else:
                 results.append(piece)
         if len(results) == 1:
@@ -313,6 +320,7 @@ class Run:
             code = compile_expression(source)
             if not dict.__contains__(symbols, "__builtins__"):
                 symbols.update(__builtins__=BUILTINS)
+            self.patience.since = time.process_time()
             value = eval(code, symbols)
             check_size(value)
             return value
@@ -321,6 +329,8 @@ class Run:
             raise xacro.XacroException(
                 exc=error, suffix=os.linesep + f"when evaluating expression '{expression}'"
             ) from error
+        finally:
+            self.patience.since = None
 
     # What we tell of it ----------------------------------------------------------------------
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -42,4 +43,4 @@ def _named(robot: Robot) -> Iterator[str]:
 
 
 def _is_path(path: str) -> bool:
-    return "\0" not in path and not Path(path).is_dir()
+    return "\0" not in path and not os.path.isdir(Path(path))

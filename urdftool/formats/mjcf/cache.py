@@ -31,7 +31,7 @@ def convert_all(jobs: Sequence[tuple[Path, bool]]) -> list[Converted | str]:
 
 def _run(jobs: Sequence[tuple[Path, bool]]) -> list[Converted | str]:
     processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1
-    size = sum(path.stat().st_size for path, _ in jobs if path.is_file())
+    size = sum(path.stat().st_size for path, _ in jobs if os.path.isfile(path))
     if len(jobs) < 2 or processors < 2 or size < _BIG:
         return [conversion(*job) for job in jobs]
     from concurrent.futures import ProcessPoolExecutor

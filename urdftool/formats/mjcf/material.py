@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from lxml import etree
@@ -78,7 +79,7 @@ class Materials:
     def _of_mesh(self, image: Image, mesh: str, visual: Visual) -> str | None:
         """The material of a mesh file's own image; None where there is none to see."""
         stem = Path(mesh).stem if isinstance(image, bytes) else image.stem
-        if isinstance(image, Path) and not image.is_file():
+        if isinstance(image, Path) and not os.path.isfile(image):
             if image not in self._textures:
                 self._textures[image] = None
                 self._lose_image(f"image {image} of {mesh} is not there", visual, mesh)
@@ -112,7 +113,7 @@ class Materials:
         except SourceError as error:
             self._lose_texture(material, error.message)
             return None
-        if not path.is_file():
+        if not os.path.isfile(path):
             self._lose_texture(material, f"{path} is not there")
             return None
         return path

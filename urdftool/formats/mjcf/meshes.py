@@ -115,7 +115,7 @@ def _uses(robot: Robot) -> tuple[list[_Use], list[Finding]]:
                 why = f"is not there ({path})"
             except SourceError as error:
                 why = f"is not found: {error.message}"
-        if path is None or not path.is_file():
+        if path is None or not os.path.isfile(path):
             text = f"mesh '{mesh.filename}' of link '{link.name}' {why}"
             wrong.append(defect("mesh-not-found", text, place, "link", link.name))
         elif not all(mesh.scale):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -196,7 +197,7 @@ def _rgba(compiled: Compiled, geom: int) -> tuple[float, ...]:
 def _seen(look: tuple[tuple[float, ...] | None, Image | None]) -> tuple[float, ...] | None:
     """The colour of a part: white below an image that is there."""
     rgba, image = look
-    there = image.is_file() if isinstance(image, Path) else image is not None
+    there = os.path.isfile(image) if isinstance(image, Path) else image is not None
     return (1.0, 1.0, 1.0, 1.0) if there else rgba
 
 

@@ -131,7 +131,7 @@ def _find(robot: Robot, name: str) -> Path | None:
         name = f"{scheme}://{rest.lstrip('/')}"
     try:
         path = robot.source.resolve(name)
-        return path if path.is_file() else None
+        return path if os.path.isfile(path) else None
     except (UrdftoolError, OSError, ValueError):
         return None
 
@@ -202,7 +202,7 @@ def _add_companions(meshes: MeshFiles, path: Path, place: str) -> None:
             continue
         other = path.parent / name
         target = os.path.normpath(os.path.join(os.path.dirname(place), name))
-        if other in meshes.places or target.startswith("..") or not other.is_file():
+        if other in meshes.places or target.startswith("..") or not os.path.isfile(other):
             continue
         if not is_companion(other):
             continue

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 
 from ...errors import PackageNotFound
@@ -101,7 +102,7 @@ def ros2_control_empty_parameters(robot: Robot, description: Description) -> Ite
 
 def _is_there(path: str, description: Description) -> bool:
     try:
-        return description.resolve(path).exists()
+        return os.path.exists(description.resolve(path))
     except PackageNotFound:
         return True  # it cannot be said
 

@@ -82,7 +82,7 @@ def malformed_uri(problem: Problem, around: Around) -> Proposal | None:
 
 def _in_package(path: Path | None, own: tuple[str, Path] | None) -> str | None:
     """The URI of a file in a package; None where it is outside."""
-    if path is None or own is None or not path.is_file():
+    if path is None or own is None or not os.path.isfile(path):
         return None
     inside = os.path.relpath(os.path.realpath(path), os.path.realpath(own[1])).replace(os.sep, "/")
     return None if inside.startswith("..") else f"package://{own[0]}/{inside}"
@@ -112,7 +112,7 @@ def absolute_path(problem: Problem, around: Around) -> Proposal | None:
             parts = use.uri.replace("\\", "/").split("/")
             if own[0] in parts[:-1]:
                 rest = parts[len(parts) - parts[::-1].index(own[0]) :]
-                if own[1].joinpath(*rest).is_file():
+                if os.path.isfile(own[1].joinpath(*rest)):
                     uri = f"package://{own[0]}/{'/'.join(rest)}"
         return None if uri is None else put(use.mesh.element, "filename", uri)
 
@@ -132,7 +132,7 @@ def wrong_package_in_uri(problem: Problem, around: Around) -> Proposal | None:
         mesh = shape.geometry
         if isinstance(mesh, Mesh) and mesh.filename.startswith(f"package://{wrong}/"):
             rest = mesh.filename.partition("://")[2].partition("/")[2]
-            if not (own[1] / rest).is_file():
+            if not os.path.isfile(own[1] / rest):
                 return None
             changes.append(
                 sub(mesh.element, "filename", "^package://[^/]*/", f"package://{own[0]}/")

@@ -49,7 +49,7 @@ def mesh_not_found(
     for path in wanted:
         folders.setdefault(_missing_folder(path), []).append(path)
     for folder, paths in folders.items():
-        if len(paths) > together and not folder.exists():
+        if len(paths) > together and not os.path.exists(folder):
             first = wanted[paths[0]][0]
             yield Problem(
                 first.link,
@@ -77,7 +77,9 @@ def _is_in_own_package(use: MeshUse, description: Description) -> bool:
 def _missing_folder(path: Path) -> Path:
     """The uppermost folder above a file that is not there; its own folder where that is there."""
     folder = path.parent
-    while folder != folder.parent and not folder.exists() and not folder.parent.exists():
+    while (
+        folder != folder.parent and not os.path.exists(folder) and not os.path.exists(folder.parent)
+    ):
         folder = folder.parent
     return folder
 

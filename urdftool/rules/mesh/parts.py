@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -63,5 +64,5 @@ def _look(path: Path) -> Iterator[str]:
             ending == ".dae" and "." not in text
         ):
             continue  # inside the file, elsewhere, or the name of an image in it
-        if not (path.parent / text.replace("\\", "/")).exists():
+        if not os.path.exists(path.parent / text.replace("\\", "/")):
             yield text

@@ -125,7 +125,7 @@ def actual_case(path: Path) -> Path | None:
     """The file that differs from a path only in the case of its letters; None if there is none."""
     known = path
     rest: list[str] = []
-    while not known.exists():
+    while not os.path.exists(known):
         if known.parent == known:
             return None
         rest.append(known.name)
@@ -139,4 +139,4 @@ def actual_case(path: Path) -> Path | None:
         if same is None:
             return None
         known = known / same
-    return known if known.is_file() else None
+    return known if os.path.isfile(known) else None

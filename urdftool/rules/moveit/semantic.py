@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -223,7 +224,7 @@ def missing_acceleration_limits(robot: Robot, description: Description) -> Itera
     """
     documents = semantics(robot, description)
     path = Path(description.path).parent / "joint_limits.yaml"
-    if not documents or not path.is_file():
+    if not documents or not os.path.isfile(path):
         return
     import yaml
 

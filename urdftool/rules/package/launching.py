@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -59,5 +60,5 @@ def _callers(package: Path) -> Iterator[Path]:
     found = [*(package / "launch").glob("**/*"), *package.glob("README*")]
     found += [package / "CMakeLists.txt"]
     for path in sorted(found)[:_MOST_FILES]:
-        if path.is_file():
+        if os.path.isfile(path):
             yield path

@@ -164,7 +164,7 @@ def _launch_sets_path(package: Path) -> bool:
     for folder in ("launch", "hooks", "env-hooks"):
         for path in sorted((package / folder).glob("*"))[:50]:
             try:
-                text = path.read_text("utf-8", "replace") if path.is_file() else ""
+                text = path.read_text("utf-8", "replace") if os.path.isfile(path) else ""
             except OSError:
                 continue
             if "RESOURCE_PATH" in text or "MODEL_PATH" in text:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 
 from ...model.elements import Robot
@@ -49,7 +50,7 @@ def is_in_own_package(use: MeshUse, description: Description) -> bool:
     name, _, inside = rest.partition("/")
     if own is None or scheme != "package" or use.exists or not inside or name == own[0]:
         return False
-    return (own[1] / inside).is_file()
+    return os.path.isfile(own[1] / inside)
 
 
 def _brief(searched: list[str]) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 
@@ -108,7 +109,7 @@ def missing_texture(robot: Robot, description: Description) -> Iterator[Problem]
             path = description.resolve(uri)
         except PackageNotFound:
             continue
-        if not path.is_file():
+        if not os.path.isfile(path):
             yield Problem(
                 element,
                 f"texture '{uri}' is not there: no file '{shown_path(path)}'",
