@@ -141,8 +141,8 @@ def help_of(words: list[str]) -> str:
     settings = {**cli.main.context_settings, "terminal_width": 88}
     context = click.Context(cli.main, info_name="urdftool", **settings)
     for word in words:
-        assert isinstance(command, click.Group)
-        found = command.get_command(context, word)
+        of = getattr(command, "get_command", None)  # `collision mesh` is in no group
+        found = of(context, word) if of else None
         assert found is not None, f"no command {' '.join(words)}"
         command = found
         context = click.Context(command, info_name=word, parent=context, terminal_width=88)
@@ -174,9 +174,10 @@ def main() -> int:
     if options.check:
         wrong = stale()
     else:
-        for path in (DOCS / "rules").glob("*.md"):
+        fresh = dict(pages())
+        for path in set((DOCS / "rules").glob("*.md")) - set(fresh):
             path.unlink()
-        for path, text in pages():
+        for path, text in fresh.items():
             path.parent.mkdir(exist_ok=True)
             path.write_text(text, "utf-8")
     pictures = None if options.check else DOCS / "pictures"
