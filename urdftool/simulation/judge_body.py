@@ -117,6 +117,8 @@ def _unweighed(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
     )
     for number, body in enumerate(bodies.bodies):
         hollow = [name for name in body.links if _is_hollow(robot, name) and name in extents]
+        if any(robot.link[name].visuals for name in body.links):  # others only help to collide
+            hollow = [name for name in hollow if robot.link[name].visuals]
         if not hollow or (number == 0 and bodies.nailed):
             continue
         bare = sum(robot.link[name].mass for name in body.links if not has_shapes(robot, name))

@@ -35,6 +35,7 @@ DENSEST = 12_000.0
 
 _HEAVY = 0.1
 _LIGHT = 0.02  # of the robot's mass: what is lighter stands for a camera or a frame
+_ASIDE = 0.5  # of the longest half: a motor may stick out of a thin box by that
 _THICK = 0.05  # of the longest half: how thick a sheet is at least
 
 
@@ -62,7 +63,9 @@ def judge_size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
     if reach and spread > (REACH if share > _LIGHT else FAR_OUT) * reach:
         said = f"that of mass {spread:.3g} m from its centre; its shapes reach {reach:.3g} m"
     elif share > _LIGHT and reach:
-        said = _too_wide(own.inertia, own.mass, extent)
+        said = _made_up(own.inertia, own.mass, extent)
+        if not said and _too_wide(own.inertia, own.mass, extent):  # or in what is fixed
+            said = _too_wide(own.inertia, own.mass, _around(robot, link, run, all_links=True))
     else:
         said = ""
     if said:
@@ -90,26 +93,39 @@ def judge_size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
 
 def _too_wide(tensor: Array, mass: float, extent: Extent) -> str:
     """What a tensor is that spreads its mass beyond the shapes along an axis; empty if none."""
+    moments, half = _halves(tensor, extent)
+    spread = np.sqrt(np.maximum(0.0, moments.sum() / 2 - moments) / mass)
+    worst = int((spread / half).argmax())
+    if spread[worst] <= max(SPREAD * half[worst], _ASIDE * half.max()):
+        return ""
+    return (
+        f"that of mass {spread[worst]:.3g} m to either side of its centre; its shapes reach "
+        f"{half[worst]:.3g} m there"
+    )
+
+
+def _made_up(tensor: Array, mass: float, extent: Extent) -> str:
+    """What a tensor is that is a power of ten about every axis, and too large; empty if not."""
+    moment = float(tensor[0, 0])
+    power = math.log10(moment) if moment > 0 else 0.5
+    if abs(power - round(power)) > 1e-9 or not np.array_equal(tensor, moment * np.eye(3)):
+        return ""
+    _, half = _halves(tensor, extent)
+    solid = mass / 3 * (float(half @ half) - half**2)
+    if moment <= MADE_UP * solid.min():
+        return ""
+    return (
+        f"{moment:g} kg·m² about every axis, which is made up; a solid of its size has "
+        f"{solid.min():.2g} to {solid.max():.2g}"
+    )
+
+
+def _halves(tensor: Array, extent: Extent) -> tuple[Array, Array]:
+    """Principal moments, and half of what the shapes reach along each axis [m]."""
     moments, axes = np.linalg.eigh(tensor)
     along = extent.points @ axes
     half = (along.max(axis=0) - along.min(axis=0)) / 2
-    half = np.maximum(half, _THICK * half.max())
-    spread = np.sqrt(np.maximum(0.0, moments.sum() / 2 - moments) / mass)
-    worst = int((spread / half).argmax())
-    if spread[worst] > SPREAD * half[worst]:
-        return (
-            f"that of mass {spread[worst]:.3g} m to either side of its centre; its shapes reach "
-            f"{half[worst]:.3g} m there"
-        )
-    power = math.log10(tensor[0, 0]) if tensor[0, 0] > 0 else 0.5
-    if abs(power - round(power)) < 1e-9 and np.array_equal(tensor, tensor[0, 0] * np.eye(3)):
-        solid = mass / 3 * (float(half @ half) - half**2)
-        if moments[0] > MADE_UP * solid.min():
-            return (
-                f"{tensor[0, 0]:g} kg·m² about every axis, which is made up; a solid of its size "
-                f"has {solid.min():.2g} to {solid.max():.2g}"
-            )
-    return ""
+    return moments, np.maximum(half, _THICK * half.max())
 
 
 def _rules(tensor: Array, name: str, run: Run) -> bool:
@@ -119,9 +135,11 @@ def _rules(tensor: Array, name: str, run: Run) -> bool:
     return bool(np.trace(tensor) > 0.5 * np.trace(body.properties.inertia))
 
 
-def _around(robot: Robot, link: Link, run: Run, *, only_collisions: bool = False) -> Extent:
+def _around(
+    robot: Robot, link: Link, run: Run, *, only_collisions: bool = False, all_links: bool = False
+) -> Extent:
     """The extent of a link; of one without shapes, that of its rigid body, in its own frame."""
-    if has_shapes(robot, link.name):
+    if has_shapes(robot, link.name) and not all_links:
         return extent_of(robot, link.name, only_collisions=only_collisions)
     body = next(body for body in run.bodies.bodies if link.name in body.links)
     back = body.places[link.name].inverse()
@@ -143,5 +161,6 @@ def _fits(extent: Extent, own: MassProperties, spread: float) -> bool:
     return bool(
         spread <= REACH * reach
         and own.mass <= DENSEST * extent.volume
+        and not (reach and _made_up(own.inertia, own.mass, extent))
         and not (reach and _too_wide(own.inertia, own.mass, extent))
     )
