@@ -66,5 +66,15 @@ fidelity: $(VENV)/.dev
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev,fidelity]'
 	$(BIN)/python -m tests.benchmarks.fidelity --write --jobs 2
 
+# a case again: python -m tests.fuzz --seed 2026 --only NUMBER
+CASES ?= 20000
+fuzz: $(VENV)/.dev
+	@mkdir -p build
+	$(BIN)/python -m tests.fuzz --seed 2026 --cases $(CASES) --log build/fuzz.jsonl --write
+
+platforms: $(VENV)/.dev
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check nox
+	$(BIN)/nox
+
 clean:
 	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -1,12 +1,16 @@
 """What a description from a stranger can reach: attempts, and what comes of them."""
 
+import os
 import re
+import signal
+import sys
 import time
 
 import pytest
 
 from urdftool import expand
 from urdftool.errors import UrdftoolError
+from urdftool.source import patience
 from urdftool.source.reach import TRUST
 
 XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">{}</robot>'
@@ -260,3 +264,56 @@ def test_properties_that_double_are_stopped(evaluate):
     body = f'<xacro:property name="a0" value="ha"/>{doubled}<link name="${{a60}}"/>'
     with pytest.raises(UrdftoolError, match="longer than any robot needs"):
         expand(_write(evaluate.folder, body))
+
+
+TABLES = [
+    "${python.parent.vars(1)}",
+    "${python.parent['vars']}",
+    "${math.parent['comb'](10**7, 10**6)}",
+    "${xacro.parent['load_yaml']}",
+    "${python.root['vars']}",
+]
+
+
+@pytest.mark.parametrize("text", TABLES)
+def test_tables_do_not_lead_to_what_was_replaced(evaluate, text):
+    with pytest.raises(UrdftoolError):
+        evaluate(text)
+
+
+LOOPS = [
+    "${[0 for x in python.range(999999) if [y for y in python.range(999)]]}",
+    "${[f := 0, [f := f + 1 for x in python.range(999999) for y in python.range(999)]]}",
+    "$(eval [0 for x in [0] * 9999 for y in [0] * 9999 if x or y])",
+]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no timers")
+@pytest.mark.parametrize("text", LOOPS)
+def test_a_loop_without_end_is_ended(evaluate, monkeypatch, text):
+    monkeypatch.setattr(patience, "SECONDS", 0.3)
+    with pytest.raises(UrdftoolError, match="of the processor"):
+        evaluate(text)
+    assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no timers")
+def test_memory_is_bounded_too(evaluate, monkeypatch):
+    monkeypatch.setattr(patience, "MEMORY", 200 << 20)
+    with pytest.raises(UrdftoolError, match=r"of memory|longer than"):
+        evaluate("${[a := [0] * 100000, [a.extend(a) for _ in python.range(12)]]}")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no pipes with names")
+@pytest.mark.parametrize("kind", ["pipe", "device"])
+@pytest.mark.parametrize("trust", ["", "1"])
+def test_what_never_ends_is_not_included(evaluate, monkeypatch, kind, trust):
+    monkeypatch.setenv(TRUST, trust)
+    path = evaluate.folder / "part.xacro"
+    if kind == "pipe":
+        os.mkfifo(path)
+    else:
+        path.symlink_to("/dev/zero")
+    with pytest.raises(UrdftoolError, match="device or a pipe") as caught:
+        expand(_write(evaluate.folder, '<xacro:include filename="part.xacro"/>'))
+    assert caught.value.line == 1

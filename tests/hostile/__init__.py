@@ -1,0 +1,1 @@
+"""What somebody might do to urdftool, or let it do to somebody else."""
