@@ -27,7 +27,7 @@ MENU = {
     ),
     "To look up": (
         *("rules/index", "configuration", "formats/sdf", "formats/mjcf", "python", "completion"),
-        *("benchmarks", "fidelity", "simulate-robots", "inertia-vendors"),
+        *("benchmarks", "fidelity", "robustness", "simulate-robots", "inertia-vendors"),
     ),
     "For contributors": ("house", "contributing"),
 }
