@@ -141,9 +141,11 @@ def help_of(words: list[str]) -> str:
     settings = {**cli.main.context_settings, "terminal_width": 88}
     context = click.Context(cli.main, info_name="urdftool", **settings)
     for word in words:
-        of = getattr(command, "get_command", None)  # `collision mesh` is in no group
+        of = getattr(command, "get_command", None)
         found = of(context, word) if of else None
         assert found is not None, f"no command {' '.join(words)}"
+        if not isinstance(command, click.Group):  # collision, that is a command itself
+            word, context = f"{context.info_name} {word}", context.parent
         command = found
         context = click.Context(command, info_name=word, parent=context, terminal_width=88)
     return command.get_help(context)

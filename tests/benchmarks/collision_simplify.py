@@ -18,6 +18,7 @@ import numpy as np
 from urdftool.collision.distance import Surface, spread
 from urdftool.collision.quadric import simplify
 from urdftool.collision.surface import read_surface
+from urdftool.errors import UrdftoolError
 from urdftool.meshes.solid import edges_of
 
 
@@ -48,7 +49,11 @@ def main(words: list[str]) -> None:
     errors: list[tuple[float, float]] = []
     kept = [0, 0, 0]
     for word in words:
-        surface = read_surface(Path(word))
+        try:
+            surface = read_surface(Path(word))
+        except UrdftoolError as error:
+            print(f"| {Path(word).name} | {error.message} |")
+            continue
         if len(surface.faces) <= most:
             continue
         points, faces = fast_simplification.simplify(

@@ -61,7 +61,7 @@ def taken(robot: Path, *words: str) -> tuple[float, float]:
     command = [sys.executable, "-m", "urdftool", "-q", "collision", str(robot)]
     command += ["-o", str(robot.with_name("out.urdf")), "--max-error", "0.02", *words]
     begin = time.perf_counter()
-    child = subprocess.Popen(command)
+    child = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     _, status, usage = os.wait4(child.pid, 0)
     seconds = time.perf_counter() - begin
     child.returncode = os.waitstatus_to_exitcode(status)

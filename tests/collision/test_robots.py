@@ -23,7 +23,8 @@ THEIRS = ("a1/a1.urdf", "husky/husky.urdf", "kuka_iiwa/model.urdf", "xarm/xarm6_
 
 
 def looked_at(path, folder):
-    made = make(path, [], folder, ["--max-error", "0.02", "--no-cache"])
+    options = ["--max-error", "0.02", "--replace-primitives", "--no-cache"]
+    made = make(path, [], folder, options)
     assert (made.bullet, made.mujoco, made.new) == ("loads", "loads", {})
     missed = [part for part in made.parts if not part["within"]]
     assert made.stderr.count("not within 2.00%") == len(missed)

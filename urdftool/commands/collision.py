@@ -30,6 +30,12 @@ class _OrMesh(click.Command):
             return mesh.make_context(f"{info_name} mesh", args[1:], parent=parent, **extra)
         return super().make_context(info_name, args, parent=parent, **extra)
 
+    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
+        """The mesh's command, for those who write help pages."""
+        from .collision_mesh import command as mesh
+
+        return mesh if name == "mesh" else None
+
 
 @click.command("collision", cls=_OrMesh)
 @click.argument("words", nargs=-1, metavar="IN [name:=value ...]")

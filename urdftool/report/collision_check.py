@@ -67,7 +67,10 @@ def remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
         if item.trouble:
             yield f"link '{item.link}': {item.trouble}"
         elif item.measures is not None and item.measures["error"] > limit:
-            yield f"link '{item.link}': error {item.measures['error']:.2%} of its size"
+            yield (
+                f"link '{item.link}': error {item.measures['error']:.2%} of its size, "
+                f"not within {limit:.2%}"
+            )
         if item.hull_error is not None:
             yield (
                 f"link '{item.link}': {item.concave} collision mesh{'es' * (item.concave > 1)} not "
