@@ -2,14 +2,16 @@
 
 import json
 import os
+import shutil
 from pathlib import Path
 
 import pytest
 
-from tests.conftest import XACRO
+from tests.conftest import FIXTURES, XACRO
 from urdftool import output
 from urdftool.commands import lint_fix
 from urdftool.lint import fix_run
+from urdftool.model.load import load
 
 ROBOT = """<?xml version="1.0"?>
 <robot name="r">
@@ -331,3 +333,13 @@ def test_the_report_for_people_says_how_to_apply_it(write, urdftool):
     assert "axis-not-unit (fix: safe)" in urdftool("lint", path, *ONLY, "--statistics").out
     assert "Fix: safe (--fix)" in urdftool("lint", "--explain", "axis-not-unit").out
     assert "[fix: safe or unsafe]" in urdftool("lint", "--list-rules").out
+
+
+def test_nothing_is_weighed_by_meshes_of_doubtful_size(tmp_path, urdftool):
+    """Meshes in millimetres are scaled first; only then do they say what a link weighs."""
+    package = tmp_path / "cad_arm"
+    shutil.copytree(FIXTURES / "cad_arm", package)
+    path = package / "urdf" / "cad_arm.urdf"
+    urdftool("lint", "--fix", "--unsafe-fixes", path)
+    robot = load(path)
+    assert all(link.inertial.mass < 10 for link in robot.links if link.visuals)

@@ -27,6 +27,9 @@ class Origin(NamedTuple):
 FROM_BYTES = "failures"
 """The file of fixers that have nothing but the finding and the bytes."""
 
+DOUBTED_SIZES = frozenset(("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line"))
+"""Rules that doubt how large a mesh is: nothing is weighed by meshes while one of them speaks."""
+
 
 def add_fixes(
     report: Report,
@@ -58,7 +61,8 @@ def add_fixes(
         return
     settler = Settler(description)
     around = Around(robot or Robot(description.document.root), description, report.targets)
-    around.weigh = options.weigh
+    if not any(finding.rule in DOUBTED_SIZES for finding in findings):
+        around.weigh = options.weigh
     for group in groups.values():
         name = group[0].rule
         try:

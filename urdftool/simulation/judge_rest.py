@@ -167,9 +167,10 @@ def judge_rest(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
     blew = recording.ended == "lost" or rest.gain > GAIN * heavy + 1e-3
     if blew and not rest.fell:
         name = _fastest(run)
+        gain = f"by {rest.gain:.3g} J" if math.isfinite(rest.gain) else "beyond all bounds"
         yield Fault(
             "blew-up",
-            f"it blew up: its energy grew by {rest.gain:.3g} J at {_when(recording):.2f} s, "
+            f"it blew up: its energy grew {gain} at {_when(recording):.2f} s, "
             f"most of it in link '{name}'",
             robot.link[name].place,
             "link",
