@@ -1,4 +1,4 @@
-"""What each tool makes of every robot of two packages: the page docs/formats/fidelity.md.
+"""What each tool makes of every robot of two packages: the page docs/fidelity.md.
 
     pip install -e '.[fidelity]'; make bench-peers
     python -m tests.benchmarks.fidelity [--write] [--only NAME] [--jobs N] [--keep FILE.json]

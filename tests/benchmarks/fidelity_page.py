@@ -10,7 +10,7 @@ from typing import Any
 from . import peers
 from .converters import CONVERTERS
 
-PAGE = peers.ROOT / "docs" / "formats" / "fidelity.md"
+PAGE = peers.ROOT / "docs" / "fidelity.md"
 
 EXACT = 1e-4
 """What a mass, a mass matrix or an inertia may be off by, relative, and be equal."""

@@ -23,7 +23,7 @@ ABOUT = """\
 Whole commands, from URDF to an MJCF file with its meshes. Of urdftool conversions of meshes are
 kept from one run to the next, as users have it; *anew* is with an empty cache. The others get a
 copy whose package URIs are paths. A result that MuJoCo does not load counts as failed: why, stands
-below. What each makes of all robots is in [fidelity](formats/fidelity.md)."""
+below. What each makes of all robots is in [fidelity](fidelity.md)."""
 
 LOAD = "import sys, mujoco; mujoco.MjModel.from_xml_path(sys.argv[1])"
 

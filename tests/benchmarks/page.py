@@ -11,8 +11,8 @@ from pathlib import Path
 from . import peers
 
 PAGE = peers.ROOT / "docs" / "benchmarks.md"
-FIDELITY = peers.ROOT / "docs" / "formats" / "fidelity.md"
-LINK = "[fidelity](formats/fidelity.md)"
+FIDELITY = peers.ROOT / "docs" / "fidelity.md"
+LINK = "[fidelity](fidelity.md)"
 
 HEAD = """\
 # Measured beside other tools

@@ -17,7 +17,7 @@ ROBOTS = ("ur5_robot.urdf", "panda.urdf", "go2.urdf", "talos_full_v2.urdf", "pr2
 ABOUT = """\
 `ign sdf -p` (libsdformat, C++, started by Ruby) prints a model that names the meshes where they
 are; so does urdftool with `--uri package`, and by default it copies them beside the model, with
-their textures. What each makes of all robots is in [fidelity](formats/fidelity.md)."""
+their textures. What each makes of all robots is in [fidelity](fidelity.md)."""
 
 
 def rows() -> Iterator[Table | str]:
