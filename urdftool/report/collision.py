@@ -146,10 +146,10 @@ def notes(rows: Iterable[Row]) -> Iterable[str]:
 
 
 def failures(rows: Iterable[Row]) -> Iterable[str]:
-    """Notes of CoACD's failures, and of what was done instead."""
+    """Notes of failures and of what was done instead, and of what engines touch instead."""
     for row in rows:
         for note in row.result.notes:
-            if note.startswith(("CoACD", "One convex", "The mesh is flat")):
+            if note.startswith(("CoACD", "One convex", "The mesh is flat", "Engines that")):
                 yield f"{_label(row)}: {note}"
 
 
