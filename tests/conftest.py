@@ -1,6 +1,7 @@
 """What several tests share: where things are, and the command line called in process."""
 
 import os
+import signal
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +12,9 @@ from urdftool import cli, configuration, inputs
 ROOT = Path(__file__).resolve().parents[1]
 FIXTURES = ROOT / "fixtures"
 CORPUS = ROOT.parent / "shared" / "corpus"
+
+# a shell that starts the tests in the background has them pass over it, and what they start, too
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_collection_modifyitems(items):

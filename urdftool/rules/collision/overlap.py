@@ -18,6 +18,9 @@ STEPS = 9
 TRIES = 6000
 """Pairs of bodies that are looked at closely; a robot with more is looked at in part."""
 
+PAIRS = 150_000
+"""Pairs of bodies, a joint apart, whose distance is looked at; beyond, joints are passed over."""
+
 
 @rule(
     INFO,
@@ -197,12 +200,14 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
         frozenset((known.body_of[a.name], known.body_of[b.name])) for a, b, _ in resting(robot)
     }
     found = []
-    tries = 0
+    tries = pairs = 0
     for joint in robot.joints:
         if joint.type not in MOVABLE or joint.mimic is not None or tries > TRIES:
             continue
-        if joint.child not in known.poses:
+        if joint.child not in known.poses or pairs > PAIRS:
             continue
+        below = sum(1 for _ in robot.tree.descendants(joint.child)) + 1
+        pairs += below * max(len(known.bodies) - below, 1)
         hit, count = _sweep(known, joint, taken, deeper)
         tries += count
         if hit is not None:
