@@ -23,7 +23,7 @@ ENORMOUS = 1e30
 FATAL = frozenset(
     ("no-links", "no-root", "multiple-roots", "multiple-parents", "duplicate-link-name",
      "duplicate-joint-name", "unknown-parent-link", "unknown-child-link", "missing-parent-or-child",
-     "missing-name", "detached-cycle")
+     "missing-name", "detached-cycle", "immense-number")
 )  # fmt: skip
 
 BALL_TYPES = frozenset(("spherical", "ball"))
@@ -266,7 +266,7 @@ def _not_a_number(
     element: Element, attribute: str, text: str, wanted: str, part: Element
 ) -> Finding:
     return defect(
-        "not-a-number",
+        "not-a-number" if wanted.endswith(("number", "numbers")) else "immense-number",
         f'{attribute}="{text}" of <{element.tag}> in {part.tag} '
         f"'{part.get('name') or ''}' is not {wanted}",
         element.attribute_place(attribute),
