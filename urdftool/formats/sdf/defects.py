@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from ...finding import Finding
 from ...model.elements import Collision, Joint, Link, Mesh, Robot, UnknownShape, Visual
-from ...model.read import number, numbers
+from ...model.read import numbers
 from ...source.document import Element
-from ..defects import NUMBERS, defect
+from ..defects import defect
 from .block_numbers import wanted
 from .extensions import read_value, said_of, value_of
 from .keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS, LINK_KEYWORDS
@@ -17,9 +17,6 @@ from .mesh_files import MeshFiles
 from .plan import Plan
 from .sensor_types import KNOWN
 from .shapes import has_extent
-
-IMMENSE = 1e60
-"""Lengths, masses and moments [SI units] beyond this are not reckoned with."""
 
 _WANTED = {
     "number": "a finite number",
@@ -39,7 +36,6 @@ def written_defects(robot: Robot) -> Iterator[Finding]:
         yield from _joint(robot, joint)
         yield from _extension(robot, joint)
     yield from _origin(robot)
-    yield from _immense(robot)
     yield from _kinds(robot)
     for block in robot.gazebo:
         yield from _blocks(block.element, block.reference or "")
@@ -160,25 +156,6 @@ def _origin(robot: Robot) -> Iterator[Finding]:
         if text is not None and numbers(text, 3) is None:
             message = f'{name}="{text}" of <origin> of the robot is not 3 finite numbers'
             yield defect("not-a-number", message, origin.attribute_place(name), "robot")
-
-
-def _immense(robot: Robot) -> Iterator[Finding]:
-    """Numbers whose squares and products are no numbers any more."""
-    parts: tuple[Link | Joint, ...] = (*robot.links, *robot.joints)
-    for part in parts:
-        for element in part.element.walk():
-            measured = element.tag in ("origin", "mass", "inertia")
-            for name in NUMBERS[element.tag] if measured else ():
-                words = (element.get(name) or "").split()
-                if any(abs(number(word) or 0.0) > IMMENSE for word in words):
-                    text = f'{name}="{element.get(name)}" of <{element.tag}> in {part.element.tag} '
-                    yield defect(
-                        "immense-number",
-                        f"{text}'{part.name}' is more than can be reckoned with",
-                        element.attribute_place(name),
-                        part.element.tag,
-                        part.name,
-                    )
 
 
 def _kinds(robot: Robot) -> Iterator[Finding]:
