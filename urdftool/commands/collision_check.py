@@ -12,6 +12,7 @@ from ..collision.check import Checked, check_all, look_at
 from ..collision.links import check_names
 from ..console import Console
 from ..report import collision_check as report
+from ..report.counted import counted
 from .collision_options import Progress
 
 if TYPE_CHECKING:
@@ -51,5 +52,7 @@ def _tell(console: Console, path: str, found: Sequence[Checked], limit: float) -
     for line in report.remarks(found, limit):
         console.say(line)
     bad = sum(not report.is_good(item, limit) for item in found)
-    console.note(f"{path}: {len(found)} links with visuals, {bad} not within {limit:.2%}")
+    console.note(
+        f"{path}: {counted(len(found), 'link')} with visuals, {bad} not within {limit:.2%}"
+    )
     return int(bad > 0)
