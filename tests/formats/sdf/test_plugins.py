@@ -2,7 +2,7 @@
 
 import pytest
 
-from urdftool.formats.sdf.plugin_types import SYSTEM_PLUGINS
+from urdftool.model.gazebo_plugins import SYSTEM_PLUGINS
 
 from .robots import TWO, export, gazebo, joint, link, rules, tree
 

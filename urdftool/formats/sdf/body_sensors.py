@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ...model.elements import Joint, Link
+from ...model.gazebo_plugins import SENSOR_PLUGINS, library
 from ...model.read import number, numbers
 from ...source.document import Element
 from ..numbers import number_text, numbers_text
 from .blobs import move
-from .plugin_types import SENSOR_PLUGINS, library
 from .sensor_plugins import sensor_plugin
 from .translation import Translation
 from .xml import Node, add, at

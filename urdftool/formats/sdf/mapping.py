@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from ...model.gazebo_plugins import CONTROL_PLUGINS, MIMIC_PLUGINS, SENSOR_PLUGINS, SYSTEM_PLUGINS
 from .body_sensors import BODY_SENSORS
 from .colors import COLORS
 from .joints import SDF_TYPES
 from .keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS, LINK_KEYWORDS, LUMPING_KEYWORDS, Keyword
 from .losses import LOSSES
 from .options import DEFAULT_VERSION, RELEASES, VERSIONS
-from .plugin_types import CONTROL_PLUGINS, MIMIC_PLUGINS, SENSOR_PLUGINS, SYSTEM_PLUGINS
 from .sensor_types import SYSTEMS, TO_CLASSIC, TO_GZ, SensorType
 
 ELEMENTS = (

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from ...model.elements import ZERO
-from ...model.pose import Pose, rotation_of_rpy, rpy_of_rotation
-from ...model.read import number, numbers
-from ...source.document import Element
-from ..numbers import number_text, numbers_text
-from .plugin_types import (
+from ...model.gazebo_plugins import (
     CONTROL_PLUGINS,
     MIMIC_PLUGINS,
     SENSOR_PLUGINS,
     SYSTEM_PLUGINS,
     System,
+    carried,
     is_for_classic,
     is_for_gz,
     library,
 )
+from ...model.pose import Pose, rotation_of_rpy, rpy_of_rotation
+from ...model.read import numbers
+from ...source.document import Element
+from ..numbers import numbers_text
 from .translation import Translation
 from .xml import Node, add, at, comment, copied, spoken
 
@@ -24,8 +25,6 @@ _NAMES_LINK = frozenset(
     ("bodyName", "body_name", "linkName", "link_name", "gripper_link", "palm_link", "parent_link",
      "child_link", "link")
 )  # fmt: skip
-_SETUP = frozenset(("ros", "alwaysOn", "always_on", "robotNamespace", "rosDebugLevel"))
-"""Parameters of every plugin for ROS, which mean nothing in gz."""
 
 
 def plugin(node: Node, t: Translation, element: Element) -> None:
@@ -98,50 +97,18 @@ def _offset(made: Node, t: Translation) -> None:
 
 def _system(node: Node, t: Translation, element: Element, system: System) -> None:
     made = add(node, "plugin", **system_name(t, system.word, system.name))
-    left = []
-    for child in element.children:
-        new = system.parameters.get(child.tag)
-        if new is None:
-            left.append(child.tag)
-        elif child.children:
-            copied(made, child, new)
+    said, left = carried(element, system)
+    for tag, value in said:
+        if isinstance(value, str):
+            add(made, tag, t.names.joint(value) if "joint" in tag else value)
         else:
-            for text in _texts(t, system, child):
-                add(made, new, text)
-    for old, new in _remappings(element).items():
-        if old in system.remapped and made.find(system.remapped[old]) is None:
-            add(made, system.remapped[old], new)
-    for tag, text in system.defaults.items():
-        if made.find(tag) is None:
-            add(made, tag, text)
-    others = {tag for one in SYSTEM_PLUGINS[library(element)] for tag in one.parameters}
-    left = [tag for tag in dict.fromkeys(left) if tag not in others and tag not in _SETUP]
+            copied(made, value, tag)
     text = f"plugin '{library(element)}' is '{made.get('filename')}' in gz"
     if left:
         text += f"; it has no {', '.join(left)}"
     if system.missing:
         text += f"; fill in {', '.join(system.missing)}"
     (t.lose if left or system.missing else t.note)("plugin", text, element)
-
-
-def _texts(t: Translation, system: System, child: Element) -> list[str]:
-    text = child.text.strip()
-    if child.tag in system.halved:
-        value = number(text)
-        return [text if value is None else number_text(value / 2)]
-    if system.parameters[child.tag] == "joint_name":
-        return [t.names.joint(name.strip()) for name in text.split(",") if name.strip()]
-    if "joint" in system.parameters[child.tag]:
-        return [t.names.joint(text)]
-    return [text] if text else []
-
-
-def _remappings(element: Element) -> dict[str, str]:
-    ros = element.child("ros")
-    if ros is None:
-        return {}
-    pairs = (e.text.strip().partition(":=") for e in (*ros.all("remapping"), *ros.all("argument")))
-    return {old.strip(): new.strip() for old, arrow, new in pairs if arrow}
 
 
 def _control(node: Node, t: Translation, element: Element) -> None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ...model.elements import Joint, Link
+from ...model.gazebo_plugins import SENSOR_PLUGINS, library
 from ...model.read import number
 from ...source.document import Element
-from .plugin_types import SENSOR_PLUGINS, library
 from .translation import Translation
 from .xml import Node, add
 

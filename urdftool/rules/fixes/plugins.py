@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 
-from ...model.read import number
-from ...source.document import Element
+from ...model.gazebo_plugins import SYSTEM_PLUGINS, carried, class_of, file_of, library
 from ..gazebo.systems import REPLACEMENTS, SYSTEMS
 from ..rule import Problem
 from .proposal import (
@@ -22,89 +21,36 @@ from .proposal import (
     unsafe,
 )
 
-_DRIVE = {
-    "leftJoint": "left_joint",
-    "left_joint": "left_joint",
-    "rightJoint": "right_joint",
-    "right_joint": "right_joint",
-    "leftFrontJoint": "left_joint",
-    "leftRearJoint": "left_joint",
-    "rightFrontJoint": "right_joint",
-    "rightRearJoint": "right_joint",
-    "wheelSeparation": "wheel_separation",
-    "wheel_separation": "wheel_separation",
-    "commandTopic": "topic",
-    "command_topic": "topic",
-    "odometryTopic": "odom_topic",
-    "odometry_topic": "odom_topic",
-    "odometryFrame": "frame_id",
-    "odometry_frame": "frame_id",
-    "robotBaseFrame": "child_frame_id",
-    "robot_base_frame": "child_frame_id",
-    "odometryRate": "odom_publish_frequency",
-    "updateRate": "odom_publish_frequency",
-    "update_rate": "odom_publish_frequency",
-}
-"""Parameters of the drives of gazebo_ros, and what they are called in gz sim."""
-
-_DRIVES = ("gazebo_ros_diff_drive", "gazebo_ros_skid_steer_drive")
-_STATES = ("gazebo_ros_joint_state_publisher",)
-
 
 def classic_plugin_in_gz(problem: Problem, around: Around) -> Proposal | None:
     """Its successor, with the parameters that have one."""
     plugin = problem.element
-    library = (plugin.get("filename") or "").rpartition("/")[2]
-    old = library.removesuffix(".so").removeprefix("lib")
-    new = REPLACEMENTS.get(old)
+    old = library(plugin)
     if old == "gazebo_ros2_control":
+        new = REPLACEMENTS[old]
         return unsafe(
-            f"load '{new}'",
-            put(plugin, "filename", new or ""),
-            put(plugin, "name", SYSTEMS["gz_ros2_control-system"]),
+            f"load '{new}'", put(plugin, "filename", new), put(plugin, "name", SYSTEMS[new])
         )
-    if new is None or any("$" in line for line in _values(plugin)):
+    systems = SYSTEM_PLUGINS.get(old, ())
+    if not systems or any("$" in child.text for child in plugin.walk()):
         return None
-    if old in _DRIVES:
-        inside = list(_drive(plugin))
-        if not any("left_joint" in line for line in inside):
+    lines: list[str] = []
+    left: set[str] | None = None
+    for system in systems:
+        said, unsaid = carried(plugin, system)
+        joints = "left_joint" not in system.parameters.values() or "left_joint" in dict(said)
+        if system.missing or not joints:
             return None
-    elif old in _STATES:
-        texts = [c.text for c in plugin.children if c.tag in ("jointName", "joint_name")]
-        names = [name for text in texts for name in re.split(r"[,\s]+", text) if name]
-        inside = [f"<joint_name>{quote(name)}</joint_name>" for name in names]
-    else:
-        return None
-    lines = (
-        f'<plugin filename="{new}" name="{SYSTEMS[new]}">',
-        *(f"\t{line}" for line in inside),
-        "</plugin>",
-    )
-    if not inside:
-        lines = (f'<plugin filename="{new}" name="{SYSTEMS[new]}"/>',)
-    return unsafe(f"load '{new}'", replace(plugin, lines))
-
-
-def _values(plugin: Element) -> list[str]:
-    return [child.text for child in plugin.walk()]
-
-
-def _drive(plugin: Element) -> list[str]:
-    """The parameters of a drive as gz sim reads them; a wheel's radius is half of its diameter."""
-    said: dict[str, list[str]] = {}
-    for child in plugin.children:
-        text = " ".join(child.text.split())
-        tag = _DRIVE.get(child.tag)
-        if child.tag in ("wheelDiameter", "wheel_diameter"):
-            diameter = number(text)
-            if diameter is not None:
-                said["wheel_radius"] = [f"{diameter / 2:.9g}"]
-        elif tag is not None and text:
-            if not tag.endswith("_joint"):
-                said.setdefault(tag, [text])
-            else:
-                said.setdefault(tag, []).append(text)
-    return [f"<{tag}>{quote(text)}</{tag}>" for tag, texts in said.items() for text in texts]
+        left = set(unsaid) if left is None else left & set(unsaid)
+        inside = [f"<{tag}>{quote(v)}</{tag}>" for tag, v in said if isinstance(v, str)]
+        if len(inside) != len(said):
+            return None
+        start = f'<plugin filename="{file_of(system)}" name="{class_of(system)}"'
+        indented = (f"\t{line}" for line in inside)
+        lines += [f"{start}>", *indented, "</plugin>"] if inside else [f"{start}/>"]
+    dropped = f"; it has no {', '.join(sorted(left))}" if left else ""
+    names = "' and '".join(file_of(system) for system in systems)
+    return unsafe(f"load '{names}'{dropped}", replace(plugin, tuple(lines)))
 
 
 def ignition_name(problem: Problem, around: Around) -> Proposal | None:

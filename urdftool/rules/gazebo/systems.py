@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from ...model.gazebo_plugins import CONTROL_PLUGINS, SYSTEM_PLUGINS, file_of
+
 CLASSIC = ("libgazebo_ros", "libhector_gazebo", "libhector_", "libroboticsgroup_", "libgazebo_")
 """How the libraries of Gazebo Classic begin."""
 
@@ -16,6 +18,7 @@ _PARTS = {
     "detachable-joint": "DetachableJoint",
     "diff-drive": "DiffDrive",
     "dvl": "DopplerVelocityLogSystem",
+    "elevator": "Elevator",
     "forcetorque": "ForceTorque",
     "hydrodynamics": "Hydrodynamics",
     "imu": "Imu",
@@ -48,19 +51,10 @@ SYSTEMS = {
 """The class by its library, for libraries that hold one class."""
 
 REPLACEMENTS = {
-    "gazebo_ros_diff_drive": "gz-sim-diff-drive-system",
-    "gazebo_ros_skid_steer_drive": "gz-sim-diff-drive-system",
-    "gazebo_ros_ackermann_drive": "gz-sim-ackermann-steering-system",
+    **{old: file_of(systems[0]) for old, systems in SYSTEM_PLUGINS.items()},
+    **dict.fromkeys(CONTROL_PLUGINS, "gz_ros2_control-system"),
     "gazebo_ros_tricycle_drive": "gz-sim-ackermann-steering-system",
-    "gazebo_ros_planar_move": "gz-sim-velocity-control-system",
-    "gazebo_ros_joint_state_publisher": "gz-sim-joint-state-publisher-system",
-    "gazebo_ros_joint_pose_trajectory": "gz-sim-joint-trajectory-controller-system",
-    "gazebo_ros_p3d": "gz-sim-odometry-publisher-system",
-    "gazebo_ros_wheel_slip": "gz-sim-wheel-slip-system",
-    "gazebo_ros_elevator": "gz-sim-elevator-system",
     "gazebo_ros_force": "gz-sim-apply-link-wrench-system",
     "gazebo_ros_vacuum_gripper": "gz-sim-detachable-joint-system",
-    "gazebo_ros2_control": "gz_ros2_control-system",
-    "gazebo_ros_control": "gz_ros2_control-system",
 }
 """What to load in new Gazebo instead of a plugin of Gazebo Classic."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ...source.document import Element
+from ..source.document import Element
+from .read import number
 
 
 class System(NamedTuple):
@@ -219,6 +220,9 @@ MIMIC_PLUGINS = frozenset(
 )  # fmt: skip
 """What ``<mimic>`` of an axis takes the place of."""
 
+_SETUP = frozenset(("ros", "alwaysOn", "always_on", "robotNamespace", "rosDebugLevel"))
+"""Parameters of every plugin for ROS, which mean nothing in gz."""
+
 _BODY_FIRST = ("frameName", "frame_name", "frameId", "bodyName", "body_name")
 
 SENSOR_PLUGINS: dict[str, SensorPlugin] = {
@@ -244,6 +248,70 @@ SENSOR_PLUGINS: dict[str, SensorPlugin] = {
     "gazebo_ros_bumper": SensorPlugin("contact"),
 }
 """By the name of the library, without ``lib`` and ``.so``."""
+
+
+class Carried(NamedTuple):
+    """What a system takes over from a plugin.
+
+    Attributes:
+        said: New names with their texts, or with the element that holds more than a text.
+        left: The parameters that it has no word for.
+    """
+
+    said: list[tuple[str, str | Element]]
+    left: list[str]
+
+
+def carried(plugin: Element, system: System) -> Carried:
+    """The parameters of a plugin as a system reads them, what it takes for granted included."""
+    said: list[tuple[str, str | Element]] = []
+    left = []
+    for child in plugin.children:
+        new = system.parameters.get(child.tag)
+        if new is None:
+            left.append(child.tag)
+        elif child.children:
+            said.append((new, child))
+        else:
+            said += [(new, text) for text in _texts(system, child)]
+    there = {tag for tag, _ in said}
+    for old, new in _remappings(plugin).items():
+        tag = system.remapped.get(old)
+        if tag is not None and tag not in there:
+            said.append((tag, new))
+            there.add(tag)
+    said += [(tag, text) for tag, text in system.defaults.items() if tag not in there]
+    others = {tag for one in SYSTEM_PLUGINS[library(plugin)] for tag in one.parameters}
+    known = others | _SETUP
+    return Carried(said, [tag for tag in dict.fromkeys(left) if tag not in known])
+
+
+def _texts(system: System, child: Element) -> list[str]:
+    text = child.text.strip()
+    if child.tag in system.halved:
+        value = number(text)
+        return [text if value is None else f"{value / 2:.12g}"]
+    if system.parameters[child.tag] == "joint_name":
+        return [name.strip() for name in text.split(",") if name.strip()]
+    return [text] if text else []
+
+
+def _remappings(element: Element) -> dict[str, str]:
+    ros = element.child("ros")
+    if ros is None:
+        return {}
+    pairs = (e.text.strip().partition(":=") for e in (*ros.all("remapping"), *ros.all("argument")))
+    return {old.strip(): new.strip() for old, arrow, new in pairs if arrow}
+
+
+def file_of(system: System) -> str:
+    """The library that holds a system."""
+    return f"gz-sim-{system.word}-system"
+
+
+def class_of(system: System) -> str:
+    """The class of a system."""
+    return f"gz::sim::systems::{system.name}"
 
 
 def library(element: Element) -> str:
