@@ -232,9 +232,36 @@ def test_an_attribute_of_an_expanded_element_is_found_in_the_source(xacro_file):
         ('<a b="${1 +}"/>', 2, 4, "invalid syntax"),
         ('<a b="${10**10**9}"/>', 2, 4, "larger than any robot"),
         ('<a b="${__import__}"/>', 2, 4, "invalid name"),
-        ('<a b="${unclosed"/>', 2, 1, "lacks its closing bracket"),
+        ('<a b="${unclosed"/>', 2, 4, "lacks its closing bracket"),
         ('<xacro:property value="1"/>', 2, 1, "lacks the attribute 'name'"),
         ('<xacro:macro name="m"><xacro:m/></xacro:macro>\n<xacro:m/>', 2, 23, "without end"),
+        (
+            '<xacro:macro name="m" params="a *b **c"/>\n<xacro:m a="1"><d/></xacro:m>',
+            *(3, 1, r"2 blocks \('b', 'c'\) and is given one block \(<d>\); write .* for 'c'"),
+        ),
+        (
+            '<xacro:macro name="m" params="*b"/>\n<xacro:m><d/><e/></xacro:m>',
+            *(3, 1, r"one block \('b'\) and is given 2 blocks \(<d>, <e>\); take <e> out"),
+        ),
+        ('<xacro:macro name="m"/>\n<xacro:m><d/></xacro:m>', 3, 1, r"takes no block .*\*d"),
+        ('<a/>\n<xacro:insert_block name="d"/>', 3, 1, "no block 'd' here; <xacro:property"),
+        (
+            '<xacro:macro name="m" params="*body"><xacro:insert_block name="bodi"/></xacro:macro>'
+            "<xacro:m><d/></xacro:m>",
+            *(2, 38, r"'m' has no block 'bodi' \(its blocks: body\).*mean 'body'"),
+        ),
+        ('<xacro:macro name="m" params="a:=^"/>\n<xacro:m/>', 3, 1, r"takes 'a' from where"),
+        ('<xacro:macro name="call"/>', 2, 1, "cannot be named 'call'"),
+        ('<xacro:macro name="a.b"/>', 2, 1, "write a_b"),
+        ('<xacro:property name="a-b" value="1"/>', 2, 1, "'a-b' is no name .* write a_b"),
+        ('<xacro:property name="__a" value="1"/>', 2, 1, "'__a' is no name .* write a"),
+        ('<xacro:property name="a" value="1" default="2"/>', 2, 1, "keep one"),
+        ('<a/>\n<xacro:call a="1"/>', 3, 1, "<xacro:call> lacks the attribute 'macro'"),
+        ("<a/>\n<xacro:element/>", 3, 1, "<xacro:element> lacks the attribute 'xacro:name'"),
+        ('<a>\n<xacro:attribute name="" value="1"/></a>', 3, 1, "its name is empty"),
+        ('<a b="$(find c d)"/>', 2, 4, r"write \$\(find PACKAGE\)$"),
+        ('<a b="$(find $c)"/>', 2, 4, r"'\$' cannot stand inside \$\(find \$c\);"),
+        ("<a b=\"${dict(a=1)['b']}\"/>", 2, 4, "there is no key 'b', in"),
     ],
 )
 def test_what_fails_names_its_line_and_says_what_would_be_right(

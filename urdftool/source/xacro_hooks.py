@@ -83,6 +83,7 @@ class Run:
             "process_include": self.process_include(xacro.process_include),
             "handle_macro_call": self.handle_macro_call(xacro.handle_macro_call),
             "check_attrs": self.check_attrs(xacro.check_attrs),
+            "reqd_attrs": self.reqd_attrs(xacro.reqd_attrs),
             "abs_filename_spec": self.abs_filename_spec(xacro.abs_filename_spec),
             "_empty_text_node": Characters("\n\n"),
             "_global_symbols": self.reach.symbols(xacro._global_symbols, self.warning),
@@ -223,6 +224,15 @@ class Run:
 
         return wrapped
 
+    def reqd_attrs(self, original: Callable[..., Any]) -> Callable[..., Any]:
+        """Know the element whose attributes are read, which may be evaluated from its parent."""
+
+        def wrapped(tag: XacroElement, names: list[str]) -> Any:
+            self.node = tag
+            return original(tag, names)
+
+        return wrapped
+
     def grab_macro(self, original: Callable[..., Any]) -> Callable[..., Any]:
         """Mark a macro's definition, so that its copies know their call."""
         wrapped = self.around(original)
@@ -288,7 +298,11 @@ class Run:
             return text
         pieces = _pieces.get(text)
         if pieces is None:
-            pieces = _pieces[text] = _split(text)
+            try:
+                pieces = _pieces[text] = _split(text)
+            except Exception:
+                self.failed_text = self.failed_text or text
+                raise
         results = []
         for kind, piece in pieces:
             if kind == _EXPR:

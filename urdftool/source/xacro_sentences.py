@@ -1,0 +1,311 @@
+"""What xacro complains of, in our words: what is wrong, with what would be right."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+from .packages import shown_path
+from .xacro_tree import XacroElement
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .expansion import Expansion
+
+_UNDEFINED = re.compile(r"name '([^']+)' is not defined")
+_UNKNOWN_MACRO = re.compile(r"unknown macro name: (?:xacro:)?(\S+)")
+_NO_ARGUMENT = re.compile(r"Undefined substitution argument '?([^\s']+)'?")
+_NO_PARAMETERS = re.compile(r"Undefined parameters \[(.*)\]")
+_ODD_PARAMETER = re.compile(r'Invalid parameter "([^"]*)"')
+_NOT_BOOLEAN = re.compile(r'Xacro conditional "(.*)" evaluated to "(.*)", which is not')
+_NO_ATTRIBUTE = re.compile(r"(\S+): missing attribute '([^']+)'")
+_FORWARD = re.compile(r"Undefined property to forward: (\S+)")
+_NO_BLOCK = re.compile(r'Undefined block "(.*)"')
+_TWO_VALUES = re.compile(r"Property attributes .* are mutually exclusive: (.*)")
+_MACRO_NAME = re.compile(r"macro names must not contain '\.' \(reserved for namespaces\): (\S+)")
+_PROPERTY_NAME = re.compile(r"Property names must (?:be valid|not start).*?: ?(.*)")
+_EMPTY_NAME = re.compile(r"(xacro:\w+): empty name")
+_SUBSTITUTION = re.compile(r"\$\((env|optenv|find|arg|dirname|anon)\b.*?\[(.*?)\]")
+_ODD_CHARACTER = re.compile(r"(Dollar signs|Invalid left parenthesis).*?\[(.*?)\](?!\))")
+_WANTS = {"env": "NAME", "optenv": "NAME DEFAULT", "find": "PACKAGE", "arg": "NAME"}
+
+
+def causes_of(error: BaseException) -> list[BaseException]:
+    """The error and what it was raised from, in any of the ways xacro wraps them."""
+    found: list[BaseException] = []
+    todo: list[BaseException | None] = [error]
+    while todo:
+        cause = todo.pop()
+        if cause is not None and cause not in found:
+            found.append(cause)
+            todo.extend((cause.__context__, cause.__cause__, getattr(cause, "exc", None)))
+            todo.append(getattr(cause, "error", None))
+    return found
+
+
+class Failure(NamedTuple):
+    """What xacro raised, and what it was at.
+
+    Attributes:
+        error: The exception.
+        node: The element.
+        failed_text: The text or expression that could not be evaluated, if it was that.
+        result: What was read so far.
+    """
+
+    error: Exception
+    node: XacroElement | None
+    failed_text: str | None
+    result: Expansion
+
+    @property
+    def text(self) -> str:
+        """What xacro says, on one line."""
+        return " ".join(str(self.error).split()) or type(self.error).__name__
+
+
+def sentence_of(failure: Failure) -> tuple[str, str]:
+    """The rule it is a case of, and the sentence."""
+    error = failure.error
+    if isinstance(error, RecursionError) or isinstance(error.__cause__, RecursionError):
+        return "endless-expansion", "the expansion does not end: a macro or property uses itself"
+    for speak in (_of_names, _of_macros, _of_blocks, _of_writing, _of_files):
+        if found := speak(failure):
+            return found
+    text = re.sub(r"\s*when evaluating expression '(?:.*)'$", "", failure.text)
+    text = re.sub(r"^<class '[\w.]+'>: | \(<expression>, line 1\)", "", text)
+    if isinstance(_inner(error), KeyError):
+        text = f"there is no key {text}"
+    return "expansion-failed", f"{text}{_in_expression(failure.failed_text)}"
+
+
+def _inner(error: Exception) -> object:
+    """What xacro wrapped."""
+    inner: object = getattr(error, "exc", None)
+    return error if inner is None else inner
+
+
+def _of_names(failure: Failure) -> tuple[str, str] | None:
+    """Names that mean nothing where they stand."""
+    text, result, failed_text = failure.text, failure.result, failure.failed_text
+    if match := _UNKNOWN_MACRO.search(text):
+        hint = _nearest(match[1], {name for name, _ in _macros(result)})
+        return "unknown-macro", f"unknown macro '{match[1]}'{hint}"
+    if match := _UNDEFINED.search(text):
+        hint = _in_expression(failed_text) + _nearest(match[1], _known(result))
+        return "undefined-name", f"'{match[1]}' is not defined{hint}"
+    if match := _NO_ARGUMENT.search(text):
+        name = match[1]
+        known = ", ".join(result.arguments) or "none"
+        return "undeclared-arg", (
+            f"the argument '{name}' has no value and no <xacro:arg> before it declares it; "
+            f"give {name}:=VALUE, or declare it with a default "
+            f"(declared: {known}){_nearest(name, set(result.given), 'was it meant by')}"
+        )
+    if "circular variable definition" in text:
+        return "circular-property", text.split(" Consider ")[0]
+    return None
+
+
+def _of_macros(failure: Failure) -> tuple[str, str] | None:
+    """Macros, and what they are called with."""
+    text, node = failure.text, failure.node
+    macro = node.tagName[6:] if node is not None else "?"
+    if match := _NO_PARAMETERS.search(text):
+        missing = ", ".join(f"'{name}'" for name in match[1].split(","))
+        return (
+            "macro-arguments-mismatch",
+            f"macro '{macro}' is called without {missing}, which has no default",
+        )
+    if match := _ODD_PARAMETER.search(text):
+        return "macro-arguments-mismatch", f"macro '{macro}' has no parameter '{match[1]}'"
+    if match := _FORWARD.search(text):
+        name = match[1]
+        return "macro-arguments-mismatch", (
+            f"macro '{macro}' takes '{name}' from where it is called ({name}:=^), and there is no "
+            f'such property; write <xacro:{macro} {name}="…"> or a default, {name}:=^|VALUE'
+        )
+    if "Invalid use of macro name 'call'" in text:
+        return (
+            "expansion-failed",
+            "a macro cannot be named 'call': <xacro:call> is xacro's own; write another name",
+        )
+    if match := _MACRO_NAME.search(text):
+        return "expansion-failed", (
+            f"macro '{match[1]}' has a dot in its name, which parts a namespace from a macro; "
+            f"write {match[1].replace('.', '_')}"
+        )
+    return None
+
+
+def _of_blocks(failure: Failure) -> tuple[str, str] | None:
+    """Elements that are handed to a macro."""
+    text, node, result = failure.text, failure.node, failure.result
+    few = "Not enough blocks" in text
+    if node is not None and (few or text.startswith('Unused block "')):
+        macro = getattr(failure.error, "macros", [None])[0]
+        wanted = [name for name in getattr(macro, "params", ()) if name.startswith("*")]
+        given = [f"<{child.tagName}>" for child in _children(node)]
+        names = ", ".join(f"'{name.lstrip('*')}'" for name in wanted)
+        called = node.tagName
+        wants = f"macro '{called[6:]}' takes {_blocks(len(wanted))}"
+        has = f"{_blocks(len(given))} ({', '.join(given)})" if given else "none"
+        if few:
+            rest = ", ".join(f"'{name.lstrip('*')}'" for name in wanted[len(given) :])
+            advice = f"write an element for {rest} inside <{called}>"
+        elif wanted:
+            advice = f"take {', '.join(given[len(wanted) :])} out; one element can hold several"
+        else:
+            block = given[0].strip("<>").rpartition(":")[2]
+            advice = f'take it out, or let the macro have params="*{block}" and insert it'
+        names = f" ({names})" if wanted else ""
+        return "macro-arguments-mismatch", f"{wants}{names} and is given {has}; {advice}"
+    if match := _NO_BLOCK.search(text):
+        calls = node.calls if node is not None else ()
+        inside = next((call.macro for call in calls if call.macro), "")
+        blocks = _blocks_of(inside, result)
+        near = _nearest(match[1], blocks | {name for _, name, _ in _definitions(result)})
+        if not inside:
+            return "undefined-name", (
+                f"there is no block '{match[1]}' here; <xacro:property name=\"{match[1]}\"> with "
+                f'elements in it makes one, and so does a macro\'s params="*{match[1]}"{near}'
+            )
+        known = ", ".join(sorted(blocks)) or "none"
+        return "undefined-name", (
+            f"macro '{inside}' has no block '{match[1]}' (its blocks: {known}); declare it with "
+            f'params="*{match[1]}"{_nearest(match[1], blocks)}'
+        )
+    return None
+
+
+def _of_writing(failure: Failure) -> tuple[str, str] | None:
+    """What is written in a way that xacro does not take."""
+    text, error, failed_text = failure.text, failure.error, failure.failed_text
+    if match := _NO_ATTRIBUTE.search(text):
+        return "expansion-failed", f"<{match[1]}> lacks the attribute '{match[2]}'"
+    if match := _EMPTY_NAME.search(text):
+        return "expansion-failed", f"<{match[1]}> makes something without a name; its name is empty"
+    if match := _TWO_VALUES.search(text):
+        return "expansion-failed", (
+            f"property '{match[1]}' has more than one of value, default and remove; keep one"
+        )
+    if match := _PROPERTY_NAME.search(text):
+        name = re.sub(r"\W", "_", match[1]).lstrip("_")
+        name = f"p{name}" if not name or name[0].isdigit() else name
+        return "expansion-failed", (
+            f"'{match[1]}' is no name for a property, which is of letters, digits and _ and "
+            f"starts with a letter; write {name}"
+        )
+    if match := _NOT_BOOLEAN.search(text):
+        value = match[2] if match[1] == match[2] else f"{match[1]}, which is {match[2]!r},"
+        return (
+            "non-boolean-conditional",
+            f"the condition {value} is neither true nor false; write true, false, 1, 0 or ${{…}}",
+        )
+    if isinstance(getattr(error, "exc", None), MemoryError):
+        return "endless-expansion", f"needs more memory than there is{_in_expression(failed_text)}"
+    if match := re.search(r"invalid expression: (\$[{(].*)", text):
+        return "unclosed-expression", f"{match[1]} lacks its closing bracket"
+    if match := re.search(r"Unknown substitution command \[(.*?)\]", text):
+        return (
+            "bad-substitution-command",
+            f"$({match[1]}) is no substitution of xacro; "
+            "there are find, arg, env, optenv, dirname, cwd and eval",
+        )
+    if match := _ODD_CHARACTER.search(text):
+        return "bad-substitution-command", (
+            f"'{'$' if match[1] == 'Dollar signs' else '('}' cannot stand inside {match[2]}; "
+            "write ${…} where a property is meant"
+        )
+    if match := _SUBSTITUTION.search(text):
+        return "bad-substitution-command", (
+            f"$({match[2]}) does not have the words that {match[1]} takes; "
+            f"write $({match[1]} {_WANTS.get(match[1], '')})"
+        )
+    if "no attribute '_setitem'" in text:
+        return (
+            "expansion-failed",
+            "a property with scope 'parent' has no parent here; it stands at the global scope",
+        )
+    inner = _inner(error)
+    if isinstance(inner, SyntaxError) and failed_text:
+        return "expansion-failed", f"${{{failed_text}}} is no expression of Python: {inner.msg}"
+    return None
+
+
+def _of_files(failure: Failure) -> tuple[str, str] | None:
+    """Files that cannot be read."""
+    for cause in causes_of(failure.error):
+        if isinstance(cause, OSError) and cause.filename:
+            reason = (cause.strerror or "cannot be read").lower()
+            return "include-not-found", f"{shown_path(cause.filename)}: {reason}"
+        if type(cause).__module__.startswith("yaml"):
+            mark = getattr(cause, "problem_mark", None)
+            problem = getattr(cause, "problem", None) or "not valid YAML"
+            where = f"{mark.name}:{mark.line + 1}:{mark.column + 1}: " if mark else ""
+            return "expansion-failed", f"{where}not valid YAML: {problem}"
+    return None
+
+
+def _children(node: XacroElement) -> Iterator[XacroElement]:
+    """The elements in an element."""
+    for child in node.childNodes:
+        if isinstance(child, XacroElement):
+            yield child
+
+
+def _blocks(count: int) -> str:
+    return {0: "no block", 1: "one block"}.get(count, f"{count} blocks")
+
+
+def _in_expression(failed_text: str | None) -> str:
+    if not failed_text:
+        return ""
+    return f", in ${{{failed_text}}}" if "$" not in failed_text else f", in {failed_text}"
+
+
+def _nearest(name: str, known: set[str], asking: str = "did you mean") -> str:
+    from difflib import get_close_matches
+
+    near = get_close_matches(name, known - {name}, 1, 0.7)
+    return f"; {asking} '{near[0]}'?" if near else ""
+
+
+_DEFINED = re.compile(
+    r"<xacro:(property|macro|arg)\b[^>]*?\bname\s*=\s*[\"']([^\"']+)[\"']"
+    r"(?:[^>]*?\bparams\s*=\s*[\"']([^\"']*)[\"'])?"
+)
+
+
+def _macros(result: Expansion) -> Iterator[tuple[str, str]]:
+    """Each macro that is defined, with its parameters as written."""
+    for kind, name, parameters in _definitions(result):
+        if kind == "macro":
+            yield name, parameters
+
+
+def _blocks_of(macro: str, result: Expansion) -> set[str]:
+    """The blocks that a macro takes."""
+    name = macro.rpartition(".")[2]
+    return {
+        block
+        for one, parameters in _macros(result)
+        if one.removeprefix("xacro:") == name
+        for block in re.findall(r"(?<!\S)\*{1,2}(\w+)", parameters)
+    }
+
+
+def _known(result: Expansion) -> set[str]:
+    names = {name for kind, name, _ in _definitions(result) if kind != "macro"}
+    for _, _, parameters in _definitions(result):
+        names.update(re.findall(r"(?<![\w$])[*]{0,2}(\w+)", parameters or ""))
+    return names
+
+
+def _definitions(result: Expansion) -> list[tuple[str, str, str]]:
+    return [
+        found
+        for file in result.files.values()
+        for found in _DEFINED.findall(file.data.decode(file.encoding, "replace"))
+    ]
