@@ -51,6 +51,53 @@ def _same_file(one: str | Path, other: str | Path) -> bool:
         return False
 
 
+def check_target(target: str | Path, *, inputs: Iterable[str | Path] = ()) -> None:
+    """Refuse an output that cannot be, before there is any.
+
+    Args:
+        target: Where it is to go.
+        inputs: Files that are read for it, which it must not overwrite.
+
+    Raises:
+        OutputError: It is an input, a folder, read-only, or in a folder that is not there.
+    """
+    for source in inputs:
+        if _same_file(source, target):
+            raise OutputError(
+                f"is read as an input ({source}); write the output to another file", path=target
+            )
+    path = Path(os.path.realpath(target))
+    if path.is_dir():
+        raise OutputError("is a folder; the name of a file is wanted", path=target)
+    if not path.parent.is_dir():
+        raise OutputError(f"the folder {path.parent} does not exist", path=target)
+    if path.is_file() and not os.access(path, os.W_OK):
+        raise OutputError("may not be written (it is read-only)", path=target)
+
+
+def check_targets(
+    targets: Iterable[str | Path | None], *, inputs: Iterable[str | Path] = ()
+) -> None:
+    """Refuse outputs of one command before any is written; None and ``-`` are none.
+
+    Args:
+        targets: Where they are to go.
+        inputs: Files that are read for them, which they must not overwrite.
+
+    Raises:
+        OutputError: One of them cannot be, or two are the same file.
+    """
+    sources, seen = list(inputs), set[str]()
+    for target in targets:
+        if target is None or str(target) == "-":
+            continue
+        check_target(target, inputs=sources)
+        path = os.path.realpath(target)
+        if path in seen and (os.path.isfile(path) or not os.path.exists(path)):
+            raise OutputError("is named for two outputs; give each its own", path=target)
+        seen.add(path)
+
+
 def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] = ()) -> None:
     """Write a file whole: to a neighbour first, which then takes its place.
 
@@ -64,16 +111,8 @@ def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] 
     Raises:
         OutputError: It cannot be written, or would overwrite an input; what was there is as it was.
     """
-    for source in inputs:
-        if _same_file(source, target):
-            raise OutputError(
-                f"is read as an input ({source}); write the output to another file", path=target
-            )
+    check_target(target, inputs=inputs)
     path = Path(os.path.realpath(target))
-    if path.is_dir():
-        raise OutputError("is a folder; the name of a file is wanted", path=target)
-    if not path.parent.is_dir():
-        raise OutputError(f"the folder {path.parent} does not exist", path=target)
     if path.exists() and not path.is_file():  # /dev/null, a named pipe: no neighbour to rename
         try:
             path.write_bytes(data)
@@ -86,8 +125,6 @@ def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] 
             mode = path.stat().st_mode & 0o777
         except FileNotFoundError:
             mode = None
-        if mode is not None and not os.access(path, os.W_OK):
-            raise OutputError("may not be written (it is read-only)", path=target)
         with open(neighbour, "wb") as stream:
             stream.write(data)
             stream.flush()

@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from tests.hostile.writers import ROBOT, WRITERS, contents, is_slow, process, robot, words
+from tests.hostile.writers import ROBOT, SLOW, WRITERS, contents, is_slow, process, robot, words
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs links and resource limits")
 
@@ -49,6 +49,51 @@ def test_a_link_to_an_input_is_not_written_through(name, place):
     assert err.strip()
     assert inputs(place) == before
     assert (place / target).is_symlink()
+
+
+SECONDS = {
+    "expand r.xacro -o a.urdf --depfile r.xacro": "r.xacro",
+    "expand r.xacro -o a.urdf --depfile no/such/a.d": "no/such/a.d",
+    "expand r.xacro -o a.urdf --depfile a.urdf": "a.urdf",
+    "expand r.xacro -o r.xacro --source-map a.json": "r.xacro",
+    "expand r.xacro -o a.urdf --source-map r.xacro --depfile a.d": "r.xacro",
+    "lint r.xacro --output-file a.txt --write-baseline r.xacro": "r.xacro",
+    "lint r.xacro --output-file r.xacro --write-baseline a.json": "r.xacro",
+    "lint r.xacro --output-file a.json --write-baseline a.json": "a.json",
+    "graph r.xacro": "r.gv",
+    "view r.xacro --size 9x9 --picture a.png --contact-sheet quadrants.png": "quadrants.png",
+    "view r.xacro --size 9x9 --picture a.png --contact-sheet a.png": "a.png",
+    "simulate r.urdf --engine mujoco --plot a.png --picture quadrants.png": "quadrants.png",
+    "simulate r.urdf --engine mujoco --plot a.png --junit cube.obj": "cube.obj",
+    "simulate r.urdf --engine mujoco --plot a.png --junit a.png": "a.png",
+}
+"""Commands with two outputs, one of which cannot be, and which that is."""
+
+
+@pytest.mark.parametrize(
+    "command",
+    [pytest.param(c, marks=[pytest.mark.slow] if c.startswith(SLOW) else []) for c in SECONDS],
+)
+def test_of_two_outputs_both_are_written_or_none(command, place):
+    (place / "r.gv").mkdir()
+    before = contents(place)
+    code, _, err = run(command.split(), place)
+    assert code == 2
+    assert SECONDS[command] in err
+    assert contents(place) == before
+
+
+@pytest.mark.parametrize("target", ["part.xacro", "r.xacro"])
+def test_findings_take_no_place_of_what_is_included(target, place):
+    (place / "part.xacro").write_text('<robot xmlns:xacro="http://www.ros.org/wiki/xacro"/>')
+    text = (place / "r.xacro").read_text()
+    include = '<xacro:include filename="part.xacro"/>\n</robot>'
+    (place / "r.xacro").write_text(text.replace("</robot>", include))
+    before = contents(place)
+    for option in (["--output-file", target], ["--write-baseline", target]):
+        code, _, err = run(["lint", "r.xacro", *option], place)
+        assert (code, "is read as an input" in err) == (2, True), err
+        assert contents(place) == before
 
 
 EXPORTS = [("sdf", "r.xacro"), ("mjcf", "r.urdf"), ("sdf", "cube.obj"), ("mjcf", "cube.obj")]

@@ -50,7 +50,7 @@ def command(
         urdftool expand arm.urdf.xacro -o arm.urdf --depfile arm.d
     """  # noqa: D301 -- click reads the escape
     from ..configuration import find_configuration
-    from ..output import write_result
+    from ..output import check_targets, write_result
     from ..report import expansion as report
     from ..source.document import STDIN, read_file
     from ..source.expand import expand_xacro
@@ -72,6 +72,7 @@ def command(
     for line in report.warnings(expansion, arguments):
         console.note(line)
     inputs = [] if file.path == STDIN else report.files_read(expansion)
+    check_targets((None if check else output, source_map, depfile), inputs=inputs)
     if source_map:
         write_result(report.source_map(expansion), source_map, inputs=inputs)
     if deps:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
-from ..output import write_file, write_result
+from ..output import check_targets, write_file, write_result
 
 if TYPE_CHECKING:
     from ..graph.draw import Artist
@@ -45,6 +45,7 @@ def write_pair(
     text = to_dot(figure)
     assert artist is not None
     picture = artist.draw(text, "pdf")
+    check_targets((f"{name}.gv", f"{name}.pdf"), inputs=_read(model))
     for suffix, data in ((".gv", text.encode("utf-8")), (".pdf", picture)):
         _put(data, f"{name}{suffix}", model)
         if not console.quiet:
@@ -94,15 +95,9 @@ def write_one(
 
 
 def _put(data: bytes, target: str, model: Robot) -> None:
-    from ..errors import OutputError
+    write_file(target, data, inputs=_read(model))
 
-    for file in model.source.files if model.source is not None else ():
-        if (
-            os.path.exists(target)
-            and os.path.exists(file.path)
-            and os.path.samefile(file.path, target)
-        ):
-            raise OutputError(
-                f"is read as an input ({file.path}); write the output to another file", path=target
-            )
-    write_file(target, data)
+
+def _read(model: Robot) -> list[str]:
+    """The files of the description."""
+    return [file.path for file in model.source.files] if model.source is not None else []

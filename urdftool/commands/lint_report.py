@@ -47,11 +47,12 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, want
     """Show a run; gives the exit code."""
     from ..finding import Severity
     from ..lint.merge import gather
-    from ..output import write_result
+    from ..output import check_targets, write_result
     from ..report.findings import summary
     from ..report.findings_formats import as_text
 
     outcome = gather(reports)
+    check_targets((wanted.output_file, wanted.write_baseline), inputs=_inputs(outcome))
     if wanted.baseline or wanted.write_baseline:
         outcome = _with_baseline(console, outcome, settings, wanted)
     threshold = Severity[wanted.fail_on.upper()]
@@ -78,7 +79,11 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, want
 
 
 def _inputs(outcome: Outcome) -> list[str]:
-    return [report.path for report in outcome.reports if report.path != "-"]
+    """Every file of every description."""
+    from ..source.document import STDIN
+
+    named = [path for report in outcome.reports for path in (report.path, *report.files)]
+    return [path for path in dict.fromkeys(named) if path not in ("-", STDIN)]
 
 
 def _with_baseline(

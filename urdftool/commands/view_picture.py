@@ -168,8 +168,11 @@ def write_pictures(
     from ..drawing.shapes import robot_shapes
     from ..errors import ModelError
     from ..model.kinematics import check_positions, link_poses, with_mimics
+    from ..output import check_targets
+    from ..viewer.sources import sources
 
     check_pictures(picture, contact_sheet)
+    check_targets((picture, contact_sheet), inputs=sorted(sources(robot)))
     positions = dict(pose or {})
     check_positions(robot, positions)
     with MeshProgress(console) as progress:
