@@ -1,13 +1,15 @@
 """The wheel and the source distribution on each Python that is there: ``nox -s platforms``.
 
 Wheel and sdist are built once and checked; each is installed into an empty environment, where the
-commands run without a network. ``nox -s lowest`` runs light tests with the oldest dependencies
-that are allowed.
+commands run, and all that README.md shows, without a network. ``nox -s lowest`` runs light tests
+with the oldest dependencies that are allowed. A Python that is not there is skipped and said so.
 """
 
 from __future__ import annotations
 
 import os
+import re
+import shlex
 import shutil
 import sys
 from pathlib import Path
@@ -16,6 +18,7 @@ import nox
 
 PYTHONS = ["3.10", "3.11", "3.12", "3.13", "3.14"]
 ROOT = Path(__file__).parent
+URDF = ROOT / "fixtures/robots/demo_arm/urdf"
 ARM = "fixtures/robots/demo_arm/urdf/arm_sound.urdf.xacro"
 LIGHT = (
     "tests/test_house.py",
@@ -26,8 +29,10 @@ LIGHT = (
 )
 COMMANDS = (
     *(["--version"], ["expand", ARM], ["info", ARM], ["graph", ARM, "-o", "-"]),
+    *(["graph", ARM, "-o", "OUT/arm.svg"], ["diff", ARM, ARM], ["simulate", ARM, "--fixed-base"]),
     *(["inertia", "robot", ARM], ["inertia", "box", "--mass", "1", "--size", "1", "1", "1"]),
     *(["lint", ARM, "--exit-zero"], ["export", "sdf", ARM, "-o", "OUT/arm", "--verify"]),
+    ["export", "mjcf", ARM, "-o", "OUT/arm_mj"],
     ["collision", "mesh", "fixtures/meshes/cube.stl", "--method", "hull", "--no-cache"],
     ["view", ARM, "--picture", "OUT/arm.png", "--size", "64x48"],
 )
@@ -36,6 +41,16 @@ HELPS = ("expand", "lint", "inertia", "collision", "graph", "info", "diff", "vie
 nox.options.sessions = ["build", "platforms"]
 nox.options.error_on_missing_interpreters = False
 nox.options.default_venv_backend = "venv"
+
+
+def find_pythons() -> None:
+    """Let the Pythons that pyenv has be found by their names, active there or not."""
+    versions = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv")) / "versions"
+    found = [str(path) for path in sorted(versions.glob("3.*/bin"))]
+    os.environ["PATH"] = os.pathsep.join([*found, os.environ.get("PATH", "")])
+
+
+find_pythons()
 
 
 def dist() -> Path:
@@ -55,18 +70,49 @@ def build(session: nox.Session) -> None:
 @nox.session(python=PYTHONS)
 @nox.parametrize("kind", ["whl", "tar.gz"])
 def platforms(session: nox.Session, kind: str) -> None:
-    """Install what was built, and run the commands without a network."""
+    """Install what was built, and run the commands and README.md without a network."""
     found = sorted(dist().glob(f"*.{kind}"))
     if not found:
         session.error("there is nothing to install; run `nox -s build` first")
     session.install(str(found[-1]))
     session.chdir(ROOT)
-    out = Path(session.create_tmp())
-    alone = ["unshare", "-n"] if sys.platform == "linux" and os.geteuid() == 0 else []
-    program = str(Path(session.bin) / "urdftool")
+    out = Path(session.create_tmp()).resolve()
     for words in [*COMMANDS, *([name, "--help"] for name in HELPS)]:
-        command = [word.replace("OUT", str(out)) for word in words]
-        session.run(*alone, program, *command, external=True, silent=True)
+        urdftool(session, [word.replace("OUT", str(out)) for word in words])
+    if kind == "whl":
+        readme(session, out / "readme")
+
+
+def alone() -> list[str]:
+    """What keeps a command from the network, where that can be done."""
+    return ["unshare", "-n"] if sys.platform == "linux" and os.geteuid() == 0 else []
+
+
+def urdftool(session: nox.Session, words: list[str]) -> None:
+    """A command, which must be able to do its work; exit 1 is a verdict on the robot."""
+    program = str(Path(session.bin) / "urdftool")
+    session.run(*alone(), program, *words, external=True, silent=True, success_codes=[0, 1])
+
+
+def readme(session: nox.Session, here: Path) -> None:
+    """All that README.md shows: what its commands print, its other commands, and its Python."""
+    python = str(Path(session.bin) / "python")
+    check = (python, str(ROOT / "docs/generate.py"), "--check", str(ROOT / "README.md"))
+    session.run(*alone(), *check, external=True)
+    shutil.rmtree(here, ignore_errors=True)
+    here.mkdir()
+    shutil.copy(URDF / "arm_sound.urdf.xacro", here / "arm.urdf.xacro")
+    shutil.copy(URDF / "link_sound.macro.xacro", here)
+    session.chdir(here)
+    text = (ROOT / "README.md").read_text("utf-8")
+    for block in re.findall(r"```sh\n(.*?)```", text, re.DOTALL):
+        for line in block.splitlines():
+            words = shlex.split(line, comments=True)
+            lasts = words[1:2] == ["view"] and "--contact-sheet" not in words
+            if words[:1] == ["urdftool"] and not lasts:
+                urdftool(session, words[1:])
+    for code in re.findall(r"```python\n(.*?)```", text, re.DOTALL):
+        session.run(*alone(), python, "-c", code, external=True)
 
 
 @nox.session(python=["3.10"])

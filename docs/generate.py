@@ -171,9 +171,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--check", action="store_true", help="write nothing; name stale pages")
     parser.add_argument("--no-commands", action="store_true", help="run no command of a page")
-    parser.add_argument("page", nargs="*", type=Path, help="run the commands of these alone")
+    parser.add_argument("page", nargs="*", type=Path, help="only these, and only their commands")
     options = parser.parse_args()
-    if options.check:
+    wrong: list[Path] = []
+    if options.page:
+        fresh = {}
+    elif options.check:
         wrong = stale()
     else:
         fresh = dict(pages())

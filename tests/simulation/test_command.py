@@ -7,6 +7,7 @@ import pytest
 
 from tests.conftest import FIXTURES, ROOT
 from tests.simulation.robots import body, inertial
+from urdftool.simulation import engines
 
 BOX = body('<box size="0.4 0.3 0.2"/>', 2, (0.0216667, 0.0333333, 0.0416667))
 MIRA = FIXTURES / "robots" / "mira_description" / "urdf" / "mira.urdf"
@@ -30,6 +31,20 @@ def test_words(urdftool):
     assert result.code == 0
     assert result.out.startswith("mira: stands\n")
     assert "stands on      base_link" in result.out
+
+
+@pytest.mark.parametrize(
+    ("there", "engine"),
+    [
+        ({"pybullet", "mujoco"}, "pybullet"),
+        ({"pybullet"}, "pybullet"),
+        ({"mujoco"}, "mujoco"),
+        (set(), "pybullet"),
+    ],
+)
+def test_the_engine_that_is_there_simulates(monkeypatch, there, engine):
+    monkeypatch.setattr(engines, "find_spec", lambda name: name in there or None)
+    assert engines.default_engine() == engine
 
 
 def test_json_is_as_its_schema_says(urdftool, write):

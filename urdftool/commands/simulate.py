@@ -49,7 +49,7 @@ def command(
     Exit 0 if it stands, 1 if it does not, 2 if it could not be tried; of a --fleet 2 if one could
     not be tried, else 1 if one does not stand.
     """  # noqa: D301 -- click reads the escape
-    from ..simulation.engines import ENGINES, check_engines
+    from ..simulation.engines import ENGINES, check_engines, default_engine
     from .read_lax import read_lax
     from .simulate_control import controlled
     from .simulate_fleet import Fleet, simulate_fleet
@@ -57,7 +57,7 @@ def command(
     from .simulate_options import settings_of
     from .simulate_outputs import Outputs, check_output
 
-    engines = ENGINES[values["engine"]]
+    engines = ENGINES[values["engine"] or default_engine()]
     controllers, junit = values["controllers"], values["junit"]
     outputs = Outputs(values["plot"], values["picture"], values["video"])
     outputs.check()

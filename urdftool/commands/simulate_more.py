@@ -15,9 +15,8 @@ _OPTIONS = (
     click.option(
         "--engine",
         type=click.Choice(["pybullet", "mujoco", "both"]),
-        default="pybullet",
-        show_default=True,
-        help="What simulates; mujoco runs our own MJCF export, both compares the two.",
+        help="What simulates; mujoco runs our own MJCF export, both compares the two.  [default: "
+        "pybullet; mujoco where PyBullet has no wheels: from Python 3.12 on, and on ARM]",
     ),
     click.option(
         "--controllers",

@@ -15,6 +15,12 @@ MUJOCO = "pip install 'urdftool[mujoco]'"
 _LAST = (3, 11)  # the last Python for which PyBullet has wheels
 
 
+def default_engine() -> str:
+    """PyBullet; where there is none, and MuJoCo is, MuJoCo."""
+    none = find_spec("pybullet") is None
+    return "mujoco" if none and find_spec("mujoco") is not None else "pybullet"
+
+
 def check_engines(names: tuple[str, ...]) -> None:
     """Refuse engines that are not installed, before any work is done.
 
