@@ -1,6 +1,6 @@
 import os
 
-from urdftool.viewer.sources import sources
+from urdftool.model.files import sources
 from urdftool.viewer.watch import Watch
 
 from .robots import read, urdf

@@ -85,8 +85,8 @@ def command(
     from ..formats.mjcf.options import Options
     from ..formats.mjcf.verify import verify_copy
     from ..formats.mjcf.write import write
+    from ..model.files import sources
     from ..model.load import robot_of
-    from ..viewer.sources import sources
 
     as_json = style == "json"
     description = read_strict(console, robot, package, package_path)

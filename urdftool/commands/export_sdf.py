@@ -83,8 +83,8 @@ def command(
     from ..formats import said
     from ..formats.defects import Refused
     from ..formats.sdf.write import write
+    from ..model.files import sources
     from ..model.load import robot_of
-    from ..viewer.sources import sources
     from .export_report import put_files, say_refused, say_written
 
     place = output or "-"

@@ -27,7 +27,7 @@ def write_picture(data: bytes, target: str, robot: Robot) -> None:
     Raises:
         OutputError: It cannot be written, or would overwrite an input.
     """
+    from ..model.files import sources
     from ..output import write_file
-    from ..viewer.sources import sources
 
     write_file(target, data, inputs=sorted(sources(robot)))

@@ -64,12 +64,12 @@ def simulate_one(
     Raises:
         UrdftoolError: It cannot be simulated, or a file cannot be written.
     """
+    from ..model.files import sources
     from ..output import check_targets, write_file
     from ..report import simulate as report
     from ..report import simulate_fleet as rows
     from ..report.simulate_differences import differences_text, with_differences
     from ..simulation.fleet import row_of
-    from ..viewer.sources import sources
 
     files = (junit, outputs.plot, outputs.picture, outputs.video)
     check_targets(files, inputs=sorted(sources(robot)))

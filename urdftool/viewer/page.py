@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import ModelError, UrdftoolError
 from ..finding import Finding
 from ..model.elements import Robot
+from ..model.files import sources
 from ..model.kinematics import NOWHERE, link_poses
 from . import panels
 from .body import KINDS, Body
@@ -19,7 +20,6 @@ from .joints import Joints
 from .marks import by_link
 from .numbers import link_rows, shortened
 from .sliders import unmovable
-from .sources import sources
 from .surroundings import SHEET, VIEW, eye_for, lay_ground, light
 from .watch import Watch
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..errors import UrdftoolError
-from ..model.elements import Mesh, Robot
 from ..source.document import STDIN
+from .elements import Mesh, Robot
 
 
 def sources(robot: Robot) -> set[str]:
