@@ -21,6 +21,7 @@ from ..report import collision as report
 from ..source.description import read_description
 from .collision_options import Progress, cache_of, given_names, settings_of
 from .picture_file import write_picture
+from .read_lax import take_world
 
 if TYPE_CHECKING:
     from ..collision.cache import Cache
@@ -145,7 +146,7 @@ def _read(console: Console, path: str, arguments: dict[str, str], values: Values
         package_paths=values["package_path"],
         configured=find_configuration(path, console.config).packages,
     )
-    return robot_of(description)
+    return take_world(console, robot_of(description))
 
 
 def _wishes(ctx: click.Context, console: Console, path: str, values: Values) -> Wishes:

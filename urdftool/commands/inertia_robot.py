@@ -125,13 +125,14 @@ def command(
     from ..inertia.masses import Masses, check_masses
     from ..inertia.review import review
     from ..model.load import robot_of
+    from .read_lax import take_world
 
     path = robot[0]
     if write and path == "-" and output is None:
         raise click.UsageError("standard input cannot be edited in place; --write wants -o OUT")
     by_link = {**(read_masses(mass_file) if mass_file else {}), **masses}
     description = read_strict(console, robot, package, package_path)
-    model = robot_of(description)
+    model = take_world(console, robot_of(description))
     names = [link.name for link in model.links]
     check_masses(Masses(dict.fromkeys(only, 1.0)), names)
     wanted = Masses(by_link, density, total, anew)

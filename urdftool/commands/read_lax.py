@@ -46,15 +46,13 @@ def read_lax(
     file = read_file(path)
     configured = {**(neighbours or {}), **find_configuration(path, console.config).packages}
     try:
-        return robot_of(
-            read_description(
-                path,
-                arguments,
-                packages=packages,
-                package_paths=package_paths,
-                configured=configured,
-                file=file,
-            )
+        description = read_description(
+            path,
+            arguments,
+            packages=packages,
+            package_paths=package_paths,
+            configured=configured,
+            file=file,
         )
     except XmlError as error:
         mended = None if is_xacro(file) else mend(file)
@@ -72,4 +70,24 @@ def read_lax(
         except XmlError:
             raise error from None
         console.note(f"{shown(error.where)}: warning: {error.message}; lax readers pass over it")
-        return robot_of(description)
+    return take_world(console, robot_of(description), shown=shown)
+
+
+def take_world(console: Console, robot: Robot, *, shown: Callable[[str], str] = str) -> Robot:
+    """A robot with the world that it names and does not declare, which is said.
+
+    Args:
+        console: Where it is said.
+        robot: Any robot.
+        shown: How a path is said.
+    """
+    from ..model.world import with_world
+
+    whole, joint = with_world(robot)
+    if joint is not None and joint.parent_element is not None:
+        place = shown(str(joint.parent_element.attribute_place("link")))
+        console.note(
+            f"{place}: warning: parent link 'world' of joint '{joint.name}' does not exist; it is "
+            'taken for the world, to which the robot is fixed: write <link name="world"/>'
+        )
+    return whole

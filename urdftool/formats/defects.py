@@ -14,6 +14,7 @@ from ..finding import Finding, Severity
 from ..model.elements import JOINT_TYPES, Joint, Link, Robot
 from ..model.pose import norm
 from ..model.read import numbers
+from ..model.world import WORLD, with_world
 from ..source.document import Element
 from ..source.location import Place
 
@@ -85,6 +86,19 @@ def defects(robot: Robot) -> Iterator[Finding]:
     yield from _joints(robot)
 
 
+def taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
+    """A robot with the world that it names and does not declare, and the defects that this is.
+
+    Args:
+        robot: Any robot; it stays as it is.
+    """
+    whole, joint = with_world(robot)
+    if joint is None:
+        return robot, []
+    remain = set(map(str, _ends(whole)))
+    return whole, [finding for finding in _ends(robot) if str(finding) not in remain]
+
+
 def defect(rule: str, message: str, place: Place, kind: str = "", name: str = "") -> Finding:
     """A finding of severity error."""
     return Finding(rule, Severity.ERROR, message, place, kind, name)
@@ -129,7 +143,7 @@ def _ends(robot: Robot) -> Iterator[Finding]:
                     joint.name,
                 )
             elif name not in robot.link and element is not None:
-                hint = '; write <link name="world"/> first' if name == "world" else ""
+                hint = '; write <link name="world"/> first' if name == WORLD else ""
                 yield defect(
                     f"unknown-{end}-link",
                     f"{end} link '{name}' of joint '{joint.name}' does not exist{hint}",

@@ -195,6 +195,8 @@ def _pair(contact: Contact) -> frozenset[str]:
 
 def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
     """Moving bodies that are seen on the floor and have nothing to touch it with."""
+    if run.bodies.nailed and not any(body.shapes for body in run.bodies.bodies):
+        return  # nothing of it touches, which is said, and nothing of it was to carry it
     parents = {body.parent for body in run.bodies.bodies}
     for number, body in enumerate(run.bodies.bodies):
         seen = [name for name in body.links if robot.link[name].visuals]

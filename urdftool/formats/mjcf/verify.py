@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from ...model.elements import Joint, Robot
+from ...model.world import with_world
 from ..check import Check
 from ..directory import write_directory
 from ..mechanics import Mechanics
@@ -51,6 +52,7 @@ def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[
         MissingDependency: MuJoCo is not installed.
         OutputError: MuJoCo does not compile it.
     """
+    robot, _ = with_world(robot)
     said = Said.by(written.losses)
     mechanics = Mechanics(robot)
     compiled = Compiled(model, mechanics.root, written.renamed)

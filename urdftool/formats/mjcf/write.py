@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...finding import Finding
 from ...model.elements import Mesh, Robot
-from ..defects import FATAL, defect, defects, refuse
+from ..defects import FATAL, defect, defects, refuse, taken_world
 from ..directory import mark
 from ..written import Written
 from .extension import extension_defects
@@ -41,9 +41,12 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         SourceError: The SRDF cannot be read.
     """
     options = options or Options()
+    robot, world = taken_world(robot)
     model = model_name(robot)
     written = Written(options.file or f"{model}.xml")
+    written.losses += world if options.force else []
     found = [
+        *([] if options.force else world),
         *defects(robot),
         *gazebo_defects(robot),
         *loop_defects(robot),

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from ...finding import Finding
 from ...model.elements import Joint, Link, Robot
+from ...model.world import with_world
 from ..defects import defects
-from .plan import WORLD
 
 FATAL = frozenset(("no-links", "no-root", "multiple-parents", "detached-cycle", "immense-number"))
 """Errors past which there is no robot that one could mean."""
@@ -34,13 +34,11 @@ def left_of(robot: Robot) -> Robot:
     Args:
         robot: A robot, which stays as it is.
     """
+    robot, _ = with_world(robot)
     links: dict[str, Link] = {}
     for link in robot.links:
         if link.name:
             links.setdefault(link.name, link)
-    for joint in robot.joints:
-        if joint.parent == WORLD and joint.parent_element is not None and joint.child in links:
-            links.setdefault(WORLD, Link(joint.parent_element, WORLD))
     joints: dict[str, Joint] = {}
     names = {joint.name for joint in robot.joints}
     for joint in robot.joints:
