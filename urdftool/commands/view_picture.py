@@ -167,9 +167,9 @@ def write_pictures(
     from ..drawing.picture import SIZE, draw, png
     from ..drawing.shapes import robot_shapes
     from ..errors import ModelError
+    from ..model.files import sources
     from ..model.kinematics import check_positions, link_poses, with_mimics
     from ..output import check_targets
-    from ..viewer.sources import sources
 
     check_pictures(picture, contact_sheet)
     check_targets((picture, contact_sheet), inputs=sorted(sources(robot)))
