@@ -45,7 +45,10 @@ BELOW = {
     ),
     "info": ("model", "source", "meshes", "errors"),
     "compare": ("model", "source", "errors"),
-    "api": ("source",),
+    "api": (
+        *("formats", "simulation", "collision", "inertia", "lint", "rules", "model", "source"),
+        *("output", "errors"),
+    ),
 }
 
 # The only files that may import a library.

@@ -21,8 +21,13 @@ _HOMES = {
     "UrdftoolError": "errors",
     "check": "lint.run",
     "compute_inertia": "inertia.compute",
-    "expand": "api",
+    "expand": "api.expand",
+    "export_mjcf": "api.export",
+    "export_sdf": "api.export",
+    "fix": "api.fix",
     "load": "model.load",
+    "simplify_collisions": "api.collisions",
+    "simulate": "api.simulate",
 }
 
 __all__ = [
@@ -34,11 +39,20 @@ __all__ = [
     "check",
     "compute_inertia",
     "expand",
+    "export_mjcf",
+    "export_sdf",
+    "fix",
     "load",
+    "simplify_collisions",
+    "simulate",
 ]
 
 if TYPE_CHECKING:
-    from .api import expand
+    from .api.collisions import simplify_collisions
+    from .api.expand import expand
+    from .api.export import export_mjcf, export_sdf
+    from .api.fix import fix
+    from .api.simulate import simulate
     from .errors import UrdftoolError
     from .finding import Finding, Severity
     from .inertia.compute import compute_inertia

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from .errors import OutputError
@@ -136,3 +136,38 @@ def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] 
         raise OutputError(f"cannot be written: {error.strerror or error}", path=target) from None
     finally:
         neighbour.unlink(missing_ok=True)
+
+
+def rewrite(before: Mapping[str, bytes], after: Mapping[str, bytes]) -> None:
+    """Write edited files in place: all of them, or none.
+
+    Args:
+        before: What each file was when it was read; one that is something else now is not written.
+        after: What each is to be.
+
+    Raises:
+        OutputError: A file was changed meanwhile, or cannot be written.
+    """
+    for path in after:
+        _check_unchanged(path, before[path])
+        if not os.access(path, os.W_OK):
+            raise OutputError("is not fixed: it is read-only", path=path)
+    written: list[str] = []
+    try:
+        for path in after:
+            written.append(path)
+            write_file(path, after[path])
+    except BaseException:
+        for path in written:
+            write_file(path, before[path])
+        raise
+
+
+def _check_unchanged(path: str, data: bytes) -> None:
+    try:
+        with open(path, "rb") as stream:
+            now = stream.read()
+    except OSError as error:
+        raise OutputError(f"cannot be read again: {error.strerror}", path=path) from None
+    if now != data:
+        raise OutputError("is not fixed: it was changed meanwhile; run again", path=path)

@@ -9,7 +9,14 @@ from enum import Enum
 from types import FunctionType
 
 import urdftool
+from urdftool.collision import compute, settings
+from urdftool.formats.check import Check
+from urdftool.formats.written import Written
+from urdftool.lint.fix_run import Mended
 from urdftool.model import elements
+from urdftool.simulation.fault import Fault
+from urdftool.simulation.settings import Settings
+from urdftool.simulation.verdict import Verdict
 from urdftool.source.location import Place
 
 BEGIN, END = "<!-- names begin -->", "<!-- names end -->"
@@ -19,6 +26,12 @@ PARTS = (
     *(elements.Joint, elements.Limit, elements.Mimic, Place),
 )
 """What a robot is made of, as far as most programs go."""
+
+RESULTS = (
+    *(Mended, Written, Check, Verdict, Fault),
+    *(Settings, settings.Settings, compute.Result),
+)
+"""What the functions take and give back beside robots and findings."""
 
 PLUMBING = ("element",)
 """What every part has; the page says it once."""
@@ -34,6 +47,7 @@ def with_names(text: str) -> str:
     parts = ["## Functions", *(_function(f"urdftool.{one.__name__}", one) for one in functions)]
     parts += ["## Classes", *(_class(f"urdftool.{one.__name__}", one) for one in classes)]
     parts += ["## Parts of a robot", *(_class(_home(one), one) for one in PARTS)]
+    parts += ["## Settings and results", *(_class(_home(one), one) for one in RESULTS)]
     shown = f"{BEGIN}\n" + "\n\n".join(parts) + f"\n{END}"
     return re.sub(f"{BEGIN}.*?{END}", lambda _: shown, text, flags=re.DOTALL)
 
@@ -69,7 +83,8 @@ def _class(name: str, one: type) -> str:
     for own_name, value in vars(one).items():
         if not own_name.startswith("_") and _is_asked(value):
             found.append(f"- `{own_name}`: {_first(value)}")
-    parts = [f"### {one.__name__}", f"`{name}`", prose]
+    room = f"{one.__module__.split('.')[1]}." if one.__name__ == "Settings" else ""
+    parts = [f"### {room}{one.__name__}", f"`{name}`", prose]
     if issubclass(one, Enum):
         values = ", ".join(f"`{member.name}` ({member.value})" for member in one)
         parts.append(f"Values: {values}.")

@@ -9,7 +9,6 @@ import pytest
 
 from tests.conftest import FIXTURES, XACRO
 from urdftool import output
-from urdftool.commands import lint_fix
 from urdftool.lint import fix_run
 from urdftool.model.load import load
 
@@ -166,7 +165,7 @@ def test_interrupted_between_two_files_neither_is_changed(write, monkeypatch):
     original = output.write_file
     monkeypatch.setattr(output, "write_file", second_is_interrupted)
     with pytest.raises(KeyboardInterrupt):
-        lint_fix.rewrite(
+        output.rewrite(
             dict.fromkeys(names, b"one") | {names[1]: b"two"}, dict.fromkeys(names, b"x")
         )
     assert [Path(name).read_text() for name in names] == ["one", "two"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -12,14 +12,6 @@ from .export_options import export_options
 from .export_report import put_files, say_refused, say_written
 from .options import package_options, robot_argument
 from .read_strict import read_strict
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from ..formats.mjcf.cut import Cut
-
-FILES = (".xml", ".mjcf")
-"""Suffixes of an output that is one file."""
 
 
 @click.command("mjcf")
@@ -80,9 +72,10 @@ def command(
         urdftool export mjcf panda.urdf -o panda/ --scene --verify
         urdftool export mjcf quadruped.urdf.xacro -o q/ --base free --actuators position
     """  # noqa: D301 -- click's mark for lines it must not wrap
+    from ..api.export import cut_meshes
     from ..formats import said
     from ..formats.defects import Refused
-    from ..formats.mjcf.options import Options
+    from ..formats.mjcf.options import FILES, Options
     from ..formats.mjcf.verify import verify_copy
     from ..formats.mjcf.write import write
     from ..model.files import sources
@@ -109,31 +102,3 @@ def command(
         written, target, single=bool(file), overwrite=overwrite, inputs=inputs, as_json=as_json
     )
     return say_written(console, written, checks, target, as_json=as_json)
-
-
-def cut_meshes(paths: Sequence[Path]) -> dict[Path, Cut | str]:
-    """The convex pieces of meshes, as ``urdftool collision`` finds them with CoACD.
-
-    Raises:
-        MissingDependency: A library that it needs is not installed.
-    """
-    from ..collision.cache import Cache, default_folder
-    from ..collision.compute import Result, Task
-    from ..collision.parallel import compute_all
-    from ..collision.settings import FEW_HULLS, Settings
-    from ..errors import MissingDependency
-    from ..formats.mjcf.cut import Cut
-
-    settings = Settings(method="coacd", max_hulls=FEW_HULLS)
-    tasks = {path: Task(path, settings=settings) for path in paths}
-    found = compute_all(list(tasks.values()), Cache(default_folder()))
-    cuts: dict[Path, Cut | str] = {}
-    for path, task in tasks.items():
-        result = found[task]
-        if isinstance(result, MissingDependency):
-            raise result
-        if isinstance(result, Result):
-            cuts[path] = Cut([(p.vertices, p.faces) for p in result.pieces], result.error)
-        else:
-            cuts[path] = result.message
-    return cuts

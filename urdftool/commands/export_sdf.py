@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,9 +17,6 @@ if TYPE_CHECKING:
     from ..formats.sdf.options import Options
     from ..formats.written import Written
     from ..model.elements import Robot
-
-FILES = (".sdf", ".xml", ".world")
-"""Suffixes of an output that is one file."""
 
 
 @click.command("sdf")
@@ -112,21 +108,20 @@ def command(
 
 def _options(output: str, choices: dict[str, Any]) -> Options:
     """The choices, with those that follow from where it goes."""
-    from ..formats.sdf.options import VERSIONS, Options
+    from ..formats.sdf.options import MODEL, VERSIONS, Options, folder_and_file
 
     target, version = choices["target"], choices.pop("version") or ""
     if version and version not in VERSIONS[target]:
         known = ", ".join(VERSIONS[target])
         raise click.UsageError(f"{target} reads SDF {known}; {version} is for the other Gazebo")
-    full = Path(os.path.abspath(output))
-    single = output == "-" or full.suffix.lower() in FILES
+    folder, file = folder_and_file(MODEL if output == "-" else output)
     choices = {name: value or "" if value is None else value for name, value in choices.items()}
     if output == "-" and not choices["uri"]:
         choices["uri"] = "file"  # nothing can lie beside standard output
     return Options(
         version=version,
-        folder=(full.parent if single else full).name,
-        file=("model.sdf" if output == "-" else full.name) if single else "",
+        folder=folder,
+        file=file,
         **choices,
     )
 

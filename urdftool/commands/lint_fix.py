@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import sys
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..console import Console
 
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from ..lint.fix_run import Mended
     from ..lint.outcome import Options, Report
     from ..lint.settings import Settings
-    from ..model.elements import Robot
     from .lint_report import Wanted
 
 _MOST = 6
@@ -55,11 +54,14 @@ def fix_files(
     """
     from contextlib import ExitStack
 
+    from ..inertia.scales import Scales
     from ..lint.parallel import lint_files
+    from ..rules.fixes.inertia import DENSITY
     from ..source.document import STDIN, reading_instead
     from .lint_report import report
 
-    options = replace(options, fixes=True, cache=None, weigh=_Scales() if unsafe else None)
+    scales = Scales(DENSITY) if unsafe else None
+    options = replace(options, fixes=True, cache=None, weigh=scales)
     with ExitStack() as stack:
         given = b""
         if "-" in files:
@@ -95,6 +97,7 @@ def _fix_one(
     from ..errors import OutputError
     from ..lint.fix_run import mend
     from ..lint.run import lint_file
+    from ..output import rewrite
     from ..source.document import STDIN, reading_instead
 
     one = reports[number]
@@ -108,7 +111,7 @@ def _fix_one(
         return
     if not diff:
         try:
-            rewrite(mended.before, mended.after)
+            rewrite(mended.before, {k: v for k, v in mended.after.items() if k != STDIN})
         except OutputError as error:
             console.error(error)
             done.code = 2
@@ -122,48 +125,6 @@ def _fix_one(
         for other, report in enumerate(reports):
             if other != number and any(path in mended.after for path in report.files):
                 reports[other] = lint_file(report.path, options)
-
-
-def rewrite(before: Mapping[str, bytes], after: Mapping[str, bytes]) -> None:
-    """Write edited files in place: all of them, or none.
-
-    Args:
-        before: What each file was when it was read; one that is something else now is not written.
-        after: What each is to be.
-
-    Raises:
-        OutputError: A file was changed meanwhile, or cannot be written.
-    """
-    from ..errors import OutputError
-    from ..output import write_file
-    from ..source.document import STDIN
-
-    paths = [path for path in after if path != STDIN]
-    for path in paths:
-        _check_unchanged(path, before[path])
-        if not os.access(path, os.W_OK):
-            raise OutputError("is not fixed: it is read-only", path=path)
-    written: list[str] = []
-    try:
-        for path in paths:
-            written.append(path)
-            write_file(path, after[path])
-    except BaseException:
-        for path in written:
-            write_file(path, before[path])
-        raise
-
-
-def _check_unchanged(path: str, data: bytes) -> None:
-    from ..errors import OutputError
-
-    try:
-        with open(path, "rb") as stream:
-            now = stream.read()
-    except OSError as error:
-        raise OutputError(f"cannot be read again: {error.strerror}", path=path) from None
-    if now != data:
-        raise OutputError("is not fixed: it was changed meanwhile; run again", path=path)
 
 
 def _say_broken(console: Console, mended: Mended) -> None:
@@ -233,48 +194,3 @@ def _diff(path: str, before: bytes, after: bytes) -> str:
     for line in unified_diff(old, new, path, path):
         lines.append(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n")
     return "".join(lines)
-
-
-class _Scales:
-    """Weighs links at the density of water; a mesh is read once, however often it is asked for."""
-
-    def __init__(self) -> None:
-        self.known: dict[tuple[str, str], Any] = {}
-
-    def __call__(self, robot: Robot, names: Sequence[str]) -> dict[str, tuple[float, Any, Any]]:
-        """Mass, centre and tensor of links, in the link frame."""
-        from ..inertia.mesh_files import read_meshes
-
-        description = robot.source
-        assert description is not None
-
-        def read(wanted: Sequence[str]) -> dict[str, Any]:
-            new = [name for name in wanted if (description.path, name) not in self.known]
-            for name, body in read_meshes(description, new, jobs=1).items():
-                self.known[description.path, name] = body
-            return {name: self.known[description.path, name] for name in wanted}
-
-        from ..model.elements import Robot
-
-        links = [robot.link[name] for name in names]
-        return _weighed(Robot(robot.element, robot.name, links=links), read)
-
-
-def _weighed(robot: Robot, read: Any) -> dict[str, tuple[float, Any, Any]]:
-    from ..errors import UrdftoolError
-    from ..inertia.masses import Masses
-    from ..inertia.review import review
-    from ..inertia.tensor import six_numbers
-    from ..rules.fixes.inertia import DENSITY
-
-    try:
-        found = review(robot, read, masses=Masses(density=DENSITY, anew=True))
-    except UrdftoolError:
-        return {}
-    weighed = {}
-    for item in found:
-        body = item.implied
-        if body is not None and item.body is not None and item.body.complete and body.mass > 0:
-            centre = tuple(float(part) for part in body.com)
-            weighed[item.link.name] = body.mass, centre, tuple(six_numbers(body.inertia).values())
-    return weighed

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ..finding import Finding, Severity
 from ..source.location import Place
+from .check import Check
 
 
 @dataclass
@@ -18,12 +19,20 @@ class Written:
         main: The path of the model in ``files``.
         losses: What was lost or changed, each with its place in the source.
         renamed: New names by ``kind`` and old name, such as ``("link", "wheel::left")``.
+        checks: What was compared with the source, where that was asked for.
     """
 
     main: str
     files: dict[str, bytes | Path] = field(default_factory=dict)
     losses: list[Finding] = field(default_factory=list)
     renamed: dict[tuple[str, str], str] = field(default_factory=dict)
+    checks: list[Check] = field(default_factory=list)
+
+    @property
+    def text(self) -> str:
+        """The model."""
+        content = self.files[self.main]
+        return (content if isinstance(content, bytes) else content.read_bytes()).decode("utf-8")
 
     def lose(
         self,

@@ -16,6 +16,9 @@ ACTUATORS: tuple[Actuators, ...] = ("auto", "none", "position", "velocity", "mot
 BASES: tuple[Base, ...] = ("auto", "fixed", "free")
 REPAIRS: tuple[FixInertia, ...] = ("none", "lift", "balance", "box")
 
+FILES = (".xml", ".mjcf")
+"""Suffixes of an output that is one file."""
+
 
 @dataclass(frozen=True)
 class Options:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
+from pathlib import Path
 
 VERSIONS: dict[str, tuple[str, ...]] = {
     "gz": ("1.9", "1.10", "1.11", "1.12"),
@@ -23,6 +25,16 @@ RELEASES = {
 """What reads each version, the oldest that does."""
 
 MODEL = "model.sdf"
+
+FILES = (".sdf", ".xml", ".world")
+"""Suffixes of an output that is one file."""
+
+
+def folder_and_file(output: str | Path) -> tuple[str, str]:
+    """The name of the folder an output goes to, and that of the file where it is one file."""
+    path = Path(os.path.abspath(output))
+    single = path.suffix.lower() in FILES
+    return (path.parent if single else path).name, path.name if single else ""
 
 
 @dataclass(frozen=True)

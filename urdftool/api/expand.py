@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from .source.document import STDIN, read_file
-from .source.packages import Packages
+from ..source.document import STDIN, read_file
+from ..source.packages import Packages
 
 
 def expand(
@@ -27,7 +27,7 @@ def expand(
     Raises:
         SourceError: It, or a file it includes, cannot be read or expanded.
     """
-    from .source.expand import expand_xacro
+    from ..source.expand import expand_xacro
 
     file = read_file(path)
     finder = Packages(

@@ -1,0 +1,151 @@
+"""The functions that do what commands do: the same results, nothing written unasked."""
+
+import shutil
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+import urdftool as api
+from tests.conftest import FIXTURES
+from urdftool.collision.settings import Settings as CollisionSettings
+from urdftool.errors import ConfigError, MeshError, ModelError, OutputError
+from urdftool.simulation.settings import Settings
+
+ARM = FIXTURES / "robots/demo_arm/urdf/arm_sound.urdf.xacro"
+MIRA = FIXTURES / "robots/mira_description/urdf/mira.urdf"
+BAD = (
+    '<robot name="r"><link name="a"/><link name="b"/>'
+    '<joint name="j" type="revolute">{}</joint></robot>'
+)
+AXIS = '<parent link="a"/><child link="b"/><axis xyz="0 0 2"/><limit effort="1" velocity="1"/>'
+
+
+@pytest.fixture
+def bad(tmp_path):
+    path = tmp_path / "r.urdf"
+    path.write_text(BAD.format(AXIS))
+    return path
+
+
+def test_fix_writes_only_when_asked(bad):
+    before = bad.read_text()
+    mended = api.fix(bad, select=["axis-not-unit"])
+    assert mended.applied == {"axis-not-unit": 1}
+    assert mended.report.findings == []
+    assert bad.read_text() == before
+    api.fix(bad, select=["axis-not-unit"], write=True)
+    assert bad.read_text() == mended.after[str(bad)].decode() == before.replace("0 0 2", "0 0 1")
+
+
+def test_fix_gives_what_the_command_writes(tmp_path, urdftool):
+    shutil.copytree(FIXTURES / "robots/demo_arm", tmp_path / "demo_arm")
+    path = tmp_path / "demo_arm/urdf/arm.urdf.xacro"
+    ours = api.fix(path, unsafe=True)
+    assert ours.applied
+    urdftool("lint", path, "--fix", "--unsafe-fixes")
+    assert ours.after == {name: Path(name).read_bytes() for name in ours.after}
+
+
+def test_fix_of_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(api.UrdftoolError, match=r"no such file|does not exist"):
+        api.fix(tmp_path / "absent.urdf")
+
+
+def test_export_sdf_writes_where_it_is_told(tmp_path, monkeypatch, urdftool):
+    monkeypatch.chdir(tmp_path)
+    robot = api.load(ARM)
+    written = api.export_sdf(robot, verify=True)
+    assert list(tmp_path.iterdir()) == []
+    assert all(f'<link name="{link.name}"' in written.text for link in robot.links[1:])
+    assert {check.verdict for check in written.checks} == {"equal"}
+    api.export_sdf(robot, "ours.sdf")
+    assert urdftool("export", "sdf", ARM, "-o", "theirs.sdf").code == 0
+    assert Path("ours.sdf").read_bytes() == Path("theirs.sdf").read_bytes()
+
+
+def test_export_sdf_refuses():
+    with pytest.raises(ConfigError, match=r"'gz' does not read SDF 1\.7; it reads 1\.9"):
+        api.export_sdf(api.load(ARM), version="1.7")
+    two = api.load(FIXTURES / "rules/multiple-roots/bad.urdf")
+    with pytest.raises(ModelError):
+        api.export_sdf(two)
+
+
+def test_an_export_takes_no_place_of_its_robot(bad):
+    before = bad.read_text()
+    path = bad.rename(bad.with_suffix(".xml"))
+    with pytest.raises(OutputError, match="is read as an input"):
+        api.export_mjcf(api.load(path), path, force=True, overwrite=True)
+    assert path.read_text() == before
+
+
+def test_export_mjcf_is_what_the_command_writes(tmp_path, monkeypatch, urdftool):
+    monkeypatch.chdir(tmp_path)
+    written = api.export_mjcf(api.load(ARM), "ours.xml", base="free", scene=True)
+    assert urdftool("export", "mjcf", ARM, "-o", "x.xml", "--base", "free", "--scene").code == 0
+    assert written.text == Path("ours.xml").read_text() == Path("x.xml").read_text()
+    assert Path("ours_scene.xml").is_file()
+
+
+@pytest.mark.skipif(not find_spec("mujoco"), reason="MuJoCo compiles it")
+def test_export_mjcf_compares():
+    checks = api.export_mjcf(api.load(ARM), verify=True).checks
+    assert {check.verdict for check in checks} == {"equal"}
+
+
+@pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
+def test_simulate_judges(engine):
+    if not find_spec(engine):
+        pytest.skip(engine)
+    robot = api.load(MIRA)
+    verdicts = api.simulate(robot, Settings(duration=2, trials=2), engine=engine)
+    assert [verdict.stands for verdict in verdicts] == [True, True]
+    assert "base_link" in verdicts[0].rest.supports
+
+
+def test_simulate_knows_its_engines():
+    with pytest.raises(ConfigError, match="'ode'; there are pybullet and mujoco"):
+        api.simulate(api.load(ARM), engine="ode")
+
+
+def test_collisions_are_what_the_command_writes(tmp_path, monkeypatch, urdftool):
+    monkeypatch.chdir(tmp_path)
+    text = '<robot name="r"><link name="a"><visual><geometry><mesh filename="{}"/></geometry>'
+    text += "</visual></link></robot>"
+    Path("r.urdf").write_text(text.format("cube.stl"))
+    Path("cube.stl").write_bytes((FIXTURES / "meshes/cube.stl").read_bytes())
+    robot = api.load("r.urdf")
+    found = api.simplify_collisions(robot, "ours.urdf", cache=False, jobs=1)
+    (result,) = found["a"]
+    assert (result.method, len(result.pieces)) == ("primitive", 1)
+    assert result.error < 1e-6
+    assert urdftool("collision", "r.urdf", "-o", "theirs.urdf", "--no-cache").code == 0
+    assert Path("ours.urdf").read_text() == Path("theirs.urdf").read_text()
+    hull = api.simplify_collisions(
+        robot, "hull.urdf", settings=CollisionSettings(method="hull"), mesh_format="obj", jobs=1
+    )
+    assert [one.method for one in hull["a"]] == ["hull"]
+    assert Path("hull_collision/cube.obj").is_file()
+
+
+def test_collisions_of_a_robot_without_its_mesh(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("r.urdf").write_text(
+        '<robot name="r"><link name="a"><visual><geometry><mesh filename="absent.stl"/>'
+        "</geometry></visual></link></robot>"
+    )
+    with pytest.raises(MeshError, match=r"absent\.stl"):
+        api.simplify_collisions(api.load("r.urdf"), "out.urdf")
+    with pytest.raises(ConfigError, match="no link 'b'"):
+        api.simplify_collisions(api.load("r.urdf"), "out.urdf", links=["b"])
+    assert not Path("out.urdf").exists()
+
+
+def test_importing_the_package_loads_no_library():
+    code = "import urdftool, sys; urdftool.load; urdftool.check; urdftool.fix; urdftool.expand\n"
+    code += "print(sorted({'numpy', 'lxml', 'click', 'xacro'} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

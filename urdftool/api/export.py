@@ -1,0 +1,181 @@
+"""``urdftool.export_sdf`` and ``export_mjcf``: the robot in the language of a simulator."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+from ..formats.written import Written
+from ..model.elements import Robot
+
+if TYPE_CHECKING:
+    from ..formats.mjcf.cut import Cut
+    from ..formats.mjcf.options import Actuators, Base, FixInertia
+
+
+def export_sdf(
+    robot: Robot,
+    output: str | Path | None = None,
+    *,
+    target: Literal["gz", "gazebo-classic"] = "gz",
+    version: str = "",
+    fixed_joints: Literal["", "keep", "lump"] = "",
+    uri: Literal["", "relative", "model", "package", "file"] = "",
+    world: bool = False,
+    mesh_dir: str = "meshes",
+    force: bool = False,
+    verify: bool = False,
+    overwrite: bool = False,
+) -> Written:
+    """Turn a robot into SDF for Gazebo.
+
+    Args:
+        robot: A robot from ``load``.
+        output: A folder, or a file that ends in .sdf, .xml or .world; None writes nothing.
+        target: The Gazebo it is for.
+        version: The version of SDF; the target's default if empty.
+        fixed_joints: Keep them, or make one link of what they join; the target's default if empty.
+        uri: How meshes are named; the usual of the target if empty.
+        world: Whether to write a world with ground and sun around it.
+        mesh_dir: The folder of the meshes, relative to the model.
+        force: Whether to go on past errors where a robot is left.
+        verify: Whether to read the result back and compare it; ``checks`` has what was found.
+        overwrite: Whether to replace also what urdftool did not write.
+
+    Raises:
+        ModelError: The robot has errors past which it cannot be written; ``notes`` has the others.
+        ConfigError: The target does not read that version.
+        OutputError: A file cannot be written; what was there is as it was.
+    """
+    from ..errors import ConfigError
+    from ..formats.sdf.options import VERSIONS, Options, folder_and_file
+    from ..formats.sdf.verify.compare import verify as compare
+    from ..formats.sdf.write import write
+
+    if version and version not in VERSIONS.get(target, ()):
+        known = ", ".join(VERSIONS.get(target, ()))
+        raise ConfigError(f"'{target}' does not read SDF {version}; it reads {known or 'nothing'}")
+    folder, file = folder_and_file(output or robot.name or "robot")
+    options = Options(target, version, fixed_joints, uri, world, force, folder, file, mesh_dir)
+    written = write(robot, options)
+    if output is not None:
+        _put(robot, written, output, bool(file), overwrite)
+    if verify and output is not None:
+        written.checks = compare(robot, written, options, output)
+    elif verify:
+        import tempfile
+
+        with tempfile.TemporaryDirectory(prefix="urdftool-") as place:
+            copy = Path(place) / (file or folder)
+            _put(robot, written, copy, bool(file), overwrite=False)
+            written.checks = compare(robot, written, options, copy)
+    return written
+
+
+def export_mjcf(
+    robot: Robot,
+    output: str | Path | None = None,
+    *,
+    actuators: Actuators = "auto",
+    base: Base = "auto",
+    scene: bool = False,
+    srdf: str | Path | None = None,
+    fix_inertia: FixInertia = "none",
+    decompose: bool = False,
+    mesh_dir: str = "assets",
+    force: bool = False,
+    verify: bool = False,
+    overwrite: bool = False,
+) -> Written:
+    """Turn a robot into a MuJoCo model.
+
+    Args:
+        robot: A robot from ``load``.
+        output: A folder, or a file that ends in .xml or .mjcf; None writes nothing.
+        actuators: ``"auto"`` as transmissions and ros2_control say, ``"none"``, or ``"position"``,
+            ``"velocity"`` or ``"motor"`` for all joints.
+        base: Whether the root is ``"fixed"`` or ``"free"``; ``"auto"`` as the description says.
+        scene: Whether to write also a scene with floor and light.
+        srdf: A MoveIt SRDF whose disabled collisions are taken over.
+        fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` mends tensors that no rigid body has.
+        decompose: Whether to cut meshes that collide and are not convex into pieces.
+        mesh_dir: The folder of the meshes, relative to the model.
+        force: Whether to go on past errors where a robot is left.
+        verify: Whether to compile the result in MuJoCo and compare it; ``checks`` has what was
+            found.
+        overwrite: Whether to replace also what urdftool did not write.
+
+    Raises:
+        ModelError: The robot has errors past which it cannot be written; ``notes`` has the others.
+        MissingDependency: MuJoCo, to verify, or CoACD, to decompose, is not installed.
+        OutputError: A file cannot be written, or MuJoCo does not compile it; what was there is as
+            it was.
+    """
+    from ..formats.mjcf.options import FILES, Options
+    from ..formats.mjcf.verify import verify_copy
+    from ..formats.mjcf.write import write
+
+    name = Path(output).name if output is not None else ""
+    options = Options(
+        actuators=actuators,
+        base=base,
+        scene=scene,
+        srdf=None if srdf is None else Path(srdf),
+        fix_inertia=fix_inertia,
+        force=force,
+        mesh_dir="" if mesh_dir == "." else mesh_dir,
+        file=name if Path(name).suffix.lower() in FILES else "",
+        cutter=cut_meshes if decompose else None,
+    )
+    written = write(robot, options)
+    if verify:
+        written.checks = verify_copy(robot, options, written)
+    if output is not None:
+        more = [] if srdf is None else [str(srdf)]
+        _put(robot, written, output, bool(options.file), overwrite, more)
+    return written
+
+
+def _put(
+    robot: Robot,
+    written: Written,
+    output: str | Path,
+    single: bool,
+    overwrite: bool,
+    more: Sequence[str] = (),
+) -> None:
+    """Write the files, over none that was read."""
+    from ..formats.directory import write_export
+    from ..model.files import sources
+
+    inputs = [*sorted(sources(robot)), *more]
+    write_export(output, written, single=single, overwrite=overwrite, inputs=inputs)
+
+
+def cut_meshes(paths: Sequence[Path]) -> dict[Path, Cut | str]:
+    """The convex pieces of meshes, as ``urdftool collision`` finds them with CoACD.
+
+    Raises:
+        MissingDependency: A library that it needs is not installed.
+    """
+    from ..collision.cache import Cache, default_folder
+    from ..collision.compute import Result, Task
+    from ..collision.parallel import compute_all
+    from ..collision.settings import FEW_HULLS, Settings
+    from ..errors import MissingDependency
+    from ..formats.mjcf.cut import Cut
+
+    settings = Settings(method="coacd", max_hulls=FEW_HULLS)
+    tasks = {path: Task(path, settings=settings) for path in paths}
+    found = compute_all(list(tasks.values()), Cache(default_folder()))
+    cuts: dict[Path, Cut | str] = {}
+    for path, task in tasks.items():
+        result = found[task]
+        if isinstance(result, MissingDependency):
+            raise result
+        if isinstance(result, Result):
+            cuts[path] = Cut([(p.vertices, p.faces) for p in result.pieces], result.error)
+        else:
+            cuts[path] = result.message
+    return cuts

@@ -1,0 +1,43 @@
+"""``urdftool.simulate``: does it stand?"""
+
+from __future__ import annotations
+
+from ..model.elements import Robot
+from ..simulation.settings import Settings
+from ..simulation.verdict import Verdict
+
+
+def simulate(
+    robot: Robot, settings: Settings | None = None, *, engine: str | None = None
+) -> list[Verdict]:
+    """Spawn a robot above a plane, let it settle, and judge it.
+
+    Args:
+        robot: A robot from ``load``.
+        settings: How it is spawned, and for how long it is watched; None is five seconds, each
+            joint held at zero.
+        engine: ``"pybullet"`` or ``"mujoco"``; None is PyBullet, or MuJoCo where PyBullet has no
+            wheels.
+
+    Returns:
+        A verdict for each trial.
+
+    Raises:
+        ConfigError: There is no such engine.
+        MissingDependency: The engine is not installed.
+        ModelError: The robot cannot be simulated: it has two roots, or nothing that weighs, or
+            the settings name a joint or link that it does not have.
+        MeshError: A mesh that collides cannot be read.
+    """
+    from ..errors import ConfigError
+    from ..simulation.engines import ENGINES, check_engines, default_engine
+    from ..simulation.run import simulate as run
+    from ..simulation.settings import Settings
+    from ..simulation.verdict import judge
+
+    engine = engine or default_engine()
+    if engine not in ("pybullet", "mujoco"):
+        raise ConfigError(f"there is no engine '{engine}'; there are pybullet and mujoco")
+    check_engines(ENGINES[engine])
+    (module,) = ENGINES[engine]
+    return [judge(robot, one) for one in run(robot, settings or Settings(), engine=module)]
