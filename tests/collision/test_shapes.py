@@ -87,6 +87,16 @@ def test_two_pieces_of_a_bracket_leave_nothing_out():
     assert found.outside < 0.001
 
 
+def test_pieces_that_coincide_are_measured():
+    box = primitive("box", (0.2, 0.1, 0.1), np.eye(3), (0, 0, 0))
+    target = Target(prepare(box.vertices, box.faces))
+    twice = [mesh_piece(box.vertices, box.faces)] * 2
+    twins = [mesh_piece(box.vertices * 1.1, box.faces), mesh_piece(box.vertices * 1.1, box.faces)]
+    assert measure(target, twice).hausdorff == pytest.approx(0, abs=1e-9)
+    corner = 0.1 * float(np.linalg.norm((0.2, 0.1, 0.1))) / 2
+    assert measure(target, twins).hausdorff == pytest.approx(corner, rel=0.1)
+
+
 def test_a_capped_hull_keeps_to_its_vertices_and_to_its_tolerance():
     points = primitive("sphere", (1.0,), np.eye(3), (0, 0, 0)).vertices
     vertices, faces = capped_hull(points, 24)

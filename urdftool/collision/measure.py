@@ -178,6 +178,8 @@ def piece_distances(target: Target, pieces: Sequence[Piece]) -> list[float]:
 def _outer_samples(pieces: Sequence[Piece], target: Target) -> list[Samples]:
     """Points on each piece that lie in no other and can be touched, if there are any such."""
     outer = [_outer(index, pieces, target) for index in range(len(pieces))]
+    if not any(map(len, outer)):  # pieces that coincide hide each other
+        outer = [spread(piece.corners, max(SAMPLES // len(pieces), 400)) for piece in pieces]
     if len(pieces) == 1:
         return outer
     # faces in narrow gaps between pieces are left out as those of the visual are
