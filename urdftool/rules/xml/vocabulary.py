@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...finding import Severity
 from ...model.elements import Robot
 from ...source.description import Description
 from ...source.document import Element
@@ -140,22 +141,25 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
     strangers = census(robot.element).strangers
     in_xacro = bool(strangers) and description.expansion is not None
     of_xacro = _XACRO | macro_names(description) if in_xacro else frozenset()
+    mere: dict[tuple[str, str], list[Element]] = {}
     for element in strangers:
         parent = element.parent
         if parent is None or parent.tag in ("geometry", "dynamics") or element.tag in of_xacro:
             continue
-        where = f"{_the(parent)} has no <{element.tag}>"
-        instead = _ELSEWHERE.get((parent.tag, element.tag))
-        if instead:
-            lost = (parent.tag, element.tag) not in _NOT_LOST
-            severity = WARNING if lost else INFO
-            yield Problem(element, f"{where}; {instead}", severity=severity)
-            continue
         word = meant(element.tag, VOCABULARY[parent.tag].children)
-        if word is None:
-            yield Problem(element, f"{where}; URDF readers pass over it")
-        elif word != element.tag.lower():
-            yield Problem(element, f"{where}; write <{word}>", severity=ERROR)
+        instead = _ELSEWHERE.get((parent.tag, element.tag))
+        if (parent.tag, element.tag) in _NOT_LOST or (word is None and not instead):
+            mere.setdefault((parent.tag, element.tag), []).append(element)
+        elif instead:
+            yield Problem(element, f"<{element.tag}> does not belong in {_the(parent)}; {instead}")
+        elif word is not None and word != element.tag.lower():
+            what = f"{_the(parent)} has no <{element.tag}>; write <{word}>"
+            yield Problem(element, what, severity=ERROR)
+    for kind, elements in mere.items():
+        what = f"<{kind[1]}> does not belong in {_the(elements[0].parent)}{_more(elements)}"
+        lost = kind not in _NOT_LOST
+        why = _ELSEWHERE.get(kind, "URDF readers pass over it")
+        yield Problem(elements[0], f"{what}; {why}", severity=WARNING if lost else INFO)
 
 
 @rule(WARNING, effects={"every reader": "passes over it and takes the default"})
@@ -166,30 +170,56 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
     ``uper`` makes the upper limit 0, a ``height`` on a cylinder leaves it without a length.
     """
     nothing: frozenset[str] = frozenset()
+    mere: dict[tuple[str, tuple[str, ...], Severity], list[Element]] = {}
     for tag, elements in census(robot.element).known.items():
         known = {*attributes_of(tag), *DIALECT_ATTRIBUTES.get(tag, nothing)}
         for element in elements:
-            if not element.attributes.keys() <= known:
-                yield from _strange_attributes(element, known)
+            if element.attributes.keys() <= known:
+                continue
+            yield from _misspelt_attributes(element, known)
+            strange = [n for n in _strange_attributes(element, known) if _is_mere(element, n)]
+            for severity in (WARNING, INFO):
+                names = tuple(n for n in strange if (n in _REMARKS) == (severity is INFO))
+                if names:
+                    mere.setdefault((tag, names, severity), []).append(element)
+    for (_, names, severity), elements in mere.items():
+        first = elements[0]
+        which = ", ".join(f"'{name}'" for name in names)
+        words, them = ("attributes", "them") if len(names) > 1 else ("attribute", "it")
+        yield Problem(
+            first,
+            f"{_the(first)}{_more(elements)} has the {words} {which}, which URDF does not know; "
+            f"readers pass over {them}",
+            at=first.attribute_place(names[0]),
+            severity=severity,
+        )
 
 
-def _strange_attributes(element: Element, known: set[str]) -> Iterator[Problem]:
-    tag = element.tag
+def _strange_attributes(element: Element, known: set[str]) -> Iterator[str]:
     for name in element.attributes:
-        if name in known or ":" in name or name in _REDUNDANT:
-            continue
+        if name not in known and ":" not in name and name not in _REDUNDANT:
+            yield name
+
+
+def _is_mere(element: Element, name: str) -> bool:
+    """Whether nobody can say what was meant by an attribute."""
+    return (element.tag, name) not in _INSTEAD and _word(element, name) is None
+
+
+def _word(element: Element, name: str) -> str | None:
+    return meant(name, [w for w in attributes_of(element.tag) if w not in element.attributes])
+
+
+def _misspelt_attributes(element: Element, known: set[str]) -> Iterator[Problem]:
+    for name in _strange_attributes(element, known):
         what = f"{_the(element)} has no attribute '{name}'"
         at = element.attribute_place(name)
-        instead = _INSTEAD.get((tag, name))
+        instead = _INSTEAD.get((element.tag, name))
         if instead:
             yield Problem(element, f"{what}; {instead}", at=at)
             continue
-        free = [word for word in attributes_of(tag) if word not in element.attributes]
-        word = meant(name, free)
-        if word is None:
-            severity = INFO if name in _REMARKS else WARNING
-            yield Problem(element, f"{what}; URDF readers pass over it", at=at, severity=severity)
-        elif word != name.lower():
+        word = _word(element, name)
+        if word is not None and word != name.lower():
             yield Problem(element, f"{what}; write {word}", at=at, severity=ERROR)
 
 
@@ -235,8 +265,14 @@ def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
 _TYPES = frozenset(("revolute", "continuous", "prismatic", "fixed", "floating", "planar"))
 
 
-def _the(element: Element) -> str:
+def _more(elements: list[Element]) -> str:
+    return f" (and {len(elements) - 1} more)" if len(elements) > 1 else ""
+
+
+def _the(element: Element | None) -> str:
     """An element in words: ``link 'arm'``, or ``<inertial> of link 'arm'``."""
+    if element is None:
+        return "the document"
     if element.tag in ("link", "joint"):
         return owner(element)
     return f"<{element.tag}>" if element.tag == "robot" else f"<{element.tag}> of {owner(element)}"

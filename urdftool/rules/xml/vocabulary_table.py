@@ -134,7 +134,7 @@ class Census(NamedTuple):
 
 @lru_cache(maxsize=1)
 def census(root: Element) -> Census:
-    """The elements of a ``<robot>``; asked by several rules in turn, it is made once."""
+    """The elements of a ``<robot>`` as written; asked by several rules in turn, it is made once."""
     known: dict[str, list[Element]] = {tag: [] for tag in VOCABULARY}
     strangers = []
     todo = [root]
@@ -147,10 +147,11 @@ def census(root: Element) -> Census:
             continue
         children = VOCABULARY[tag].children
         dialect = DIALECTS.get(tag, nothing)
+        todo += [child for child in reversed(element.children) if child.tag in children]
         for child in element.children:
             if child.tag in children:
-                todo.append(child)
-            elif child.tag not in dialect and ":" not in child.tag:
+                continue
+            if child.tag not in dialect and ":" not in child.tag:
                 strangers.append(child)
     return Census(known, strangers)
 

@@ -1,0 +1,58 @@
+"""What URDF does not have: said once, at the first place, in words that nobody misreads."""
+
+from urdftool.lint.run import check
+
+
+def messages(tmp_path, inside, rule):
+    file = tmp_path / "robot.urdf"
+    joints = "".join(
+        f'<link name="l{n}"/>\n<joint name="j{n}" type="continuous"><parent link="base"/>'
+        f'<child link="l{n}"/>\n{inside}</joint>\n'
+        for n in range(3)
+    )
+    file.write_text(f'<robot name="r">\n<link name="base"/>\n{joints}</robot>\n')
+    found = check(file, select=[rule])
+    return [(finding.place.line, finding.message) for finding in found]
+
+
+def test_attributes_nobody_reads_are_one_finding_of_all_their_elements(tmp_path):
+    inside = '<dynamics D="1" damping="0.1" K="7000" mu_coulomb="0"/>'
+    assert messages(tmp_path, inside, "unknown-attribute") == [
+        (
+            5,
+            "<dynamics> of joint 'j0' (and 2 more) has the attributes 'D', 'K', 'mu_coulomb', which"
+            " URDF does not know; readers pass over them",
+        )
+    ]
+
+
+def test_a_misspelt_attribute_is_told_at_each_place_for_each_is_mended(tmp_path):
+    found = messages(tmp_path, '<dynamics dampng="0.1"/>', "unknown-attribute")
+    assert [line for line, _ in found] == [5, 8, 11]
+    assert found[0][1] == "<dynamics> of joint 'j0' has no attribute 'dampng'; write damping"
+
+
+def test_a_remark_is_told_apart_from_what_is_lost(tmp_path):
+    found = messages(tmp_path, '<dynamics damping="0.1" note="x" K="1"/>', "unknown-attribute")
+    assert [message.partition(" has ")[2] for _, message in found] == [
+        "the attribute 'note', which URDF does not know; readers pass over it",
+        "the attribute 'K', which URDF does not know; readers pass over it",
+    ]
+
+
+def test_elements_nobody_reads_are_one_finding(tmp_path):
+    assert messages(tmp_path, "<gearbox/>", "unknown-element") == [
+        (5, "<gearbox> does not belong in joint 'j0' (and 2 more); URDF readers pass over it")
+    ]
+
+
+def test_a_colour_of_what_collides_is_one_finding_and_does_not_sound_missing(tmp_path):
+    file = tmp_path / "robot.urdf"
+    shape = '<collision><geometry><sphere radius="1"/></geometry><material name="m"/></collision>'
+    links = "".join(f'<link name="l{n}">{shape}</link>\n' for n in range(2))
+    file.write_text(f'<robot name="r">\n{links}</robot>')
+    found = [f.message for f in check(file, select=["unknown-element"])]
+    assert found == [
+        "<material> does not belong in <collision> of link 'l0' (and 1 more); what collides has no "
+        "colour; write it inside <visual>"
+    ]
