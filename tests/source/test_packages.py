@@ -129,3 +129,33 @@ def test_uris_and_relative_paths(tmp_path):
     assert finder.resolve("meshes/a.stl") == tmp_path / "urdf" / "meshes" / "a.stl"
     assert finder.resolve("file:///x/a.stl") == Path("/x/a.stl")
     assert finder.resolve("/x/a.stl") == Path("/x/a.stl")
+
+
+def test_a_package_under_a_former_name_is_offered(tmp_path):
+    home = package(tmp_path / "ws" / "arm_description", "arm_description")
+    (home / "meshes").mkdir()
+    (home / "meshes" / "base.stl").write_text("")
+    finder = Packages(robot(home / "urdf"))
+    with pytest.raises(PackageNotFound) as caught:
+        finder.resolve("package://arm_support/meshes/base.stl")
+    assert caught.value.message == (
+        f"package 'arm_support' is not found; what it names is in {home}; "
+        f"write --package arm_support={home} if that is meant"
+    )
+    with pytest.raises(PackageNotFound, match="--package arm_support=DIR"):
+        finder.resolve("package://arm_support/meshes/other.stl")
+
+
+def test_a_package_is_offered_where_a_neighbour_has_the_file(tmp_path):
+    home = package(tmp_path / "ws" / "arm", "arm")
+    beside = package(tmp_path / "ws" / "meshes", "arm_meshes")
+    (beside / "base.stl").write_text("")
+    with pytest.raises(PackageNotFound, match=f"arm_shapes={beside} "):
+        Packages(robot(home / "urdf")).resolve("package://arm_shapes/base.stl")
+
+
+def test_no_file_outside_is_offered(tmp_path):
+    home = package(tmp_path / "ws" / "arm", "arm")
+    (tmp_path / "secret").write_text("")
+    with pytest.raises(PackageNotFound, match="--package p=DIR"):
+        Packages(robot(home / "urdf")).resolve("package://p/../../../../secret")

@@ -80,5 +80,12 @@ def check_table(checks: Sequence[Check]) -> str:
     lines.insert(1, "  ".join("-" * width for width in widths))
     for check in checks:
         lines += [f"{check.name}: differs: {item}" for item in check.differing]
-        lines += [f"{check.name}: announced: {item}" for item in check.announced]
+        if check.announced:
+            lines.append(f"{check.name}: announced: {_some(check.announced)}")
     return "\n".join(lines) + "\n"
+
+
+def _some(items: Sequence[str], shown: int = 3) -> str:
+    """The first of several things that are no news; the JSON form has them all."""
+    more = f" and {len(items) - shown} more" if len(items) > shown else ""
+    return ", ".join(items[:shown]) + more

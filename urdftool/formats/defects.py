@@ -99,9 +99,11 @@ def taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
     return whole, [finding for finding in _ends(robot) if str(finding) not in remain]
 
 
-def defect(rule: str, message: str, place: Place, kind: str = "", name: str = "") -> Finding:
+def defect(
+    rule: str, message: str, place: Place, kind: str = "", name: str = "", hint: str = ""
+) -> Finding:
     """A finding of severity error."""
-    return Finding(rule, Severity.ERROR, message, place, kind, name)
+    return Finding(rule, Severity.ERROR, message, place, kind, name, hint=hint)
 
 
 def _names(robot: Robot) -> Iterator[Finding]:
@@ -233,7 +235,7 @@ def _mimic(robot: Robot, joint: Joint) -> Iterator[Finding]:
     place = mimic.element.attribute_place("joint")
     if mimic.joint == joint.name:
         text = f"joint '{joint.name}' mimics itself"
-        yield defect("self-mimic", text, place, "joint", joint.name)
+        yield defect("mimic-cycle", text, place, "joint", joint.name)
     elif mimic.joint not in robot.joint:
         yield defect(
             "mimic-unknown-joint",

@@ -173,6 +173,25 @@ class Packages:
             rule="package-not-found",
         )
 
+    def folder_with(self, inner: str) -> Path | None:
+        """A folder around the file, or a package beside it, that has a file at this path.
+
+        A description outlives its package's name; what it names is then still beside it.
+
+        Args:
+            inner: What follows the package's name in a URI.
+        """
+        inner = inner.lstrip("/")
+        own = own_package(self.file)
+        roots = self._workspace_roots(own[1] if own else None)
+        above = [folder for folder in self.file.parents if len(folder.parts) > 2][:_MAX_CLIMB]
+        beside = [folder for root in roots for folder in packages_below(root).values()]
+        parts = inner.split("/")
+        for folder in (*above, *beside) if inner and ".." not in parts else ():
+            if os.path.isfile(folder / inner):
+                return folder
+        return None
+
     def _candidates(self, name: str) -> Iterator[tuple[str, Path | None]]:
         """Each place in turn: what to say of it, and the folder if it has the package."""
         if name in self.named:
@@ -258,11 +277,28 @@ class Packages:
         scheme, separator, rest = uri.partition("://")
         if separator and scheme in ("package", "model"):
             name, _, inner = rest.lstrip("/").partition("/")
-            return self.installed(self.find(name) / inner.lstrip("/"))
+            try:
+                folder = self.find(name)
+            except PackageNotFound as error:
+                near = self.folder_with(inner)
+                if near is None:
+                    raise
+                raise PackageNotFound(
+                    f"package '{name}' is not found; {has_it(name, near)}",
+                    notes=error.notes,
+                    rule=error.rule,
+                ) from None
+            return self.installed(folder / inner.lstrip("/"))
         if separator and scheme == "file":
             return self.installed(rest)
         base = self.file if relative_to is None else Path(os.path.abspath(relative_to))
         return self.installed(base.parent / uri)
+
+
+def has_it(name: str, folder: Path) -> str:
+    """What to write where a folder has what a package of another name should have."""
+    shown = shown_path(folder)
+    return f"what it names is in {shown}; write --package {name}={shown} if that is meant"
 
 
 def _child(path: Path, name: str) -> Path | None:

@@ -95,7 +95,7 @@ def test_mimic_of_a_fixed_joint_is_held_at_its_offset(write):
     [
         ('<axis xyz="0 0 0"/><limit lower="0" upper="1"/>', "zero-axis"),
         ('<limit lower="1" upper="0"/>', "lower-above-upper"),
-        ('<limit lower="0" upper="1"/><mimic joint="j"/>', "self-mimic"),
+        ('<limit lower="0" upper="1"/><mimic joint="j"/>', "mimic-cycle"),
         ('<limit lower="0" upper="1"/><mimic joint="ghost"/>', "mimic-unknown-joint"),
         ('<limit lower="0" upper="${x}"/>', "not-a-number"),
     ],

@@ -32,7 +32,7 @@ FORCED = {
     "lower-above-upper": (
         link("a"), joint("j", "a", "b", inside='<limit lower="1" upper="0"/>'), link("b"),
     ),
-    "triangle-inequality": (link("a", IMPOSSIBLE),),
+    "inertia-triangle-inequality": (link("a", IMPOSSIBLE),),
     "negative-mass": (link("a", inertial(-1)),),
     "incomplete-inertial": (link("a", '<inertial><mass value="1"/></inertial>'),),
     "not-a-number": (link("a", inertial(mass="heavy")),),
@@ -40,7 +40,7 @@ FORCED = {
         link("a", f'{inertial()}<visual><geometry><mesh filename="package://no/x.stl"/></geometry>'
              "</visual>"),
     ),
-    "missing-geometry": (link("a", f"{inertial()}<collision/>"),),
+    "empty-geometry": (link("a", f"{inertial()}<collision/>"),),
     "unsupported-shape": (
         link("a", f"{inertial()}<collision><geometry><cone/></geometry></collision>"),
     ),
@@ -51,7 +51,7 @@ FORCED = {
     "unknown-sensor-type": (link("a"), gazebo("a", '<sensor name="s" type="nose"/>')),
     "plugin-without-filename": (link("a"), '<gazebo><plugin name="p"/></gazebo>'),
     "unknown-joint-type": (link("a"), joint("j", "a", "b", "hinge"), link("b")),
-    "self-mimic": (
+    "mimic-cycle": (
         link("a"), joint("j", "a", "b", inside=f'{LIMIT}<mimic joint="j"/>'), link("b"),
     ),
     "mimic-unknown-joint": (
@@ -155,7 +155,7 @@ def test_all_defects_are_said_at_once():
         gazebo("a", "<mu1>x</mu1><kp>y</kp><maxContacts>1.5</maxContacts>"),
     )
     found = [finding.rule for finding in refused(*parts).findings]
-    assert found == ["bad-extension-number"] * 3 + ["triangle-inequality"]
+    assert found == ["bad-extension-number"] * 3 + ["inertia-triangle-inequality"]
 
 
 @pytest.mark.parametrize("text", ["", "nan", "1e400", "0x10", "1,5", "1_000", "${mu}"])

@@ -14,7 +14,7 @@ INERTIA = (
 """Masses or tensors are changed."""
 
 TREE = (
-    "lossy-mimic", "lossy-mimic-fixed", "zero-axis", "unknown-joint-type", "self-mimic",
+    "lossy-mimic", "lossy-mimic-fixed", "zero-axis", "unknown-joint-type",
     "mimic-unknown-joint", "mimic-cycle",
 )  # fmt: skip
 """A joint moves otherwise than it is written."""
@@ -32,8 +32,8 @@ EFFORT = ("lossy-effort", "not-a-number")
 """The bound of its effort is changed."""
 
 SHAPES = (
-    "lossy-collision", "lossy-visual", "lossy-mesh", "mesh-not-found", "mesh-scale-zero",
-    "corrupt-mesh", "missing-geometry", "unknown-geometry", "not-a-number",
+    "lossy-collision", "lossy-visual", "lossy-mesh", "mesh-not-found", "bad-scale",
+    "corrupt-mesh", "empty-geometry", "unsupported-shape", "not-a-number",
 )  # fmt: skip
 """A shape is dropped or changed."""
 

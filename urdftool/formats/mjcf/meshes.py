@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from ...errors import SourceError
 from ...finding import Finding, Severity
 from ...model.elements import Collision, Mesh, Robot, Vector, Visual
 from ..defects import defect
+from ..missing import why_missing
 from ..numbers import numbers_text
 from ..written import Written
 from .convert import Converted, Image, Piece, Rgba
@@ -108,20 +110,17 @@ def _uses(robot: Robot) -> tuple[list[_Use], list[Finding]]:
             continue
         place = mesh.element.attribute_place("filename")
         path: Path | None = None
-        why = "names no file"
         if mesh.filename and robot.source is not None:
-            try:
+            with suppress(SourceError):
                 path = Path(os.path.realpath(robot.source.resolve(mesh.filename)))
-                why = f"is not there ({path})"
-            except SourceError as error:
-                why = f"is not found: {error.message}"
         if path is None or not os.path.isfile(path):
+            why, hint = why_missing(robot, mesh.filename)
             text = f"mesh '{mesh.filename}' of link '{link.name}' {why}"
-            wrong.append(defect("mesh-not-found", text, place, "link", link.name))
+            wrong.append(defect("mesh-not-found", text, place, "link", link.name, hint))
         elif not all(mesh.scale):
             text = f"scale of mesh '{mesh.filename}' of link '{link.name}' has a zero in it"
             place = mesh.element.attribute_place("scale")
-            wrong.append(defect("mesh-scale-zero", text, place, "link", link.name))
+            wrong.append(defect("bad-scale", text, place, "link", link.name))
         else:
             uses.append((path, isinstance(shape, Collision), shape))
     return uses, wrong

@@ -180,14 +180,14 @@ def _dynamics(
         expected = mechanics.mass_matrix(positions)[np.ix_(present, present)]
         found = compiled.mass_matrix([dofs[index] for index in present])
         scale = np.sqrt(np.maximum(np.diag(expected), 0.0))
-        floor = max(1e-6 * float(np.diag(expected).max()), 1e-15)
+        heaviest = float(np.diag(expected).max())
+        floor = 1e-6 * heaviest if heaviest > 0 else 1.0  # nothing to relate it to: as it is
         difference = abs(found - expected) / np.maximum(np.outer(scale, scale), floor)
         inertia.compare(float(difference.max()), "the mass matrix", known=said.any(*INERTIA, *TORN))
         force = mechanics.gravity(positions)[present]
         bias = compiled.gravity([dofs[index] for index in present])
-        weight = max(
-            float(abs(force).max()), 1e-6 * 9.81 * mechanics.centroid(positions)[0], 1e-300
-        )
+        mass = mechanics.centroid(positions)[0]
+        weight = max(float(abs(force).max()), 1e-6 * 9.81 * mass, 0.0) or 1.0
         gravity.compare(
             float(abs(bias - force).max()) / weight, "gravity", known=said.any(*INERTIA)
         )

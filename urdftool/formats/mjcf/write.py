@@ -101,12 +101,12 @@ def _shape_defects(robot: Robot) -> list[Finding]:
         what = shape.element.tag
         if shape.geometry is None:
             text = f"a {what} of link '{link.name}' has no geometry"
-            found.append(defect("missing-geometry", text, shape.place, "link", link.name))
+            found.append(defect("empty-geometry", text, shape.place, "link", link.name))
         elif not isinstance(shape.geometry, Mesh) and shape_size(shape.geometry) is None:
             text = (
                 f"a {what} of link '{link.name}' is a <{shape.geometry.element.tag}>; the shapes "
                 "are box, cylinder, sphere, capsule and mesh"
             )
             place = shape.geometry.place
-            found.append(defect("unknown-geometry", text, place, "link", link.name))
+            found.append(defect("unsupported-shape", text, place, "link", link.name))
     return found

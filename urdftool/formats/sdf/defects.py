@@ -9,6 +9,7 @@ from ...model.elements import Collision, Joint, Link, Mesh, Robot, UnknownShape,
 from ...model.read import numbers
 from ...source.document import Element
 from ..defects import defect
+from ..missing import why_missing
 from .block_numbers import wanted
 from .extensions import read_value, said_of, value_of
 from .keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS, LINK_KEYWORDS
@@ -48,18 +49,18 @@ def mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
         mesh = shape.geometry
         if isinstance(mesh, Mesh) and not meshes.known(mesh) and mesh.filename not in seen:
             seen.add(mesh.filename)
-            why = meshes.refused.get(mesh.filename)
-            wrong = (
-                f"cannot be used: {why}"
-                if why
-                else "is not found; give its package with --package NAME=DIR, or mend its name"
-            )
+            refused = meshes.refused.get(mesh.filename)
+            if refused:
+                wrong, hint = f"cannot be used: {refused}", ""
+            else:
+                wrong, hint = why_missing(robot, mesh.filename)
             yield defect(
-                "corrupt-mesh" if why else "mesh-not-found",
+                "corrupt-mesh" if refused else "mesh-not-found",
                 f"mesh '{mesh.filename}' of link '{link.name}' {wrong}",
                 mesh.element.attribute_place("filename"),
                 "link",
                 link.name,
+                hint,
             )
 
 
@@ -73,12 +74,13 @@ def inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
         worst = max(members, key=_own_shortfall)
         inertia = worst.inertial and (worst.inertial.inertia or worst.inertial)
         yield defect(
-            "triangle-inequality",
+            "inertia-triangle-inequality",
             f"no rigid body has the inertia of link '{worst.name}': its largest principal moment "
             f"exceeds the sum of the others by {short:.0%} of itself",
             (inertia or worst).place,
             "link",
             worst.name,
+            "--force writes the nearest one that a body can have",
         )
 
 
@@ -106,7 +108,7 @@ def _shapes(link: Link) -> Iterator[Finding]:
         kind, geometry = shape.element.tag, shape.geometry
         if geometry is None:
             text = f"a {kind} of link '{link.name}' has no geometry"
-            yield defect("missing-geometry", text, shape.place, "link", link.name)
+            yield defect("empty-geometry", text, shape.place, "link", link.name)
         elif isinstance(geometry, UnknownShape):
             text = f"a {kind} of link '{link.name}' is a <{geometry.element.tag}>"
             text += ", which is no shape of URDF; there are box, cylinder, sphere, capsule and mesh"

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.packages import own_package
+from ...source.packages import has_it, own_package
 from ..mesh.uses import MeshUse, mesh_uses
 from ..rule import WARNING, Problem, rule
 
@@ -34,10 +34,12 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
     for name, uses in lost.items():
         count = len({use.uri for use in uses})
         meshes = f"{count} meshes in it were" if count > 1 else "a mesh in it was"
+        near = description.packages.folder_with(uses[0].uri.partition("://")[2].partition("/")[2])
+        remedy = f"say where it is with --package {name}=DIR or --package-path DIR"
         yield Problem(
             uses[0].link,
-            f"package '{name}' is not found, so {meshes} not checked; say where it is "
-            f"with --package {name}=DIR or --package-path DIR",
+            f"package '{name}' is not found, so {meshes} not checked; "
+            + (has_it(name, near) if near is not None else remedy),
             at=uses[0].mesh.element.attribute_place("filename"),
             hint="; ".join(f"searched {place}" for place in _brief(uses[0].searched)),
         )

@@ -26,7 +26,8 @@ from .source import base_of, mechanism_of
 CONFIGURATIONS = 20
 FRAMES, MASSES, WEIGHTS, LIMITS, TOTALS = 1e-9, 1e-8, 1e-8, 1e-9, 1e-8
 FLOOR = 1e-6
-"""What a joint with next to nothing on it may be off by, relative to the heaviest."""
+"""What a joint with next to nothing on it may be off by, relative to the heaviest; where nothing
+weighs anything, differences are what they are: kg·m², kg, N·m or N."""
 RAISED = 4e-12
 """What moments may be raised by, relative to the largest, so that readers find them possible."""
 
@@ -211,12 +212,13 @@ def _compare_masses(
 ) -> None:
     if not names:
         return
-    diagonal = np.maximum(np.diag(one[0]), FLOOR * max(float(np.diag(one[0]).max()), 1e-30))
+    hardest = float(np.diag(one[0]).max())
+    diagonal = np.maximum(np.diag(one[0]), FLOOR * hardest if hardest > 0 else 1.0)
     scale = np.sqrt(np.outer(diagonal, diagonal))
     largest = max(float(np.abs(body.inertia).max()) for body in pair.source.bodies.values())
     off = np.maximum(np.abs(one[0] - two[0]) - RAISED * largest, 0.0) / scale
     total = sum(body.mass for body in pair.source.bodies.values())
-    heaviest = max(float(np.abs(one[1]).max()), 1e-6 * total * 9.81, 1e-30)
+    heaviest = max(float(np.abs(one[1]).max()), 1e-6 * total * 9.81, 0.0) or 1.0
     heavy = np.abs(one[1] - two[1]) / heaviest
     for row, name in enumerate(names):
         excused = name in pair.excuses.heavy

@@ -1,0 +1,88 @@
+"""What exports say: in the linter's words, once, and with what would help."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from urdftool.formats.check import Check, check_table
+from urdftool.rules import FAMILY_OF
+
+FORMATS = Path(__file__).parents[2] / "urdftool" / "formats"
+
+BALL = '<visual><geometry><mesh filename="package://gone/meshes/{}.stl"/></geometry></visual>'
+ARM = (
+    '<robot name="r"><link name="a">' + BALL.format("a") + "</link>"
+    '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>'
+    '<link name="b">' + BALL.format("b") + "</link></robot>"
+)
+
+
+@pytest.mark.parametrize("language", ["sdf", "mjcf"])
+def test_a_package_that_is_not_found_is_one_message_with_the_option(urdftool, tmp_path, language):
+    file = tmp_path / "robot.urdf"
+    file.write_text(ARM)
+    result = urdftool("export", language, file, "-o", tmp_path / "out")
+    assert result.code == 2
+    first, last = result.err.splitlines()
+    assert "mesh 'package://gone/meshes/a.stl' of link 'a' is not found (and 1 more)" in first
+    assert "--package gone=DIR" in first
+    assert last == "urdftool: nothing is written: 1 error"
+
+
+@pytest.mark.parametrize("language", ["sdf", "mjcf"])
+def test_a_path_that_leads_nowhere_is_told_in_full(urdftool, tmp_path, language):
+    file = tmp_path / "robot.urdf"
+    file.write_text(ARM.replace("package://gone/meshes", "shapes"))
+    result = urdftool("export", language, file, "-o", tmp_path / "out")
+    assert f"is not there (and 1 more) (there is no folder {tmp_path / 'shapes'})" in result.err
+    (tmp_path / "shapes").mkdir()
+    result = urdftool("export", language, file, "-o", tmp_path / "out")
+    for name in "ab":
+        assert f"is not there (there is no file {tmp_path / 'shapes' / name}.stl)" in result.err
+
+
+def test_defects_bear_the_names_that_lint_explains():
+    named = set()
+    for path in FORMATS.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.Call) and ast.unparse(node.func) == "defect":
+                rules = [n for n in ast.walk(node.args[0]) if isinstance(n, ast.Constant)]
+                named.update(n.value for n in rules if "-" in str(n.value))
+    own = {"too-deep", "immense-number"}  # bounds of MuJoCo and of numbers
+    half = {"duplicate-", "unknown-", "-name", "-link"}  # of names that are put together
+    assert len(named) > 20
+    assert {name for name in named if name not in FAMILY_OF} - own - half == set()
+
+
+@pytest.mark.parametrize("language", ["sdf", "mjcf"])
+def test_where_nothing_weighs_anything_differences_are_what_they_are(urdftool, tmp_path, language):
+    file = tmp_path / "robot.urdf"
+    turns = '<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/>'
+    at = '<origin xyz="0 0 1"/>'
+    file.write_text(
+        '<robot name="r"><link name="a"/><link name="b"/><link name="c"/>'
+        f'<joint name="j" type="revolute">{at}<parent link="a"/><child link="b"/>{turns}</joint>'
+        f'<joint name="k" type="revolute">{at}<parent link="b"/><child link="c"/>{turns}</joint>'
+        "</robot>"
+    )
+    result = urdftool("export", language, file, "-o", tmp_path / "out", "--verify")
+    assert result.code == 0
+    rows = [
+        line for line in result.out.splitlines() if line.startswith(("mass matrix ", "gravity "))
+    ]
+    for row in rows:
+        worst = float(row.split("  ")[-3].strip() or row.split()[-3])
+        assert worst < 1e-3
+    assert len(rows) == 2
+
+
+def test_what_is_announced_of_many_is_one_line():
+    check = Check("limits", "efforts", 1e-9)
+    for name in "abcde":
+        check.compare(1.0, f"effort of joint '{name}'", known=True)
+    last = check_table([check]).splitlines()[-1]
+    assert last == (
+        "limits: announced: effort of joint 'a', effort of joint 'b', effort of joint 'c' "
+        "and 2 more"
+    )
