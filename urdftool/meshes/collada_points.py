@@ -7,16 +7,14 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-import numpy as np
-
-from .mesh import Points
+from .positions import UPRIGHT, Affine, Columns, joined, moved, numbers, product
 
 _MAX_DEPTH = 64
 _FACES = ("triangles", "polylist", "polygons", "trifans", "tristrips")
 
 
-def collada_points(path: Path) -> Points | None:
-    """All positions of the scene [m], in the axes of the file, shape (n, 3); None if it has none.
+def collada_columns(path: Path) -> Columns | None:
+    """All positions of the scene [m], in the axes of the file; None if it has none.
 
     Raises:
         ValueError: The file is no COLLADA file, or its nodes form a circle.
@@ -37,8 +35,8 @@ def collada_points(path: Path) -> Points | None:
         return None
     for child in shown:
         if child.tag == f"{reader.space}node":
-            reader.walk(child, np.eye(4), 0)
-    return factor * np.concatenate(reader.found) if reader.found else None
+            reader.walk(child, _scale([factor] * 3), 0)
+    return joined(reader.found) if reader.found else None
 
 
 class _Reader:
@@ -47,10 +45,10 @@ class _Reader:
     def __init__(self, root: Any) -> None:
         self.space = root.tag.partition("}")[0] + "}" if root.tag.startswith("{") else ""
         self.named = {element.get("id"): element for element in root.iter() if element.get("id")}
-        self.found: list[Points] = []
-        self.read: dict[str, Points] = {}
+        self.found: list[Columns] = []
+        self.read: dict[str, Columns] = {}
 
-    def walk(self, node: Any, above: Points, depth: int) -> None:
+    def walk(self, node: Any, above: Affine, depth: int) -> None:
         """Add the points of a node and of those below it."""
         if depth > _MAX_DEPTH:
             raise ValueError("nodes in a circle")
@@ -59,7 +57,7 @@ class _Reader:
             kind = child.tag[tag:]
             if kind in _TRANSFORMS:
                 values = [float(word) for word in (child.text or "").split()]
-                matrix = matrix @ _TRANSFORMS[kind](values)
+                matrix = product(matrix, _TRANSFORMS[kind](values))
             elif kind == "node":
                 self.walk(child, matrix, depth + 1)
             elif kind == "instance_node" and (other := self.target(child)) is not None:
@@ -73,16 +71,16 @@ class _Reader:
         """What an instance is one of."""
         return self.named.get((element.get("url") or "")[1:])
 
-    def add(self, geometry: Any, matrix: Points) -> None:
+    def add(self, geometry: Any, matrix: Affine) -> None:
         """Add the positions of a geometry; lines are nothing that is seen or touched."""
         if not any(child.tag[len(self.space) :] in _FACES for child in geometry.iter()):
             return
         for entry in geometry.iterfind(f".//{self.space}vertices/{self.space}input"):
             if entry.get("semantic") == "POSITION":
-                points = self.positions((entry.get("source") or "")[1:])
-                self.found.append(points @ matrix[:3, :3].T + matrix[:3, 3])
+                columns = self.positions((entry.get("source") or "")[1:])
+                self.found.append(moved(columns, matrix))
 
-    def add_skin(self, controller: Any, matrix: Points) -> None:
+    def add_skin(self, controller: Any, matrix: Affine) -> None:
         """Add the positions of a skin in its bind shape."""
         skin = controller.find(f"{self.space}skin")
         geometry = self.named.get((skin.get("source") or "")[1:]) if skin is not None else None
@@ -90,43 +88,49 @@ class _Reader:
             return
         bind = skin.find(f"{self.space}bind_shape_matrix")
         if bind is not None and bind.text:
-            matrix = matrix @ _matrix([float(word) for word in bind.text.split()])
+            matrix = product(matrix, _matrix([float(word) for word in bind.text.split()]))
         self.add(geometry, matrix)
 
-    def positions(self, source: str) -> Points:
+    def positions(self, source: str) -> Columns:
         """The rows of a ``<source>``."""
         if source not in self.read:
             element = self.named[source]
             array = element.find(f"{self.space}float_array")
             accessor = element.find(f".//{self.space}accessor")
             stride = int(accessor.get("stride", 3)) if accessor is not None else 3
-            values = np.array((array.text or "").split(), dtype=bytes).astype(np.float64)
-            self.read[source] = values[: len(values) // stride * stride].reshape(-1, stride)[:, :3]
+            values = numbers((array.text or "").split())
+            whole = values[: len(values) // stride * stride]
+            self.read[source] = whole[0::stride], whole[1::stride], whole[2::stride]
         return self.read[source]
 
 
-def _matrix(values: list[float]) -> Points:
-    return np.array(values, dtype=np.float64).reshape(4, 4)
+def _matrix(values: list[float]) -> Affine:
+    if len(values) != 16:
+        raise ValueError("a matrix is not 16 numbers")
+    a, b, c = (tuple(values[row : row + 4]) for row in (0, 4, 8))
+    return a, b, c  # type: ignore[return-value]
 
 
-def _translate(values: list[float]) -> Points:
-    matrix = np.eye(4)
-    matrix[:3, 3] = values
-    return matrix
+def _translate(values: list[float]) -> Affine:
+    return tuple((*row[:3], value) for row, value in zip(UPRIGHT, values, strict=True))
 
 
-def _scale(values: list[float]) -> Points:
-    return np.diag([*values, 1.0])
+def _scale(values: list[float]) -> Affine:
+    x, y, z = values
+    return (x, 0.0, 0.0, 0.0), (0.0, y, 0.0, 0.0), (0.0, 0.0, z, 0.0)
 
 
-def _rotate(values: list[float]) -> Points:
-    axis, angle = np.array(values[:3]), math.radians(values[3])
-    length = float(np.linalg.norm(axis))
-    x, y, z = axis / length if length else (0.0, 0.0, 1.0)
-    skew = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    matrix = np.eye(4)
-    matrix[:3, :3] += math.sin(angle) * skew + (1 - math.cos(angle)) * skew @ skew
-    return matrix
+def _rotate(values: list[float]) -> Affine:
+    (x, y, z), angle = values[:3], math.radians(values[3])
+    length = math.hypot(x, y, z)
+    x, y, z = (x / length, y / length, z / length) if length else (0.0, 0.0, 1.0)
+    c, s = math.cos(angle), math.sin(angle)
+    d = 1 - c
+    return (
+        (c + x * x * d, x * y * d - z * s, x * z * d + y * s, 0.0),
+        (y * x * d + z * s, c + y * y * d, y * z * d - x * s, 0.0),
+        (z * x * d - y * s, z * y * d + x * s, c + z * z * d, 0.0),
+    )
 
 
 _TRANSFORMS = {"matrix": _matrix, "translate": _translate, "scale": _scale, "rotate": _rotate}

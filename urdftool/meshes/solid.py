@@ -14,15 +14,13 @@ import numpy as np
 import numpy.typing as npt
 
 from .mesh import Faces, Points
+from .surface import WELD_TOLERANCE
 
 LARGE_EXTENT = 10.0
 """A link's largest extent [m] above which its mesh is probably in millimetres."""
 
 SMALL_EXTENT = 0.001
 """A link's largest extent [m] below which its mesh was probably scaled twice."""
-
-WELD_TOLERANCE = 1e-6
-"""Points nearer than this part of the mesh's largest extent may be rounded copies of one."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,30 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import MeshError
 from .mesh import Piece, Points, Reading
+from .wavefront_text import Run, logical_lines, parse
 
 Rgba = tuple[float, float, float, float]
-
-_MOST = 2**48
-"""No file has so many points; numpy could not hold the number of one beyond."""
-
-
-@dataclass
-class Run:
-    """Triangles of one object and material: rows of their corners, from zero."""
-
-    name: str
-    material: str
-    corners: list[int] = field(default_factory=list)
-    texels: list[int] = field(default_factory=list)
-    """Rows of texture coordinates, -1 for none; as long as ``corners``, or empty."""
 
 
 @dataclass
@@ -49,37 +35,13 @@ def read(path: Path) -> Reading:
     Polygons are cut into fans from their first corner: in the plane of the polygon the signed
     triangles add up to it even where it is not convex. Lines, points and curves are left out.
     """
-    points: list[str] = []
-    texels: list[str] = []
-    runs: list[Run] = []
-    libraries: list[str] = []
-    name = material = ""
-    fresh = True
-    for number, line in _logical_lines(path):
-        keyword, _, rest = line.partition(" ")
-        if keyword == "v":
-            points.append(rest)
-        elif keyword == "vt":
-            texels.append(rest)
-        elif keyword == "f":
-            if fresh:
-                runs.append(Run(name, material))
-                fresh = False
-            _fan(rest, len(points), runs[-1].corners, path, number)
-            if texels:
-                _texture_fan(rest, len(texels), runs[-1])
-        elif keyword in ("o", "g"):
-            name, fresh = rest.strip(), True
-        elif keyword == "usemtl":
-            material, fresh = rest.strip(), True
-        elif keyword == "mtllib":
-            libraries.append(rest.strip())
+    written = parse(path)
     notes: list[str] = []
-    materials = _materials(path, libraries, notes)
-    vertices = _vertices(points, path)
-    texture_points = _texture_points(texels)
+    materials = _materials(path, written.libraries, notes)
+    vertices = _vertices(written.points, path)
+    texture_points = _texture_points(written.texels)
     pieces = []
-    for run in runs:
+    for run in written.runs:
         used = materials.get(run.material, Material())
         faces = np.array(run.corners, dtype=np.int64).reshape(-1, 3)
         if faces.max(initial=-1) >= len(vertices):
@@ -99,59 +61,6 @@ def read(path: Path) -> Reading:
             )
         )
     return Reading(pieces, notes)
-
-
-def _logical_lines(path: Path) -> Iterator[tuple[int, str]]:
-    """Lines without comments, joined where they end in a backslash, with tabs as blanks."""
-    text = path.read_text(encoding="utf-8", errors="replace").replace("\t", " ")
-    if "\x00" in text[:1024]:
-        raise MeshError("the file is binary; an OBJ file is text", path=path)
-    held = ""
-    for number, line in enumerate(text.splitlines(), start=1):
-        if line.endswith("\\"):
-            held += line[:-1] + " "
-            continue
-        full = (held + line).partition("#")[0].strip() if held or "#" in line else line.strip()
-        held = ""
-        if full:
-            yield number, full
-
-
-def _fan(rest: str, points: int, corners: list[int], path: Path, number: int) -> None:
-    """Add the triangles of one ``f`` statement."""
-    polygon = []
-    for word in rest.split():
-        try:
-            index = int(word.partition("/")[0])
-        except ValueError as error:
-            raise MeshError(
-                f"line {number} of the OBJ file: {word!r} is not the number of a vertex", path=path
-            ) from error
-        # negative numbers count back from the vertex read last
-        index = index - 1 if index > 0 else points + index
-        if not 0 <= index < _MOST or word.startswith("0"):
-            raise MeshError(
-                f"line {number} of the OBJ file names vertex {word}, of {points} so far; they are "
-                "counted from 1",
-                path=path,
-            )
-        polygon.append(index)
-    for second in range(1, len(polygon) - 1):
-        corners += (polygon[0], polygon[second], polygon[second + 1])
-
-
-def _texture_fan(rest: str, texels: int, run: Run) -> None:
-    """Add the texture coordinates of the triangles of one ``f`` statement."""
-    polygon = []
-    for word in rest.split():
-        try:
-            index = int(word.split("/", 2)[1])
-        except (IndexError, ValueError):
-            index = 0
-        place = index - 1 if index > 0 else texels + index if index < 0 else -1
-        polygon.append(place if 0 <= place < _MOST else -1)
-    for second in range(1, len(polygon) - 1):
-        run.texels += (polygon[0], polygon[second], polygon[second + 1])
 
 
 def _texture_points(texels: list[str]) -> Points | None:
@@ -192,7 +101,7 @@ def _materials(path: Path, libraries: list[str], notes: list[str]) -> dict[str, 
             )
             continue
         current = Material()
-        for _, line in _logical_lines(file):
+        for _, line in logical_lines(file):
             keyword, _, rest = line.partition(" ")
             words = rest.split()
             if keyword == "newmtl":

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from ...model.convex import Convex, convex_of, overlap
 from ...model.elements import Joint, Link, Mesh, Robot, Vector
 from ...model.kinematics import MOVABLE, limits_of, link_poses, with_mimics
 from ...model.pose import IDENTITY, Pose, pose_of
 from ..mesh.outlines import outline_of, reaches
-
-if TYPE_CHECKING:
-    from ...meshes.mesh import Points
 
 HOLLOW = 0.01
 """Overlap [m] of hulls of meshes that is let pass: what is hollow is full there. Of small parts it
@@ -72,9 +68,9 @@ class Pieces:
             if use is None or reaches(self.robot).shape(collision) is None:
                 self.unread.append(collision.geometry.filename)
                 continue
-            points = outline_of(use)
-            if points is not None:
-                yield _hull(points, use.mesh.scale, pose)
+            found = outline_of(use)
+            if found is not None:
+                yield _hull(found.points, use.mesh.scale, pose)
 
     def deepest(
         self, one: str, other: str, moved: Pose = IDENTITY, least: float = 0.001
@@ -151,11 +147,12 @@ def _sphere(found: list[tuple[Link, Convex]]) -> tuple[Vector, float]:
     return middle, max(math.dist(middle, p.pose.translation) + p.radius for _, p in found)
 
 
-def _hull(points: Points, scale: Vector, pose: Pose) -> Convex:
+def _hull(points: list[Vector], scale: Vector, pose: Pose) -> Convex:
     """The hull of a mesh as a convex piece in the frame of its link."""
-    from ...meshes.outline import placed, reach_of
+    from ...meshes.outline import reach_of
 
-    middle, radius, reach = reach_of(placed(points, scale, *IDENTITY))
+    a, b, c = scale
+    middle, radius, reach = reach_of([(a * x, b * y, c * z) for x, y, z in points])
     return Convex(pose @ Pose(translation=middle), reach, radius, False)
 
 

@@ -12,14 +12,14 @@ from ...model.pose import pose_of
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
 if TYPE_CHECKING:
-    from ...meshes.mesh import Points
+    from ...meshes.outline import Outline
 
 LARGEST = 10.0  # [m] a mesh that is longer is in millimetres
 SMALLEST = 0.001
 
 
-def outline_of(use: MeshUse) -> Points | None:
-    """The outermost points of a mesh in the frame of its file, unscaled; None if it has none."""
+def outline_of(use: MeshUse) -> Outline | None:
+    """The points of a mesh in the frame of its file, unscaled; None if it has none."""
     if use.path is None or not use.exists:
         return None
     try:
@@ -29,20 +29,16 @@ def outline_of(use: MeshUse) -> Points | None:
 
 
 @Remembered
-def _outline(key: Stamp) -> Points | None:
+def _outline(key: Stamp) -> Outline | None:
     from ...meshes.outline import outline
 
     return outline(Path(key[0]))
 
 
-def points_of(use: MeshUse) -> Points | None:
-    """The outermost points of a mesh as scaled, in the frame of its link [m]."""
-    points = outline_of(use)
-    if points is None:
-        return None
-    from ...meshes.outline import placed
-
-    return placed(points, use.mesh.scale, *pose_of(use.shape.origin))
+def box_of(use: MeshUse) -> Bounds | None:
+    """The box around a mesh as scaled, in the frame of its link [m]."""
+    found = outline_of(use)
+    return None if found is None else Bounds(*found.box(use.mesh.scale, *pose_of(use.shape.origin)))
 
 
 class Reaches:
@@ -72,11 +68,9 @@ class Reaches:
 
     def _mesh(self, shape: Visual | Collision) -> Bounds | None:
         use = self.use_of(shape)
-        points = points_of(use) if use is not None else None
-        if points is None or use is None or 0 in use.mesh.scale:
+        box = box_of(use) if use is not None and 0 not in use.mesh.scale else None
+        if box is None:
             return None
-        low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
-        box = Bounds(tuple(low), tuple(high))
         # one in another unit has findings of its own, and says nothing of the link
         return box if SMALLEST < max(box.size) < LARGEST else None
 

@@ -13,7 +13,7 @@ from ...model.elements import Robot
 from ...model.read import numbers
 from ...source.description import Description
 from ..rule import ERROR, INFO, WARNING, Problem, rule
-from .outlines import points_of
+from .outlines import box_of
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
 _SAMPLE = 300  # triangles, from the beginning, the middle and the end
@@ -87,11 +87,8 @@ def _largest(use: MeshUse, whole: bool = False) -> float | None:
     if use.path is None or not use.exists:
         return None
     if use.path.suffix.lower() != ".stl":
-        points = points_of(use)
-        if points is None:
-            return None
-        low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
-        return float(max(b - a for a, b in zip(low, high, strict=True)))
+        box = box_of(use)
+        return None if box is None else max(box.size)
     extent = sampled_extent(use.path)
     if extent is not None and whole:
         bounds = stl_bounds(use.path)

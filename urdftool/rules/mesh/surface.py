@@ -25,7 +25,7 @@ def _surface(key: Stamp) -> Surface | None:
 
 @Remembered
 def _hull_volume(key: Stamp) -> float | None:
-    from ...meshes.surface import hull_volume
+    from ...meshes.surface_arrays import hull_volume
 
     return hull_volume(key[0])
 
