@@ -35,3 +35,20 @@ def test_within_the_bounds_it_is_pythons_own():
     assert bounded.total([1], [2]) == [1, 2]
     assert bounded.power(2, 10) == 1 << 10
     assert bounded.METHODS["replace"]("abc", "b", "x") == "axc"
+
+
+def test_lists_in_lists_count_as_often_as_they_stand_there():
+    line = [1] * 1000
+    bounded.check_size([line] * 100)
+    with pytest.raises(OverflowError):
+        bounded.check_size([line] * 10_000)
+    with pytest.raises(OverflowError):
+        bounded.check_size({"a": [[line] * 1000] * 1000})
+    with pytest.raises(OverflowError):
+        bounded.check_size([1 << 90_000] * 1000)
+
+
+def test_a_list_in_itself_ends():
+    itself = [1]
+    itself.append(itself)
+    bounded.check_size(itself)

@@ -20,6 +20,7 @@ MAX_DIGITS = 400
 
 _WIDE = re.compile(r"\*|[0-9]{5}")
 _SEQUENCES = (str, bytes, list, tuple)
+_COLLECTIONS = (dict, set, frozenset)
 
 
 class ForbiddenNameError(Exception):
@@ -193,8 +194,25 @@ def method(owner: Any, name: str) -> Any:
 
 def check_size(value: Any) -> None:
     """Refuse a result that is too long to be of use."""
-    if isinstance(value, (*_SEQUENCES, dict, set, frozenset)):
+    if isinstance(value, (*_SEQUENCES, *_COLLECTIONS)):
         _refuse_length(len(value))
+    if isinstance(value, (list, tuple, *_COLLECTIONS)):
+        _refuse_length(_letters(value, {}))
+
+
+def _letters(value: Any, known: dict[int, int]) -> int:
+    """About how long a value is as text; what stands in it several times is looked at once."""
+    if isinstance(value, str | bytes):
+        return len(value)
+    if isinstance(value, int):
+        return 1 + value.bit_length() // 3
+    if not isinstance(value, (list, tuple, *_COLLECTIONS)):
+        return 1
+    if id(value) not in known:
+        known[id(value)] = 0
+        parts = [*value, *value.values()] if isinstance(value, dict) else value
+        known[id(value)] = 1 + sum(_letters(part, known) for part in parts)
+    return known[id(value)]
 
 
 def check_format(spec: str) -> None:

@@ -29,6 +29,7 @@ from .patience import Patience
 from .reach import Reach, safe_eval
 from .xacro_parse import parse_xacro
 from .xacro_tree import Characters, Instances, XacroDocument, XacroElement
+from .yaml_bounds import bounded
 
 MAX_CALLS = 400
 MAX_ELEMENTS = 200_000
@@ -160,23 +161,23 @@ class Run:
 
         def absolute(spec: str) -> str:
             path = original(spec)
-            self.use_fast_yaml()
+            self.use_bounded_yaml()
             return path if os.path.exists(path) else str(self.packages.installed(path))
 
         return absolute
 
-    def use_fast_yaml(self) -> None:
-        """Let ``load_yaml``, once it has imported yaml, read with libyaml, which is much faster."""
+    def use_bounded_yaml(self) -> None:
+        """Let ``load_yaml``, once it has imported yaml, read within bounds, and fast by libyaml."""
         yaml: Any = sys.modules.get("yaml")
-        fast = getattr(yaml, "CSafeLoader", None)
-        if fast is None or self.yaml_safe_load is not None:
+        if not hasattr(yaml, "SafeLoader") or self.yaml_safe_load is not None:
             return
+        fast = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
         self.yaml_safe_load = yaml.safe_load
 
         def safe_load(stream: Any) -> Any:
             """With the units that xacro has taught the slow loader."""
             units = {"yaml_constructors": yaml.SafeLoader.yaml_constructors}
-            return yaml.load(stream, Loader=type("Loader", (fast,), units))
+            return yaml.load(bounded(stream, fast), Loader=type("Loader", (fast,), units))
 
         yaml.safe_load = safe_load
 

@@ -1,0 +1,70 @@
+"""YAML that is looked through before it is built, since a few lines of it can fill the memory."""
+
+from __future__ import annotations
+
+from io import StringIO
+from typing import Any
+
+from ..errors import XacroError
+
+MAX_BYTES = 32 * 1024 * 1024
+MAX_VALUES = 1_000_000
+"""Values and letters of a file, aliases followed."""
+MAX_DEPTH = 100
+
+
+def bounded(stream: Any, loader: Any) -> Any:
+    """A stream again from its beginning, once it was looked through.
+
+    The events of the parser are counted, none of which is kept: lists in lists would end the
+    process in libyaml's own recursion, and aliases of aliases, or merges of them, never end.
+
+    Args:
+        stream: The open file.
+        loader: The class that will load it.
+
+    Raises:
+        XacroError: It is longer, deeper, or with its aliases followed larger than any robot needs,
+            or holds itself.
+        YAMLError: It is no YAML.
+    """
+    import yaml
+
+    name = str(getattr(stream, "name", "YAML"))
+    text = stream.read(MAX_BYTES + 1)
+    if len(text) > MAX_BYTES:
+        raise _beyond(name, f"is longer than {MAX_BYTES} letters")
+    sizes: dict[str, int] = {}
+    open_ones: list[tuple[str | None, int]] = []
+    count = 0
+    again = StringIO(text)
+    again.name = name
+    for event in yaml.parse(again, Loader=loader):
+        anchor = getattr(event, "anchor", None)
+        mark: Any = event.start_mark
+        where = f"{name}:{mark.line + 1}:{mark.column + 1}"
+        if isinstance(event, yaml.AliasEvent):
+            if any(anchor == around for around, _ in open_ones):
+                raise _beyond(where, f"*{anchor} stands in what it names")
+            count += sizes.get(anchor or "", 1)
+        elif isinstance(event, yaml.ScalarEvent):
+            count += 1 + len(event.value)
+            if anchor:
+                sizes[anchor] = 1 + len(event.value)
+        elif isinstance(event, (yaml.SequenceStartEvent, yaml.MappingStartEvent)):
+            open_ones.append((anchor, count))
+            count += 1
+            if len(open_ones) > MAX_DEPTH:
+                raise _beyond(where, f"is more than {MAX_DEPTH} deep")
+        elif isinstance(event, (yaml.SequenceEndEvent, yaml.MappingEndEvent)):
+            around, before = open_ones.pop()
+            if around:
+                sizes[around] = count - before
+        if count > MAX_VALUES:
+            raise _beyond(where, f"has more than {MAX_VALUES} values once aliases are followed")
+    again.seek(0)
+    return again
+
+
+def _beyond(where: str, what: str) -> XacroError:
+    return XacroError(f"{where}: {what}, which no robot needs", rule="expansion-failed")
