@@ -65,6 +65,32 @@ def test_a_name_that_leads_here_is_not_enough(page):
     assert get(page, Host=f"localhost:{page}")[0] == 200
 
 
+PATHS = (
+    *("/../../../../etc/passwd", "/..%2f..%2f..%2f..%2fetc/passwd", "/%2e%2e/%2e%2e/etc/passwd"),
+    *("//etc/passwd", "/etc/passwd", "/assets/../../../../../etc/passwd", "/..\\..\\etc\\passwd"),
+    *(
+        "/%252e%252e/etc/passwd",
+        "/file:///etc/passwd",
+        "/.%00./etc/passwd",
+        "/assets/%2e%2e/server.py",
+    ),
+)
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_no_path_leads_out_of_the_page(page, path):
+    with socket.create_connection(("127.0.0.1", page), timeout=10) as link:
+        link.sendall(
+            f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{page}\r\nConnection: close\r\n\r\n".encode()
+        )
+        answer = b""
+        while piece := link.recv(65536):
+            answer += piece
+    assert b"root:" not in answer
+    assert answer.split(b" ")[1] in (b"400", b"403", b"404"), answer[:80]
+    assert len(answer) < 1000
+
+
 def test_its_own_page_may_talk_to_it(page):
     import viser
     from websockets.sync.client import connect

@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any
-from urllib.parse import urlsplit
+from urllib.parse import unquote, urlsplit
 
 from ..errors import AddressError, MissingDependency
 
@@ -170,6 +170,9 @@ def _answer(host: str, title: Callable[[], str], answer: Any, connection: Any, r
         return connection.respond(403, "Another site may not talk to this page.\n")
     if request.headers.get("Upgrade", "").lower() == "websocket":
         return answer(connection, request)
+    path = unquote(request.path.partition("?")[0]).replace("\\", "/")
+    if ".." in path.split("/") or not path.isprintable():
+        return connection.respond(404, "There is no such page.\n")
     while "Accept-Encoding" in request.headers:
         del request.headers["Accept-Encoding"]
     response = answer(connection, request)
@@ -179,7 +182,8 @@ def _answer(host: str, title: Callable[[], str], answer: Any, connection: Any, r
         response.headers["Content-Security-Policy"] = policy(asked)
         response.headers["Referrer-Policy"] = "no-referrer"
         response.headers["Cache-Control"] = "no-store"
-        del response.headers["Content-Length"]
+        if "Content-Length" in response.headers:
+            del response.headers["Content-Length"]
         response.headers["Content-Length"] = str(len(response.body))
     return response
 
