@@ -114,6 +114,7 @@ def run(arguments: list[str] | None = None) -> None:
         sys.stdout.flush()
     except OSError:
         code = _closed_pipe()
+    gc.freeze()  # the process ends: nobody needs its memory back
     sys.exit(code)
 
 

@@ -17,7 +17,6 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from hashlib import sha256
 from typing import Any, Generic, TypeVar
 
 Question = tuple[str, str]
@@ -152,6 +151,7 @@ def is_settled(stamp: Stamp | None, now_ns: int | None = None) -> bool:
 
 def _content(path: str) -> str:
     import stat
+    from hashlib import sha256
 
     mode = _stat(path).st_mode
     if stat.S_ISDIR(mode):
@@ -175,12 +175,16 @@ def _link(path: str) -> str:
 
 
 def _listing(path: str) -> str:
+    from hashlib import sha256
+
     with os.scandir(path) as entries:
         lines = sorted(f"{e.name}{'/' if _is_folder(e) else ''}\0" for e in entries)
     return sha256("".join(lines).encode("utf-8", "surrogateescape")).hexdigest()
 
 
 def _environment(name: str) -> str:
+    from hashlib import sha256
+
     if name == "*":
         lines = sorted(f"{key}={value}\0" for key, value in os.environ.items())
         return sha256("".join(lines).encode("utf-8", "surrogateescape")).hexdigest()

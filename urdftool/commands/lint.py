@@ -96,12 +96,10 @@ def command(
     Exit 1 if there are findings of --fail-on or above that the baseline does not have (with --fix,
     those that are left; with --diff, if anything would be fixed), 2 if a file cannot be read.
     """  # noqa: D301 -- click reads the escape
-    from ..lint.cache import Cache
     from ..lint.discover import find_descriptions
     from ..lint.outcome import Options
     from ..lint.parallel import lint_files
     from ..lint.settings import Settings, check_selectors, check_targets
-    from ..store import Store, cache_folder
     from .lint_report import Wanted, report
 
     if explain or list_rules:
@@ -122,8 +120,12 @@ def command(
         raise click.UsageError("--unsafe-fixes goes with --fix or --diff")
     if no_cache and cache_dir:
         raise click.UsageError("--cache-dir and --no-cache exclude each other")
-    cache = None if no_cache else Cache(Store(cache_dir or cache_folder("lint")))
-    options = Options(settings, arguments, package, package_path, console.config, cache)
+    options = Options(settings, arguments, package, package_path, console.config)
+    if not no_cache:
+        from ..lint.cache import Cache
+        from ..store import Store, cache_folder
+
+        options.cache = Cache(Store(cache_dir or cache_folder("lint")))
     options.fixes = style in _WITH_FIXES
     wanted = Wanted(style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline)
     if fix or diff:
