@@ -218,7 +218,7 @@ def _nesting_notes(nesting: Nesting) -> list[str]:
 
 def _without_overlap(corners: Array, summed: Moments, notes: list[str]) -> _Solid:
     """The union of bodies that reach into each other, or their sum where it hardly differs."""
-    halves = sampled_moments(corners)
+    halves = sampled_moments(corners, closed=True)
     if halves is None:
         return _Solid(summed, "exact", 1.0, False, (*notes, "Bodies overlap by an unknown amount."))
     union, noise = _average(*halves)

@@ -1,0 +1,68 @@
+"""Rays straight up count as solid angles do, wherever a surface has no border."""
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from urdftool.inertia.crossings import crossing_numbers
+from urdftool.inertia.sampling import sampled_moments, spread_points
+from urdftool.inertia.winding import boxes_of, winding_numbers
+
+SHAPES = {
+    "box": trimesh.creation.box((1, 2, 0.5)),
+    "ball": trimesh.creation.icosphere(subdivisions=3),
+    "ring": trimesh.creation.torus(1.0, 0.3),
+    "rod": trimesh.creation.cylinder(0.02, 3.0, sections=200),
+}
+
+
+def corners(name):
+    return np.array(SHAPES[name].triangles)
+
+
+def turned(triangles, seed):
+    return (
+        triangles
+        @ trimesh.transformations.random_rotation_matrix(np.random.default_rng(seed).random(3))[
+            :3, :3
+        ]
+    )
+
+
+@given(st.sampled_from(sorted(SHAPES)), st.sampled_from(sorted(SHAPES)), st.integers(0, 1000))
+@settings(max_examples=40, deadline=None)
+def test_bodies_that_overlap_count_as_often_as_they_do(first, second, seed):
+    shift = np.random.default_rng(seed).uniform(-0.5, 0.5, 3)
+    both = np.concatenate([turned(corners(first), seed), turned(corners(second), seed + 1) + shift])
+    low, high = both.reshape(-1, 3).min(axis=0) - 0.1, both.reshape(-1, 3).max(axis=0) + 0.1
+    points = spread_points(500, low, high)
+    np.testing.assert_array_equal(
+        crossing_numbers(points, both), np.rint(winding_numbers(points, boxes_of(both)))
+    )
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_inside_out_is_below_zero(name):
+    solid = turned(corners(name), 3)
+    points = spread_points(2000, solid.reshape(-1, 3).min(axis=0), solid.reshape(-1, 3).max(axis=0))
+    numbers = crossing_numbers(points, solid)
+    assert set(numbers) == {0, 1}
+    np.testing.assert_array_equal(crossing_numbers(points, solid[:, ::-1]), -numbers)
+
+
+def test_points_that_all_have_one_place_or_one_height():
+    solid = corners("ball")
+    assert list(crossing_numbers(np.array([[0.01, 0.02, 0.03]]), solid)) == [1]
+    line = np.array([[x, 0.013, 0.017] for x in (-1.5, -0.5, 0.3, 1.5)])
+    assert list(crossing_numbers(line, solid)) == [0, 1, 1, 0]
+
+
+def test_moments_are_those_of_solid_angles():
+    ball = corners("ball")
+    two = np.concatenate([ball, ball + np.array([0.7, 0.2, 0.1])])
+    closed, any_ = (sampled_moments(two, 8000, closed=flag) for flag in (True, False))
+    for one, other in zip(closed, any_, strict=True):
+        assert one.measure == pytest.approx(other.measure, rel=2e-3)
+        np.testing.assert_allclose(one.second, other.second, rtol=5e-3, atol=5e-3)
