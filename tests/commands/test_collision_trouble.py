@@ -100,3 +100,26 @@ def test_a_poor_mesh_comes_out(urdftool, write, mesh, method):
     done = urdftool("collision", "mesh", path, "--method", method, "-o", "out.stl", "--no-cache")
     assert done.code == 0, done.err
     assert os.path.getsize("out.stl") > 84
+
+
+def test_sizes_beyond_all_bounds_are_said(urdftool, write):
+    write("bracket.stl", stl(*l_profile()))
+    huge = robot(("a", "bracket.stl", ""), ("b", 'bracket.stl" scale="1e300 1 1', ""))
+    huge = huge.replace("</robot>", shape_of("c", "1e308 1 1") + joint_to("c") + "</robot>")
+    write("r.urdf", huge)
+    done = urdftool("collision", "r.urdf", "--check", "--no-cache", "-j", "1")
+    assert done.code == 1
+    assert "link 'c': its box reaches 1e+308 m, which is not measured" in done.err
+    done = urdftool("collision", "r.urdf", "-o", "o.urdf", "--no-cache", "-j", "1")
+    assert done.code == 2
+    assert "e+299 m wide, which is not measured" in done.err
+
+
+def shape_of(name, size):
+    shape = f'<geometry><box size="{size}"/></geometry>'
+    return f'<link name="{name}"><visual>{shape}</visual><collision>{shape}</collision></link>'
+
+
+def joint_to(name):
+    ends = f'<parent link="a"/><child link="{name}"/>'
+    return f'<joint name="to_{name}" type="fixed">{ends}</joint>'

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import UrdftoolError
+from ..errors import MeshError, UrdftoolError
 from ..meshes.mesh import Points
 from ..model.elements import Box, Capsule, Cylinder, Link, Mesh, Robot, Sphere
 from ..model.pose import Pose, pose_of
@@ -20,7 +20,7 @@ from .measure import Target, measure
 from .parallel import Progress
 from .piece import Piece, mesh_piece
 from .pool import run_all
-from .surface import Prepared, prepare, read_surface
+from .surface import FARTHEST, Prepared, prepare, read_surface
 from .tessellate import primitive
 
 _CONVEX = 1e-3
@@ -171,6 +171,9 @@ def _parts(robot: Robot, shape: Shape) -> Iterator[Part]:
 def _piece(part: Part) -> Piece:
     rotation = np.array(part.pose.rotation, dtype=np.float64)
     xyz = np.array(part.pose.translation, dtype=np.float64)
+    far = max(map(abs, (*part.pose.translation, *(() if part.path else part.size))))
+    if not far < FARTHEST:
+        raise MeshError(f"its {part.kind} reaches {far:.3g} m, which is not measured")
     if part.path is None:
         return primitive(part.kind, part.size, rotation, xyz)
     x, y, z = part.size

@@ -15,6 +15,7 @@ from ..meshes.load import load_mesh
 from ..meshes.mesh import Faces, Points
 from ..meshes.solid import collapsed, components, edges_of, neighbours, weld
 
+FARTHEST = 1e12  # [m]; beyond it, squares and cubes of lengths leave the numbers
 SLIVER = 1e-14
 """Area of a face, relative to the square of the mesh's size, at which it is degenerate."""
 
@@ -74,9 +75,15 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[str] = ()) -> Pre
 
     Returns:
         None where no face has an area.
+
+    Raises:
+        MeshError: They are too far apart to be measured.
     """
     said = list(notes)
     triangles = len(faces)
+    extent = float(np.ptp(vertices, axis=0).max(initial=0.0)) if len(vertices) else 0.0
+    if not extent < FARTHEST:
+        raise MeshError(f"the mesh is {extent:.3g} m wide, which is not measured")
     points, merged, _ = weld(vertices, faces)
     count = len(points)
     sound = ~collapsed(merged)
@@ -84,7 +91,6 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[str] = ()) -> Pre
     areas = np.linalg.norm(
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
     )
-    extent = float(np.ptp(points, axis=0).max())
     if not (sound & (areas > SLIVER * extent**2)).any():
         return None
     # faces on a line hold a closed surface together, so only collapsed ones go
