@@ -342,3 +342,28 @@ def test_nothing_is_weighed_by_meshes_of_doubtful_size(tmp_path, urdftool):
     urdftool("lint", "--fix", "--unsafe-fixes", path)
     robot = load(path)
     assert all(link.inertial.mass < 10 for link in robot.links if link.visuals)
+
+
+@pytest.mark.parametrize(
+    ("comment", "goes"),
+    [
+        ("", True),
+        (" <!-- urdftool-ignore[empty-dynamics] as measured -->", True),
+        (" <!-- TODO: as measured -->", False),
+    ],
+)
+def test_no_safe_fix_takes_a_comment_away(write, urdftool, comment, goes):
+    dynamics = f"<dynamics><damping>0.1</damping>{comment}</dynamics>"
+    path = write("r.urdf", ROBOT.format(axis="0 0 1", dynamics=dynamics))
+    only = ("--select", "dynamics-as-child-elements", "--no-cache", "--exit-zero")
+    urdftool("lint", path, "--fix", *only)
+    assert (dynamics not in Path(path).read_text()) == goes
+    urdftool("lint", path, "--fix", "--unsafe-fixes", *only)
+    assert '<dynamics damping="0.1"/>' in Path(path).read_text()
+
+
+def test_comments_are_rewritten_only_when_asked_for(write, urdftool):
+    text = ROBOT.format(axis="0 0 1", dynamics="<!-- TODO: damping -->")
+    path = write("r.urdf", text)
+    urdftool("lint", path, "--fix", "--target", "ros2", "--no-cache", "--exit-zero")
+    assert Path(path).read_text() == text

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from importlib import import_module
 from typing import Any, NamedTuple
 
-from ..finding import Finding, Fix
+from ..finding import Finding, Fix, Replacement
 from ..model.elements import Robot
 from ..rules.fix_table import FIX_FILE, FIXABLE
 from ..rules.fixes.proposal import Around, Proposal, source_of
@@ -78,9 +79,22 @@ def add_fixes(
             report.failed_rules[name] = f"its fix: {type(error).__name__}: {error}"
             continue
         if replacements:
-            safe = all(proposal.safe for proposal in whole)
+            safe = all(proposal.safe for proposal in whole) and not _lost_comments(replacements)
             group[0].fix = Fix(safe, whole[0].message, replacements)
     source_of.cache_clear()
+
+
+_COMMENT = re.compile(rb"<!--(?!\s*urdftool-).*?-->", re.DOTALL)
+
+
+def _lost_comments(replacements: Sequence[Replacement]) -> bool:
+    """Whether comments go with what goes: they are the user's, who is asked then."""
+    kept = b"".join(replacement.data for replacement in replacements)
+    return any(
+        comment not in kept
+        for place, _ in replacements
+        for comment in _COMMENT.findall(place.file.data, place.start, place.end)
+    )
 
 
 def _proposal(finding: Finding, origin: Origin | None, around: Around) -> Proposal | None:

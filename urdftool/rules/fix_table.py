@@ -2,7 +2,7 @@
 
 A fix is *safe* where everything that reads the robot sees the same kinematics, masses, collisions
 and control afterwards, or could not read it before. All others are *unsafe*: they invent or remove
-physics, or guess what was meant. Some rules have both, depending on the case.
+physics, guess what was meant, or take comments away. Some rules have both, depending on the case.
 """
 
 from __future__ import annotations
@@ -197,7 +197,7 @@ FIXES: dict[str, dict[str, str]] = {
         "ros2-control-unknown-imu-interface": UNSAFE,
     },
     "names": {
-        "colon-space-in-comment": SAFE,
+        "colon-space-in-comment": UNSAFE,
         "invalid-frame-name": UNSAFE,
         "duplicate-geometry-name": UNSAFE,
         "srdf-robot-name": SAFE,

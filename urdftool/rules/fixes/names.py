@@ -25,7 +25,7 @@ def colon_space_in_comment(problem: Problem, around: Around) -> Proposal | None:
             if data[start + 2 : start + 3] == b"-" or data[start - 1 : start] == b"-":
                 return None
             spans.append(Span(document.file, start, start + 1, blank))
-    return safe("write ' - ' for ': ' in comments", *spans) if spans else None
+    return unsafe("write ' - ' for ': ' in comments", *spans) if spans else None
 
 
 def invalid_frame_name(problem: Problem, around: Around) -> Proposal | None:
