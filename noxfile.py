@@ -12,6 +12,7 @@ import re
 import shlex
 import shutil
 import sys
+import tempfile
 from pathlib import Path
 
 import nox
@@ -126,4 +127,6 @@ def lowest(session: nox.Session) -> None:
     )
     session.install("-r", str(resolved), "pytest>=8", "hypothesis>=6.100")
     session.install("--no-deps", ".")
-    session.run("python", "-m", "pytest", "-m", "not slow and not corpus", *LIGHT)
+    place = Path(tempfile.gettempdir()) / "urdftool-lowest"  # names below this folder are shortened
+    marks = ("-m", "not slow and not corpus", "--basetemp", str(place))
+    session.run("python", "-m", "pytest", *marks, *LIGHT)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
@@ -42,7 +43,7 @@ class Measured:
 
     Attributes:
         bounds: The box around them all at zero pose, along the axes of the root [m]; None where
-            there is no shape that could be read.
+            there is no shape that could be read, or one is larger than numbers go.
         meshes: The mesh files, in the order they are named.
     """
 
@@ -84,6 +85,8 @@ def measure(robot: Robot, progress: Progress = lambda *_: None) -> Measured:
             mesh.reason = error.message
     for box in boxes:
         measured.bounds = box if measured.bounds is None else measured.bounds.joined(box)
+    if measured.bounds is not None and not all(map(math.isfinite, measured.bounds.size)):
+        measured.bounds = None  # a shape larger than numbers go
     return measured
 
 

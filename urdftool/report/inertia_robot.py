@@ -201,6 +201,15 @@ def place_dict(place: Place) -> dict[str, Any]:
     return {"path": place.path, "line": place.line, "column": place.column}
 
 
+def _implied(item: LinkReview) -> dict[str, Any] | None:
+    """The numbers of what the geometry implies, where they are numbers."""
+    if item.implied is None or not all(
+        map(math.isfinite, six_numbers(item.implied.inertia).values())
+    ):
+        return None
+    return numbers(_tidied(item.implied))
+
+
 def _link(item: LinkReview) -> dict[str, Any]:
     body = item.body
     return {
@@ -212,7 +221,7 @@ def _link(item: LinkReview) -> dict[str, Any]:
         "reliable": body.reliable if body is not None else None,
         "mass": item.mass,
         "written": item.written.as_dict() if item.written is not None else None,
-        "implied": numbers(_tidied(item.implied)) if item.implied is not None else None,
+        "implied": _implied(item),
         "comparison": item.comparison.as_dict() if item.comparison is not None else None,
         "missing": list(item.missing),
         "faults": [

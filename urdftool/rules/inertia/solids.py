@@ -39,13 +39,20 @@ def solid_volume(geometry: Geometry | None) -> float:
     if isinstance(geometry, Box):
         return abs(math.prod(geometry.size))
     if isinstance(geometry, Sphere):
-        return 4 / 3 * math.pi * geometry.radius**3
+        return 4 / 3 * _ball(geometry.radius)
     if isinstance(geometry, Cylinder):
-        return math.pi * geometry.radius**2 * geometry.length
+        return _disc(geometry.radius) * geometry.length
     if isinstance(geometry, Capsule):
-        round_part = 4 / 3 * math.pi * geometry.radius**3
-        return math.pi * geometry.radius**2 * geometry.length + round_part
+        return _disc(geometry.radius) * geometry.length + 4 / 3 * _ball(geometry.radius)
     return 0.0
+
+
+def _disc(radius: float) -> float:
+    return math.pi * radius * radius  # of a power too large Python makes no infinity
+
+
+def _ball(radius: float) -> float:
+    return _disc(radius) * radius
 
 
 def solid_moments(link: Link) -> Vector | None:
@@ -92,11 +99,12 @@ def _moments(geometry: Geometry | None, mass: float) -> Vector | None:
         x, y, z = (side * side for side in geometry.size)
         return mass / 12 * (y + z), mass / 12 * (x + z), mass / 12 * (x + y)
     if isinstance(geometry, Sphere):
-        moment = 0.4 * mass * geometry.radius**2
+        moment = 0.4 * mass * geometry.radius * geometry.radius
         return moment, moment, moment
     if isinstance(geometry, Cylinder):
-        across = mass / 12 * (3 * geometry.radius**2 + geometry.length**2)
-        return across, across, mass / 2 * geometry.radius**2
+        radius, length = geometry.radius * geometry.radius, geometry.length * geometry.length
+        across = mass / 12 * (3 * radius + length)
+        return across, across, mass / 2 * radius
     return None
 
 
