@@ -365,7 +365,7 @@ ONLY_WITH: dict[str, tuple[str, ...]] = {
     "xacro.expansion": (),
     "package.resolution": ("mesh",),
     "lint.suppressions": (),
-    "lint.analysis": ("mesh",),
+    "lint.analysis": ("mesh", "collision"),
     "joint.mimic": ("mimic", "joint"),
     "joint.safety": ("safety_controller",),
     "visual.materials": ("material",),

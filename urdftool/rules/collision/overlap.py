@@ -193,18 +193,22 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
     Many arms can reach themselves, and planners see to it that they do not. But where a single
     joint runs a link through the body it hangs on, its limits are too wide, or its place or axis is
     wrong. Each joint is looked at in nine positions between its limits; a mesh counts as its convex
-    hull. ``deeper`` [m] is the overlap that is let pass. One finding names the joints.
+    hull. ``deeper`` [m] is the overlap that is let pass. One finding names the joints. Of a robot
+    with very many links only the first joints are looked at, which ``analysis-incomplete`` says.
     """
+    global _passed
     known = pieces(robot)
     taken = {
         frozenset((known.body_of[a.name], known.body_of[b.name])) for a, b, _ in resting(robot)
     }
     found = []
+    passed: list[Joint] = []
     tries = pairs = 0
     for joint in robot.joints:
-        if joint.type not in MOVABLE or joint.mimic is not None or tries > TRIES:
+        if joint.type not in MOVABLE or joint.mimic is not None or joint.child not in known.poses:
             continue
-        if joint.child not in known.poses or pairs > PAIRS:
+        if tries > TRIES or pairs > PAIRS:
+            passed.append(joint)
             continue
         below = sum(1 for _ in robot.tree.descendants(joint.child)) + 1
         pairs += below * max(len(known.bodies) - below, 1)
@@ -212,6 +216,7 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
         tries += count
         if hit is not None:
             found.append((joint, *hit))
+    _passed = robot, passed
     if found:
         joint, one, other, where = found[0]
         unit = "m" if joint.type == "prismatic" else "rad"
@@ -224,6 +229,14 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
             f"{unit}, which its limits allow{more if len(found) > 1 else ''}",
             at=joint.limit or joint,
         )
+
+
+_passed: tuple[Robot, list[Joint]] | None = None
+
+
+def passed_over(robot: Robot) -> list[Joint]:
+    """Joints that were not moved to see where they take their links, because they are too many."""
+    return _passed[1] if _passed is not None and _passed[0] is robot else []
 
 
 def _sweep(

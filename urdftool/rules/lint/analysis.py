@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.description import Description
-from ..mesh.files import what_is_wrong
+from ..collision.overlap import passed_over
 from ..mesh.outlines import outline_of
 from ..mesh.uses import mesh_uses
 from ..rule import INFO, Problem, rule
@@ -16,12 +16,13 @@ _READ = (".stl", ".obj", ".dae", ".ply", ".gltf", ".glb")
 
 @rule(INFO)
 def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A mesh is there and could not be read, so its link was not looked at in full.
+    """Something was not looked at in full: a mesh that cannot be read, or too many links.
 
     A clean run must not mean that nothing was looked at. The size of a mesh tells whether mass,
     inertia, scale and collision of its link are plausible, and whether links overlap; without it
     these rules are silent. Meshes that are not there, or corrupt, have findings of their own. One
-    finding names the links.
+    finding names the links. Another counts the joints that ``self-collision-in-range`` passed over,
+    in a robot of so many links that it would take minutes.
     """
     found = {}
     for use in mesh_uses(robot, description):
@@ -29,6 +30,8 @@ def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Prob
             continue
         if not (use.collides or use.link.inertial is not None):
             continue
+        from ..mesh.files import what_is_wrong
+
         if what_is_wrong(use.path):
             continue
         if use.path.suffix.lower() not in _READ or outline_of(use) is None:
@@ -41,4 +44,12 @@ def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Prob
             f"mesh '{first.uri}' of link '{first.link.name}' could not be read{more}; mass, "
             "inertia, scale and overlaps were not checked there",
             at=first.mesh.element.attribute_place("filename"),
+        )
+    joints = passed_over(robot)
+    if joints:
+        yield Problem(
+            joints[0],
+            f"whether a joint runs one link into another was not looked at from '{joints[0].name}' "
+            f"on, for {len(joints)} of {len(robot.moving_joints)} joints; the robot has too many "
+            "links",
         )

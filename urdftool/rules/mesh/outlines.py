@@ -49,6 +49,7 @@ class Reaches:
         self.robot = robot
         self._uses: dict[int, MeshUse] | None = None
         self._boxes: dict[int, Bounds | None] = {}
+        self._links: dict[int, Bounds | None] = {}
 
     def use_of(self, shape: Visual | Collision) -> MeshUse | None:
         """The file of a shape that is a mesh."""
@@ -86,6 +87,11 @@ class Reaches:
 
     def link(self, link: Link) -> Bounds | None:
         """The box around all that is seen of a link or touches; None where it is not known."""
+        if id(link) not in self._links:
+            self._links[id(link)] = self._link(link)
+        return self._links[id(link)]
+
+    def _link(self, link: Link) -> Bounds | None:
         boxes = [self.shapes(part) for part in (link.visuals, link.collisions) if part]
         box: Bounds | None = None
         for other in boxes:

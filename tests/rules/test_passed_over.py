@@ -1,0 +1,37 @@
+"""What is not looked at, because it would take too long, is said."""
+
+import pytest
+
+from urdftool import check
+from urdftool.rules.collision import overlap
+
+LINK = """<link name="l{0}"><collision>
+<geometry><sphere radius="0.1"/></geometry></collision></link>
+"""
+JOINT = """<joint name="j{0}" type="continuous"><origin xyz="0.3 0 0"/><parent link="l{0}"/>
+<child link="l{1}"/><axis xyz="1 0 0"/></joint>
+"""
+
+
+@pytest.fixture
+def chain(write):
+    links = "".join(map(LINK.format, range(9)))
+    joints = "".join(JOINT.format(n, n + 1) for n in range(8))
+    return write("chain.urdf", f"<robot name='chain'>{links}{joints}</robot>")
+
+
+BOTH = ("self-collision-in-range", "analysis-incomplete")
+
+
+def test_a_robot_that_is_looked_at_in_full_has_nothing_to_say(chain):
+    assert check(chain, select=BOTH) == []
+
+
+@pytest.mark.parametrize("bound", ["TRIES", "PAIRS"])
+def test_joints_that_were_passed_over_are_counted_once(chain, bound, monkeypatch):
+    monkeypatch.setattr(overlap, bound, -1 if bound == "TRIES" else 20)
+    (finding,) = check(chain, select=BOTH)
+    assert finding.rule == "analysis-incomplete"
+    expected = ("'j0'", "8 of 8") if bound == "TRIES" else ("'j2'", "6 of 8")
+    assert all(word in finding.message for word in expected)
+    assert check(chain, select=("analysis-incomplete",)) == []
