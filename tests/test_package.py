@@ -1,5 +1,6 @@
 """What is in the wheel, and what it says of itself."""
 
+import re
 import subprocess
 import sys
 import tarfile
@@ -57,6 +58,21 @@ def test_what_it_says_of_itself(wheel):
     assert {"dask", "mujoco", "view"} <= set(said.get_all("Provides-Extra"))
     assert "Typing :: Typed" in said.get_all("Classifier")
     assert said.get_payload().startswith("# urdftool")
+
+
+def test_its_readme_leads_to_the_site(wheel):
+    (name,) = [name for name in wheel.namelist() if name.endswith("/METADATA")]
+    text = Parser().parsestr(wheel.read(name).decode()).get_payload()
+    links = re.findall(r"\]\(([^)]+)\)", text)
+    assert len(links) > 8
+    site = re.search(r'Documentation = "(.*)"', (ROOT / "pyproject.toml").read_text("utf-8"))[1]
+    for link in links:
+        page = re.fullmatch(rf"{site}/page/([\w/-]+)\.html(#[\w-]+)?", link)
+        picture = re.fullmatch(rf"{site}/page/_images/([\w.]+)", link)
+        if picture is None:
+            assert (ROOT / "docs" / f"{page[1]}.md").exists(), link
+        else:
+            assert (ROOT / "docs/pictures" / picture[1]).exists(), link
 
 
 def test_the_sdist_can_be_tested(built):
