@@ -86,3 +86,18 @@ def test_what_is_announced_of_many_is_one_line():
         "limits: announced: effort of joint 'a', effort of joint 'b', effort of joint 'c' "
         "and 2 more"
     )
+
+
+@pytest.mark.parametrize("language", ["sdf", "mjcf"])
+def test_a_branch_on_a_link_that_does_not_exist_is_no_loop(urdftool, tmp_path, language):
+    file = tmp_path / "robot.urdf"
+    joint = '<joint name="{}" type="fixed"><parent link="{}"/><child link="{}"/></joint>'
+    links = "".join(f'<link name="{name}"/>' for name in "abc")
+    hangs = joint.format("j", "no", "b") + joint.format("k", "b", "c")
+    file.write_text(f'<robot name="r">{links}{hangs}</robot>')
+    result = urdftool("export", language, file, "-o", tmp_path / "out")
+    assert "parent link 'no' of joint 'j' does not exist" in result.err
+    assert "loop" not in result.err
+    file.write_text(f'<robot name="r">{links}{hangs.replace("no", "c")}</robot>')
+    result = urdftool("export", language, file, "-o", tmp_path / "out")
+    assert "hangs on a loop of joints" in result.err

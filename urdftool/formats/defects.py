@@ -186,7 +186,7 @@ def _roots(robot: Robot) -> Iterator[Finding]:
                 link.name,
             )
     if tree.roots:
-        for link in tree.detached[:1]:
+        for link in [link for link in tree.detached if _is_in_loop(robot, link)][:1]:
             yield defect(
                 "detached-cycle",
                 f"link '{link.name}' hangs on a loop of joints, not on the root",
@@ -194,6 +194,13 @@ def _roots(robot: Robot) -> Iterator[Finding]:
                 "link",
                 link.name,
             )
+
+
+def _is_in_loop(robot: Robot, link: Link) -> bool:
+    """Whether no root is above a link; one that hangs on a link that does not exist is told so."""
+    *_, top = (link.name, *robot.tree.ancestors(link.name))
+    joint = robot.tree.parent_joint(top)
+    return joint is not None and joint.parent in robot.link
 
 
 def _joints(robot: Robot) -> Iterator[Finding]:
