@@ -59,6 +59,16 @@ def test_an_obj_of_one_object_is_copied(write):
     assert written.files["assets/a.obj"].read_text() == text
 
 
+@pytest.mark.parametrize("kind", ["visual", "collision"])
+def test_a_point_of_no_face_is_not_taken_into_the_hull(write, urdftool, tmp_path, kind):
+    faces = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+    write("a.obj", f"o one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 5 5 5\n{faces}")
+    file = write("r.urdf", robot(link("a", INERTIAL + shape(kind, "a.obj"))))
+    assert b"v 5" not in export(file).files["assets/a.obj"]
+    pytest.importorskip("mujoco")
+    assert urdftool("export", "mjcf", file, "-o", tmp_path / "out", "--verify").code == 0
+
+
 @pytest.mark.parametrize(
     "name",
     [

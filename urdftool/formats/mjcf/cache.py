@@ -10,7 +10,7 @@ from pathlib import Path
 
 from .convert import Converted, Piece, conversion
 
-_VERSION = 5
+_VERSION = 6
 _BIG = 400_000
 
 

@@ -118,7 +118,9 @@ def _is_readable(mesh: Mesh) -> bool:
         )
     if mesh.format == "obj":
         data = b"\n" + mesh.path.read_bytes()
-        return data.count(b"\no ") + data.count(b"\ng ") <= 1 and len(mesh.parts) == 1
+        # points of no face, which MuJoCo would take into the hull
+        stray = data.count(b"\nv ") > len(mesh.vertices)
+        return not stray and data.count(b"\no ") + data.count(b"\ng ") <= 1 and len(mesh.parts) == 1
     return False
 
 

@@ -47,7 +47,8 @@ ROBOT: tuple[Row, ...] = (
     (
         "`mesh` STL, OBJ",
         EXACT,
-        "copied; converted where text, of several objects or over 200,000 triangles",
+        "copied; converted where text, of several objects, over 200,000 triangles "
+        "or with points of no face",
     ),
     (
         "`mesh` DAE, PLY, glTF",
