@@ -2,16 +2,18 @@
 
 A file is a robot, or a mesh, which becomes a robot of one free link. Its visual meshes as
 collisions stand beside what ``auto`` makes of them. Of a mesh of a body that moves MuJoCo takes the
-hull, and so does PyBullet unless ``concave="yes"`` is written, when it tests triangle by triangle;
-all three are timed. The robot falls on the ground, limp, and settles for two seconds, or as far as
-twenty seconds of processor time reach; then a step's processor time is taken: the median of three
-turns, the variants one after the other.
+hull when it compiles the model, and so does PyBullet when it loads it, unless ``concave="yes"`` is
+written, when it tests triangle by triangle; all three are timed. The robot falls on the ground,
+limp, and settles for two seconds, or as far as eight seconds of processor time reach; then a step's
+processor time is taken, and that of loading the file: medians of three turns, the variants one
+after the other. Words that are no files are options of ``urdftool collision``.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -36,7 +38,9 @@ p.setGravity(0, 0, -9.81)
 ground = p.createCollisionShape(p.GEOM_BOX, halfExtents=[50, 50, 1])
 p.createMultiBody(0, ground, basePosition=[0, 0, -1])
 flags = p.URDF_USE_INERTIA_FROM_FILE | p.URDF_USE_SELF_COLLISION_EXCLUDE_PARENT
+begin = time.process_time()
 body = p.loadURDF(sys.argv[1], [0, 0, float(sys.argv[2])], flags=flags)
+load = time.process_time() - begin
 for joint in range(p.getNumJoints(body)):
     p.setJointMotorControl2(body, joint, p.VELOCITY_CONTROL, force=0)
 def steps(most, seconds):
@@ -46,15 +50,17 @@ def steps(most, seconds):
         if time.process_time() - begin > seconds:
             break
     return (time.process_time() - begin) / done
-steps(1000, 20)
+steps(1000, 8)
 seconds = steps(300, 3)
 contacts = len(p.getContactPoints(body))
-print("STEP " + json.dumps([seconds, contacts]))
+print("STEP " + json.dumps([seconds, contacts, load]))
 """
 
 MUJOCO = """
 import json, sys, time, mujoco
+begin = time.process_time()
 model = mujoco.MjModel.from_xml_path(sys.argv[1])
+load = time.process_time() - begin
 model.opt.timestep = 0.002
 data = mujoco.MjData(model)
 def steps(most, seconds):
@@ -64,9 +70,9 @@ def steps(most, seconds):
         if time.process_time() - begin > seconds:
             break
     return (time.process_time() - begin) / done
-steps(1000, 20)
+steps(1000, 8)
 seconds = steps(300, 3)
-print("STEP " + json.dumps([seconds, data.ncon]))
+print("STEP " + json.dumps([seconds, data.ncon, load]))
 """
 
 ROBOT = """<robot name="part">
@@ -100,10 +106,11 @@ def with_visuals_as_collisions(source: Path, target: Path, *, concave: bool) -> 
     from lxml import etree
 
     robot = load(source)
-    tree = etree.parse(str(source))
+    # without its declaration: some say version 0.0, which lxml refuses
+    root = etree.fromstring(re.sub(rb"^\s*<\?xml.*?\?>", b"", source.read_bytes()))
     attributes = {"concave": "yes"} if concave else {}
     triangles = 0
-    for link, element in zip(robot.links, tree.getroot().findall("link"), strict=True):
+    for link, element in zip(robot.links, root.findall("link"), strict=True):
         for old in element.findall("collision"):
             element.remove(old)
         for number, visual in enumerate(link.visuals):
@@ -123,7 +130,7 @@ def with_visuals_as_collisions(source: Path, target: Path, *, concave: bool) -> 
             etree.SubElement(geometry, "mesh", filename=name)
         for visual in element.findall("visual"):
             element.remove(visual)
-    tree.write(str(target))
+    target.write_bytes(etree.tostring(root))
     return triangles
 
 
@@ -134,15 +141,19 @@ def urdftool(*words: object) -> None:
         raise RuntimeError(done.stderr)
 
 
-def step(code: str, *words: object) -> tuple[float, int]:
-    """Seconds a step, and contacts; infinite where the engine dies."""
+Run = tuple[float, int, float]
+
+
+def step(code: str, *words: object) -> Run:
+    """Seconds a step, contacts, and seconds to load; not a number where the engine dies."""
     command = [sys.executable, "-c", code, *map(str, words)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     found = done.stdout.rpartition("STEP ")[2]
     if done.returncode or not found:
-        return float("nan"), 0
-    seconds, contacts = json.loads(found.splitlines()[0])
-    return seconds, contacts
+        sys.stderr.write(done.stderr)
+        return float("nan"), 0, float("nan")
+    seconds, contacts, load = json.loads(found.splitlines()[0])
+    return seconds, contacts, load
 
 
 def rows(path: Path, options: list[str]) -> list[str]:
@@ -164,26 +175,28 @@ def rows(path: Path, options: list[str]) -> list[str]:
             words = ("--base", "free", "--scene", "--force", "--actuators", "none")
             urdftool("export", "mjcf", robot, "-o", folder / f"{robot.stem}_mjcf", *words)
         height = height_of(source)
-        runs: dict[str, list[tuple[float, int]]] = {}
-        for _ in range(TURNS):
+        runs: dict[str, list[Run]] = {}
+        for turn in range(TURNS):
             for robot in (hulls, concave, ours):
+                print(f"{path.name}: turn {turn + 1}, {robot.stem}", file=sys.stderr)
                 found = step(BULLET, robot, height)
                 runs.setdefault(f"bullet {robot.stem}", []).append(found)
             for robot in (hulls, ours):
                 found = step(MUJOCO, folder / f"{robot.stem}_mjcf" / "scene.xml")
                 runs.setdefault(f"mujoco {robot.stem}", []).append(found)
-    medians = {key: median(seconds for seconds, _ in run) for key, run in runs.items()}
     lines = []
     for label, before, after in (
-        ("PyBullet, hull", "bullet hulls", "bullet ours"),
         ("PyBullet, concave", "bullet concave", "bullet ours"),
-        ("MuJoCo, hull", "mujoco hulls", "mujoco ours"),
+        ("PyBullet, hulls", "bullet hulls", "bullet ours"),
+        ("MuJoCo, hulls", "mujoco hulls", "mujoco ours"),
     ):
+        theirs, own = (median(run[0] for run in runs[key]) for key in (before, after))
+        load_theirs, load_own = (median(run[2] for run in runs[key]) for key in (before, after))
         lines.append(
             f"| {path.name} | {triangles:,} | {pieces} | {label} "
-            f"| {medians[before] * 1e6:,.0f} µs ({runs[before][-1][1]}) "
-            f"| {medians[after] * 1e6:,.0f} µs ({runs[after][-1][1]}) "
-            f"| {medians[before] / medians[after]:.1f} |"
+            f"| {theirs * 1e6:,.0f} µs ({runs[before][-1][1]}) "
+            f"| {own * 1e6:,.0f} µs ({runs[after][-1][1]}) | {theirs / own:.1f} "
+            f"| {load_theirs:.2f} s | {load_own:.2f} s |"
         )
     return lines
 
@@ -209,8 +222,8 @@ def main(words: list[str]) -> None:
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     files = [word for word in words if Path(word).is_file()]
     options = [word for word in words if word not in files]
-    print("| robot | visual triangles | pieces | engine | visuals as collisions | ours | ratio |")
-    print("|---|---|---|---|---|---|---|")
+    print("| robot | visual triangles | pieces | engine | step | ours | ratio | load | ours |")
+    print("|---|---|---|---|---|---|---|---|---|")
     for word in files:
         print("\n".join(rows(Path(word), options)), flush=True)
 

@@ -5,8 +5,9 @@ import pytest
 
 from tests.collision.shapes import finer, l_profile, noisy
 from tests.conftest import FIXTURES
-from urdftool.collision import cut
+from urdftool.collision import cut, decompose
 from urdftool.collision.choose import choose
+from urdftool.collision.convex import hull
 from urdftool.collision.cut import Cutter
 from urdftool.collision.decompose import solid_of
 from urdftool.collision.distance import Surface, spread
@@ -99,6 +100,7 @@ def test_joins_go_on_beyond_the_distance_until_the_triangles_are_few_enough(monk
     corners = np.concatenate([box.corners for box in boxes])
     surface = prepare(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
     monkeypatch.setattr(cut, "decompose", lambda *_, **__: boxes)
+    monkeypatch.setattr(cut, "divided", lambda *_, **__: [])
     counts, errors = [], []
     for most in (1000, 100, 40):
         settings = Settings(method="coacd", max_triangles=most)
@@ -109,6 +111,54 @@ def test_joins_go_on_beyond_the_distance_until_the_triangles_are_few_enough(monk
         assert counts[-1] <= most
     assert counts[0] > 100
     assert errors[0] < errors[2]
+
+
+def slotted():
+    """A block of 0.2 × 0.1 × 0.1 with a slot, 0.02 wide and 0.08 deep; and its hull."""
+    boxes = [
+        primitive("box", size, np.eye(3), centre)
+        for size, centre in (
+            ((0.2, 0.1, 0.02), (0, 0, 0.01)),
+            ((0.09, 0.1, 0.08), (-0.055, 0, 0.06)),
+            ((0.09, 0.1, 0.08), (0.055, 0, 0.06)),
+        )
+    ]
+    corners = np.concatenate([box.corners for box in boxes]).reshape(-1, 3)
+    surface = prepare(corners, np.arange(len(corners)).reshape(-1, 3))
+    return (
+        surface,
+        mesh_piece(*hull(surface.vertices)),
+        [mesh_piece(b.vertices, b.faces) for b in boxes],
+    )
+
+
+def test_a_piece_that_buries_a_slot_is_cut_again(monkeypatch):
+    surface, whole, parts = slotted()
+    monkeypatch.setattr(cut, "divided", lambda *_, **__: parts)
+    target = Target(surface)
+    cutter = Cutter(target, Settings(method="coacd"))
+    assert max(cut.piece_distances(target, [whole])) < 0.012  # it hardly sticks out
+    assert cutter._mended([whole], 0.012) == parts
+    assert cutter._mended([whole], 0.06) == [whole]
+
+
+def test_all_runs_on_a_mesh_share_one_time_limit(monkeypatch):
+    surface, whole, _ = slotted()
+    limits: list[float] = []
+
+    def slow(vertices, faces, options):
+        limits.append(options["time_limit"])
+        return [whole.vertices]
+
+    monkeypatch.setattr(decompose, "run_child", slow)
+    monkeypatch.setattr(decompose, "_children_time", lambda: float(len(limits)))
+    cutter = Cutter(Target(surface), Settings(method="coacd", time_limit=0.5))
+    pieces, _ = cutter.cut(0.012, 0.012)
+    assert limits == [0.5]  # what was left did not do for another
+    assert len(pieces) == 1
+    assert "took longer" in cutter.notes[0]
+    with pytest.raises(decompose.DecompositionError, match="took longer"):
+        cutter.cut(0.012, 0.012)
 
 
 def test_a_simplified_mesh_says_what_its_hull_is_off():

@@ -33,7 +33,6 @@ PLATE = 0.002
 
 _MEASURED = 3  # primitives that are measured: those that fit best
 _SHARE = 0.3  # part of the error that leaving out vertices of a hull may take
-_SLACK = 1.4  # by which CoACD's own pieces exceed their threshold often
 _COARSER = 3.0
 _SIMPLER = 0.05  # part of the mean distance by which a dearer primitive has to be better
 _ALIKE = 0.02  # part of the error by which it has to be, too
@@ -191,6 +190,9 @@ def _ladder(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
         except DecompositionError as error:
             notes.append(f"{error.message}, at {factor:g} times the error; it was left out.")
             return
+        finally:
+            notes += cutter.notes
+            cutter.notes.clear()
         if cutter.hopeless:  # and finer cuts are more
             return
         if made is not None and len(made[0]) <= (settings.max_hulls or FEW_HULLS):
@@ -203,11 +205,12 @@ def _coacd(target: Target, settings: Settings, notes: list[str]) -> Iterator[Cho
     for threshold in (settings.threshold, settings.threshold * _COARSER):
         wanted = threshold * target.longest / 2
         try:
-            made = cutter.cut(wanted, _SLACK * wanted)
+            made = cutter.cut(wanted, wanted)
         except DecompositionError as error:
             notes.append(f"{error.message}, at a threshold of {threshold:g}.")
             continue
         assert made is not None
+        notes += cutter.notes
         yield Choice("coacd", *made)
         return
     notes.append("One convex hull was taken instead.")

@@ -6,7 +6,7 @@ import math
 from functools import cached_property
 
 from .convex import capped_hull
-from .decompose import decompose, divided, solid_of
+from .decompose import Budget, DecompositionError, decompose, divided, solid_of
 from .measure import Measures, Target, measure, piece_distances
 from .merge import Joiner
 from .piece import Piece, mesh_piece
@@ -53,6 +53,8 @@ class Cutter:
         self.most = most
         self.few = few
         self.hopeless = False
+        self.budget = Budget(settings.time_limit)
+        self.notes: list[str] = []
 
     @cached_property
     def solid(self) -> Prepared:
@@ -69,9 +71,10 @@ class Cutter:
     ) -> tuple[list[Piece], Measures] | None:
         """As few pieces as are within a distance of the mesh, with as few vertices, and how good.
 
-        CoACD judges a piece by few points and sometimes misses one that sticks out; such a piece is
-        cut on its own. The joins and the vertices left out afterwards that cost least come first,
-        and go on beyond the distance while there are more triangles than may be.
+        CoACD judges a piece by few points and sometimes misses one that sticks out, or that buries
+        what can be touched; such a piece is cut on its own. The joins and the vertices left out
+        afterwards that cost least come first, and go on beyond the distance while there are more
+        triangles than may be.
 
         Args:
             distance: Of the pieces from the mesh, that the cuts and joins aim at [m].
@@ -90,7 +93,7 @@ class Cutter:
             2 * distance / self.target.longest,
             max_hulls=self.most or -1,
             max_vertices=self.settings.max_vertices,
-            time_limit=self.settings.time_limit,
+            budget=self.budget,
         )
         if self.few is not None and len(cuts) > HOPELESS * self.few:
             self.hopeless = True
@@ -156,17 +159,22 @@ class Cutter:
         return [mesh_piece(*capped_hull(piece.vertices, most, tolerance)) for piece in pieces]
 
     def _mended(self, pieces: list[Piece], distance: float) -> list[Piece]:
-        off = piece_distances(self.target, pieces)
+        beyond = piece_distances(self.target, pieces)
+        off = [max(far, self.joiner.burial(p)) for far, p in zip(beyond, pieces, strict=True)]
         worst = sorted((d, index) for index, d in enumerate(off) if d > distance)[-AGAIN:]
         found = list(pieces)
         for _, index in worst:
-            parts = divided(
-                self.solid,
-                pieces[index],
-                distance / 2,
-                max_vertices=self.settings.max_vertices,
-                time_limit=self.settings.time_limit,
-            )
+            try:
+                parts = divided(
+                    self.solid,
+                    pieces[index],
+                    distance / 2,
+                    max_vertices=self.settings.max_vertices,
+                    budget=self.budget,
+                )
+            except DecompositionError as error:
+                self.notes.append(f"{error.message}; a piece too far off was not cut again.")
+                break
             if parts:
                 found.remove(pieces[index])
                 found += parts

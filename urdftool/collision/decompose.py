@@ -14,6 +14,7 @@ import os
 import signal
 import subprocess
 import sys
+from time import monotonic
 from typing import Any
 
 import numpy as np
@@ -27,17 +28,42 @@ from .quadric import simplify
 from .remesh import common, remesh
 from .surface import Prepared, prepare
 
-TRIANGLES = 1500
+TRIANGLES = 2000
 """Triangles that a mesh has at most when it is cut."""
 
 PART_TRIANGLES = 600
 """Triangles that a piece has at most when it is cut again."""
 
+_TOO_LONG = "CoACD took longer on the mesh than its time limit"
 _SLOWEST = 4.0  # share of a processor that a child may be left with before the watch ends it
 
 
 class DecompositionError(UrdftoolError):
     """CoACD ended without a result."""
+
+
+class Budget:
+    """Processor time that all runs of CoACD on one mesh may take together."""
+
+    def __init__(self, seconds: float) -> None:
+        """Begin with all of it [s]."""
+        self.seconds = seconds
+        self.used = 0.0
+
+    @property
+    def left(self) -> float:
+        """What is left of it [s].
+
+        Raises:
+            DecompositionError: Nothing is.
+        """
+        if self.used >= self.seconds:
+            raise DecompositionError(_TOO_LONG)
+        return self.seconds - self.used
+
+    def spend(self, seconds: float) -> None:
+        """Take some from it [s]."""
+        self.used += seconds
 
 
 def solid_of(surface: Prepared) -> Prepared:
@@ -54,7 +80,7 @@ def decompose(
     *,
     max_hulls: int = -1,
     max_vertices: int,
-    time_limit: float,
+    budget: Budget,
     tolerance: float = 0.0,
 ) -> list[Piece]:
     """Convex pieces that together are near to a solid.
@@ -64,7 +90,7 @@ def decompose(
         threshold: Concavity at which CoACD stops to cut, relative to half the longest side.
         max_hulls: Pieces it may make; -1 is any number.
         max_vertices: Vertices each may have.
-        time_limit: Processor time [s] it may take.
+        budget: Processor time that is left for the mesh; what it takes is taken from it.
         tolerance: Distance [m] that vertices of a piece may be left out.
 
     Raises:
@@ -81,13 +107,28 @@ def decompose(
         "merge": max_hulls != -1,  # joined by what is measured, they are fewer
         "preprocess_mode": "off",
         "seed": 0,
-        "time_limit": time_limit,
+        "time_limit": budget.left,
     }
-    return _hulls(run_child(solid.vertices, solid.faces, options), max_vertices, tolerance)
+    before = _children_time()
+    try:
+        parts = run_child(solid.vertices, solid.faces, options)
+    finally:
+        budget.spend(_children_time() - before)
+    return _hulls(parts, max_vertices, tolerance)
+
+
+def _children_time() -> float:
+    """Processor time of the children that have ended [s]; where it is not told, the clock."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return monotonic()
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def divided(
-    solid: Prepared, piece: Piece, distance: float, *, max_vertices: int, time_limit: float
+    solid: Prepared, piece: Piece, distance: float, *, max_vertices: int, budget: Budget
 ) -> list[Piece]:
     """Smaller pieces in the place of one that is too far from the solid.
 
@@ -96,7 +137,7 @@ def divided(
         piece: A piece of it.
         distance: How far from it the new pieces may be [m].
         max_vertices: Vertices each may have.
-        time_limit: Processor time [s] it may take.
+        budget: Processor time that is left for the mesh; what it takes is taken from it.
 
     Raises:
         DecompositionError: It died, took too long, or gave nothing.
@@ -108,7 +149,7 @@ def divided(
     if made is None:
         return []
     longest = float(np.ptp(made.vertices, axis=0).max())
-    return decompose(made, 2 * distance / longest, max_vertices=max_vertices, time_limit=time_limit)
+    return decompose(made, 2 * distance / longest, max_vertices=max_vertices, budget=budget)
 
 
 def _is_one_body(surface: Prepared) -> bool:
@@ -151,13 +192,13 @@ def run_child(vertices: Points, faces: Faces, options: dict[str, Any]) -> list[P
     try:
         out, err = child.communicate(stream.getvalue(), timeout=limit * _SLOWEST + 10)
     except subprocess.TimeoutExpired:
-        raise DecompositionError(f"CoACD took longer than {limit:g} s") from None
+        raise DecompositionError(_TOO_LONG) from None
     finally:
         if child.poll() is None:
             child.kill()
             child.communicate()
     if child.returncode:
-        raise _death(child.returncode, err.decode("utf-8", "replace"), limit)
+        raise _death(child.returncode, err.decode("utf-8", "replace"))
     try:
         with np.load(io.BytesIO(out)) as found:
             return [found[f"v{index}"] for index in range(len(found.files) // 2)]
@@ -165,9 +206,9 @@ def run_child(vertices: Points, faces: Faces, options: dict[str, Any]) -> list[P
         raise DecompositionError("CoACD ended without a result") from error
 
 
-def _death(code: int, err: str, limit: float) -> UrdftoolError:
+def _death(code: int, err: str) -> UrdftoolError:
     if code < 0 and -code in (getattr(signal, "SIGXCPU", 0), signal.SIGKILL):
-        return DecompositionError(f"CoACD took longer than {limit:g} s")
+        return DecompositionError(_TOO_LONG)
     lines = [line for line in err.strip().splitlines() if line.strip()]
     last = lines[-1].strip() if lines else ""
     if "No module named 'coacd'" in last:

@@ -72,7 +72,7 @@ class Joiner:
                 made.pop((a, b), None)
                 continue
             if not whole:  # what it buries is dear to find, and is asked for where it can matter
-                heapq.heappush(queue, (max(cost, self._burial(made[a, b])), True, a, b))
+                heapq.heappush(queue, (max(cost, self.burial(made[a, b])), True, a, b))
                 continue
             del living[a], living[b]
             living[number] = made.pop((a, b))
@@ -92,7 +92,7 @@ class Joiner:
         """How far the piece is out of the mesh at most [m]."""
         return float(self.outside.distance(spread(piece.corners, _PROBES).points).max())
 
-    def _burial(self, piece: Piece) -> float:
+    def burial(self, piece: Piece) -> float:
         """How deep in the piece what can be touched of the mesh is at most [m]."""
         low, high = piece.bounds
         within: Points = self.seen[((self.seen > low) & (self.seen < high)).all(axis=1)]

@@ -18,7 +18,7 @@ from ..meshes.mesh import Faces, Points
 from .convex import planes, signed_distance
 from .distance import Surface, areas_of, spread
 
-CELLS = 64
+CELLS = 96
 """Cells along the longest side of the mesh's box; gaps narrower than two are closed."""
 
 _WALL = 0.9  # cells: more than half a cell's diagonal, so that no sheet slips between corners
