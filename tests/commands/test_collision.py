@@ -253,6 +253,40 @@ def test_check_says_what_engines_touch_of_a_concave_mesh(urdftool, write, bracke
     assert json.loads(folder.out)["results"][0]["links"] == found
 
 
+def test_a_check_of_nothing_is_no_pass(urdftool, write):
+    path = write(
+        "r.urdf",
+        '<robot name="r"><link name="a"><collision><geometry><sphere radius="1"/></geometry>'
+        '</collision></link><link name="b"/><joint name="j" type="fixed"><parent link="a"/>'
+        '<child link="b"/></joint></robot>',
+    )
+    done = urdftool("collision", path, "--check", "--format", "json")
+    assert done.code == 2
+    assert json.loads(done.out)["results"][0]["links"] == []
+    assert "nothing was checked, since no link has a visual" in done.err
+    assert "1 link of the robot has collisions" in done.err
+    write("r.urdf", Path(path).read_text().replace("collision>", "visual>"))
+    done = urdftool("collision", path, "--check", "--link", "b")
+    assert done.code == 2
+    assert "of the links that were asked for, none has a visual" in done.err
+
+
+def test_a_part_beyond_the_error_is_said_with_what_helps(urdftool, write):
+    open_sphere = noisy("sphere", (0.1,), noise=0.0)
+    half = open_sphere[1][(open_sphere[0][open_sphere[1]][:, :, 2] > 0).all(axis=1)]
+    write("meshes/bowl.stl", stl(open_sphere[0], half))
+    path = write("r.urdf", robot(("a", "meshes/bowl.stl", "")))
+    words = ("collision", path, "-o", "out.urdf", "--no-cache", "--max-hulls", "2")
+    done = urdftool(*words)
+    assert done.code == 0
+    (line,) = (line for line in done.err.splitlines() if "not within" in line and "a bowl" in line)
+    assert line.startswith("urdftool: a bowl.stl: error ")
+    assert "try --method coacd" in line
+    assert "1 not within the error" in done.err
+    found = urdftool(*words, "--overwrite", "--method", "hull")
+    assert "try --method auto" in found.err
+
+
 def test_check_measures_here(urdftool, write, box):
     path = write("r.urdf", robot(("a", "meshes/box.stl", "")))
     assert urdftool("collision", path, "--check", "--scheduler", "tcp://127.0.0.1:1").code == 2

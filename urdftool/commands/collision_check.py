@@ -42,15 +42,29 @@ def check(console: Console, robots: Sequence[tuple[Robot, Wishes]], values: dict
         results.append(report.as_dict(path, own, limit))
         if values["style"] == "table":
             click.echo(report.table(own, limit), nl=False)
-        code = max(code, _tell(console, path, own, limit))
+        code = max(code, _tell(console, robot, wishes, path, own))
     if values["style"] == "json":
         click.echo(json.dumps({"version": 1, "results": results}, indent=2))
     return code
 
 
-def _tell(console: Console, path: str, found: Sequence[Checked], limit: float) -> int:
+def _nothing(robot: Robot, wishes: Wishes) -> str:
+    """Why there was nothing to check."""
+    shapes = sum(bool(link.collisions) for link in robot.links)
+    which = "of the links that were asked for, none" if wishes.only or wishes.skip else "no link"
+    have = f"; {counted(shapes, 'link')} of the robot ha{'s' if shapes == 1 else 've'} collisions"
+    return f"{which} has a visual to measure collisions against{have if shapes else ''}"
+
+
+def _tell(
+    console: Console, robot: Robot, wishes: Wishes, path: str, found: Sequence[Checked]
+) -> int:
+    limit = wishes.settings.max_error
     for line in report.remarks(found, limit):
         console.say(line)
+    if not found:
+        console.say(f"{path}: nothing was checked, since {_nothing(robot, wishes)}")
+        return 2
     bad = sum(not report.is_good(item, limit) for item in found)
     console.note(
         f"{path}: {counted(len(found), 'link')} with visuals, {bad} not within {limit:.2%}"

@@ -85,7 +85,10 @@ def command(
             cache.write(key, outcome)
         result = result_of(outcome)
     files = _write(file, result, output, values["overwrite"])
-    row = report.Row(Path(file).name, file, scale, result, task.settings.max_error, files)
+    settings = task.settings
+    row = report.Row(
+        Path(file).name, file, scale, result, settings.max_error, files, wanted=settings.method
+    )
     found = report.Report(file, output or "", [row])
     style = values["style"]
     click.echo(report.as_json([found]) if style == "json" else report.table([row]), nl=False)

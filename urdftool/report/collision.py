@@ -36,6 +36,7 @@ class Row:
         max_error: What its error is judged by.
         files: Names of its pieces' files; empty for a primitive.
         source: ``"visual"`` or ``"collision"``; empty for a mesh alone.
+        wanted: The method that was asked for.
     """
 
     name: str
@@ -45,6 +46,7 @@ class Row:
     max_error: float
     files: tuple[str, ...] = ()
     source: str = ""
+    wanted: str = "auto"
 
     @property
     def within(self) -> bool:
@@ -134,8 +136,19 @@ def remarks(rows: Iterable[Row]) -> Iterable[str]:
         if not row.within:
             yield (
                 f"{_label(row)}: error {row.result.error:.2%} of its size, "
-                f"not within {row.max_error:.2%}"
+                f"not within {row.max_error:.2%}; {_advice(row)}"
             )
+
+
+def _advice(row: Row) -> str:
+    """What helps where the error is missed."""
+    if row.result.method == "simplify":
+        return "try more --max-triangles"
+    if row.wanted == "coacd":
+        return "try a smaller --threshold with more --max-triangles"
+    if row.wanted == "auto":
+        return "try --method coacd with a smaller --threshold, or allow a larger --max-error"
+    return "try --method auto"
 
 
 def notes(rows: Iterable[Row]) -> Iterable[str]:
