@@ -278,6 +278,7 @@ def _rows(
                     use.task.settings.max_error,
                     tuple(layout.names[id(result)]),
                     item.source,
+                    use.task.settings.method,
                 )
             )
     return rows
