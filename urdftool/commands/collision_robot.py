@@ -22,6 +22,7 @@ from ..source.description import read_description
 from .collision_options import Progress, cache_of, given_names, settings_of
 from .picture_file import write_picture
 from .read_lax import take_world
+from .read_strict import say_unknown
 
 if TYPE_CHECKING:
     from ..collision.cache import Cache
@@ -146,6 +147,7 @@ def _read(console: Console, path: str, arguments: dict[str, str], values: Values
         package_paths=values["package_path"],
         configured=find_configuration(path, console.config).packages,
     )
+    say_unknown(console, description)
     return take_world(console, robot_of(description))
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..console import Console
+from .read_strict import say_unknown
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
@@ -21,6 +22,7 @@ def read_lax(
     *,
     neighbours: Mapping[str, Path] | None = None,
     shown: Callable[[str], str] = str,
+    many: bool = False,
 ) -> Robot:
     """Read a robot; XML that is wrong and that ROS reads all the same is said and passed over.
 
@@ -32,6 +34,7 @@ def read_lax(
         package_paths: Folders with packages below.
         neighbours: Folders by package name that count as configured.
         shown: How its path is said.
+        many: The arguments are for many robots, and need not be for this one.
 
     Raises:
         UrdftoolError: As ``read_description`` and ``robot_of``.
@@ -70,6 +73,8 @@ def read_lax(
         except XmlError:
             raise error from None
         console.note(f"{shown(error.where)}: warning: {error.message}; lax readers pass over it")
+    if not many:
+        say_unknown(console, description, shown=shown)
     return take_world(console, robot_of(description), shown=shown)
 
 

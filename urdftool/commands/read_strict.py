@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -33,10 +33,31 @@ def read_strict(
     from ..source.description import read_description
 
     path, arguments = robot
-    return read_description(
+    description = read_description(
         path,
         arguments,
         packages=packages,
         package_paths=package_paths,
         configured=find_configuration(path, console.config).packages,
     )
+    say_unknown(console, description)
+    return description
+
+
+def say_unknown(
+    console: Console, description: Description, *, shown: Callable[[str], str] = str
+) -> None:
+    """Say which of the xacro arguments that were given nothing declares.
+
+    Args:
+        console: Where it is said.
+        description: What was read with them.
+        shown: How a path is said.
+    """
+    if not description.arguments:
+        return
+    from ..report.expansion import unknown_arguments
+
+    path = shown(description.files[0].path)
+    for line in unknown_arguments(path, description.arguments, description.expansion):
+        console.note(line)

@@ -52,7 +52,9 @@ class Fleet:
         from .simulate_control import controlled
         from .simulate_one import judged
 
-        robot = read_lax(self.console, path, self.arguments, self.packages, self.package_paths)
+        robot = read_lax(
+            self.console, path, self.arguments, self.packages, self.package_paths, many=True
+        )
         if not robot.links and path not in self.named:
             return Row(path, robot.name, skipped="only macros: it has no link of its own")
         settings = controlled(self.console, self.settings, robot, self.controllers)

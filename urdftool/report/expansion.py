@@ -23,16 +23,33 @@ def warnings(expansion: Expansion, given: Mapping[str, str]) -> list[str]:
     for warned in dict.fromkeys(expansion.warnings):
         where = str(warned.place) if warned.place else expansion.file.path
         lines.append(f"{where}: warning: {' '.join(warned.message.split())}")
+    return lines + unknown_arguments(expansion.file.path, given, expansion)
+
+
+def unknown_arguments(
+    path: str, given: Mapping[str, str], expansion: Expansion | None
+) -> list[str]:
+    """A line for each argument that nothing declares.
+
+    Args:
+        path: Of the description.
+        given: Values for its arguments.
+        expansion: What xacro did; None for plain URDF, which has no arguments.
+    """
+    lines = []
+    known = {} if expansion is None else expansion.arguments
     for name in given:
-        if name not in expansion.arguments and f"$(arg {name})" not in _sources(expansion):
+        used = expansion is not None and f"$(arg {name})" in _sources(expansion)
+        if name not in known and not used:
             from difflib import get_close_matches
 
-            near = get_close_matches(name, expansion.arguments, 1)
-            declared = ", ".join(expansion.arguments) or "none"
-            hint = f"did you mean '{near[0]}'?" if near else f"declared: {declared}"
+            near = get_close_matches(name, known, 1)
+            hint = (
+                f"did you mean '{near[0]}'?" if near else f"declared: {', '.join(known) or 'none'}"
+            )
             lines.append(
-                f"{expansion.file.path}: warning: no <xacro:arg> declares '{name}', "
-                f"so {name}:=… has no effect; {hint}"
+                f"{path}: warning: no <xacro:arg> declares '{name}', so {name}:=… has no effect; "
+                f"{hint}"
             )
     return lines
 
