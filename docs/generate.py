@@ -86,6 +86,20 @@ def _markdown(text: str) -> str:
     return text.replace("``", "`")
 
 
+ELSEWHERE = {
+    "a xacro argument without a default": "expansion-failed",
+    "a property whose name cannot be one": "expansion-failed",
+    "a property or macro used above its definition": ("undefined-name", "unknown-macro"),
+    "arithmetic outside of `${…}`": "not-a-number",
+    "a hardware interface in the actuator alone": "missing-hardware-interface",
+    "a joint in two transmissions, two transmissions of one name": "duplicate-transmission",
+    "two sensors or plugins of one name": ("duplicate-sensor-name", "duplicate-plugin-name"),
+    "what ros2_control refuses of joints that mimic": "ros2-control-mimic",
+    "a parameter of ros2_control without a name": "ros2-control-bad-param",
+}
+"""What has no rule of its own, and which rule says it."""
+
+
 def rule_index() -> str:
     """All rules by family, and by target."""
     lines = ["# Rules", ""]
@@ -107,6 +121,13 @@ def rule_index() -> str:
             fact = _markdown(rule.fact).replace("|", "\\|")
             fix = FIXABLE.get(name, "")
             lines.append(f"| [{name}]({name}.md) | {rule.severity.label} | {fact}{off} | {fix} |")
+    lines += ["", "## Said by another rule", "", "| what | rule |", "|---|---|"]
+    for what, rules in ELSEWHERE.items():
+        named = [rules] if isinstance(rules, str) else rules
+        links = ", ".join(f"[{name}]({name}.md)" for name in named)
+        lines.append(f"| {what} | {links} |")
+    lines += ["", "An entry of a [baseline](../commands/lint.md) that matches nothing any more is"]
+    lines.append("a note of the run and not a finding: no line of the robot is wrong.")
     lines += ["", "## By target", ""]
     lines.append(
         "What is on only for a target, or matters more for it; all others hold everywhere."

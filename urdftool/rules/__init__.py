@@ -240,6 +240,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "no-effect-in-gz",
             "ogre-material-script",
             "missing-contact-parameters",
+            "engine-ignores-ode-friction",
         ),
         "lumping": (
             "lumped-joint-loses-content",
@@ -263,6 +264,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "missing-gz-frame-id",
             "duplicate-sensor-name",
             "missing-sensor-tag",
+            "sensor-needs-world-system",
         ),
         "plugins": (
             "plugin-without-filename",
@@ -320,6 +322,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "pybullet-ignores-inertia",
             "mujoco-welds-root",
             "mujoco-missing-compiler",
+            "isaac-empty-root",
         ),
     },
     "moveit": {

@@ -164,3 +164,45 @@ def missing_sensor_tag(robot: Robot) -> Iterator[Problem]:
                 f"link '{link.name}' has no <sensor>; write one into a "
                 f'<gazebo reference="{link.name}">',
             )
+
+
+_RENDERED = words(
+    "boundingbox boundingbox_camera camera depth depth_camera gpu_lidar gpu_ray lidar multicamera "
+    "rgbd rgbd_camera segmentation segmentation_camera thermal thermal_camera wide_angle_camera "
+    "wideanglecamera"
+)
+_SYSTEM_OF = {
+    **dict.fromkeys(_RENDERED, "sensors"),
+    "air_pressure": "air-pressure",
+    "air_speed": "air-speed",
+    "altimeter": "altimeter",
+    "contact": "contact",
+    "force_torque": "forcetorque",
+    "gps": "navsat",
+    "imu": "imu",
+    "logical_camera": "logical-camera",
+    "magnetometer": "magnetometer",
+    "navsat": "navsat",
+}
+"""The system that makes the data of a type of sensor; ``gz-sim-WORD-system``."""
+
+
+@rule(INFO, on=("gz",), default=False, effects={"gz": "makes no data without it, and says nothing"})
+def sensor_needs_world_system(robot: Robot) -> Iterator[Problem]:
+    """A sensor makes data only in a world that has its system.
+
+    In new Gazebo a system of the world makes the data of all sensors of a kind: ``sensors`` renders
+    for cameras and laser scanners, ``imu``, ``navsat``, ``forcetorque`` and others are one each. A
+    world without it is silent about it. Which systems the world has is not written in a robot, so
+    this is a reminder; one finding names them.
+    """
+    loaded = [plugin.filename for block in robot.gazebo for plugin in block.plugins]
+    found: dict[str, Sensor] = {}
+    for _, sensor in _sensors(robot):
+        system = _SYSTEM_OF.get(sensor.type)
+        if system is not None and not any(f"-{system}-system" in name for name in loaded):
+            found.setdefault(system, sensor)
+    if found:
+        systems = ", ".join(f"gz-sim-{system}-system" for system in sorted(found))
+        first = next(iter(found.values()))
+        yield Problem(first.element, f"its data is made only in a world that loads {systems}")

@@ -115,3 +115,33 @@ def missing_contact_parameters(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 link, f"{role} '{link.name}' has no contact parameters; write kp, kd and minDepth"
             )
+
+
+@rule(
+    INFO,
+    on=("gz",),
+    default=False,
+    effects={"gz": "with the engines bullet-featherstone or mujoco, passes over the friction"},
+)
+def engine_ignores_ode_friction(robot: Robot) -> Iterator[Problem]:
+    """The friction is written for one engine, and another does not read it.
+
+    ``mu1`` and ``mu2`` become ``<friction><ode>``, which DART, the engine of new Gazebo, reads too.
+    Its engine bullet-featherstone reads ``<friction><bullet>`` alone, and that of MuJoCo no surface
+    of SDF at all. For those who choose such an engine: write both in ``<collision><surface>``.
+    """
+    found = [
+        block
+        for block in robot.gazebo
+        if any(block.element.child(word) for word in ("mu1", "mu2"))
+        and not any(element.tag == "bullet" for element in block.element.walk())
+    ]
+    if found:
+        names = [f"'{block.reference}'" for block in found if block.reference]
+        more = f" (and {len(names) - 1} more)" if len(names) > 1 else ""
+        yield Problem(
+            found[0].element,
+            f"the friction{f' of {names[0]}{more}' if names else ''} is not read by "
+            "bullet-featherstone; for that engine write <friction><bullet><friction> and "
+            "<friction2> as well",
+        )

@@ -66,3 +66,24 @@ def mujoco_missing_compiler(robot: Robot) -> Iterator[Problem]:
             f"no <mujoco><compiler> says what MuJoCo should do with {meshes} meshes; "
             "its own way is to drop visuals",
         )
+
+
+@rule(INFO, default=False, effects={"isaac sim": "makes it a rigid body without mass"})
+def isaac_empty_root(robot: Robot) -> Iterator[Problem]:
+    """The root is a frame without mass and shape, which Isaac Sim makes a body.
+
+    Gazebo and MuJoCo fuse such a root, as ``base_footprint``, with what is fixed to it, and KDL
+    wants it. The importer of Isaac Sim makes a rigid body of each link, of a frame too, and the
+    robot hangs on one without mass. Merge fixed joints when importing, or let the robot begin at
+    its first link with a mass.
+    """
+    root = robot.tree.root
+    if root is None or root.inertial is not None or root.visuals or root.collisions:
+        return
+    below = [joint.child for joint in robot.joints if joint.parent == root.name]
+    begin = f", or begin with '{below[0]}'" if len(below) == 1 else ""
+    yield Problem(
+        root,
+        f"root '{root.name}' has neither mass nor shape; for Isaac Sim merge fixed joints when "
+        f"importing{begin}",
+    )
