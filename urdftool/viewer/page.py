@@ -13,6 +13,7 @@ from ..errors import ModelError, UrdftoolError
 from ..finding import Finding
 from ..model.elements import Robot
 from ..model.files import sources
+from ..model.gltf_axes import gltf_note
 from ..model.kinematics import NOWHERE, link_poses
 from . import panels
 from .body import KINDS, Body
@@ -170,6 +171,7 @@ class Page:
         said = [str(problem) for part in shapes for problem in part.problems]
         said += [f"link {name} hangs on no root and is not shown" for name in lost]
         said += unmovable(robot)
+        said += filter(None, [gltf_note(robot)])
         self._set(self._notices, panels.notices(dict.fromkeys(said)))
         self._set(self._summary, panels.summary(robot, self._findings))
         self._set(self._all, panels.all_parts(robot, self._found))

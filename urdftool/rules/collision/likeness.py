@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ...meshes.facts import stl_facts
 from ...model.elements import Robot
+from ...model.gltf_axes import is_gltf
 from ...model.pose import norm
 from ...source.description import Description
 from ..mesh.outlines import reaches
@@ -14,6 +15,8 @@ from ..mesh.uses import Stamp, mesh_uses, stamp
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 
 _faces: dict[Stamp, int] = {}
+
+_AXES = "; or a glTF was written with Z up, and RViz turns it: export it with Y up"
 
 
 def faces_of(path: Path | None) -> int:
@@ -175,6 +178,7 @@ def collision_off_visual(robot: Robot, *, apart: float = 0.5) -> Iterator[Proble
         x, y, z = (a - b for a, b in zip(seen.centre, touches.centre, strict=True))
         distance, diagonal = norm((x, y, z)), norm(seen.size)
         larger = all(a > 2 * b for a, b in zip(touches.size, seen.size, strict=True))
+        lying = any(map(is_gltf, link.visuals)) or any(map(is_gltf, link.collisions))
         if (
             diagonal > 0.05
             and not larger
@@ -183,6 +187,6 @@ def collision_off_visual(robot: Robot, *, apart: float = 0.5) -> Iterator[Proble
             yield Problem(
                 link,
                 f"the collision of link '{link.name}' is {distance:.3g} m off its visual; "
-                "give both the same <origin>",
+                "give both the same <origin>" + (_AXES if lying else ""),
                 at=link.collisions[0].origin or link.collisions[0],
             )

@@ -1,0 +1,30 @@
+"""Robots with glTF meshes, whose axes readers take differently.
+
+The standard has Y up. RViz turns it to Z since 2025, as Drake and Blender do; Gazebo, SAPIEN and
+older releases of RViz keep the axes of the file, and there are robots that were made for those.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from .elements import Collision, Mesh, Robot, Visual
+
+
+def is_gltf(shape: Visual | Collision) -> bool:
+    """Whether a shape is a glTF file."""
+    mesh = shape.geometry
+    return isinstance(mesh, Mesh) and mesh.filename.lower().endswith((".glb", ".gltf"))
+
+
+def gltf_note(robot: Robot) -> str:
+    """What one should know who sees the robot drawn; empty where it has no such mesh."""
+    shapes: Iterable[Visual | Collision] = (shape for _, shape in robot.shapes)
+    files = {s.geometry.filename for s in shapes if isinstance(s.geometry, Mesh) and is_gltf(s)}
+    if not files:
+        return ""
+    which = f"'{files.pop()}' is" if len(files) == 1 else f"{len(files)} meshes are"
+    return (
+        f"{which} glTF, drawn with Y up, as the standard and RViz since 2025 have it; Gazebo, "
+        "SAPIEN and older RViz keep the file's axes, so a robot made for them falls apart here"
+    )
