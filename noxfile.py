@@ -27,6 +27,8 @@ LIGHT = (
     "tests/source",
     "tests/model",
     "tests/info",
+    "tests/test_api.py",
+    "tests/viewer/test_server.py",
 )
 COMMANDS = (
     *(["--version"], ["expand", ARM], ["info", ARM], ["graph", ARM, "-o", "-"]),
@@ -123,6 +125,7 @@ def lowest(session: nox.Session) -> None:
     resolved = Path(session.create_tmp()) / "lowest.txt"
     session.run(
         *("uv", "pip", "compile", "--resolution", "lowest-direct", "pyproject.toml"),
+        *("--extra", "dask", "--extra", "mujoco", "--extra", "view"),
         *("--python", str(Path(session.bin) / "python"), "-o", str(resolved)),
     )
     session.install("-r", str(resolved), "pytest>=8", "hypothesis>=6.100")
