@@ -2,8 +2,13 @@
 
 from xml.etree import ElementTree
 
+import numpy as np
+
 from urdftool import cli
+from urdftool.model.kinematics import link_poses
 from urdftool.model.load import load
+from urdftool.simulation.prepare import prepare
+from urdftool.simulation.settings import Settings
 
 
 def expanded(source, folder):
@@ -82,3 +87,31 @@ def absolute(tree, source):
     robot = load(source)
     for mesh in tree.iter("mesh"):
         mesh.set("filename", str(robot.source.resolve(mesh.get("filename"))))
+
+
+def into_neighbour(path, name, part=1.0):
+    """By how much a collision moves in its link's frame to the middle of that of the link above.
+
+    Args:
+        path: The robot.
+        name: The link.
+        part: Of the way to there.
+    """
+    robot = load(path)
+    bodies = prepare(robot, Settings())
+    poses = link_poses(robot, bodies.positions)
+    number = next(n for n, body in enumerate(bodies.bodies) if name in body.links)
+    above = bodies.bodies[number].parent
+    while not bodies.bodies[above].shapes:
+        above = bodies.bodies[above].parent
+    there = _middle(bodies.bodies[above], poses)
+    here = _middle(bodies.bodies[number], poses, name)
+    turn = np.array(poses[name].rotation)
+    return tuple((part * turn.T @ (there - here)).tolist())
+
+
+def _middle(body, poses, link=None):
+    """The middle of the largest shape of a body, or of one of its links, in the world."""
+    boxes = [shape.bounds() for shape in body.shapes if link in (None, shape.link)]
+    low, high = max(boxes, key=lambda box: np.prod(box[1] - box[0]))
+    return np.array(poses[body.name].transform(tuple(((low + high) / 2).tolist())))

@@ -8,15 +8,15 @@ import numpy as np
 
 from ..formats.mjcf.extent import shape_points
 from ..model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere
-from ..model.pose import Pose, pose_of, rotation_of_quaternion
+from ..model.pose import pose_of
 from .bodies import Body
-from .extent import is_beside
 from .fault import Fault
 from .judge_rest import Rest
 from .overlap import overlap, primitive_triangles
 from .recording import GROUND, Array, Contact
-from .run import Run
+from .run import Run, body_pose
 from .shapes import lowest
+from .strayed import strayed
 
 SUNK = 0.01
 """How deep a robot at rest may be in the floor, as a part of its size."""
@@ -29,9 +29,6 @@ THICK = 0.25
 
 NEAR = 0.002
 """How near to the floor a part is that should touch it [m]."""
-
-INSIDE = 0.4
-"""How much of a misplaced shape is in the part it is joined to, for a fault."""
 
 SHOWS = 0.001
 """How far what is seen of a foot sticks out of what touches beside it [m]."""
@@ -106,29 +103,19 @@ def _in_each_other(robot: Robot, run: Run) -> Iterator[Fault]:
         if depth is not None and depth < _deep(run, INTO):
             continue
         depth = contact.depth if depth is None else min(depth, contact.depth)
+        frame = 0 if starting else -1
+        beside = _misplaced(robot, run, frame, contact) if adjacent else None
         thin = min(_extents(bodies[owner[name]]).min() for name in (contact.one, contact.other))
-        beside = None
-        if adjacent and depth > THICK * thin:
-            pair = (contact.one, contact.other)
-            beside = next(
-                (
-                    name
-                    for name, into in (pair, pair[::-1])
-                    if is_beside(robot, name)
-                    and _share_inside(run, 0 if starting else -1, name, into) > INSIDE
-                ),
-                None,
-            )
         fails = beside is not None or bool(not adjacent and depth > THICK * thin)
         when = "at the start" if starting else "at rest"
-        named = beside or contact.one
+        named = beside[0] if beside else contact.one
         yield Fault(
             "parts-collide",
             f"links '{contact.one}' and '{contact.other}' are {depth:.3g} m in each other {when}",
             robot.link[named].place,
             "link",
             named,
-            f"the collision of '{beside}' lies beside what is seen of it, or beside its mass"
+            beside[1]
             if beside
             else "they are joined, so engines let them"
             if adjacent
@@ -138,22 +125,14 @@ def _in_each_other(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _share_inside(run: Run, frame: int, link: str, other: str) -> float:
-    """How much of a link's shapes is inside those of another link, by the boxes around both."""
-    bodies = run.bodies.bodies
-    one, two = (
-        next(n for n, body in enumerate(bodies) if name in body.links) for name in (link, other)
-    )
-    steps = (np.arange(5) + 0.5) / 5
-    grid = np.stack(np.meshgrid(steps, steps, steps), axis=-1).reshape(-1, 3)
-    mine = [shape.bounds() for shape in bodies[one].shapes if shape.link == link]
-    points = np.concatenate([low + grid * (high - low) for low, high in mine])
-    to = _pose(run, two, frame).inverse() @ _pose(run, one, frame)
-    points = points @ np.array(to.rotation).T + np.array(to.translation)
-    inside = np.zeros(len(points), dtype=bool)
-    for low, high in (shape.bounds() for shape in bodies[two].shapes if shape.link == other):
-        inside |= ((points >= low) & (points <= high)).all(axis=1)
-    return float(inside.mean())
+def _misplaced(robot: Robot, run: Run, frame: int, contact: Contact) -> tuple[str, str] | None:
+    """Which of two joined links has a collision that is not where the link is, and why."""
+    number = {link: index for index, body in enumerate(run.bodies.bodies) for link in body.links}
+    for link, other in ((contact.one, contact.other), (contact.other, contact.one)):
+        why = strayed(robot, run, frame, link, number[other])
+        if why is not None:
+            return link, why
+    return None
 
 
 def _are_joined(run: Run, one: str, other: str) -> bool:
@@ -202,7 +181,7 @@ def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
         seen = [name for name in body.links if robot.link[name].visuals]
         if not seen or (number == 0 and run.bodies.nailed):
             continue
-        pose = _pose(run, number)
+        pose = body_pose(run, number)
         highest = NEAR
         if body.shapes:
             seen = [name for name in seen if not robot.link[name].collisions]
@@ -268,12 +247,6 @@ def _form(geometry: Geometry | None) -> tuple[object, ...]:
     if isinstance(geometry, (Cylinder, Capsule)):
         return "round", geometry.radius, geometry.length
     return (id(geometry),)
-
-
-def _pose(run: Run, number: int, frame: int = -1) -> Pose:
-    """Where a body is in the world, at the end or at another sample."""
-    a, b, c, x, y, z, w = run.recording.poses[frame, number].tolist()
-    return Pose(rotation_of_quaternion((w, x, y, z)), (a, b, c))
 
 
 def _seen(robot: Robot, name: str) -> Array:

@@ -12,7 +12,7 @@ from ..model.pose import rotation_of_quaternion
 from .bodies import JointOf
 from .control import driven
 from .fault import Fault
-from .judge_rest import FAR, Rest
+from .judge_rest import FAR, Rest, is_swinging
 from .recording import GROUND
 from .run import Run
 
@@ -31,7 +31,7 @@ def judge_joints(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
     if not recording.joints:
         return
     if recording.ended != "lost" and not rest.fell:
-        sagging = list(_sag(robot, run))
+        sagging = list(_sag(robot, run, rest))
         yield from sagging
         yield from _beyond(robot, run)
         if not sagging:
@@ -64,7 +64,7 @@ def _units(joint: JointOf) -> tuple[str, str]:
     return ("m", "N") if joint.kind == "prismatic" else ("rad", "N·m")
 
 
-def _sag(robot: Robot, run: Run) -> Iterator[Fault]:
+def _sag(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
     recording = run.recording
     for column, joint in enumerate(run.bodies.joints):
         if joint.name not in recording.targets or driven(run.settings.controls, joint.name):
@@ -79,12 +79,17 @@ def _sag(robot: Robot, run: Run) -> Iterator[Fault]:
             why = "no effort is written, and it was held without bound: something pushes it away"
         elif need is not None and abs(need) > allowed:
             why = f"to hold it takes {abs(need):.4g} {force}, and it may use {allowed:.4g}"
+        elif rest.settled is None and is_swinging(run, column):
+            why = (
+                f"it swings: the {allowed:.4g} {force} that it may use brake what it moves too "
+                "late; something struck that, or its inertia is too large"
+            )
         else:
             why = f"it may use {allowed:.4g} {force}, which was not enough"
         yield Fault(
             "sags",
-            f"joint '{joint.name}' is held at {target:.3g} {length} and came to rest at "
-            f"{now:.3g} {length}",
+            f"joint '{joint.name}' is held at {target:.3g} {length} and "
+            f"{'is' if rest.settled is None else 'came to rest'} at {now:.3g} {length}",
             (_joint(robot, joint.name).limit or _joint(robot, joint.name)).place,
             "joint",
             joint.name,

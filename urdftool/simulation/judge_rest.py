@@ -295,7 +295,22 @@ def _why_moving(run: Run) -> str:
     loose = [j.name for j in run.bodies.joints if j.name not in run.bodies.held and not j.leader]
     if loose:
         return f"nothing holds {len(loose)} of its joints and they have little damping"
+    swinging = [joint for column, joint in enumerate(run.bodies.joints) if is_swinging(run, column)]
+    if swinging:
+        more = f" and {len(swinging) - 1} more" if len(swinging) > 1 else ""
+        return f"joint '{swinging[0].name}'{more} swings about where it is held"
     return "parts push against each other, or it rolls"
+
+
+def is_swinging(run: Run, column: int) -> bool:
+    """Whether a held joint moves to and fro with all the effort that it may use, to the end."""
+    recording, joint = run.recording, run.bodies.joints[column]
+    last = np.nan_to_num(recording.efforts[len(recording.times) // 2 :, column])
+    if joint.name not in recording.targets or not joint.effort:
+        return False
+    most = 0.99 * joint.effort
+    moves = abs(float(recording.rates[-1, column])) > 1e-3
+    return bool(moves and last.min() < -most and last.max() > most)
 
 
 def _when(recording: Recording) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import product
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from .bodies import mass_of
 from .extent import Extent, extent_of
 from .fault import Fault
 from .recording import Array
-from .run import Run
+from .run import Run, body_pose
 
 REACH = 1.2
 """How far out a link's mass may sit on average, as a part of how far its shapes reach."""
@@ -33,6 +34,8 @@ MADE_UP = 2.0
 DENSEST = 12_000.0
 """Denser than lead [kg/m³]."""
 
+TOO_LARGE = "a tensor of ones, or of other units; the link turns far too slowly"
+
 _HEAVY = 0.1
 _LIGHT = 0.02  # of the robot's mass: what is lighter stands for a camera or a frame
 _ASIDE = 0.5  # of the longest half: a motor may stick out of a thin box by that
@@ -50,9 +53,10 @@ def judge_size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
     if own is None or link.inertial is None:
         return
     share = own.mass / run.bodies.mass
-    if not has_shapes(robot, link.name) and share < _HEAVY:
-        return
     spread = math.sqrt(max(0.0, float(np.trace(own.inertia)) / 2 / own.mass))
+    if not has_shapes(robot, link.name) and share < _HEAVY:
+        yield from _bare(robot, link, own, spread, run)
+        return
     extent = _around(robot, link, run, only_collisions=True)
     if _fits(extent, own, spread):
         return
@@ -75,7 +79,7 @@ def judge_size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
             (link.inertial.inertia or link.inertial).place,
             "link",
             link.name,
-            "a tensor of ones, or of other units; the link turns far too slowly",
+            TOO_LARGE,
             "inertia-exceeds-geometry",
         )
     if share > _LIGHT and extent.volume and own.mass > DENSEST * extent.volume:
@@ -89,6 +93,47 @@ def judge_size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
             "lead is lighter: its mass is in grams, or its shapes in another unit",
             "implausible-density",
         )
+
+
+def _bare(
+    robot: Robot, link: Link, own: MassProperties, spread: float, run: Run
+) -> Iterator[Fault]:
+    """The tensor of a link without shapes, which no part of so large a robot could have."""
+    bodies = run.bodies.bodies
+    if not run.bodies.size:  # nothing says how large it is
+        return
+    body = next(body for body in bodies if link.name in body.links)
+    if any(has_shapes(robot, name) for name in body.links) or not _rules(
+        own.inertia, link.name, run
+    ):
+        return
+    centre = np.array(body.places[link.name].transform(tuple(own.com.tolist())))
+    at = np.array(body_pose(run, bodies.index(body), 0).transform(tuple(centre.tolist())))
+    reach = float(np.linalg.norm(_frames(run) - at, axis=1).max())
+    if spread > reach:  # on average, where not even the farthest corner is
+        yield Fault(
+            "inertia-too-large",
+            f"the inertia of link '{link.name}' is that of mass {spread:.3g} m from its centre; "
+            f"the whole robot reaches {reach:.3g} m",
+            (link.inertial.inertia or link.inertial if link.inertial else link).place,
+            "link",
+            link.name,
+            TOO_LARGE,
+            "inertia-exceeds-geometry",
+        )
+
+
+def _frames(run: Run) -> Array:
+    """Frames of bodies and corners of their shapes at the start, shape (n, 3)."""
+    found = []
+    for number, body in enumerate(run.bodies.bodies):
+        pose = body_pose(run, number, 0)
+        found.append(pose.translation)
+        for shape in body.shapes:
+            found += [
+                pose.transform(corner) for corner in product(*zip(*shape.bounds(), strict=True))
+            ]
+    return np.array(found)
 
 
 def _too_wide(tensor: Array, mass: float, extent: Extent) -> str:

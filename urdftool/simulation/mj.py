@@ -8,21 +8,19 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from time import perf_counter
 from typing import Any
 
 import numpy as np
 
 from ..errors import MissingDependency, ModelError
 from .bodies import Bodies
-from .bullet import RUNAWAY, SAMPLE
+from .driver import Sample, settle
 from .mj_contacts import Touches
 from .mj_file import MOTOR, PLANE, SCENE, moving_name
 from .mj_motors import Motors
 from .mj_read import read_back
 from .recording import Array, Contact, Recording
 from .settings import Settings
-from .stillness import PATIENCE, Stillness
 
 _SOFT = 5.0  # timesteps: the time constant of a contact; below two it is unstable, near it jumps
 _IMPEDANCE = (0.95, 0.99, 0.001, 0.5, 2.0)
@@ -52,7 +50,7 @@ def run(bodies: Bodies, settings: Settings, folder: Path) -> Recording:
     Raises:
         ModelError: MuJoCo does not compile it.
     """
-    return World(mujoco_module(), bodies, settings, folder).settle()
+    return settle(World(mujoco_module(), bodies, settings, folder))
 
 
 class World:
@@ -68,6 +66,8 @@ class World:
     def __init__(self, mj: Any, bodies: Bodies, settings: Settings, folder: Path) -> None:
         """Set the scene; nothing moves yet."""
         self.mj, self.bodies, self.settings = mj, bodies, settings
+        self.name = f"MuJoCo {mj.__version__}"
+        self.capped: dict[str, float] = {}  # its own integration bears any damping
         mj.set_mju_user_warning(lambda _: None)  # without it a log is written to the folder
         try:
             self.model = mj.MjModel.from_xml_path(str(folder / SCENE))
@@ -187,63 +187,27 @@ class World:
         """The deepest place of each two bodies that are in each other, whether they push or not."""
         return self.touches.overlaps(ground=ground)
 
-    def settle(self) -> Recording:
-        """Step until nothing moves, the time is over, or the robot is lost."""
-        mj, settings = self.mj, self.settings
-        every = max(1, round(SAMPLE / settings.timestep))
-        steps = max(1, round(settings.duration / settings.timestep))
-        watch = Stillness(self.bodies.size, every * settings.timestep)
-        start_contacts = self.touches.overlaps()
-        samples = [self._sample(0.0)]
-        began = perf_counter()
-        still: float | None = None
-        ended, done = "time", 0
-        while done < steps and ended == "time":
-            self.model.opt.gravity = settings.gravity_at(done * settings.timestep)
-            for _ in range(min(every, steps - done)):
-                self.motors.drive()
-                mj.mj_step(self.model, self.data)
-                done += 1
-            sample = self._sample(done * settings.timestep)
-            samples.append(sample)
-            if not self._is_sane(sample):
-                ended = "lost"
-                break
-            still = watch.add(sample["times"], sample["poses"], sample["positions"])
-            if still is not None and sample["times"] > PATIENCE:
-                ended = "still"
-        seconds = perf_counter() - began
-        columns = {name: np.array([sample[name] for sample in samples]) for name in samples[0]}
-        columns["potential"] = columns["potential"] - columns["potential"][0]
-        return Recording(
-            engine=f"MuJoCo {mj.__version__}",
-            bodies=tuple(body.name for body in self.bodies.bodies),
-            joints=tuple(joint.name for joint in self.bodies.joints),
-            **columns,
-            held=self.bodies.held,
-            targets={name: self.bodies.positions[name] for name in self.bodies.held},
-            start_contacts=start_contacts,
-            contacts=self.touches.contacts() + self.touches.overlaps(ground=False),
-            capped={},  # its own integration bears any damping
-            read_back=self.read_back,
-            still_since=still,
-            ended=ended,
-            seconds=seconds,
-            steps=done,
-        )
+    def contacts(self) -> list[Contact]:
+        """What touches the plane now."""
+        return self.touches.contacts()
 
-    def _is_sane(self, sample: dict[str, Any]) -> bool:
-        far = RUNAWAY * max(1.0, self.bodies.size)
+    def is_broken(self) -> bool:
+        """Whether the engine warned of numbers that are none."""
         bad = self.mj.mjtWarning
         numbers = (bad.mjWARN_BADQPOS, bad.mjWARN_BADQVEL, bad.mjWARN_BADQACC)
-        return bool(
-            np.isfinite(sample["poses"]).all()
-            and np.isfinite(sample["kinetic"])
-            and np.abs(sample["poses"][:, :2]).max() < far
-            and not any(self.data.warning[int(number)].number for number in numbers)
-        )
+        return any(self.data.warning[int(number)].number for number in numbers)
 
-    def _sample(self, time: float) -> dict[str, Any]:
+    def lean(self, gravity: tuple[float, float, float], poses: Array) -> None:
+        """Set gravity."""
+        self.model.opt.gravity = gravity
+
+    def step(self) -> None:
+        """One timestep."""
+        self.motors.drive()
+        self.mj.mj_step(self.model, self.data)
+
+    def sample(self, time: float) -> Sample:
+        """What there is to measure."""
         mj, model, data = self.mj, self.model, self.data
         mj.mj_forward(model, data)
         mj.mj_energyVel(model, data)

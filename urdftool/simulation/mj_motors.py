@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .bodies import Bodies
-from .bullet import UNBOUND
+from .bullet_motors import UNBOUND
 from .control import Pids, driven
 from .recording import Array
 from .settings import Settings

@@ -14,9 +14,9 @@ from ..errors import UrdftoolError
 from ..inertia.winding import boxes_of, winding_numbers
 from ..meshes.load import load_mesh
 from ..model.elements import Collision, Mesh, Robot, Visual
-from ..model.pose import Pose, pose_of, rotation_of_quaternion
+from ..model.pose import Pose, pose_of
 from .recording import Array
-from .run import Run
+from .run import Run, body_pose
 from .shapes import hull
 
 POINTS = 1500
@@ -50,9 +50,7 @@ def _pose(run: Run, frame: int, link: str) -> Pose:
     """Where a link is in the world."""
     bodies = run.bodies.bodies
     number = next(index for index, body in enumerate(bodies) if link in body.links)
-    x, y, z, *turn = run.recording.poses[frame, number].tolist()
-    i, j, k, w = turn
-    return Pose(rotation_of_quaternion((w, i, j, k)), (x, y, z)) @ bodies[number].places[link]
+    return body_pose(run, number, frame) @ bodies[number].places[link]
 
 
 def _surfaces(robot: Robot, shapes: list[Collision], at: Pose) -> Iterator[Array]:

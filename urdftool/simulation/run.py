@@ -11,6 +11,7 @@ from pathlib import Path
 from time import perf_counter
 
 from ..model.elements import Robot
+from ..model.pose import Pose, rotation_of_quaternion
 from .bodies import Bodies
 from .child import Child
 from .prepare import prepare
@@ -40,6 +41,12 @@ class Run:
     bodies: Bodies
     recording: Recording
     swept: list[Swept] = field(default_factory=list)
+
+
+def body_pose(run: Run, number: int, frame: int = -1) -> Pose:
+    """Where a body is in the world, at the end or at another sample."""
+    a, b, c, x, y, z, w = run.recording.poses[frame, number].tolist()
+    return Pose(rotation_of_quaternion((w, x, y, z)), (a, b, c))
 
 
 def simulate(

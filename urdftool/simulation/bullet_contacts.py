@@ -1,0 +1,91 @@
+"""What touches what in PyBullet, by the links of the file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .bodies import Bodies
+from .recording import GROUND, Contact
+
+_NEAR = 1e-4  # m; of two boxes it finds nothing when it is asked for a distance of zero
+
+
+class Touches:
+    """Contacts of one robot."""
+
+    def __init__(
+        self, p: Any, robot: int, plane: int, bodies: Bodies, link_of: Mapping[int, int]
+    ) -> None:
+        """Take the engine's numbers of a robot and a plane, and its link of each body."""
+        self.p, self.robot, self.plane = p, robot, plane
+        self.bodies, self.link_of = bodies, link_of
+        self.body_of = {link: body for body, link in link_of.items()}
+
+    def contacts(self) -> list[Contact]:
+        """What touches the plane now."""
+        return [
+            self._contact(point, GROUND)
+            for point in self.p.getContactPoints(bodyA=self.robot, bodyB=self.plane)
+        ]
+
+    def _contact(self, point: Any, other: str) -> Contact:
+        return Contact(
+            self._link(self.body_of[point[3]], point[5]),
+            other,
+            -point[8],
+            point[9],
+            tuple(point[6]),
+            tuple(point[7]),
+        )
+
+    def _link(self, number: int, at: tuple[float, float, float]) -> str:
+        """Which link of a body has the shape that is nearest to a point in the world."""
+        body = self.bodies.bodies[number]
+        if len({shape.link for shape in body.shapes}) < 2:
+            return body.shapes[0].link if body.shapes else body.name
+        where, turn = self._frame(number)
+        local, _ = self.p.multiplyTransforms(*self.p.invertTransform(where, turn), at, (0, 0, 0, 1))
+
+        def distance(shape: Any) -> float:
+            low, high = shape.bounds()
+            outside = np.maximum(0.0, np.maximum(low - local, np.array(local) - high))
+            return float(np.linalg.norm(outside))
+
+        return min(body.shapes, key=distance).link
+
+    def _frame(self, number: int) -> tuple[Any, Any]:
+        if number:
+            state = self.p.getLinkState(self.robot, self.link_of[number])
+            return state[4], state[5]
+        at, turn = self.p.getBasePositionAndOrientation(self.robot)
+        back = self.p.getDynamicsInfo(self.robot, -1)
+        where: tuple[Any, Any] = self.p.multiplyTransforms(
+            at, turn, *self.p.invertTransform(back[3], back[4])
+        )
+        return where
+
+    def overlaps(self, *, ground: bool = True) -> list[Contact]:
+        """The deepest place of each two bodies that are in each other, whether they push or not."""
+        p, found = self.p, []
+        solid = [n for n, body in enumerate(self.bodies.bodies) if body.shapes]
+        boxes = {n: np.array(p.getAABB(self.robot, self.link_of[n])) for n in solid}
+        for position, one in enumerate(solid):
+            for other in solid[:position]:
+                a, b = boxes[one], boxes[other]
+                if (a[0] > b[1]).any() or (b[0] > a[1]).any():
+                    continue
+                points = p.getClosestPoints(
+                    self.robot, self.robot, _NEAR, self.link_of[one], self.link_of[other]
+                )
+                if points and min(point[8] for point in points) < 0:
+                    deepest = min(points, key=lambda point: point[8])
+                    name = self._link(other, deepest[6])
+                    found.append(self._contact(deepest, name))
+            if ground and boxes[one][0][2] < 0:
+                points = p.getClosestPoints(self.robot, self.plane, _NEAR, self.link_of[one], -1)
+                if points:
+                    found.append(self._contact(min(points, key=lambda point: point[8]), GROUND))
+        return found
