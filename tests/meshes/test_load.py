@@ -42,6 +42,14 @@ def test_cube(name):
     assert sum(part.count for part in mesh.parts) == 12
 
 
+def test_what_is_beyond_all_sizes_is_damaged(tmp_path):
+    path = tmp_path / "far.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1e200 0\nf 1 2 3\n")
+    with pytest.raises(MeshError, match=r"reaches 1e\+200 m from its origin"):
+        load_mesh(path)
+    assert load_mesh(path, (1, 1e-200, 1)).vertices.max() == pytest.approx(1)
+
+
 def test_suffix_in_capitals(tmp_path):
     file = tmp_path / "CUBE.STL"
     file.write_bytes((FIXTURES / "cube.stl").read_bytes())

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import MeshError, UrdftoolError
+from ..meshes.load import FARTHEST
 from ..meshes.mesh import Points
 from ..model.elements import Box, Capsule, Cylinder, Link, Mesh, Robot, Sphere
 from ..model.pose import Pose, pose_of
@@ -20,7 +21,7 @@ from .measure import Target, measure
 from .parallel import Progress
 from .piece import Piece, mesh_piece
 from .pool import run_all
-from .surface import FARTHEST, Prepared, prepare, read_surface
+from .surface import Prepared, prepare, read_surface
 from .tessellate import primitive
 
 _CONVEX = 1e-3

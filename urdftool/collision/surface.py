@@ -11,11 +11,10 @@ import numpy.typing as npt
 
 from ..errors import MeshError
 from ..inertia.repair import drop_duplicates, orient
-from ..meshes.load import load_mesh
+from ..meshes.load import FARTHEST, load_mesh
 from ..meshes.mesh import Faces, Points
 from ..meshes.solid import collapsed, components, edges_of, neighbours, weld
 
-FARTHEST = 1e12  # [m]; beyond it, squares and cubes of lengths leave the numbers
 SLIVER = 1e-14
 """Area of a face, relative to the square of the mesh's size, at which it is degenerate."""
 

@@ -25,6 +25,9 @@ READERS = {
     "glb": "gltf",
 }
 
+FARTHEST = 1e12
+"""Where a mesh must end [m]: beyond it, squares and cubes of lengths leave the numbers."""
+
 
 def load_mesh(
     path: str | Path,
@@ -49,8 +52,8 @@ def load_mesh(
 
     Raises:
         MeshError: There is no such file, it is a folder, empty, a git-LFS pointer, truncated or of
-            another format, it has no face or a coordinate that is no number, or the scale is not
-            three finite factors other than zero.
+            another format, it has no face, a coordinate that is no number or beyond all sizes, or
+            the scale is not three finite factors other than zero.
     """
     file = Path(path)
     factors = _factors(scale, file)
@@ -121,6 +124,12 @@ def _assemble(file: Path, suffix: str, reading: Reading, factors: tuple[float, .
             path=file,
         )
     vertices = vertices * np.array(factors)
+    reach = float(np.abs(vertices[faces]).max())
+    if not reach < FARTHEST:
+        raise MeshError(
+            f"the mesh reaches {reach:.3g} m from its origin; the file or its scale is damaged",
+            path=file,
+        )
     mirrored = math.prod(factors) < 0
     if mirrored:
         faces = np.ascontiguousarray(faces[:, ::-1])
