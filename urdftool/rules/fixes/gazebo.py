@@ -6,6 +6,7 @@ from ...model.elements import Link, Robot
 from ...source.document import Element
 from ..gazebo.contact import contact_role
 from ..gazebo.keywords import JOINT_KEYWORDS, LINK_KEYWORDS, NOT_IN_GZ, SURFACE
+from ..gazebo.sensors import without_frame
 from ..gazebo.tags import _colours, _shows_colour
 from ..rule import Problem
 from .proposal import (
@@ -348,14 +349,19 @@ def ros_plugin_inside_sensor(problem: Problem, around: Around) -> Proposal | Non
 
 
 def missing_gz_frame_id(problem: Problem, around: Around) -> Proposal | None:
-    """Its link."""
-    sensor = problem.element
-    block = sensor.parent
-    name = written(block, "reference") if block is not None else ""
-    if not name:
-        return None
-    line = f"<gz_frame_id>{quote(name)}</gz_frame_id>"
-    return safe(f"write {line}", insert(sensor, line))
+    """Its link, and those of all others where they are one finding."""
+    sensors = [problem.element]
+    if " more) " in problem.message:
+        sensors = [sensor.element for _, sensor in without_frame(around.robot)]
+    lines = []
+    for sensor in sensors:
+        name = written(sensor.parent, "reference") if sensor.parent is not None else ""
+        if not name:
+            return None
+        lines.append(f"<gz_frame_id>{quote(name)}</gz_frame_id>")
+    changes = [insert(*change) for change in zip(sensors, lines, strict=True)]
+    more = " and so on" if len(lines) > 1 else ""
+    return safe(f"write {lines[0]}{more}", *changes)
 
 
 def camera_sensor_not_optical(problem: Problem, around: Around) -> Proposal | None:

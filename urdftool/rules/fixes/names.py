@@ -29,7 +29,9 @@ def colon_space_in_comment(problem: Problem, around: Around) -> Proposal | None:
 
 
 def invalid_frame_name(problem: Problem, around: Around) -> Proposal | None:
-    """Without slash and blanks, here and where it is named."""
+    """Without slash and blanks, here and where it is named; many have a cause elsewhere."""
+    if "; write '" not in problem.message:
+        return None
     link = around.link(problem)
     new = problem.message.rpartition("; write '")[2].partition("'")[0]
     if not new or new in around.robot.link or new in around.robot.joint:

@@ -99,25 +99,32 @@ def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[
     on=("gz",),
     effects={"gz": "stamps the data with model/link/sensor, which TF does not know"},
 )
-def missing_gz_frame_id(robot: Robot) -> Iterator[Problem]:
+def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Problem]:
     """A sensor does not say in which frame it measures.
 
     New Gazebo makes up a frame of the names of model, link and sensor; there is none such in TF,
     and RViz shows nothing. ``<gz_frame_id>`` with the name of the link mends it
-    (``ignition_frame_id`` in Fortress).
+    (``ignition_frame_id`` in Fortress). More than ``together`` sensors are one finding.
     """
+    found = list(without_frame(robot))
+    many = len(found) > together
+    for block, sensor in found[:1] if many else found:
+        others = f" (and {len(found) - 1} more)" if many else ""
+        where = ", and the link of each of the others" if many else ""
+        yield Problem(
+            sensor.element,
+            f"sensor '{sensor.name}'{others} names no frame; "
+            f"write <gz_frame_id>{block.reference}</gz_frame_id>{where}",
+        )
+
+
+def without_frame(robot: Robot) -> Iterator[tuple[GazeboExtension, Sensor]]:
+    """Sensors of a link that name no frame, and could."""
     for block, sensor in _sensors(robot):
-        if sensor.type not in _WITH_FRAME or any(
-            child.tag in ("gz_frame_id", "ignition_frame_id", "optical_frame_id")
-            for child in sensor.element.walk()
-        ):
-            continue
-        if block.reference in robot.link:
-            yield Problem(
-                sensor.element,
-                f"sensor '{sensor.name}' names no frame; "
-                f"write <gz_frame_id>{block.reference}</gz_frame_id>",
-            )
+        if sensor.type in _WITH_FRAME and block.reference in robot.link:
+            tags = {child.tag for child in sensor.element.walk()}
+            if not tags & {"gz_frame_id", "ignition_frame_id", "optical_frame_id"}:
+                yield block, sensor
 
 
 @rule(ERROR, on=GAZEBO, effects={"gazebo": "rejects the model: names are not unique"})

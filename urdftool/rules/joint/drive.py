@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Limit, Robot
@@ -101,41 +102,65 @@ def negative_limit(robot: Robot) -> Iterator[Problem]:
 
 @rule(INFO, effects={"moveit, ros2_control": "the limit limits nothing"})
 def implausible_velocity(
-    robot: Robot, *, fastest_turn: float = 100.0, fastest_slide: float = 20.0
+    robot: Robot, *, fastest_turn: float = 100.0, fastest_slide: float = 20.0, together: float = 4
 ) -> Iterator[Problem]:
     """A joint's velocity limit is faster than arms and slides are.
 
     In most cases it is in degrees or turns per minute, or a large number that means "none".
-    Planners time trajectories by it.
+    Planners time trajectories by it. One number at more than ``together`` joints is one finding.
     """
+    found = []
     for joint, limit in _driven(robot):
         if joint.type == "continuous" or limit.velocity is None:
             continue
         fastest = fastest_slide if joint.type == "prismatic" else fastest_turn
         if limit.velocity > fastest:
-            yield Problem(
-                joint,
-                f"velocity limit of joint '{joint.name}' is {limit.velocity:g} {_units(joint)[1]}, "
-                f"above {fastest:g}; write what the drive reaches",
-                at=limit.element.attribute_place("velocity"),
+            found.append(
+                (joint, limit, f"{limit.velocity:g} {_units(joint)[1]}, above {fastest:g}")
             )
+    for joint, limit, what, more in _alike(found, together):
+        yield Problem(
+            joint,
+            f"velocity limit of joint '{joint.name}'{more} is {what}; write what the drive reaches",
+            at=limit.element.attribute_place("velocity"),
+        )
 
 
 @rule(INFO, effects={"gz, ros2_control": "clamp no command"})
-def implausible_effort(robot: Robot, *, largest: float = 1e4) -> Iterator[Problem]:
+def implausible_effort(
+    robot: Robot, *, largest: float = 1e4, together: float = 4
+) -> Iterator[Problem]:
     """A joint's effort limit is larger than drives have.
 
     A large number that means "none" lets every command through, and a simulated motor tears the
-    robot apart where the real one would have stalled.
+    robot apart where the real one would have stalled. One number at more than ``together`` joints
+    is one finding.
     """
-    for joint, limit in _driven(robot):
-        if limit.effort is not None and limit.effort > largest:
-            yield Problem(
-                joint,
-                f"effort limit of joint '{joint.name}' is {limit.effort:g} {_units(joint)[0]}, "
-                f"above {largest:g}; write what the drive has",
-                at=limit.element.attribute_place("effort"),
-            )
+    found = [
+        (joint, limit, f"{limit.effort:g} {_units(joint)[0]}, above {largest:g}")
+        for joint, limit in _driven(robot)
+        if limit.effort is not None and limit.effort > largest
+    ]
+    for joint, limit, what, more in _alike(found, together):
+        yield Problem(
+            joint,
+            f"effort limit of joint '{joint.name}'{more} is {what}; write what the drive has",
+            at=limit.element.attribute_place("effort"),
+        )
+
+
+def _alike(
+    found: list[tuple[Joint, Limit, str]], together: float
+) -> Iterator[tuple[Joint, Limit, str, str]]:
+    """Each joint, or the first of more than ``together`` of which one thing is said."""
+    times = Counter(what for _, _, what in found)
+    told = set()
+    for joint, limit, what in found:
+        if times[what] <= together:
+            yield joint, limit, what, ""
+        elif what not in told:
+            told.add(what)
+            yield joint, limit, what, f" (and {times[what] - 1} more)"
 
 
 @rule(

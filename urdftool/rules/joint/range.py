@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ...model.elements import Joint, Limit, Robot
+from ...model.elements import Joint, Limit, Link, Robot
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 
 
@@ -65,11 +65,12 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
 
     Angles are in radians. 90 lets the joint turn fourteen times, which winds up cables and gives
     planners a hundred ways to one pose. A very large number mostly means that there is no limit;
-    then the joint is ``continuous``.
+    then the joint is ``continuous``. A joint that moves a mere frame, one of several that stand for
+    a robot that moves freely, is let be.
     """
     for joint in robot.joints:
         limit = joint.limit
-        if joint.type != "revolute" or limit is None:
+        if joint.type != "revolute" or limit is None or _moves_a_frame(robot, joint):
             continue
         lower, upper = limit.lower or 0.0, limit.upper or 0.0
         if max(abs(lower), abs(upper)) <= largest:
@@ -106,10 +107,13 @@ def _looks_like_degrees(value: float) -> bool:
 def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator[Problem]:
     """A prismatic joint's limit, or the place of a joint, is more than ten metres.
 
-    Lengths are in metres. Numbers of a drawing in millimetres make a thousandfold robot.
+    Lengths are in metres. Numbers of a drawing in millimetres make a thousandfold robot. A joint
+    that moves a mere frame, one of several that stand for a robot that moves freely, is let be.
     """
     for joint, limit, lower, upper in _bounded(robot):
         if joint.type == "prismatic" and max(abs(lower), abs(upper)) > largest:
+            if _moves_a_frame(robot, joint):
+                continue
             name = "upper" if abs(upper) > largest else "lower"
             value = upper if name == "upper" else lower
             yield Problem(
@@ -207,6 +211,22 @@ def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Pr
                 f"its range is {lower:g} to {upper:g}",
                 at=limit.element.attribute_place(name),
             )
+
+
+def _moves_a_frame(robot: Robot, joint: Joint) -> bool:
+    """Whether a joint's child is only there to carry the next joint, with its like at the root."""
+    if not any(map(_is_body, robot.links)):
+        return False  # nothing but frames are written
+    while joint.child in robot.link and not _is_body(robot.link[joint.child]):
+        above = robot.tree.parent_joint(joint.parent)
+        if above is None or above.type not in ("prismatic", "revolute", "continuous"):
+            return True
+        joint = above
+    return False
+
+
+def _is_body(link: Link) -> bool:
+    return bool(link.visuals or link.collisions or link.mass > 0)
 
 
 def _bounded(robot: Robot) -> Iterator[tuple[Joint, Limit, float, float]]:

@@ -34,6 +34,10 @@ def _read(robot: Robot, description: Description) -> Iterator[Document]:
     stem = path.name.split(".")[0]
     files = sorted(path.parent.glob("*.srdf"))
     named = [file for file in files if file.name.split(".")[0] == stem]
+    if not named:
+        described = path.parent.glob("*.urdf*")  # each of these has the SRDF of its own name
+        others = {other.name.split(".")[0] for other in described}
+        files = [file for file in files if file.name.split(".")[0] not in others]
     for file in named or files:
         try:
             document = parse(read_file(shown_path(file)))

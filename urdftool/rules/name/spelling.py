@@ -15,17 +15,29 @@ _SNAKE = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 
 
 @rule(ERROR, on=ROS, effects={"tf2": "refuses the frame; nothing can be transformed to it"})
-def invalid_frame_name(robot: Robot) -> Iterator[Problem]:
+def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem]:
     """A link's name begins with a slash or has a blank in it.
 
-    Every link is a frame of tf, and tf2 refuses such names.
+    Every link is a frame of tf, and tf2 refuses such names. Where more than ``together`` links
+    begin with a slash there is one cause, mostly a prefix that is empty, and one finding.
     """
+    slashed = [link for link in robot.links if link.name.startswith("/")]
+    if len(slashed) > together:
+        first = slashed[0]
+        yield Problem(
+            first,
+            f"names of {len(slashed)} links begin with a slash, the first is '{first.name}'; "
+            "write them without, or give the prefix that is empty",
+            at=first.element.attribute_place("name"),
+        )
     for link in robot.links:
         name = link.name
         inner = name.strip()
         if not inner or is_unexpanded(name) or (inner != name and inner in robot.tree.order):
             continue
         if name.startswith("/"):
+            if len(slashed) > together:
+                continue
             what = f"begins with a slash; write '{name.lstrip('/')}'"
         elif len(inner.split()) > 1:
             what = f"has a blank in it; write '{'_'.join(inner.split())}'"
