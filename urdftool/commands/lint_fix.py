@@ -185,12 +185,15 @@ def _show(console: Console, done: _Done, wanted: Wanted) -> int:
 
 
 def _diff(path: str, before: bytes, after: bytes) -> str:
-    from difflib import unified_diff
+    from io import StringIO
+
+    from ..report.line_diff import unified_lines
 
     old, new = (
-        data.decode("utf-8", "replace").splitlines(keepends=True) for data in (before, after)
+        StringIO(data.decode("utf-8", "replace"), newline="\n").readlines()
+        for data in (before, after)
     )
     lines = []
-    for line in unified_diff(old, new, path, path):
+    for line in unified_lines(old, new, path, path):
         lines.append(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n")
     return "".join(lines)

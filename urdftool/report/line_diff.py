@@ -1,0 +1,121 @@
+"""Unified diffs that show what changed: lines that are unique hold both texts together.
+
+``difflib`` takes lines that are frequent in a long text for noise, and in a robot nearly every line
+is frequent: a changed number then shows as half of the file gone and written anew. Here both texts
+are aligned at their unique lines first (patience diff, by Bram Cohen), and between them as
+``difflib`` does it without that.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from difflib import SequenceMatcher
+
+Opcode = tuple[str, int, int, int, int]
+
+
+def unified_lines(
+    old: Sequence[str], new: Sequence[str], before: str, after: str, *, around: int = 3
+) -> Iterator[str]:
+    """The lines of a unified diff, its heads with and the rest without a line's end of their own.
+
+    Args:
+        old: Lines as they were.
+        new: Lines as they are.
+        before: What the old ones are called.
+        after: What the new ones are called.
+        around: How many lines are shown around a change.
+    """
+    matcher: SequenceMatcher[str] = SequenceMatcher(None, [], [])
+    matcher.opcodes = _opcodes(old, new)  # type: ignore[attr-defined]
+    for number, group in enumerate(matcher.get_grouped_opcodes(around)):
+        if not number:
+            yield f"--- {before}\n"
+            yield f"+++ {after}\n"
+        first, last = group[0], group[-1]
+        yield f"@@ -{_range(first[1], last[2])} +{_range(first[3], last[4])} @@\n"
+        for what, i, j, k, m in group:
+            if what == "equal":
+                yield from (f" {line}" for line in old[i:j])
+                continue
+            yield from (f"-{line}" for line in old[i:j])
+            yield from (f"+{line}" for line in new[k:m])
+
+
+def _range(start: int, stop: int) -> str:
+    """Lines as a diff names them: from one on, and without a count where it is one."""
+    length = stop - start
+    return f"{start + 1}" if length == 1 else f"{start + (length > 0)},{length}"
+
+
+def _opcodes(old: Sequence[str], new: Sequence[str]) -> list[Opcode]:
+    """What becomes of the old lines, as ``SequenceMatcher.get_opcodes`` says it."""
+    result: list[Opcode] = []
+    i = k = 0
+    for start, other in [*_matches(old, new, 0, len(old), 0, len(new)), (len(old), len(new))]:
+        if i < start or k < other:
+            what = "replace" if i < start and k < other else "delete" if i < start else "insert"
+            result.append((what, i, start, k, other))
+        if start < len(old) or other < len(new):
+            if result and result[-1][0] == "equal":
+                result[-1] = ("equal", result[-1][1], start + 1, result[-1][3], other + 1)
+            else:
+                result.append(("equal", start, start + 1, other, other + 1))
+        i, k = start + 1, other + 1
+    return result
+
+
+def _matches(
+    old: Sequence[str], new: Sequence[str], i: int, j: int, k: int, m: int
+) -> list[tuple[int, int]]:
+    """Pairs of equal lines between two places in both, in order."""
+    found: list[tuple[int, int]] = []
+    while i < j and k < m and old[i] == new[k]:
+        found.append((i, k))
+        i, k = i + 1, k + 1
+    tail: list[tuple[int, int]] = []
+    while i < j and k < m and old[j - 1] == new[m - 1]:
+        j, m = j - 1, m - 1
+        tail.append((j, m))
+    if i < j and k < m:
+        anchors = _anchors(old, new, i, j, k, m)
+        if anchors:
+            for start, other in [*anchors, (j, m)]:
+                found += _matches(old, new, i, start, k, other)
+                if start < j:
+                    found.append((start, other))
+                i, k = start + 1, other + 1
+        else:
+            matcher = SequenceMatcher(None, old[i:j], new[k:m], autojunk=False)
+            for one, other, size in matcher.get_matching_blocks():
+                found += [(i + one + n, k + other + n) for n in range(size)]
+    return found + tail[::-1]
+
+
+def _anchors(
+    old: Sequence[str], new: Sequence[str], i: int, j: int, k: int, m: int
+) -> list[tuple[int, int]]:
+    """The most lines that are there once on either side and follow each other on both."""
+    here, there = Counter(old[i:j]), Counter(new[k:m])
+    place = {line: number for number, line in enumerate(new[k:m], k) if there[line] == 1}
+    pairs = [
+        (number, place[line])
+        for number, line in enumerate(old[i:j], i)
+        if here[line] == 1 and line in place
+    ]
+    ends: list[int] = []  # the smallest end of an increasing run of each length
+    last: list[int] = []
+    before: list[int] = []
+    for index, (_, other) in enumerate(pairs):
+        length = bisect_left(ends, other)
+        ends[length : length + 1] = [other]
+        last[length : length + 1] = [index]
+        before.append(last[length - 1] if length else -1)
+    chain = []
+    index = last[-1] if last else -1
+    while index >= 0:
+        chain.append(pairs[index])
+        index = before[index]
+    return chain[::-1]
