@@ -26,7 +26,7 @@ class Settings:
         max_triangles: Triangles that ``simplify`` and ``coacd`` may leave of a mesh, in all.
         threshold: CoACD's concavity, at which it stops to cut, for the method ``coacd``: a
             distance, relative to half the longest side.
-        time_limit: Processor time [s] that one run of CoACD may take.
+        time_limit: Processor time [s] that CoACD may take for a mesh, in all of its runs.
     """
 
     method: str = "auto"

@@ -84,7 +84,8 @@ def command(ctx: click.Context, /, words: tuple[str, ...], **values: Any) -> int
         urdftool collision robots/ -o simulated/ -j 8
         urdftool collision arm.urdf --check
 
-    Exit 1 if --check finds an error above --max-error, 2 if a mesh cannot be used.
+    Exit 1 if --check finds an error above --max-error, 2 if a mesh cannot be used or there
+    is nothing to check.
     """  # noqa: D301 -- \b is a character that click looks for
     console: Console = ctx.obj
     paths, arguments = split_arguments(words)

@@ -98,7 +98,7 @@ _OPTIONS = (
         show_default=True,
         callback=_positive,
         metavar="S",
-        help="Processor time of one run of CoACD [s].",
+        help="Processor time of CoACD for one mesh, in all [s].",
     ),
     click.option("--cache-dir", metavar="DIR", help="Where results are kept for the next time."),
     click.option("--no-cache", is_flag=True, help="Compute all anew, and keep nothing."),
