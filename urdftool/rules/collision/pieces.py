@@ -119,24 +119,27 @@ class Pieces:
     def strangers(self) -> list[tuple[str, str]]:
         """Pairs of bodies that no joint joins and that may meet, in the order of the tree.
 
-        By sweeping along x, so that a thousand links are not half a million pairs.
+        By sweeping along the axis on which they stand furthest apart, so that a thousand links are
+        not half a million pairs.
         """
         number = {name: n for n, name in enumerate(self.bodies)}
+        middles = [middle for middle, _ in self.spheres.values()]
+        spans = [max(column) - min(column) for column in zip(*middles, strict=True)]
+        axis = spans.index(max(spans)) if spans else 0
+        ends = {
+            name: (middle[axis] - radius, middle[axis] + radius)
+            for name, (middle, radius) in self.spheres.items()
+        }
         found: list[tuple[str, str]] = []
         open_: list[str] = []
-        for name in sorted(number, key=lambda name: self._along_x(name)[0]):
-            start = self._along_x(name)[0]
-            open_ = [other for other in open_ if self._along_x(other)[1] > start]
+        for name in sorted(number, key=lambda name: ends[name][0]):
+            start = ends[name][0]
+            open_ = [other for other in open_ if ends[other][1] > start]
             for other in open_:
-                pair = (name, other) if number[name] < number[other] else (other, name)
-                if frozenset(pair) not in self.neighbours and self.near(*pair):
-                    found.append(pair)
+                if self.near(name, other) and frozenset((name, other)) not in self.neighbours:
+                    found.append((name, other) if number[name] < number[other] else (other, name))
             open_.append(name)
         return sorted(found, key=lambda pair: (number[pair[0]], number[pair[1]]))
-
-    def _along_x(self, name: str) -> tuple[float, float]:
-        (x, _, _), radius = self.spheres[name]
-        return x - radius, x + radius
 
 
 def _sphere(found: list[tuple[Link, Convex]]) -> tuple[Vector, float]:
