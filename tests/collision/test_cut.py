@@ -6,12 +6,12 @@ import pytest
 from tests.collision.shapes import finer, l_profile, noisy
 from tests.conftest import FIXTURES
 from urdftool.collision import cut, decompose
-from urdftool.collision.choose import choose
+from urdftool.collision.choose import _ladder, choose
 from urdftool.collision.convex import hull
 from urdftool.collision.cut import Cutter
 from urdftool.collision.decompose import solid_of
 from urdftool.collision.distance import Surface, spread
-from urdftool.collision.measure import Target
+from urdftool.collision.measure import Target, measure
 from urdftool.collision.merge import Joiner
 from urdftool.collision.piece import mesh_piece
 from urdftool.collision.remesh import Outside, common, remesh
@@ -142,6 +142,20 @@ def test_a_piece_that_buries_a_slot_is_cut_again(monkeypatch):
     assert cutter._mended([whole], 0.06) == [whole]
 
 
+def test_auto_takes_coarse_cuts_where_finer_ones_are_too_many(monkeypatch):
+    boxes = bent(12)
+    corners = np.concatenate([box.corners for box in boxes])
+    surface = prepare(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+    threes = [np.concatenate([box.vertices for box in boxes[k : k + 3]]) for k in (0, 3, 6, 9)]
+    coarse = [mesh_piece(*hull(points)) for points in threes]
+    made = iter([coarse, boxes * 20])
+    monkeypatch.setattr(cut, "decompose", lambda *_, **__: next(made))
+    target = Target(surface)
+    found = list(_ladder(target, Settings(max_error=0.001), []))
+    assert [choice.method for choice in found] == ["coacd"]
+    assert found[0].measures.error < measure(target, [mesh_piece(*hull(surface.vertices))]).error
+
+
 def test_all_runs_on_a_mesh_share_one_time_limit(monkeypatch):
     surface, whole, _ = slotted()
     limits: list[float] = []
@@ -197,3 +211,14 @@ def test_cuts_keep_to_their_distance():
     assert 2 <= len(choice.pieces) <= 4
     assert choice.measures.hausdorff <= 1.4 * 0.03 * 0.2
     assert choice.measures.volume_ratio == pytest.approx(1, abs=0.1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("most", [1, 2, 5])
+def test_no_more_pieces_than_are_allowed(most):
+    surface = prepare(*finer(*l_profile()))
+    settings = Settings(method="coacd", max_hulls=most, threshold=0.01, max_error=0.05)
+    choice = choose(surface, settings)
+    assert choice.method == "coacd"
+    assert 1 <= len(choice.pieces) <= most
+    assert (choice.measures.error < 0.01) == (most > 1)

@@ -189,14 +189,18 @@ def _ladder(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
             made = cutter.cut(factor * wanted, wanted, last=factor == LADDER[-1])
         except DecompositionError as error:
             notes.append(f"{error.message}, at {factor:g} times the error; it was left out.")
-            return
+            break
         finally:
             notes += cutter.notes
             cutter.notes.clear()
         if cutter.hopeless:  # and finer cuts are more
-            return
+            break
         if made is not None and len(made[0]) <= (settings.max_hulls or FEW_HULLS):
             yield Choice("coacd", *made)
+            return
+    coarse = cutter.coarser(wanted)
+    if coarse is not None and len(coarse[0]) <= (settings.max_hulls or FEW_HULLS):
+        yield Choice("coacd", *coarse)
 
 
 def _coacd(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:

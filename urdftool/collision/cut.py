@@ -55,6 +55,7 @@ class Cutter:
         self.hopeless = False
         self.budget = Budget(settings.time_limit)
         self.notes: list[str] = []
+        self._coarse: tuple[list[Piece], float] | None = None
 
     @cached_property
     def solid(self) -> Prepared:
@@ -99,10 +100,17 @@ class Cutter:
             self.hopeless = True
             return None
         if not last and measure(self.target, cuts).hausdorff > within:
+            self._coarse = cuts, distance
             return None
         if self.most is None:
             cuts = self._mended(cuts, distance)
         return self._fewer(cuts, distance, within)
+
+    def coarser(self, within: float) -> tuple[list[Piece], Measures] | None:
+        """The coarse cuts that were not within the distance [m], joined; None without any."""
+        if self._coarse is None:
+            return None
+        return self._fewer(*self._coarse, within)
 
     def _fewer(
         self, cuts: list[Piece], distance: float, within: float
