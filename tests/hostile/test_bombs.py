@@ -162,6 +162,28 @@ def test_a_robot_with_such_a_mesh(tmp_path, name):
         assert "Traceback" not in err
 
 
+COLLADA = """<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="1"/><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist count="2"><input semantic="VERTEX" source="#v" offset="0"/><vcount>{} 3</vcount>
+<p>0 1 2 0 1 2</p></polylist></mesh></geometry></library_geometries><library_visual_scenes>
+<visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("count", ["-9", "2000000000", "0"])
+def test_polygons_of_no_sane_size(tmp_path, count):
+    (tmp_path / "m.dae").write_text(COLLADA.format(count))
+    code, _, err = bounded(["inertia", "mesh", "m.dae", "--surface", "--density", "1"], tmp_path)
+    assert code in (0, 2)
+    assert code == 0 or "m.dae" in err
+    assert "Traceback" not in err
+
+
 @pytest.mark.slow
 def test_an_archive_is_not_unpacked(tmp_path):
     zae(tmp_path / "bomb.zae")

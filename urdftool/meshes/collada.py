@@ -155,7 +155,17 @@ def _geometry_pieces(geometry: Any, bound: Any, matrix: Points, path: Path) -> I
     materials = {material.symbol: material for material in bound}
     for written in geometry.primitives:
         # polygons are cut into fans
-        primitive = written.triangleset() if hasattr(written, "triangleset") else written
+        try:
+            counts, index = getattr(written, "vcounts", None), getattr(written, "index", ())
+            if counts is not None and len(counts) and np.sum(counts, dtype=float) > len(index):
+                raise ValueError(f"they want {counts.sum()} corners, and there are {len(index)}")
+            primitive = written.triangleset() if hasattr(written, "triangleset") else written
+        except (ValueError, IndexError, TypeError) as error:  # counts that are no counts
+            raise MeshError(
+                f"the polygons of geometry {geometry.id!r} of the COLLADA file cannot be cut into "
+                f"triangles ({error}); export or fetch it again",
+                path=path,
+            ) from error
         corners = getattr(primitive, "vertex_index", None)
         if primitive.vertex is None or corners is None or np.ndim(corners) != 2:
             continue

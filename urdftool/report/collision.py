@@ -10,6 +10,7 @@ from typing import Any
 
 from ..collision.compute import Result, shown_scale
 from ..collision.rewrite import geometry_tag
+from .findings_words import clean
 
 _HEAD = (
     "method",
@@ -119,6 +120,7 @@ def table(rows: Sequence[Row]) -> str:
 
 def aligned(lines: Sequence[Sequence[str]]) -> str:
     """Columns as wide as they have to be: the first to the left, the others to the right."""
+    lines = [[clean(cell) for cell in line] for line in lines]
     widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
     return "".join(
         "  ".join(
