@@ -19,7 +19,7 @@ OURS = (
     "ros2_arm/urdf/robot2_sound.urdf.xacro",
     "demo_arm/urdf/arm_sound.urdf.xacro",
 )
-THEIRS = ("a1/a1.urdf", "husky/husky.urdf", "kuka_iiwa/model.urdf", "xarm/xarm6_robot.urdf")
+THEIRS = ("a1/a1.urdf", "husky/husky.urdf", "kuka_iiwa/model.urdf")
 
 
 def looked_at(path, folder):
