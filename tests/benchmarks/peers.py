@@ -45,6 +45,10 @@ def python() -> str | None:
 
 def tool(name: str) -> str | None:
     """A command of the others, of the system, or beside our Python; None where it is missing."""
+    if name in DEBIAN:  # packages of PyPI bring wrappers of the same name, in Python
+        folders = os.environ.get("PATH", os.defpath).split(os.pathsep)
+        others = [f for f in folders if not Path(f, "python").exists() or f == "/usr/bin"]
+        return shutil.which(name, path=os.pathsep.join(others))
     return _in(FOLDER, name) or shutil.which(name) or _in(Path(PYTHON).parents[1], name)
 
 
