@@ -154,6 +154,14 @@ def test_a_package_is_offered_where_a_neighbour_has_the_file(tmp_path):
         Packages(robot(home / "urdf")).resolve("package://arm_shapes/base.stl")
 
 
+def test_a_folder_beside_the_file_is_offered_that_only_pybullet_takes_for_a_package(tmp_path):
+    home = tmp_path / "panda"
+    (home / "meshes" / "collision").mkdir(parents=True)
+    (home / "meshes" / "collision" / "base.obj").write_text("")
+    with pytest.raises(PackageNotFound, match=f"--package meshes={home / 'meshes'} "):
+        Packages(robot(home)).resolve("package://meshes/collision/base.obj")
+
+
 def test_no_file_outside_is_offered(tmp_path):
     home = package(tmp_path / "ws" / "arm", "arm")
     (tmp_path / "secret").write_text("")

@@ -173,13 +173,14 @@ class Packages:
             rule="package-not-found",
         )
 
-    def folder_with(self, inner: str) -> Path | None:
-        """A folder around the file, or a package beside it, that has a file at this path.
+    def folder_with(self, name: str, inner: str) -> Path | None:
+        """A folder around the file or beside it, or a package near, that has a file at this path.
 
         A description outlives its package's name; what it names is then still beside it.
 
         Args:
-            inner: What follows the package's name in a URI.
+            name: The package's name in a URI; PyBullet takes it for a folder beside the file.
+            inner: What follows it.
         """
         inner = inner.lstrip("/")
         own = own_package(self.file)
@@ -187,7 +188,8 @@ class Packages:
         above = [folder for folder in self.file.parents if len(folder.parts) > 2][:_MAX_CLIMB]
         beside = [folder for root in roots for folder in packages_below(root).values()]
         parts = inner.split("/")
-        for folder in (*above, *beside) if inner and ".." not in parts else ():
+        named = [folder / name for folder in above[:2]]
+        for folder in (*above, *named, *beside) if inner and ".." not in parts else ():
             if os.path.isfile(folder / inner):
                 return folder
         return None
@@ -280,7 +282,7 @@ class Packages:
             try:
                 folder = self.find(name)
             except PackageNotFound as error:
-                near = self.folder_with(inner)
+                near = self.folder_with(name, inner)
                 if near is None:
                     raise
                 raise PackageNotFound(

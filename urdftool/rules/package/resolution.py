@@ -34,7 +34,7 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
     for name, uses in lost.items():
         count = len({use.uri for use in uses})
         meshes = f"{count} meshes in it were" if count > 1 else "a mesh in it was"
-        near = description.packages.folder_with(uses[0].uri.partition("://")[2].partition("/")[2])
+        near = description.packages.folder_with(name, _inner(uses[0].uri))
         remedy = f"say where it is with --package {name}=DIR or --package-path DIR"
         yield Problem(
             uses[0].link,
@@ -53,6 +53,11 @@ def is_in_own_package(use: MeshUse, description: Description) -> bool:
     if own is None or scheme != "package" or use.exists or not inside or name == own[0]:
         return False
     return os.path.isfile(own[1] / inside)
+
+
+def _inner(uri: str) -> str:
+    """What follows the package's name in a URI."""
+    return uri.partition("://")[2].partition("/")[2]
 
 
 def _brief(searched: list[str]) -> list[str]:
