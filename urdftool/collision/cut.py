@@ -16,8 +16,11 @@ from .surface import Prepared
 AGAIN = 8
 """Pieces that are cut again at most: those that are farthest off."""
 
-JOINS = (1.0, 0.9, 0.8, 0.6, 1.2)
+JOINS = (1.0, 0.8, 0.6)
 """Parts of the distance within which pieces are joined, tried in turn."""
+
+JOINS_TO_FEW = (1.0, 0.9, 0.8, 0.6, 1.2)
+"""The same where only so many pieces may be left."""
 
 TRIMS = (1.0, 0.5, 0.25)
 """Parts of the distance that vertices may be left out, tried in turn."""
@@ -118,7 +121,7 @@ class Cutter:
         """Joined and trimmed: the first near enough of those few enough, else the nearest."""
         levels = self._levels(cuts)
         tried: list[tuple[float, int, list[Piece], Measures]] = []
-        for join in JOINS:
+        for join in JOINS if self.few is None else JOINS_TO_FEW:
             living = self._living(levels, join * distance)
             if self.few is not None and len(living) > self.few:
                 continue
