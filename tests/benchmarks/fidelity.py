@@ -51,7 +51,7 @@ def measure(path: Path) -> dict[str, dict[str, Any]]:
         copy = resolved(path, folder / "in")
         files = {}
         for number, converter in enumerate(CONVERTERS):
-            if peers.version(converter.package) is None:
+            if peers.version(converter.package) is None or converter.words(path, folder) is None:
                 continue
             out = folder / str(number) / f"x.{'sdf' if converter.form == 'sdf' else 'xml'}"
             out.parent.mkdir()

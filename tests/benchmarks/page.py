@@ -14,11 +14,14 @@ PAGE = peers.ROOT / "docs" / "benchmarks.md"
 FIDELITY = peers.ROOT / "docs" / "fidelity.md"
 LINK = "[fidelity](fidelity.md)"
 
+_INSTALLED = re.compile(r"/[^\s'\"]*/site-packages/(?:cmeel\.prefix/share/)?")
+"""Where a package happens to be installed, which a message of another tool names."""
+
 HEAD = """\
 # Measured beside other tools
 
 `make bench-peers` installs the other tools that are on PyPI, in an environment of their own, and
-`make bench` measures all of this anew and writes this page, in some ten minutes. One alone:
+`make bench` measures all of this anew and writes this page, in some fifteen minutes. One alone:
 `python -m tests.benchmarks NAME --write`; what takes long has to be named: {long}.
 
 Every command is a process of its own, from its start to its end, and both sides of a row take
@@ -52,6 +55,7 @@ def conditions(names: Sequence[str], load: float) -> str:
 
 
 def section(name: str, title: str, about: str, body: str, facts: str) -> str:
+    body = _INSTALLED.sub("", body)
     parts = [f"## {title}", about, facts, body]
     return "\n\n".join([begin(name), *(part for part in parts if part), end(name)])
 
