@@ -12,6 +12,7 @@ from ..inertia.link_review import LinkReview
 from ..inertia.rounding import number_text, round_properties
 from ..inertia.tensor import MassProperties, six_numbers
 from ..source.location import Place
+from .counted import counted
 from .findings import Painter, clean
 from .inertia import numbers
 
@@ -160,15 +161,17 @@ def summary(reviews: Sequence[LinkReview]) -> str:
             ("doubtful", "doubtful"),
             ("missing", "without inertial"),
             ("incomplete", "incomplete"),
-            ("frame", "frames"),
+            ("frame", "frame"),
         )
     }
     written = math.fsum(item.link.mass for item in reviews)
-    parts = [f"{len(reviews)} link{'s' * (len(reviews) != 1)}", f"{written:.6g} kg written"]
+    parts = [counted(len(reviews), "link"), f"{written:.6g} kg written"]
     planned = math.fsum(item.mass or 0.0 for item in reviews)
     if not math.isclose(planned, written, rel_tol=1e-9, abs_tol=1e-12):
         parts.append(f"{planned:.6g} kg wanted")
+    frames = counts.pop("frame")
     parts += [f"{count} {label}" for label, count in counts.items() if count]
+    parts += [counted(frames, "frame")] if frames else []
     return ", ".join(parts)
 
 

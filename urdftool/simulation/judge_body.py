@@ -85,7 +85,7 @@ def _massless(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
         more = f" and {len(moving) - 1} more" if len(moving) > 1 else ""
         yield Fault(
             "no-mass",
-            f"link '{moving[0]}'{more} on a moving joint weighs nothing",
+            f"link '{moving[0]}'{more} on a moving joint weigh{'s' * (not more)} nothing",
             robot.link[moving[0]].place,
             "link",
             moving[0],

@@ -229,7 +229,8 @@ def _unlimited(robot: Robot, run: Run) -> Iterator[Fault]:
         more = f" and {len(names) - 1} more" if len(names) > 1 else ""
         yield Fault(
             "no-effort",
-            f"joint '{names[0]}'{more} has no effort above zero, and was held without bound",
+            f"joint '{names[0]}'{more} {'have' if more else 'has'} no effort above zero, and "
+            f"{'were' if more else 'was'} held without bound",
             _joint(robot, names[0]).place,
             "joint",
             names[0],

@@ -298,7 +298,8 @@ def _why_moving(run: Run) -> str:
     swinging = [joint for column, joint in enumerate(run.bodies.joints) if is_swinging(run, column)]
     if swinging:
         more = f" and {len(swinging) - 1} more" if len(swinging) > 1 else ""
-        return f"joint '{swinging[0].name}'{more} swings about where it is held"
+        does = "swing about where they are" if more else "swings about where it is"
+        return f"joint '{swinging[0].name}'{more} {does} held"
     return "parts push against each other, or it rolls"
 
 

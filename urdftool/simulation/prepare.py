@@ -16,7 +16,6 @@ _FATAL = FATAL | {
     "not-a-number",
     "unknown-joint-type",
     "zero-axis",
-    "self-mimic",
     "mimic-cycle",
     "planar-or-floating",
     "negative-mass",
