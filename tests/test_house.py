@@ -22,7 +22,7 @@ BELOW = {
     "console": ("terminal", "errors"),
     "configuration": ("errors",),
     "meshes": ("errors",),
-    "drawing": ("meshes", "model", "source", "workers", "errors"),
+    "drawing": ("meshes", "model", "source", "errors"),
     "inertia": ("meshes", "model", "source", "workers", "errors"),
     "collision": (
         *("store", "drawing", "meshes", "inertia", "model", "source", "workers", "errors"),

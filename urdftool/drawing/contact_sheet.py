@@ -11,14 +11,12 @@ import numpy as np
 from ..model.elements import Joint, Robot
 from ..model.kinematics import limits_of, link_poses, movable_joints, with_mimics
 from ..model.pose import Pose
-from ..workers import cores
 from .camera import Camera, View
 from .lettering import Words, lettered
 from .picture import draw, view_of
 from .png_file import Image
 from .raster import Indices
 from .shapes import Shapes
-from .together import drawn_together
 
 TURN = math.pi / 2
 """How far a joint without limits is turned [rad]."""
@@ -28,8 +26,6 @@ _PAPER = (250, 250, 251)
 _GREY, _FADED = np.array([0.80, 0.81, 0.82]), 0.82
 _CHILD, _AFTER = np.array([0.95, 0.42, 0.10]), np.array([0.97, 0.68, 0.42])
 _MARGIN, _GAP = 16, 6
-_BY_ITSELF = 10_000  # triangles that take as long as all else about a picture
-_WORTH_IT = 1_000_000  # triangles to draw in all; for fewer, processes take longer than they save
 _ASIDE = 0.1  # of the robot's size
 _SHAPE = 1.35  # width over height that a sheet is to have
 
@@ -119,17 +115,11 @@ def contact_sheet(
             f"{title}: {count}", (_MARGIN, _MARGIN), layout.width - 2 * _MARGIN, layout.letter + 4
         )
     ]
-
-    def pair(number: int) -> list[Image]:
-        return _pair(robot, shapes, sweeps[number], given, camera, layout.cell)
-
-    workers = cores() if len(sweeps) * (len(shapes) + _BY_ITSELF) > _WORTH_IT else 1
-    drawn = drawn_together(pair, len(sweeps), workers)
     for number, sweep in enumerate(sweeps):
         progress(number + 1, len(sweeps), sweep.joint.name)
         left, top = layout.place(number)
         words += _captions(sweep, left, top, layout)
-        for side, image in enumerate(next(drawn)):
+        for side, image in enumerate(_pair(robot, shapes, sweep, given, camera, layout.cell)):
             row, column = top + layout.caption, left + side * (layout.cell[0] + _GAP)
             page[row : row + layout.cell[1], column : column + layout.cell[0]] = image
     return lettered(page, words)

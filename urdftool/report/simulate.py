@@ -9,6 +9,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from ..model.elements import Robot
+from .counted import counted
 from .findings import Painter, clean
 
 if TYPE_CHECKING:
@@ -59,7 +60,9 @@ def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
     held, limp = len(recording.held), len(recording.joints) - len(recording.held)
     yield "engine", f"{recording.engine}, {recording.steps} steps of {run.settings.timestep:g} s"
     root = "fixed to the world" if bodies.nailed else "free"
-    joints = f"{held} joints held, {limp} limp or following" if recording.joints else "no joints"
+    joints = "no joints"
+    if recording.joints:
+        joints = f"{counted(held, 'joint')} held, {limp} limp or following"
     yield "robot", f"{bodies.mass:.4g} kg, {len(bodies.bodies)} bodies, {joints}; root {root}"
     if rest.settled is None:
         yield "at rest", f"not in {recording.times[-1]:.3g} s"
