@@ -54,9 +54,8 @@ def simplify_collisions(
     """
     from ..collision.cache import Cache, default_folder
     from ..collision.links import Wishes, plan
-    from ..collision.mesh_files import write_all
     from ..collision.parallel import compute_all
-    from ..collision.rewrite import layout_for, name_pieces, rewritten
+    from ..collision.robot import Place, check_place, tasks_of, write_robot
     from ..collision.settings import Settings
     from ..errors import ModelError, UrdftoolError
 
@@ -65,23 +64,19 @@ def simplify_collisions(
     wishes = Wishes(
         settings or Settings(), source, tuple(links), tuple(skip_links), keep_primitives
     )
+    folder = None if mesh_dir is None else Path(mesh_dir)
+    place = Place(Path(output), folder, uri, mesh_format, overwrite=overwrite)
+    check_place(robot, place)
     plans, problems = plan(robot, wishes)
     for problem in problems:
         raise problem
-    tasks = [use.task for item in plans for use in item.uses if use.task is not None]
-    found = compute_all(tasks, Cache(default_folder() if cache else None), jobs=jobs)
+    kept = Cache(default_folder() if cache else None)
     results = {}
-    for task, result in found.items():
+    for task, result in compute_all(tasks_of(plans), kept, jobs=jobs).items():
         if isinstance(result, UrdftoolError):
             raise result
         results[task] = result
-    target = Path(output)
-    folder = None if mesh_dir is None else Path(mesh_dir)
-    layout = layout_for(robot, target, folder, uri, f".{mesh_format}")
-    name_pieces(layout, results)
-    text = rewritten(robot, plans, results, layout)
-    inputs = [file.path for file in robot.source.files]
-    write_all({**layout.files, target: text}, overwrite=overwrite, inputs=inputs)
+    write_robot(robot, plans, results, place)
     return {
         item.link.name: [results[use.task] for use in item.uses if use.task is not None]
         for item in plans

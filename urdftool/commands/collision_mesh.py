@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..console import Console
+from ..output import check_targets
 from .collision_options import (
     cache_of,
     one_thread_each,
@@ -65,6 +66,7 @@ def command(
         urdftool collision mesh wheel.dae --method primitive
     """  # noqa: D301 -- \b is a character that click looks for
     checked_picture(values["picture"])
+    check_targets([output, values["picture"]], inputs=[file])
     if output is not None and not output.lower().endswith(SUFFIXES):
         raise click.UsageError(f"OUT wants to end in .stl or .obj; '{output}' does not")
     one_thread_each()

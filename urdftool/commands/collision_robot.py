@@ -12,7 +12,7 @@ import click
 
 from ..collision.links import LinkPlan, Wishes, plan
 from ..collision.parallel import compute_all
-from ..collision.rewrite import Layout, layout_for, name_pieces, rewritten
+from ..collision.robot import SUFFIXES, Place, check_place, tasks_of, write_robot
 from ..configuration import find_configuration
 from ..console import Console
 from ..errors import UrdftoolError
@@ -20,7 +20,7 @@ from ..model.load import robot_of
 from ..report import collision as report
 from ..source.description import read_description
 from .collision_options import Progress, cache_of, given_names, settings_of
-from .picture_file import write_picture
+from .picture_file import check_picture, write_picture
 from .read_lax import take_world
 from .read_strict import say_unknown
 
@@ -39,12 +39,13 @@ class Job:
     path: str
     robot: Robot
     plans: list[LinkPlan]
-    output: str | None
+    place: Place
+    output: str
 
     @property
     def tasks(self) -> list[Task]:
         """The meshes it needs."""
-        return [use.task for item in self.plans for use in item.uses if use.task is not None]
+        return tasks_of(self.plans)
 
 
 def one(
@@ -52,6 +53,7 @@ def one(
 ) -> int:
     """One robot; what is wrong with it ends the command."""
     robot = _read(console, path, arguments, values)
+    check_picture(values["picture"], robot)
     wishes = _wishes(ctx, console, path, values)
     if values["check"]:
         from .collision_check import check
@@ -60,14 +62,13 @@ def one(
         if values["picture"]:
             _draw(values["picture"], robot, [], {})
         return code
-    job = _planned(console, path, robot, wishes, values["output"])
+    job = _planned(console, path, robot, wishes, values["output"], values)
     cache = cache_of(values)
     results = _compute(console, job.tasks, cache, values)
     problems = [found for found in results.values() if isinstance(found, UrdftoolError)]
     _refuse(console, problems)
     done = {task: found for task, found in results.items() if not isinstance(found, UrdftoolError)}
-    text = _write(console, job, done, values)
-    _tell(console, [text], values)
+    _tell(console, [_write(console, job, done)], values)
     if values["picture"]:
         _draw(values["picture"], robot, job.plans, done)
     if cache.trouble:
@@ -113,7 +114,7 @@ def fleet(
             if values["check"]:
                 checks.append((robot, wishes))
                 continue
-            jobs.append(_planned(console, path, robot, wishes, _place(values, path, root)))
+            jobs.append(_planned(console, path, robot, wishes, _beside(values, path, root), values))
         except UrdftoolError as error:
             console.error(error)
             code = 2
@@ -131,7 +132,7 @@ def fleet(
                 [f for t in job.tasks if isinstance(f := results[t], UrdftoolError)],
             )
             own = {t: f for t in job.tasks if not isinstance(f := results[t], UrdftoolError)}
-            reports.append(_write(console, job, own, values))
+            reports.append(_write(console, job, own))
         except UrdftoolError as error:
             console.error(error)
             code = 2
@@ -165,10 +166,38 @@ def _wishes(ctx: click.Context, console: Console, path: str, values: Values) -> 
     )
 
 
-def _planned(console: Console, path: str, robot: Robot, wishes: Wishes, output: str | None) -> Job:
+def _planned(
+    console: Console,
+    path: str,
+    robot: Robot,
+    wishes: Wishes,
+    output: str | None,
+    values: Values,
+) -> Job:
+    place = _place(path, output, values)
+    check_place(robot, place)
     plans, problems = plan(robot, wishes)
     _refuse(console, problems)
-    return Job(path, robot, plans, output)
+    return Job(path, robot, plans, place, path if place.in_place else str(output))
+
+
+def _place(path: str, output: str | None, values: Values) -> Place:
+    """Where a robot goes; a description on stdout has its pieces in the current folder."""
+    bare = output == "-"
+    target = Path(output if output and not bare else path)
+    if bare:
+        target = Path.cwd() / (target.name if path != "-" else "robot.urdf")
+    elif output and target.suffix.lower() not in SUFFIXES:
+        raise click.UsageError(f"OUT wants to end in .urdf; '{output}' does not")
+    return Place(
+        target,
+        Path(values["mesh_dir"]) if values["mesh_dir"] else None,
+        values["uri"],
+        values["mesh_format"],
+        values["in_place"],
+        bare,
+        values["overwrite"],
+    )
 
 
 def _refuse(console: Console, problems: Sequence[UrdftoolError]) -> None:
@@ -195,7 +224,7 @@ def _compute(
         )
 
 
-def _place(values: Values, path: str, root: str) -> str | None:
+def _beside(values: Values, path: str, root: str) -> str | None:
     """Where a robot of a fleet goes: below the output folder as it lies below the given ones."""
     if values["output"] is None:
         return None
@@ -204,86 +233,14 @@ def _place(values: Values, path: str, root: str) -> str | None:
     return os.path.join(values["output"], name)
 
 
-def _write(
-    console: Console, job: Job, results: dict[Task, Result], values: Values
-) -> report.Report:
-    from ..collision.mesh_files import write_all
-
-    to_stdout = job.output == "-"
-    target = Path(job.output if job.output and not to_stdout else job.path)
-    if to_stdout:
-        target = Path.cwd() / (Path(job.path).name if job.path != "-" else "robot.urdf")
-    mesh_dir = Path(values["mesh_dir"]) if values["mesh_dir"] else None
-    layout = layout_for(job.robot, target, mesh_dir, values["uri"], f".{values['mesh_format']}")
-    name_pieces(layout, results)
-    assert job.robot.source is not None
-    inputs = [file.path for file in job.robot.source.files]
-    if values["in_place"]:
-        from ..collision.in_place import edited
-
-        found = edited(job.robot, job.plans, results, layout)
-        for refusal in found.refused:
-            console.say(refusal)
-        keep = {path for task in found.used for path in _paths(layout, results[task])}
-        files = {path: data for path, data in layout.files.items() if path in keep}
-        files.update({Path(name): data for name, data in found.files.items()})
-        write_all(files, overwrite=values["overwrite"])
-        plans = found.plans
-    else:
-        text = rewritten(job.robot, job.plans, results, layout)
-        files = dict(layout.files)
-        if not to_stdout:
-            files[target] = text
-            if target.suffix.lower() not in (".urdf", ".xml"):
-                raise click.UsageError(f"OUT wants to end in .urdf; '{job.output}' does not")
-        _need_folder(target, values)
-        write_all(files, overwrite=values["overwrite"], inputs=inputs)
-        if to_stdout:
-            click.echo(text.decode("utf-8", "replace"), nl=False)
-        plans = job.plans
-    touched = {item.link.name for item in plans}
-    left = [link.name for link in job.robot.links if link.name not in touched]
-    output = job.path if values["in_place"] else str(job.output)
-    return report.Report(job.path, output, _rows(plans, results, layout), left)
-
-
-def _need_folder(target: Path, values: Values) -> None:
-    from ..errors import OutputError
-
-    above = Path(os.path.abspath(target)).parent
-    if not above.is_dir() and not values["output"]:
-        raise OutputError(f"the folder {above} does not exist", path=target)
-
-
-def _paths(layout: Layout, result: Result) -> list[Path]:
-    uris = set(layout.names[id(result)])
-    from ..collision.rewrite import uri_of
-
-    return [path for path in layout.files if uri_of(path, layout) in uris]
-
-
-def _rows(
-    plans: Sequence[LinkPlan], results: dict[Task, Result], layout: Layout
-) -> list[report.Row]:
-    rows = []
-    for item in plans:
-        for use in item.uses:
-            if use.task is None:
-                continue
-            result = results[use.task]
-            rows.append(
-                report.Row(
-                    item.link.name,
-                    str(use.task.path),
-                    use.task.scale,
-                    result,
-                    use.task.settings.max_error,
-                    tuple(layout.names[id(result)]),
-                    item.source,
-                    use.task.settings.method,
-                )
-            )
-    return rows
+def _write(console: Console, job: Job, results: dict[Task, Result]) -> report.Report:
+    written = write_robot(job.robot, job.plans, results, job.place)
+    for refusal in written.refused:
+        console.say(refusal)
+    if job.place.bare:
+        click.echo(written.text.decode("utf-8", "replace"), nl=False)
+    rows = report.rows_of(written, results)
+    return report.Report(job.path, job.output, rows, written.left(job.robot))
 
 
 def _tell(console: Console, reports: Sequence[report.Report], values: Values) -> None:

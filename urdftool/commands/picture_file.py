@@ -21,6 +21,20 @@ def checked_picture(picture: str | None, option: str = "--picture") -> None:
         raise click.UsageError(f"the folder of {picture} does not exist")
 
 
+def check_picture(picture: str | None, robot: Robot) -> None:
+    """Refuse a picture that would take the place of what a robot was read from.
+
+    Raises:
+        OutputError: It would.
+    """
+    if picture is None:
+        return
+    from ..model.files import sources
+    from ..output import check_target
+
+    check_target(picture, inputs=sorted(sources(robot)))
+
+
 def write_picture(data: bytes, target: str, robot: Robot) -> None:
     """Write a picture of a robot, which must not take the place of what it was read from.
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..collision.compute import Result, shown_scale
+from ..collision.compute import Result, Task, shown_scale
 from ..collision.rewrite import geometry_tag
+from ..collision.robot import Written
 from .findings_words import clean
 
 _HEAD = (
@@ -101,6 +102,25 @@ class Report:
             "parts": [row.as_dict() for row in self.rows],
             "left": list(self.left),
         }
+
+
+def rows_of(written: Written, results: Mapping[Task, Result]) -> list[Row]:
+    """A row for each mesh of a robot."""
+    return [
+        Row(
+            item.link.name,
+            str(use.task.path),
+            use.task.scale,
+            results[use.task],
+            use.task.settings.max_error,
+            tuple(written.layout.names[id(results[use.task])]),
+            item.source,
+            use.task.settings.method,
+        )
+        for item in written.plans
+        for use in item.uses
+        if use.task is not None
+    ]
 
 
 def as_json(reports: Sequence[Report]) -> str:

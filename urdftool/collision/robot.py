@@ -1,0 +1,143 @@
+"""A whole robot: which meshes it wants simplified, and the files with its new collisions."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..errors import OutputError
+from ..model.elements import Mesh, Robot
+from .compute import Result, Task
+from .links import LinkPlan
+from .mesh_files import write_all
+from .rewrite import Layout, layout_for, name_pieces, rewritten, uri_of
+
+SUFFIXES = (".urdf", ".xml")
+"""Endings that a new description may have."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a robot with new collisions goes.
+
+    Attributes:
+        target: The new description; for ``in_place`` the robot's own.
+        mesh_dir: The folder of the pieces; None is one beside the target.
+        uri: ``"package"``, ``"relative"``, ``"file"``, or ``"auto"``: as the robot names its own.
+        mesh_format: ``"stl"`` or ``"obj"``.
+        in_place: Edit the robot's own source, only where it changes.
+        bare: Write the pieces only; the description is wanted as text.
+        overwrite: Replace mesh files that are not ours.
+    """
+
+    target: Path
+    mesh_dir: Path | None = None
+    uri: str = "auto"
+    mesh_format: str = "stl"
+    in_place: bool = False
+    bare: bool = False
+    overwrite: bool = False
+
+
+@dataclass(frozen=True)
+class Written:
+    """What was written.
+
+    Attributes:
+        layout: The pieces' files and names.
+        plans: The links that were done.
+        text: The new description; of a robot edited in place nothing.
+        refused: A sentence for each link that could not be edited in place.
+    """
+
+    layout: Layout
+    plans: Sequence[LinkPlan]
+    text: bytes = b""
+    refused: Sequence[str] = field(default_factory=list)
+
+    def left(self, robot: Robot) -> list[str]:
+        """Links that are as they were."""
+        touched = {item.link.name for item in self.plans}
+        return [link.name for link in robot.links if link.name not in touched]
+
+
+def tasks_of(plans: Iterable[LinkPlan]) -> list[Task]:
+    """The meshes that are to be simplified."""
+    return [use.task for item in plans for use in item.uses if use.task is not None]
+
+
+def write_robot(
+    robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task, Result], place: Place
+) -> Written:
+    """Write a robot with new collisions, and the files of their pieces, all or nothing.
+
+    Args:
+        robot: The robot.
+        plans: What becomes of its links.
+        results: What became of their meshes.
+        place: Where it goes.
+
+    Raises:
+        OutputError: A file cannot be written, or is an input; what was there is as it was.
+        SourceError: The pieces cannot be named as it is wished.
+    """
+    layout = layout_for(robot, place.target, place.mesh_dir, place.uri, f".{place.mesh_format}")
+    name_pieces(layout, results)
+    seen = _visual_meshes(robot)
+    if place.in_place:
+        from .in_place import edited
+
+        found = edited(robot, plans, results, layout)
+        keep = {path for task in found.used for path in _files(layout, results[task])}
+        files = {path: data for path, data in layout.files.items() if path in keep}
+        files.update({Path(name): data for name, data in found.files.items()})
+        write_all(files, overwrite=place.overwrite, inputs=seen)
+        return Written(layout, found.plans, refused=found.refused)
+    text = rewritten(robot, plans, results, layout)
+    files = dict(layout.files)
+    if not place.bare:
+        files[place.target] = text
+    assert robot.source is not None
+    inputs = [*(file.path for file in robot.source.files), *seen]
+    write_all(files, overwrite=place.overwrite, inputs=inputs)
+    return Written(layout, plans, text)
+
+
+def check_place(robot: Robot, place: Place) -> None:
+    """Refuse a description that cannot be written, before anything is computed.
+
+    Raises:
+        OutputError: It is an input, or a folder.
+    """
+    if place.in_place or place.bare or robot.source is None:
+        return
+    if place.target.is_dir():
+        raise OutputError("is a folder; the name of a file is wanted", path=place.target)
+    real = os.path.realpath(place.target)
+    if any(os.path.realpath(file.path) == real for file in robot.source.files):
+        raise OutputError("is read as an input; write elsewhere", path=place.target)
+
+
+def _visual_meshes(robot: Robot) -> list[str]:
+    """Files that pieces must not replace, which their own earlier ones may be."""
+    assert robot.source is not None
+    meshes = [v.geometry for link in robot.links for v in link.visuals]
+    names = {m.filename for m in meshes if isinstance(m, Mesh) and m.filename}
+    return [str(path) for name in sorted(names) if (path := _found(robot, name)) is not None]
+
+
+def _found(robot: Robot, name: str) -> Path | None:
+    from ..errors import UrdftoolError
+
+    assert robot.source is not None
+    try:
+        return Path(robot.source.resolve(name))
+    except (UrdftoolError, ValueError):
+        return None
+
+
+def _files(layout: Layout, result: Result) -> list[Path]:
+    uris = set(layout.names[id(result)])
+    return [path for path in layout.files if uri_of(path, layout) in uris]
