@@ -10,12 +10,16 @@ import os
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .errors import ConfigError
 
+if TYPE_CHECKING:
+    from .source.description import GltfUp
+
 NAMES = (".urdftool.toml", "urdftool.toml", "pyproject.toml")
 TABLES = ("packages", "lint", "collision")
+GLTF_UP = "gltf-up"
 
 _found: dict[str, Configuration] = {}
 
@@ -29,12 +33,14 @@ class Configuration:
         packages: Folders by package name, absolute.
         lint: The ``lint`` table as it is written.
         collision: The ``collision`` table as it is written.
+        gltf_up: The axis that is up in glTF meshes.
     """
 
     path: str | None = None
     packages: dict[str, Path] = field(default_factory=dict)
     lint: dict[str, Any] = field(default_factory=dict)
     collision: dict[str, Any] = field(default_factory=dict)
+    gltf_up: GltfUp = "y"
 
 
 def find_configuration(file: str | Path, given: str | None = None) -> Configuration:
@@ -86,7 +92,7 @@ def _parse(path: Path, *, required: bool) -> Configuration | None:
     if in_pyproject or "tool" in table:
         table = table.get("tool", {}).get("urdftool", {})
     for name in table:
-        if name not in TABLES:
+        if name not in (*TABLES, GLTF_UP):
             raise ConfigError(
                 f"no table is called '{name}'{_nearest(name)}",
                 path=path,
@@ -99,14 +105,21 @@ def _parse(path: Path, *, required: bool) -> Configuration | None:
     for name, value in (("lint", lint), ("collision", collision)):
         if not isinstance(value, dict):
             raise ConfigError(f"[{name}] wants to be a table", path=path)
+    gltf_up = table.get(GLTF_UP, "y")
+    if gltf_up not in ("y", "z"):
+        raise ConfigError(f'{GLTF_UP} is "y" or "z", the axis that is up in glTF files', path=path)
     folder = Path(os.path.abspath(path)).parent
     return Configuration(
-        str(path), {name: folder / value for name, value in packages.items()}, lint, collision
+        str(path),
+        {name: folder / value for name, value in packages.items()},
+        lint,
+        collision,
+        gltf_up,
     )
 
 
 def _nearest(name: str) -> str:
     from difflib import get_close_matches
 
-    near = get_close_matches(name, TABLES, 1, 0.5)
+    near = get_close_matches(name, (*TABLES, GLTF_UP), 1, 0.5)
     return f"; did you mean '{near[0]}'?" if near else f"; there are {', '.join(TABLES)}"

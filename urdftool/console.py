@@ -5,11 +5,15 @@ from __future__ import annotations
 import os
 import sys
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import click
 
 from .errors import UrdftoolError
 from .terminal import visible
+
+if TYPE_CHECKING:
+    from .source.description import GltfUp
 
 
 @dataclass
@@ -20,12 +24,14 @@ class Console:
         color: ``auto``, ``always`` or ``never``.
         verbosity: -1 is quiet, 0 usual, more says more.
         config: The configuration file the user named.
+        gltf_up: The axis that is up in glTF meshes; None where the user did not say.
         debug: Whether tracebacks are wanted.
     """
 
     color: str = "auto"
     verbosity: int = 0
     config: str | None = None
+    gltf_up: GltfUp | None = None
     debug: bool = False
 
     @property

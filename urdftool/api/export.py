@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from ..formats.written import Written
 from ..model.elements import Robot
+from ..source.description import GltfUp
 
 if TYPE_CHECKING:
     from ..formats.mjcf.cut import Cut
@@ -126,7 +128,7 @@ def export_mjcf(
         force=force,
         mesh_dir="" if mesh_dir == "." else mesh_dir,
         file=name if Path(name).suffix.lower() in FILES else "",
-        cutter=cut_meshes if decompose else None,
+        cutter=partial(cut_meshes, gltf_up=_gltf_up(robot)) if decompose else None,
     )
     written = write(robot, options)
     if verify:
@@ -153,8 +155,16 @@ def _put(
     write_export(output, written, single=single, overwrite=overwrite, inputs=inputs)
 
 
-def cut_meshes(paths: Sequence[Path]) -> dict[Path, Cut | str]:
+def _gltf_up(robot: Robot) -> GltfUp:
+    return "y" if robot.source is None else robot.source.gltf_up
+
+
+def cut_meshes(paths: Sequence[Path], gltf_up: GltfUp = "y") -> dict[Path, Cut | str]:
     """The convex pieces of meshes, as ``urdftool collision`` finds them with CoACD.
+
+    Args:
+        paths: The mesh files.
+        gltf_up: The axis of a glTF file that is up.
 
     Raises:
         MissingDependency: A library that it needs is not installed.
@@ -167,7 +177,7 @@ def cut_meshes(paths: Sequence[Path]) -> dict[Path, Cut | str]:
     from ..formats.mjcf.cut import Cut
 
     settings = Settings(method="coacd", max_hulls=FEW_HULLS)
-    tasks = {path: Task(path, settings=settings) for path in paths}
+    tasks = {path: Task(path, settings=settings, gltf_up=gltf_up) for path in paths}
     found = compute_all(list(tasks.values()), Cache(default_folder()))
     cuts: dict[Path, Cut | str] = {}
     for path, task in tasks.items():

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from ..lint.fix_run import Mended
+from ..source.description import GltfUp
 
 
 def fix(
@@ -20,6 +21,7 @@ def fix(
     config: str | None = None,
     unsafe: bool = False,
     write: bool = False,
+    gltf_up: GltfUp | None = None,
 ) -> Mended:
     """Mend what ``check`` finds, in the bytes of the source and no others.
 
@@ -38,6 +40,7 @@ def fix(
         config: A configuration file, instead of the nearest above the description.
         unsafe: Whether to make also fixes that invent or remove physics.
         write: Whether to write the files that changed: all of them, or none.
+        gltf_up: The axis that is up in glTF meshes; None for what the configuration says.
 
     Raises:
         SourceError: The file cannot be read.
@@ -55,6 +58,7 @@ def fix(
         targets=check_targets(targets),
     )
     options = Options(chosen, args or {}, packages or {}, tuple(package_paths), config, fixes=True)
+    options.gltf_up = gltf_up
     if unsafe:
         from ..inertia.scales import Scales
         from ..rules.fixes.inertia import DENSITY

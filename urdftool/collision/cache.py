@@ -37,6 +37,8 @@ def default_folder() -> Path:
 def key_of(task: Task) -> str | None:
     """What a task's result hangs on, in one word; None where its file cannot be read."""
     facts = [_VERSION, task.path.suffix.lower(), list(task.scale), task.settings.as_dict()]
+    if task.path.suffix.lower() in (".gltf", ".glb"):
+        facts.append(task.gltf_up)
     digest = sha256(json.dumps(facts, sort_keys=True).encode())
     try:
         digest.update(task.path.read_bytes())

@@ -14,6 +14,7 @@ from ..meshes.load import FARTHEST
 from ..meshes.mesh import Points
 from ..model.elements import Box, Capsule, Cylinder, Link, Mesh, Robot, Sphere
 from ..model.pose import Pose, pose_of
+from ..source.description import GltfUp
 from ..workers import cores
 from .convex import hull, planes, signed_distance
 from .links import Shape
@@ -56,6 +57,7 @@ class Part:
     kind: str
     size: tuple[float, ...]
     path: Path | None = None
+    gltf_up: GltfUp = "y"
 
 
 @dataclass(frozen=True)
@@ -166,7 +168,7 @@ def _parts(robot: Robot, shape: Shape) -> Iterator[Part]:
     elif isinstance(geometry, Mesh):
         assert robot.source is not None
         path = Path(robot.source.resolve(geometry.filename))
-        yield Part(pose, "mesh", geometry.scale, path)
+        yield Part(pose, "mesh", geometry.scale, path, robot.source.gltf_up)
 
 
 def _piece(part: Part) -> Piece:
@@ -178,7 +180,7 @@ def _piece(part: Part) -> Piece:
     if part.path is None:
         return primitive(part.kind, part.size, rotation, xyz)
     x, y, z = part.size
-    surface = read_surface(part.path, (x, y, z))
+    surface = read_surface(part.path, (x, y, z), part.gltf_up)
     piece = mesh_piece(surface.vertices, surface.faces, convex=_is_convex(surface))
     return piece.posed(rotation, xyz)
 

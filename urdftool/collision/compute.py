@@ -10,6 +10,7 @@ from time import perf_counter
 from typing import Any
 
 from ..errors import MeshError, UrdftoolError
+from ..source.description import GltfUp
 from .piece import Piece, piece_of
 from .settings import Settings
 
@@ -24,11 +25,13 @@ class Task:
         path: The mesh file.
         scale: Factors, as URDF's ``<mesh scale>``.
         settings: What is wanted.
+        gltf_up: The axis of a glTF file that is up.
     """
 
     path: Path
     scale: Vector = (1.0, 1.0, 1.0)
     settings: Settings = field(default_factory=Settings)
+    gltf_up: GltfUp = "y"
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +105,7 @@ def compute(task: Task) -> Result:
     from .surface import read_surface
 
     begin = perf_counter()
-    surface = read_surface(task.path, task.scale)
+    surface = read_surface(task.path, task.scale, task.gltf_up)
     try:
         choice = choose(surface, task.settings)
     except MeshError as error:

@@ -145,7 +145,7 @@ def _task(robot: Robot, shape: Shape, settings: Settings) -> Task | None:
             "the scale of the mesh has a zero in it; three factors other than zero are wanted",
             at=mesh.element.attribute_place("scale"),
         )
-    return Task(Path(path), mesh.scale, settings)
+    return Task(Path(path), mesh.scale, settings, robot.source.gltf_up)
 
 
 def check_names(robot: Robot, names: Iterable[str]) -> None:

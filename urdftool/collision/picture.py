@@ -41,7 +41,7 @@ _COLORS = (
 
 def mesh_picture(task: Task, result: Result) -> bytes:
     """A PNG of one mesh and its pieces."""
-    surface = read_surface(task.path, task.scale)
+    surface = read_surface(task.path, task.scale, task.gltf_up)
     left = bare_shapes([(surface.vertices, surface.faces, _GREY)])
     return side_by_side(left, {"": IDENTITY}, _colored(result.pieces))
 

@@ -14,6 +14,7 @@ from ..inertia.repair import drop_duplicates, orient
 from ..meshes.load import FARTHEST, load_mesh
 from ..meshes.mesh import Faces, Points
 from ..meshes.solid import collapsed, components, edges_of, neighbours, weld
+from ..source.description import GltfUp
 
 SLIVER = 1e-14
 """Area of a face, relative to the square of the mesh's size, at which it is degenerate."""
@@ -56,13 +57,15 @@ class Prepared:
         return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 
 
-def read_surface(path: str | Path, scale: Sequence[float] = (1.0, 1.0, 1.0)) -> Prepared:
-    """A mesh file, scaled, and made ready.
+def read_surface(
+    path: str | Path, scale: Sequence[float] = (1.0, 1.0, 1.0), gltf_up: GltfUp = "y"
+) -> Prepared:
+    """A mesh file, scaled, and made ready; of a glTF file with the axis up that is said to be.
 
     Raises:
         MeshError: It cannot be read, or has no face with an area.
     """
-    mesh = load_mesh(path, scale)
+    mesh = load_mesh(path, scale, gltf_up=gltf_up)
     prepared = prepare(mesh.vertices, mesh.faces, notes=mesh.notes)
     if prepared is None:
         raise MeshError("all faces of the mesh are degenerate; none has an area", path=path)

@@ -9,7 +9,7 @@ import click
 
 from ..console import Console
 from .collision_options import one_thread_each, settings_options
-from .options import package_options, split_arguments
+from .options import gltf_option, package_options, split_arguments
 from .picture_file import checked_picture
 
 
@@ -69,6 +69,7 @@ class _OrMesh(click.Command):
 )
 @click.option("-j", "--jobs", type=click.IntRange(1), metavar="N", help="Processes to use.")
 @click.option("--scheduler", metavar="ADDRESS", help="A Dask scheduler that does the work.")
+@gltf_option
 @package_options
 @click.pass_context
 def command(ctx: click.Context, /, words: tuple[str, ...], **values: Any) -> int:

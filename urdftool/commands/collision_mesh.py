@@ -15,6 +15,7 @@ from .collision_options import (
     settings_of,
     settings_options,
 )
+from .options import gltf_option, gltf_up_for
 from .picture_file import checked_picture
 
 if TYPE_CHECKING:
@@ -47,6 +48,7 @@ def _factors(
     help="Factors, as URDF's <mesh scale>; negative ones mirror.",
 )
 @settings_options
+@gltf_option
 @click.pass_obj
 def command(
     console: Console,
@@ -75,7 +77,7 @@ def command(
     from ..errors import UrdftoolError
     from ..report import collision as report
 
-    task = Task(Path(file), scale, settings_of(values))
+    task = Task(Path(file), scale, settings_of(values), gltf_up_for(console, file))
     cache = cache_of(values)
     key = key_of(task)
     result = cache.read(key) if key is not None else None

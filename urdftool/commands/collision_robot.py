@@ -141,12 +141,14 @@ def fleet(
 
 
 def _read(console: Console, path: str, arguments: dict[str, str], values: Values) -> Robot:
+    configuration = find_configuration(path, console.config)
     description = read_description(
         path,
         arguments,
         packages=values["package"],
         package_paths=values["package_path"],
-        configured=find_configuration(path, console.config).packages,
+        configured=configuration.packages,
+        gltf_up=console.gltf_up or configuration.gltf_up,
     )
     say_unknown(console, description)
     return take_world(console, robot_of(description))

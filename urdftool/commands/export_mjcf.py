@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ import click
 from ..console import Console
 from .export_options import export_options
 from .export_report import put_files, say_refused, say_written
-from .options import package_options, robot_argument
+from .options import gltf_option, package_options, robot_argument
 from .read_strict import read_strict
 
 
@@ -46,6 +47,7 @@ from .read_strict import read_strict
     "--decompose", is_flag=True, help="Cut meshes that collide and are not convex into pieces."
 )
 @export_options(mesh_dir="assets", verify="Compile it in MuJoCo and compare.")
+@gltf_option
 @package_options
 @click.pass_obj
 def command(
@@ -84,7 +86,7 @@ def command(
     as_json = style == "json"
     description = read_strict(console, robot, package, package_path)
     file = Path(output).name if output and Path(output).suffix.lower() in FILES else ""
-    cutter = cut_meshes if decompose else None
+    cutter = partial(cut_meshes, gltf_up=description.gltf_up) if decompose else None
     options = Options(
         mesh_dir="" if mesh_dir == "." else mesh_dir, file=file, cutter=cutter, **choices
     )

@@ -9,7 +9,7 @@ import click
 
 from ..console import Console
 from .export_options import export_options
-from .options import package_options, robot_argument
+from .options import gltf_option, package_options, robot_argument
 from .read_strict import read_strict
 
 if TYPE_CHECKING:
@@ -52,6 +52,7 @@ if TYPE_CHECKING:
 )
 @click.option("--world", is_flag=True, help="Write a world with ground and sun around it.")
 @export_options(mesh_dir="meshes", verify="Read it back and compare.")
+@gltf_option
 @package_options
 @click.pass_obj
 def command(

@@ -9,6 +9,7 @@ import click
 
 from ..console import Console
 from .inertia_options import amount_options, check_amount, check_pose, result_options
+from .options import gltf_option, gltf_up_for
 
 if TYPE_CHECKING:
     from ..inertia.bodies import MeshBody
@@ -62,6 +63,7 @@ def _factors(
 )
 @click.option("--surface", is_flag=True, help="Weigh the surface as a shell; --density in kg/m².")
 @result_options
+@gltf_option
 @click.pass_obj
 def command(
     console: Console,
@@ -93,7 +95,8 @@ def command(
     from ..inertia.tensor import move
     from ..output import write_result
 
-    body = mesh_body(Path(file), surface=surface).scaled(scale)
+    up = gltf_up_for(console, file)
+    body = mesh_body(Path(file), surface=surface, gltf_up=up).scaled(scale)
     alone = weighed(body.unit, "mesh", mass=mass, density=density)
     result = round_properties(move(alone, xyz=origin_xyz, rpy=origin_rpy), "the mesh")
     text = _text(style, file, result, body, alone.mass / body.measure, scale)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..console import Console
-from .options import package_options, robot_argument
+from .options import gltf_option, package_options, robot_argument
 from .read_strict import read_strict
 
 if TYPE_CHECKING:
@@ -85,6 +85,7 @@ def _pairs(
     help="How the result is shown.",
 )
 @click.option("-j", "--jobs", type=click.IntRange(1), metavar="N", help="Processes to use.")
+@gltf_option
 @package_options
 @click.pass_obj
 def command(

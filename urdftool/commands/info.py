@@ -8,7 +8,7 @@ import click
 
 from ..console import Console
 from .mesh_progress import MeshProgress
-from .options import output_option, package_options, robot_argument
+from .options import gltf_option, output_option, package_options, robot_argument
 
 
 @click.command("info")
@@ -21,6 +21,7 @@ from .options import output_option, package_options, robot_argument
     default="table",
     help="How the result is shown.",
 )
+@gltf_option
 @package_options
 @click.pass_obj
 def command(

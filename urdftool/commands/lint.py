@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from ..console import Console
-from .options import package_options, split_arguments
+from .options import gltf_option, package_options, split_arguments
 
 FORMATS = ("full", "concise", "json", "sarif", "github", "junit", "html")
 _WITH_FIXES = ("full", "json", "sarif", "html")
@@ -53,6 +53,7 @@ LEVELS = ("error", "warning", "info")
 @click.option("--no-cache", is_flag=True, help="Check all anew, and keep nothing.")
 @click.option("--explain", metavar="RULE", help="Show a rule's page and stop.")
 @click.option("--list-rules", is_flag=True, help="List all rules and stop.")
+@gltf_option
 @package_options
 @click.pass_obj
 def command(
@@ -121,6 +122,7 @@ def command(
     if no_cache and cache_dir:
         raise click.UsageError("--cache-dir and --no-cache exclude each other")
     options = Options(settings, arguments, package, package_path, console.config)
+    options.gltf_up = console.gltf_up
     if not no_cache:
         from ..lint.cache import Cache
         from ..store import Store, cache_folder

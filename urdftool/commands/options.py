@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
+
+from ..console import Console
+
+if TYPE_CHECKING:
+    from ..source.description import GltfUp
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -92,6 +97,32 @@ def _packages(
             raise click.BadParameter(f"'{folder}' is no folder", ctx, parameter)
         found[name] = Path(folder)
     return found
+
+
+def gltf_option(function: F) -> F:
+    """Which axis is up in glTF meshes: kept in the console, which what reads a robot is given."""
+    return click.option(
+        "--gltf-up",
+        type=click.Choice(("y", "z")),
+        expose_value=False,
+        callback=_gltf_up,
+        help="The axis that is up in glTF meshes: y by their standard, which RViz turns to Z; z "
+        "keeps the axes of the file, as Gazebo does.  [default: y]",
+    )(function)
+
+
+def _gltf_up(ctx: click.Context, parameter: click.Parameter, value: GltfUp | None) -> None:
+    if value is not None:
+        console = ctx.find_object(Console)
+        assert console is not None
+        console.gltf_up = value
+
+
+def gltf_up_for(console: Console, file: str) -> GltfUp:
+    """The axis that is up in a glTF file: as the line says, or else the configuration."""
+    from ..configuration import find_configuration
+
+    return console.gltf_up or find_configuration(file, console.config).gltf_up
 
 
 def output_option(help_text: str) -> Callable[[F], F]:

@@ -47,7 +47,9 @@ def read_lax(
     from ..source.well_formed import mend
 
     file = read_file(path)
-    configured = {**(neighbours or {}), **find_configuration(path, console.config).packages}
+    configuration = find_configuration(path, console.config)
+    configured = {**(neighbours or {}), **configuration.packages}
+    gltf_up = console.gltf_up or configuration.gltf_up
     try:
         description = read_description(
             path,
@@ -56,6 +58,7 @@ def read_lax(
             package_paths=package_paths,
             configured=configured,
             file=file,
+            gltf_up=gltf_up,
         )
     except XmlError as error:
         mended = None if is_xacro(file) else mend(file)
@@ -69,6 +72,7 @@ def read_lax(
                 package_paths=package_paths,
                 configured=configured,
                 file=mended,
+                gltf_up=gltf_up,
             )
         except XmlError:
             raise error from None

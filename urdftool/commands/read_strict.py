@@ -33,12 +33,14 @@ def read_strict(
     from ..source.description import read_description
 
     path, arguments = robot
+    configuration = find_configuration(path, console.config)
     description = read_description(
         path,
         arguments,
         packages=packages,
         package_paths=package_paths,
-        configured=find_configuration(path, console.config).packages,
+        configured=configuration.packages,
+        gltf_up=console.gltf_up or configuration.gltf_up,
     )
     say_unknown(console, description)
     return description

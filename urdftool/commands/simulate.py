@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from ..console import Console
-from .options import package_options
+from .options import gltf_option, package_options
 from .simulate_more import more_options, robots_argument
 from .simulate_options import settings_options
 
@@ -24,6 +24,7 @@ from .simulate_options import settings_options
     default="text",
     help="How the verdict is shown; json has the time series of one robot, too.",
 )
+@gltf_option
 @package_options
 @click.pass_obj
 def command(

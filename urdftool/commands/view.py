@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
-from .options import package_options, robot_argument
+from .options import gltf_option, package_options, robot_argument
 from .view_picture import picture_options
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 @click.option("--open", "opened", is_flag=True, help="Open the page in the browser.")
 @click.option("--no-lint", "unlinted", is_flag=True, help="Do not lint the robot on the page.")
 @picture_options
+@gltf_option
 @package_options
 @click.pass_obj
 def command(

@@ -164,7 +164,7 @@ def _mesh_surface(gathering: Gathering, geometry: MeshGeometry) -> Surface:
     Raises:
         UrdftoolError: It is not found, or cannot be read.
     """
-    from ..meshes.load import load_mesh
+    from ..meshes.load import load_named
 
     key = (geometry.filename, geometry.scale)
     if key not in gathering.surfaces:
@@ -172,7 +172,7 @@ def _mesh_surface(gathering: Gathering, geometry: MeshGeometry) -> Surface:
         if source is None:
             raise MeshError("a robot that was not read from a file has no meshes")
         try:
-            mesh = load_mesh(source.resolve(geometry.filename), geometry.scale)
+            mesh = load_named(source, geometry.filename, geometry.scale)
         except UrdftoolError as error:
             found = MeshError(error.message)
             gathering.surfaces[key] = found

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import MeshError
+from ..source.description import GltfUp
 from .inertia_error import InertiaError
 from .tensor import Array, MassProperties, from_second_moment, scale_mass, second_moment
 
@@ -100,19 +101,20 @@ class MeshBody:
         }
 
 
-def mesh_body(path: Path, *, surface: bool = False) -> MeshBody:
+def mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> MeshBody:
     """What a mesh file encloses, unscaled.
 
     Args:
         path: An STL, OBJ, DAE, PLY, glTF or GLB file.
         surface: Take its surface as a thin shell instead of what it encloses.
+        gltf_up: The axis of a glTF file that is up.
 
     Raises:
         MeshError: The file cannot be read, or encloses nothing.
     """
     from ..meshes.load import load_mesh
 
-    mesh = load_mesh(path)
+    mesh = load_mesh(path, gltf_up=gltf_up)
     used = mesh.vertices[np.unique(mesh.faces)]
     box = used.min(axis=0), used.max(axis=0)
     count = len(mesh.faces)

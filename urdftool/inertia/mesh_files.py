@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 
 from ..errors import UrdftoolError
-from ..source.description import Description
+from ..source.description import Description, GltfUp
 from ..workers import cores, ignore_interrupts
 from .bodies import MeshBody, mesh_body
 
@@ -43,18 +44,19 @@ def read_meshes(
             found[name] = error
     unique = list(dict.fromkeys(paths.values()))
     bodies: dict[Path, MeshBody | UrdftoolError] = {}
-    for path, body in _bodies(unique, jobs):
+    for path, body in _bodies(unique, jobs, description.gltf_up):
         bodies[path] = body
         if progress is not None:
             progress(len(bodies), len(unique), path.name)
     return found | {name: bodies[path] for name, path in paths.items()}
 
 
-def _bodies(paths: list[Path], jobs: int | None) -> Iterator[tuple[Path, MeshBody | UrdftoolError]]:
+def _bodies(
+    paths: list[Path], jobs: int | None, gltf_up: GltfUp
+) -> Iterator[tuple[Path, MeshBody | UrdftoolError]]:
     workers = min(jobs or _worthwhile(paths), len(paths))
     if workers <= 1:
-        for path in paths:
-            yield path, _body(path)
+        yield from (_named_body(path, gltf_up) for path in paths)
         return
     import multiprocessing
 
@@ -63,16 +65,16 @@ def _bodies(paths: list[Path], jobs: int | None) -> Iterator[tuple[Path, MeshBod
     # the slowest first, so that none is left alone at the end
     ordered = sorted(paths, key=_size, reverse=True)
     with context.Pool(workers, ignore_interrupts) as pool:
-        yield from pool.imap_unordered(_named_body, ordered)
+        yield from pool.imap_unordered(partial(_named_body, gltf_up=gltf_up), ordered)
 
 
-def _named_body(path: Path) -> tuple[Path, MeshBody | UrdftoolError]:
-    return path, _body(path)
+def _named_body(path: Path, gltf_up: GltfUp) -> tuple[Path, MeshBody | UrdftoolError]:
+    return path, _body(path, gltf_up)
 
 
-def _body(path: Path) -> MeshBody | UrdftoolError:
+def _body(path: Path, gltf_up: GltfUp) -> MeshBody | UrdftoolError:
     try:
-        return mesh_body(path)
+        return mesh_body(path, gltf_up=gltf_up)
     except UrdftoolError as error:
         # without the chain of causes it goes from one process to another
         return UrdftoolError(error.message, path=error.path)

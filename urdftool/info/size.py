@@ -116,7 +116,7 @@ def _read(
         assert isinstance(shape.geometry, Mesh)
         by_scale.setdefault(shape.geometry.scale, []).append((at, shape))
     for scale, same in by_scale.items():
-        read = load_mesh(path, scale)
+        read = load_mesh(path, scale, gltf_up=robot.source.gltf_up)
         mesh.triangles = len(read.faces)
         for at, shape in same:
             if at is not None:

@@ -62,7 +62,7 @@ class Cache:
             *(_folders(options.packages), [str(path) for path in options.package_paths]),
             *(configuration.path, _folders(configuration.packages), _plain(settings)),
             options.fixes,
-            getattr(options, "fixes", False),
+            options.gltf_up or configuration.gltf_up,
         ]
         return sha256(repr(facts).encode("utf-8", "surrogateescape")).hexdigest()
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from ..errors import UrdftoolError
 from ..finding import Finding
 from ..rules.fix_table import Weigh
+from ..source.description import GltfUp
 from .settings import Settings
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ class Options:
         fixes: Whether findings are to say what would mend them, in bytes.
         weigh: What links weigh and how their mass lies, for fixes that fill in inertia: gives
             (mass, centre, six numbers) by link, in the link frame, for a robot and link names.
+        gltf_up: The axis that is up in glTF meshes; None for what the configuration says.
     """
 
     settings: Settings = field(default_factory=Settings)
@@ -40,6 +42,7 @@ class Options:
     cache: Cache | None = None
     fixes: bool = False
     weigh: Weigh | None = None
+    gltf_up: GltfUp | None = None
 
 
 @dataclass

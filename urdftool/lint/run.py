@@ -16,7 +16,7 @@ from ..model.read import read_robot
 from ..rules import ONLY_WITH, speaks_of
 from ..rules.fix_table import FIXABLE, may_have_fix
 from ..rules.rule import Problem, Rule
-from ..source.description import Description, is_xacro, read_description
+from ..source.description import Description, GltfUp, is_xacro, read_description
 from ..source.document import Document, Element, parse, read_file
 from ..source.location import Place, SourceFile
 from ..source.well_formed import mend
@@ -39,6 +39,7 @@ def check(
     targets: Iterable[str] = (),
     config: str | None = None,
     fixes: bool = False,
+    gltf_up: GltfUp | None = None,
 ) -> list[Finding]:
     """What is wrong with a robot.
 
@@ -53,6 +54,8 @@ def check(
         targets: Simulators and middlewares; none means that they are inferred.
         config: A configuration file, instead of the nearest above the description.
         fixes: Whether each finding is to have its ``fix``, as bytes of the source.
+        gltf_up: The axis that is up in glTF meshes, for a path; None for what the configuration
+            says.
 
     Raises:
         SourceError: The file cannot be read.
@@ -72,7 +75,7 @@ def check(
         _check_description(robot.source, robot, settings, report, [], Options(fixes=fixes))
     else:
         options = Options(line, args or {}, packages or {}, tuple(package_paths), config)
-        options.fixes = fixes
+        options.fixes, options.gltf_up = fixes, gltf_up
         report = lint_file(robot, options)
         if report.error is not None:
             raise report.error
@@ -177,6 +180,7 @@ def _read(file: SourceFile, options: Options, configuration: Configuration) -> D
         package_paths=options.package_paths,
         configured=configuration.packages,
         file=file,
+        gltf_up=options.gltf_up or configuration.gltf_up,
     )
 
 

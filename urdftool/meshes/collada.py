@@ -6,8 +6,7 @@ What the consumers of a robot description do with ``<asset>``, read in their sou
   Classic and gz-common scales the finished mesh) both apply it. So does this reader.
 - ``<up_axis>``: RViz sets assimp's IGNORE_UP_DIRECTION, Gazebo's loader never looks at the element,
   and MoveIt drops the rotation assimp makes of it. All three show Y_UP files unturned, and so they
-  are read here. PyBullet does turn them, so the choice is open to the caller, and a note says when
-  it matters.
+  are read here. PyBullet does turn them, and a note says when it matters.
 """
 
 from __future__ import annotations
@@ -27,15 +26,8 @@ from .mesh import Piece, Points, Reading
 MAX_DEPTH = 256
 """Nodes within nodes; deeper files are refused, instances may form a circle."""
 
-# rows: where the file's X, Y and Z point in a frame with Z up
-_UPRIGHT = {
-    "X_UP": np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]),
-    "Y_UP": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]),
-    "Z_UP": np.eye(3),
-}
 
-
-def read(path: Path, *, upright: bool = False) -> Reading:
+def read(path: Path) -> Reading:
     """The triangles of a COLLADA scene in metres, one piece for each primitive of each instance.
 
     Node transforms are applied in full, mirrored ones with their winding turned. Skins are shown
@@ -43,7 +35,6 @@ def read(path: Path, *, upright: bool = False) -> Reading:
 
     Args:
         path: The file.
-        upright: Turn a file whose ``<up_axis>`` is not Z_UP so that its up axis becomes Z.
     """
     notes: list[str] = []
     document = _parse(path, notes)
@@ -56,12 +47,10 @@ def read(path: Path, *, upright: bool = False) -> Reading:
     if not math.isclose(unit, 1.0):
         notes.append(f"The COLLADA file is in units of {unit:g} m, which is applied.")
     up = str(document.assetInfo.upaxis or "Y_UP")
-    turn = _UPRIGHT.get(up, np.eye(3)) if upright else np.eye(3)
     if up != "Z_UP" and "up_axis" in _asset_children(document):
-        done = "turned to Z" if upright else "not turned: RViz and Gazebo do not, PyBullet does"
+        done = "not turned: RViz and Gazebo do not, PyBullet does"
         notes.append(f"The up_axis of the COLLADA file is {up}, {done}.")
-    matrix = np.eye(4)
-    matrix[:3, :3] = unit * turn
+    matrix = np.diag([unit, unit, unit, 1.0])
     if document.scene is None:
         raise MeshError(
             "the COLLADA file shows no scene; it needs an instance_visual_scene", path=path

@@ -3,8 +3,8 @@
 What the consumers of a robot description do, read in their sources: RViz turns the scene by +90°
 about X so that Y becomes Z (rviz_rendering since 2025; older releases show it lying), and so do
 Drake and Blender. Gazebo (gz-common's ``AssimpLoader``) keeps the file's axes. PyBullet and MuJoCo
-do not read glTF. It is turned here, as the standard means it and RViz shows it, unless the caller
-says otherwise; a note says so.
+do not read glTF. It is turned here, as the standard means it and RViz shows it, unless the user
+says that Z is up in the file already (``--gltf-up z``); a note says so.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import struct
 from base64 import b64decode
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote
 
 import numpy as np
@@ -23,15 +23,25 @@ import numpy as np
 from ..errors import MeshError
 from .mesh import Piece, Reading
 
+if TYPE_CHECKING:
+    from ..source.description import GltfUp
+
 _UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
+_NOTES = {
+    "y": "Y is up in a glTF file and was turned to Z, as RViz does since 2025; `--gltf-up z` keeps "
+    "the axes of the file, as Gazebo does.",
+    "z": "The axes of the glTF file were kept, as Gazebo does; `--gltf-up y` turns Y to Z, as RViz "
+    "does since 2025.",
+}
 
-def read(path: Path, *, upright: bool = True) -> Reading:
+
+def read(path: Path, *, gltf_up: GltfUp = "y") -> Reading:
     """The triangles of a glTF scene, one piece for each primitive of each instance.
 
     Args:
         path: The file.
-        upright: Turn the scene so that its Y axis becomes Z.
+        gltf_up: The axis of the file that is up; ``y`` is turned so that it becomes Z.
     """
     import trimesh
 
@@ -51,7 +61,7 @@ def read(path: Path, *, upright: bool = True) -> Reading:
             "beside it and without Draco compression",
             path=path,
         ) from error
-    turn = _UPRIGHT if upright else np.eye(3)
+    turn = _UPRIGHT if gltf_up == "y" else np.eye(3)
     pieces = []
     for node in scene.graph.nodes_geometry:
         matrix, name = scene.graph[node]
@@ -70,8 +80,7 @@ def read(path: Path, *, upright: bool = True) -> Reading:
         if points is not None and len(points) == len(vertices):
             uv = np.asarray(points, dtype=np.float64)[faces]
         pieces.append(Piece(vertices, faces, str(name), _rgba(material), texture, image, uv))
-    how = "turned to Z: RViz does, Gazebo does not" if upright else "not turned, as in Gazebo"
-    return Reading(pieces, [f"The up axis of a glTF file is Y, {how}."])
+    return Reading(pieces, [_NOTES[gltf_up]])
 
 
 def _rgba(material: Any) -> tuple[float, float, float, float] | None:

@@ -8,18 +8,21 @@ import sys
 from array import array
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote
 
 from .positions import UPRIGHT, Affine, Columns, every_third, joined, moved, product
+
+if TYPE_CHECKING:
+    from ..source.description import GltfUp
 
 _MAX_DEPTH = 64
 _FLOAT = 5126
 _UP: Affine = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, -1.0, 0.0), (0.0, 1.0, 0.0, 0.0))
 
 
-def gltf_columns(path: Path) -> Columns | None:
-    """All positions of the scene [m] with its Y up as Z; None if it has none.
+def gltf_columns(path: Path, gltf_up: GltfUp = "y") -> Columns | None:
+    """All positions of the scene [m], its Y as Z where that is up; None if it has none.
 
     Raises:
         ValueError: The file is no glTF file, or its nodes form a circle. What else a damaged one
@@ -40,7 +43,7 @@ def gltf_columns(path: Path) -> Columns | None:
         else range(len(tree.get("nodes", ())))
     )
     for node in roots:
-        _node(tree, node, _UP, path, chunk, found, 0)
+        _node(tree, node, _UP if gltf_up == "y" else UPRIGHT, path, chunk, found, 0)
     return joined(found) if found else None
 
 

@@ -7,13 +7,16 @@ import os
 from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from ..errors import MeshError
 from .facts import is_lfs_pointer
 from .mesh import Mesh, Part, Reading
+
+if TYPE_CHECKING:
+    from ..source.description import Description, GltfUp
 
 # suffix -> module of this package with a function ``read``
 READERS = {
@@ -33,7 +36,7 @@ def load_mesh(
     path: str | Path,
     scale: Sequence[float] = (1.0, 1.0, 1.0),
     *,
-    upright: bool | None = None,
+    gltf_up: GltfUp = "y",
 ) -> Mesh:
     """The triangles of a mesh file [m], as RViz would show them in the frame of the ``<geometry>``.
 
@@ -42,13 +45,14 @@ def load_mesh(
     - STL, OBJ, PLY: numbers are taken as metres, axes as they are.
     - COLLADA: ``<unit meter>`` is applied; ``<up_axis>`` is not, which is what RViz, Gazebo and
       MoveIt do (PyBullet turns the mesh).
-    - glTF: metres; Y becomes Z, which is what the standard means and RViz does (Gazebo leaves it).
+    - glTF: metres; Y becomes Z, which is what the standard means and RViz does (Gazebo leaves it),
+      unless Z is said to be up.
 
     Args:
         path: A file whose suffix, in any case, says its format: stl, obj, dae, ply, gltf or glb.
         scale: The three factors of URDF's ``<mesh scale>``, applied last. Where their product is
             negative the mesh is mirrored and the winding turned, so that its volume keeps its sign.
-        upright: Turn a COLLADA or glTF file so that its up axis becomes Z; None for what RViz does.
+        gltf_up: The axis of a glTF file that is up; ``z`` keeps its axes.
 
     Raises:
         MeshError: There is no such file, it is a folder, empty, a git-LFS pointer, truncated or of
@@ -60,12 +64,22 @@ def load_mesh(
     suffix = _checked_format(file)
     module = import_module(f".{READERS[suffix]}", __package__)
     read = cast(Callable[..., Reading], module.read)
-    turns = READERS[suffix] in ("collada", "gltf") and upright is not None
     try:
-        reading = read(file, upright=upright) if turns else read(file)
+        reading = read(file, gltf_up=gltf_up) if READERS[suffix] == "gltf" else read(file)
     except OSError as error:
         raise MeshError(f"the mesh cannot be read: {error.strerror}", path=file) from error
     return _assemble(file, suffix, reading, factors)
+
+
+def load_named(
+    description: Description, uri: str, scale: Sequence[float] = (1.0, 1.0, 1.0)
+) -> Mesh:
+    """A mesh as a description means it: where it finds the file, and which axis is up in it.
+
+    Raises:
+        UrdftoolError: The file is not found, or as :func:`load_mesh`.
+    """
+    return load_mesh(description.resolve(uri), scale, gltf_up=description.gltf_up)
 
 
 def _factors(scale: Sequence[float], file: Path) -> tuple[float, ...]:

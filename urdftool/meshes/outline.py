@@ -14,9 +14,13 @@ import struct
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..errors import MeshError
 from .positions import Columns, columns_of, is_much, moved, obj_columns, stl_columns
+
+if TYPE_CHECKING:
+    from ..source.description import GltfUp
 
 Vector = tuple[float, float, float]
 Rotation = Sequence[Sequence[float]]
@@ -82,8 +86,8 @@ class Outline:
         return (low[0], low[1], low[2]), (high[0], high[1], high[2])
 
 
-def outline(path: str | Path) -> Outline | None:
-    """The points of a mesh file.
+def outline(path: str | Path, gltf_up: GltfUp = "y") -> Outline | None:
+    """The points of a mesh file; of a glTF file with the axis up that is said to be.
 
     None where the file cannot be read, is larger than :data:`LARGEST`, or holds no finite point.
     """
@@ -91,7 +95,8 @@ def outline(path: str | Path) -> Outline | None:
     try:
         if file.stat().st_size > LARGEST:
             return None
-        columns = _READERS[file.suffix.lower()](file)
+        suffix = file.suffix.lower()
+        columns = _gltf(file, gltf_up) if suffix in _GLTF else _READERS[suffix](file)
     # whatever a damaged file makes arithmetic raise: here it is only a file that says nothing
     except (MeshError, OSError, ValueError, LookupError, TypeError, AttributeError, struct.error):
         return None
@@ -168,10 +173,10 @@ def _dae(path: Path) -> Columns | None:
     return collada_columns(path)
 
 
-def _gltf(path: Path) -> Columns | None:
+def _gltf(path: Path, gltf_up: GltfUp) -> Columns | None:
     from .gltf_points import gltf_columns
 
-    return gltf_columns(path)
+    return gltf_columns(path, gltf_up)
 
 
 def _ply(path: Path) -> Columns | None:
@@ -184,10 +189,9 @@ _READERS = {
     ".stl": stl_columns,
     ".obj": obj_columns,
     ".ply": _ply,
-    ".gltf": _gltf,
-    ".glb": _gltf,
     ".dae": _dae,
 }
+_GLTF = (".gltf", ".glb")
 
 
 def reach_of(points: Sequence[Vector]) -> tuple[Vector, float, Reach]:

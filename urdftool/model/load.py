@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from ..errors import ModelError
-from ..source.description import Description, read_description
+from ..source.description import Description, GltfUp, read_description
 from .elements import Robot
 from .read import read_robot
 
@@ -34,6 +34,7 @@ def load(
     args: Mapping[str, str] | None = None,
     packages: Mapping[str, str | Path] | None = None,
     package_paths: Iterable[str | Path] = (),
+    gltf_up: GltfUp = "y",
 ) -> Robot:
     """Read a robot from a URDF or xacro file.
 
@@ -45,9 +46,14 @@ def load(
         args: Values for its xacro arguments.
         packages: Folders of ROS packages by name; others are found as on the command line.
         package_paths: Folders with ROS packages below.
+        gltf_up: The axis that is up in glTF meshes: ``"y"`` by their standard, which RViz turns
+            to Z; ``"z"`` where they are made for readers that keep the axes of the file.
 
     Raises:
         SourceError: The file cannot be read, parsed or expanded.
         ModelError: It is not a robot description.
     """
-    return robot_of(read_description(path, args, packages=packages, package_paths=package_paths))
+    description = read_description(
+        path, args, packages=packages, package_paths=package_paths, gltf_up=gltf_up
+    )
+    return robot_of(description)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import UrdftoolError
 from ..inertia.winding import boxes_of, winding_numbers
-from ..meshes.load import load_mesh
+from ..meshes.load import load_named
 from ..model.elements import Collision, Mesh, Robot, Visual
 from ..model.pose import Pose, pose_of
 from .recording import Array
@@ -58,7 +58,7 @@ def _surfaces(robot: Robot, shapes: list[Collision], at: Pose) -> Iterator[Array
     for shape in shapes:
         if isinstance(shape.geometry, Mesh):
             assert robot.source is not None
-            mesh = load_mesh(robot.source.resolve(shape.geometry.filename), shape.geometry.scale)
+            mesh = load_named(robot.source, shape.geometry.filename, shape.geometry.scale)
             corners = mesh.vertices[mesh.faces]
         else:
             corners = primitive_triangles(shape)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import ModelError, UrdftoolError
-from ..meshes.load import load_mesh
+from ..meshes.load import load_named
 from ..meshes.mesh import Faces
 from ..meshes.mesh import Mesh as Triangles
 from ..model.elements import Box, Capsule, Collision, Cylinder, Link, Mesh, Robot, Sphere
@@ -113,7 +113,7 @@ def _pieces(
     try:
         if robot.source is None:
             raise ModelError("the robot was not read from a file, so its meshes are nowhere")
-        mesh = load_mesh(robot.source.resolve(geometry.filename), geometry.scale)
+        mesh = load_named(robot.source, geometry.filename, geometry.scale)
     except UrdftoolError as error:
         message = f"mesh '{geometry.filename}': {error.message}"
         raise ModelError(message, at=geometry.place, notes=error.notes, rule=error.rule) from None

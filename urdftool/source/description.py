@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from .document import STDIN, Document, parse, read_file
 from .location import SourceFile
@@ -13,6 +13,10 @@ from .packages import Packages
 
 if TYPE_CHECKING:
     from .expansion import Expansion
+
+GltfUp = Literal["y", "z"]
+"""The axis of a glTF file that is up: ``y`` by its standard, which is turned to Z on reading; ``z``
+in files made for readers that keep the axes of the file."""
 
 
 @dataclass
@@ -26,6 +30,7 @@ class Description:
         packages: Finds packages and files for it.
         arguments: The xacro arguments it was expanded with.
         expansion: What xacro did; None for plain URDF.
+        gltf_up: The axis that is up in its glTF meshes.
     """
 
     path: str
@@ -34,6 +39,7 @@ class Description:
     packages: Packages
     arguments: dict[str, str] = field(default_factory=dict)
     expansion: Expansion | None = None
+    gltf_up: GltfUp = "y"
 
     def resolve(self, uri: str) -> Path:
         """The file that a URI or path in it means; as :meth:`Packages.resolve`.
@@ -57,6 +63,7 @@ def read_description(
     package_paths: Iterable[str | Path] = (),
     configured: Mapping[str, str | Path] | None = None,
     file: SourceFile | None = None,
+    gltf_up: GltfUp = "y",
 ) -> Description:
     """Read a description, and expand it where it is xacro.
 
@@ -67,6 +74,7 @@ def read_description(
         package_paths: Folders with packages below.
         configured: Folders by package name that the configuration knows.
         file: The file, where it has been read already.
+        gltf_up: The axis that is up in glTF meshes.
 
     Raises:
         SourceError: It, or a file it includes, cannot be read or expanded.
@@ -80,7 +88,7 @@ def read_description(
     )
     arguments = dict(arguments or {})
     if not is_xacro(file):
-        return Description(str(path), parse(file), [file], finder, arguments)
+        return Description(str(path), parse(file), [file], finder, arguments, gltf_up=gltf_up)
     from .expand import expand_xacro
 
     expansion = expand_xacro(file, arguments, finder)
@@ -91,4 +99,5 @@ def read_description(
         finder,
         arguments,
         expansion,
+        gltf_up,
     )

@@ -8,17 +8,22 @@ from collections.abc import Iterable, Sequence
 from hashlib import sha256
 from pathlib import Path
 
+from ...source.description import GltfUp
 from .convert import Converted, Piece, conversion
 
 _VERSION = 6
 _BIG = 400_000
 
 
-def convert_all(jobs: Sequence[tuple[Path, bool]]) -> list[Converted | str]:
-    """``conversion`` of each (file, whether it collides), from the cache or side by side."""
-    keys = [_key(path, collides) for path, collides in jobs]
+Job = tuple[Path, bool, GltfUp]
+"""A file, whether it collides, and the axis of a glTF file that is up."""
+
+
+def convert_all(jobs: Sequence[Job]) -> list[Converted | str]:
+    """``conversion`` of each, from the cache or side by side."""
+    keys = [_key(*job) for job in jobs]
     found: list[Converted | str | None] = [
-        None if key is None else _read(key, path) for key, (path, _) in zip(keys, jobs, strict=True)
+        None if key is None else _read(key, job[0]) for key, job in zip(keys, jobs, strict=True)
     ]
     todo = [index for index, known in enumerate(found) if known is None]
     for index, made in zip(todo, _run([jobs[index] for index in todo]), strict=True):
@@ -29,9 +34,9 @@ def convert_all(jobs: Sequence[tuple[Path, bool]]) -> list[Converted | str]:
     return [made for made in found if made is not None]
 
 
-def _run(jobs: Sequence[tuple[Path, bool]]) -> list[Converted | str]:
+def _run(jobs: Sequence[Job]) -> list[Converted | str]:
     processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1
-    size = sum(path.stat().st_size for path, _ in jobs if os.path.isfile(path))
+    size = sum(path.stat().st_size for path, *_ in jobs if os.path.isfile(path))
     if len(jobs) < 2 or processors < 2 or size < _BIG:
         return [conversion(*job) for job in jobs]
     from concurrent.futures import ProcessPoolExecutor
@@ -40,13 +45,14 @@ def _run(jobs: Sequence[tuple[Path, bool]]) -> list[Converted | str]:
         return list(pool.map(conversion, *zip(*jobs, strict=True)))
 
 
-def _key(path: Path, collides: bool) -> str | None:
+def _key(path: Path, collides: bool, gltf_up: GltfUp) -> str | None:
     """What the conversion depends on; None where that is more than can be told cheaply."""
     if path.suffix.lower() == ".gltf":
         return None  # its buffers are other files
     try:
         data = path.read_bytes()
-        digest = sha256(f"{_VERSION} {collides} {path.suffix.lower()} ".encode() + data)
+        up = gltf_up if path.suffix.lower() == ".glb" else ""
+        digest = sha256(f"{_VERSION} {collides} {path.suffix.lower()} {up}".encode() + data)
         for library in _libraries(data) if path.suffix.lower() == ".obj" else ():
             digest.update((path.parent / library).read_bytes())
     except (OSError, ValueError):

@@ -16,6 +16,7 @@ from ...errors import MeshError
 from ...meshes.facts import stl_facts
 from ...meshes.load import load_mesh
 from ...meshes.mesh import Faces, Mesh, Part, Points
+from ...source.description import GltfUp
 from .obj import obj_bytes
 
 MAX_STL_TRIANGLES = 200_000
@@ -64,13 +65,13 @@ class Converted:
     thick: bool = False
 
 
-def convert(path: Path, *, collides: bool) -> Converted:
+def convert(path: Path, *, collides: bool, gltf_up: GltfUp = "y") -> Converted:
     """A mesh file in MuJoCo's formats, unscaled, in the frame of the ``<geometry>``.
 
     Raises:
         MeshError: It cannot be read.
     """
-    mesh = load_mesh(path)
+    mesh = load_mesh(path, gltf_up=gltf_up)
     notes = list(mesh.notes)
     copied = _is_readable(mesh)
     if collides:
@@ -219,9 +220,9 @@ def _is_closed(mesh: Mesh) -> bool:
     return bool(np.array_equal(forward, backward))
 
 
-def conversion(path: Path, collides: bool) -> Converted | str:
+def conversion(path: Path, collides: bool, gltf_up: GltfUp) -> Converted | str:
     """As ``convert``; a file that cannot be read gives its message, for a worker process."""
     try:
-        return convert(path, collides=collides)
+        return convert(path, collides=collides, gltf_up=gltf_up)
     except MeshError as error:
         return error.message

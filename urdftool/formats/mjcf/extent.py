@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...errors import UrdftoolError
-from ...meshes.load import load_mesh
+from ...meshes.load import load_named
 from ...model.elements import (
     Box,
     Capsule,
@@ -60,7 +60,7 @@ def _points(robot: Robot, geometry: Geometry) -> Array | None:
         return _corners([geometry.radius, geometry.radius, reach])
     if isinstance(geometry, Mesh) and robot.source is not None:
         try:
-            return load_mesh(robot.source.resolve(geometry.filename), geometry.scale).vertices
+            return load_named(robot.source, geometry.filename, geometry.scale).vertices
         except UrdftoolError:
             return None
     return None

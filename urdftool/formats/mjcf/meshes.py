@@ -59,10 +59,11 @@ def mesh_assets(robot: Robot, written: Written, options: Options) -> tuple[Asset
     uses, wrong = _uses(robot)
     jobs = list(dict.fromkeys((path, collides) for path, collides, _ in uses))
     made: dict[tuple[Path, bool], Converted] = {}
-    if jobs:
+    if jobs and robot.source is not None:
         from .cache import convert_all
 
-        for job, result in zip(jobs, convert_all(jobs), strict=True):
+        results = convert_all([(*job, robot.source.gltf_up) for job in jobs])
+        for job, result in zip(jobs, results, strict=True):
             if isinstance(result, Converted):
                 made[job] = result
             else:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import UrdftoolError
-from ...meshes.load import load_mesh
+from ...meshes.load import load_named
 from ...model.elements import (
     Box,
     Capsule,
@@ -122,7 +122,7 @@ def _bounds(robot: Robot, shape: Visual | Collision, frame: Array) -> Bounds | N
         if robot.source is None:
             return None
         try:
-            points = load_mesh(robot.source.resolve(geometry.filename), geometry.scale)
+            points = load_named(robot.source, geometry.filename, geometry.scale)
         except UrdftoolError:
             return None
         used = points.vertices[np.unique(points.faces)]
@@ -213,7 +213,7 @@ def _colors(robot: Robot, link: Link) -> Iterator[tuple[float, ...]]:
         parts: list[tuple[float, ...] | None] = [own]
         if isinstance(visual.geometry, Mesh) and robot.source is not None:
             try:
-                mesh = load_mesh(robot.source.resolve(visual.geometry.filename))
+                mesh = load_named(robot.source, visual.geometry.filename)
             except UrdftoolError:
                 return
             looks = dict.fromkeys((part.rgba, part_image(part)) for part in mesh.parts)

@@ -16,7 +16,9 @@ from ..rule import ERROR, INFO, WARNING, Problem, rule
 
 _faces: dict[Stamp, int] = {}
 
-_AXES = "; or a glTF was written with Z up, and RViz turns it: export it with Y up"
+_AXES = (
+    "; or a glTF was written with Z up, and RViz turns it: export it with Y up, or say --gltf-up z"
+)
 
 
 def faces_of(path: Path | None) -> int:
@@ -163,7 +165,9 @@ def collision_much_smaller_than_visual(robot: Robot, *, ratio: float = 4.0) -> I
 
 
 @rule(WARNING, effects={"every reader": "touches where nothing is seen"})
-def collision_off_visual(robot: Robot, *, apart: float = 0.5) -> Iterator[Problem]:
+def collision_off_visual(
+    robot: Robot, description: Description, *, apart: float = 0.5
+) -> Iterator[Problem]:
     """A link collides elsewhere than it is seen.
 
     One of the two lacks the ``<origin>`` that the other has. It is told where the boxes around
@@ -178,7 +182,8 @@ def collision_off_visual(robot: Robot, *, apart: float = 0.5) -> Iterator[Proble
         x, y, z = (a - b for a, b in zip(seen.centre, touches.centre, strict=True))
         distance, diagonal = norm((x, y, z)), norm(seen.size)
         larger = all(a > 2 * b for a, b in zip(touches.size, seen.size, strict=True))
-        lying = any(map(is_gltf, link.visuals)) or any(map(is_gltf, link.collisions))
+        gltf = any(map(is_gltf, link.visuals)) or any(map(is_gltf, link.collisions))
+        lying = gltf and description.gltf_up == "y"
         if (
             diagonal > 0.05
             and not larger

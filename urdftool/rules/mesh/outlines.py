@@ -9,6 +9,7 @@ from ...inputs import Remembered
 from ...model.bounds import Bounds, bounds_of
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...model.pose import pose_of
+from ...source.description import GltfUp
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
 if TYPE_CHECKING:
@@ -23,16 +24,17 @@ def outline_of(use: MeshUse) -> Outline | None:
     if use.path is None or not use.exists:
         return None
     try:
-        return _outline(stamp(use.path))
+        return _outline((stamp(use.path), use.gltf_up))
     except OSError:
         return None
 
 
 @Remembered
-def _outline(key: Stamp) -> Outline | None:
+def _outline(key: tuple[Stamp, GltfUp]) -> Outline | None:
     from ...meshes.outline import outline
 
-    return outline(Path(key[0]))
+    (path, *_), gltf_up = key
+    return outline(Path(path), gltf_up)
 
 
 def box_of(use: MeshUse) -> Bounds | None:

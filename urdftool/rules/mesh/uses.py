@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ...errors import PackageNotFound
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
-from ...source.description import Description
+from ...source.description import Description, GltfUp
 
 _SEEN, _TOUCHED = 0.02, 0.1  # [µs] a byte of a mesh takes in plain Python
 
@@ -27,6 +27,7 @@ class MeshUse:
         size: Its bytes; None where it is not there.
         missing_package: The package that could not be found, if it was that.
         searched: Where that package was looked for.
+        gltf_up: The axis of a glTF file that is up.
     """
 
     link: Link
@@ -36,6 +37,7 @@ class MeshUse:
     size: int | None = None
     missing_package: str = ""
     searched: list[str] = field(default_factory=list)
+    gltf_up: GltfUp = "y"
 
     @property
     def exists(self) -> bool:
@@ -93,7 +95,7 @@ def _uses(robot: Robot, description: Description) -> Iterator[MeshUse]:
         mesh = shape.geometry
         if not isinstance(mesh, Mesh):
             continue
-        use = MeshUse(link, shape, mesh)
+        use = MeshUse(link, shape, mesh, gltf_up=description.gltf_up)
         known = found.setdefault(use.uri, use)
         if known is use:
             _locate(use, description, lost)
