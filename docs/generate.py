@@ -23,6 +23,7 @@ from generator.python_page import with_names
 
 from urdftool import cli
 from urdftool.finding import Severity
+from urdftool.report.file_diff import file_diff
 from urdftool.report.rule_pages import facts
 from urdftool.rules import RULES, all_rules, get_rule
 from urdftool.rules.fix_table import FIXABLE
@@ -73,13 +74,27 @@ def fix_shown(rule: str) -> str:
     """What the fix of a rule makes of a fixture, as a diff."""
     option = "--fix" if FIXABLE[rule] == "safe" else "--fix --unsafe-fixes"
     for fixed in sorted((FIXTURES / rule).glob("fixed*")):
-        bad = fixed.with_name(fixed.name.replace("fixed", "bad", 1))
-        old, new = (path.read_text("utf-8", "replace").splitlines() for path in (bad, fixed))
-        lines = list(unified_diff(old, new, bad.name, bad.name, n=2, lineterm=""))
+        lines = []
+        if fixed.is_dir():
+            for path in sorted(filter(Path.is_file, fixed.rglob("*"))):
+                inside = path.relative_to(fixed).as_posix()
+                lines += _difference(FIXTURES / rule / inside, path, inside)
+        else:
+            bad = fixed.with_name(fixed.name.replace("fixed", "bad", 1))
+            lines = _difference(bad, fixed, bad.name)
         text = "\n".join(line.rstrip() for line in lines)
         how = f"`urdftool lint {option}`, which is {FIXABLE[rule]}:"
         return f"## Fixed\n\n{how}\n\n```diff\n{text}\n```"
     return ""
+
+
+def _difference(old: Path, new: Path, name: str) -> list[str]:
+    """What ``--diff`` shows of a file of a fixture; one that is not there yet is empty."""
+    before, after = (path.read_bytes() if path.is_file() else b"" for path in (old, new))
+    if b"\0" in before + after:
+        return file_diff(name, before if old.is_file() else None, after).splitlines()
+    texts = (data.decode("utf-8", "replace").splitlines() for data in (before, after))
+    return list(unified_diff(*texts, name, name, n=2, lineterm=""))
 
 
 def _markdown(text: str) -> str:

@@ -43,6 +43,20 @@ class Replacement(NamedTuple):
         return self.data.decode(self.place.file.encoding, "replace")
 
 
+class Remake(NamedTuple):
+    """A file that is made anew, such as a mesh.
+
+    Attributes:
+        path: The file that is written, which may be there already.
+        origin: The file it is made of, which may be the same.
+        how: What is made of it, in words: ``binary STL``.
+    """
+
+    path: str
+    origin: str
+    how: str
+
+
 class Fix(NamedTuple):
     """What mends a finding.
 
@@ -50,16 +64,24 @@ class Fix(NamedTuple):
         safe: Whether the robot is the same afterwards to whatever read it before.
         message: What is done, in words: ``write 0 0 1``.
         replacements: The bytes that change, in the order of the source.
+        remakes: The files that are made anew.
     """
 
     safe: bool
     message: str
     replacements: tuple[Replacement, ...]
+    remakes: tuple[Remake, ...] = ()
 
     @property
     def applicability(self) -> str:
         """``safe`` or ``unsafe``."""
         return "safe" if self.safe else "unsafe"
+
+    @property
+    def paths(self) -> set[str]:
+        """The files that it changes."""
+        changed = {replacement.place.path for replacement in self.replacements}
+        return changed.union(remake.path for remake in self.remakes)
 
     @property
     def option(self) -> str:

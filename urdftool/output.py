@@ -138,11 +138,12 @@ def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] 
         neighbour.unlink(missing_ok=True)
 
 
-def rewrite(before: Mapping[str, bytes], after: Mapping[str, bytes]) -> None:
+def rewrite(before: Mapping[str, bytes | None], after: Mapping[str, bytes]) -> None:
     """Write edited files in place: all of them, or none.
 
     Args:
         before: What each file was when it was read; one that is something else now is not written.
+            None where it was not there.
         after: What each is to be.
 
     Raises:
@@ -150,7 +151,7 @@ def rewrite(before: Mapping[str, bytes], after: Mapping[str, bytes]) -> None:
     """
     for path in after:
         _check_unchanged(path, before[path])
-        if not os.access(path, os.W_OK):
+        if before[path] is not None and not os.access(path, os.W_OK):
             raise OutputError("is not fixed: it is read-only", path=path)
     written: list[str] = []
     try:
@@ -159,11 +160,19 @@ def rewrite(before: Mapping[str, bytes], after: Mapping[str, bytes]) -> None:
             write_file(path, after[path])
     except BaseException:
         for path in written:
-            write_file(path, before[path])
+            data = before[path]
+            if data is not None:
+                write_file(path, data)
+            else:
+                Path(path).unlink(missing_ok=True)
         raise
 
 
-def _check_unchanged(path: str, data: bytes) -> None:
+def _check_unchanged(path: str, data: bytes | None) -> None:
+    if data is None:
+        if os.path.lexists(path):
+            raise OutputError("is not written: it is there now; run again", path=path)
+        return
     try:
         with open(path, "rb") as stream:
             now = stream.read()

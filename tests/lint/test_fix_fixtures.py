@@ -1,7 +1,8 @@
 """Each fix against its fixtures: ``bad.urdf`` with ``--fix`` is ``fixed.urdf``, byte for byte.
 
 ``fixed*`` beside ``bad*`` in ``fixtures/rules/RULE/`` is what the fix of that rule alone makes of
-it; a file without a ``fixed`` one is not mended.
+it; a file without a ``fixed`` one is not mended. In a folder ``fixed*`` are other files, which
+become so or are made.
 """
 
 import shutil
@@ -35,7 +36,8 @@ def folder(tmp_path, monkeypatch):
 
 
 def _files(there):
-    return {path.name: path.read_bytes() for path in there.rglob("*") if path.is_file()}
+    found = sorted(path for path in there.rglob("*") if path.is_file())
+    return {path.relative_to(there).as_posix(): path.read_bytes() for path in found}
 
 
 @pytest.mark.parametrize("bad", BAD, ids=_name)
@@ -46,7 +48,7 @@ def test_bad_becomes_fixed(bad, folder, urdftool):
     for path in bad.parent.glob("fixed*"):
         name = path.name.replace("fixed", "bad", 1)
         if name.split(".")[0] == bad.name.split(".")[0]:
-            expected[name] = path.read_bytes()
+            expected |= _files(path) if path.is_dir() else {name: path.read_bytes()}
     changes = expected != _files(there)
     select = ("--select", ",".join((rule, *ALSO.get(rule, ()))), "--no-cache", "--exit-zero")
     shown = urdftool("lint", bad.name, *select, "--diff", "--unsafe-fixes")

@@ -25,13 +25,13 @@ class _Done:
     """What came of fixing many descriptions.
 
     Attributes:
-        before: The bytes of each file that changed, as they were.
+        before: The bytes of each file that changed, as they were; None for one that is new.
         after: The same as they are to be.
         applied: How many fixes of each rule were made.
         code: The exit code that something that failed asks for.
     """
 
-    before: dict[str, bytes] = field(default_factory=dict)
+    before: dict[str, bytes | None] = field(default_factory=dict)
     after: dict[str, bytes] = field(default_factory=dict)
     applied: Counter[str] = field(default_factory=Counter)
     code: int = 0
@@ -95,7 +95,7 @@ def _fix_one(
 ) -> None:
     """Fix one description; others that read the same files are checked anew."""
     from ..errors import OutputError
-    from ..lint.fix_run import mend
+    from ..lint.fix_run import concerns, mend
     from ..lint.run import lint_file
     from ..output import rewrite
     from ..source.document import STDIN, reading_instead
@@ -123,7 +123,7 @@ def _fix_one(
     reports[number] = mended.report
     with reading_instead(done.after):
         for other, report in enumerate(reports):
-            if other != number and any(path in mended.after for path in report.files):
+            if other != number and concerns(report, mended.after):
                 reports[other] = lint_file(report.path, options)
 
 
@@ -133,6 +133,8 @@ def _say_broken(console: Console, mended: Mended) -> None:
             f"the fix of {rule} would make things worse and is not made: {how}. "
             "If that is not plain from the file, it is a bug in urdftool"
         )
+    for rule, how in mended.unmade.items():
+        console.note(f"is not fixed [{rule}]: {how}")
 
 
 def _say_what_is_left(console: Console, reports: Sequence[Report], *, unsafe: bool) -> None:
@@ -175,25 +177,11 @@ def _say(console: Console, did: str, done: _Done) -> None:
 def _show(console: Console, done: _Done, wanted: Wanted) -> int:
     """The fixes as a unified diff; exit 1 if there are any."""
     from ..output import write_result
+    from ..report.file_diff import file_diff
 
     changed = [path for path, data in done.after.items() if data != done.before[path]]
-    text = "".join(_diff(path, done.before[path], done.after[path]) for path in changed)
+    text = "".join(file_diff(path, done.before[path], done.after[path]) for path in changed)
     inputs = [path for path in done.after if os.path.exists(path)]
     write_result(text, wanted.output_file, inputs=inputs)
     _say(console, "Would fix", done)
     return max(done.code, int(bool(changed) and not wanted.exit_zero))
-
-
-def _diff(path: str, before: bytes, after: bytes) -> str:
-    from io import StringIO
-
-    from ..report.line_diff import unified_lines
-
-    old, new = (
-        StringIO(data.decode("utf-8", "replace"), newline="\n").readlines()
-        for data in (before, after)
-    )
-    lines = []
-    for line in unified_lines(old, new, path, path):
-        lines.append(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n")
-    return "".join(lines)

@@ -10,11 +10,11 @@ from typing import Any, NamedTuple
 from ..finding import Finding, Fix, Replacement
 from ..model.elements import Robot
 from ..rules.fix_table import FIX_FILE, FIXABLE
-from ..rules.fixes.proposal import Around, Proposal, source_of
+from ..rules.fixes.proposal import Around, Proposal, RefusedError, source_of
 from ..rules.rule import Problem
 from ..source.description import Description
 from ..source.document import Document
-from .fix_settle import RefusedError, Settler
+from .fix_settle import Settler
 from .outcome import Options, Report
 
 
@@ -71,16 +71,16 @@ def add_fixes(
             whole = [proposal for proposal in proposals if proposal is not None]
             if len(whole) < len(proposals) or not whole:
                 continue
-            replacements = settler.settle(whole)
+            replacements, remakes = settler.settle(whole), settler.remakes(whole)
         except RefusedError as error:
             report.unmended.append((group[0], str(error)))
             continue
         except Exception as error:
             report.failed_rules[name] = f"its fix: {type(error).__name__}: {error}"
             continue
-        if replacements:
+        if replacements or remakes:
             safe = all(proposal.safe for proposal in whole) and not _lost_comments(replacements)
-            group[0].fix = Fix(safe, whole[0].message, replacements)
+            group[0].fix = Fix(safe, whole[0].message, replacements, remakes)
     source_of.cache_clear()
 
 

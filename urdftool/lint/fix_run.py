@@ -7,14 +7,17 @@ back and said.
 
 from __future__ import annotations
 
+import os
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..errors import UrdftoolError
-from ..finding import Finding, Severity
+from ..finding import Finding, Remake, Severity
+from ..rules.fixes.remakes import remade
 from ..source.document import reading_instead
+from ..source.nearby import bytes_of
 from .outcome import Options, Report
 from .run import lint_file
 
@@ -63,17 +66,26 @@ class Mended:
 
     Attributes:
         report: What is wrong with it now.
-        before: The bytes of each file that changed, as they were.
+        before: The bytes of each file that changed, as they were; None for one that is new.
         after: The same as they are to be.
         applied: How many fixes of each rule were made.
         broken: Rules whose fix would have made things worse, with how.
+        unmade: Rules whose fix wants a file made of one that cannot be read, with which.
     """
 
     report: Report
-    before: dict[str, bytes] = field(default_factory=dict)
+    before: dict[str, bytes | None] = field(default_factory=dict)
     after: dict[str, bytes] = field(default_factory=dict)
     applied: Counter[str] = field(default_factory=Counter)
     broken: dict[str, str] = field(default_factory=dict)
+    unmade: dict[str, str] = field(default_factory=dict)
+
+
+class _Wrong(NamedTuple):
+    """Why fixes are not kept, and whether that is for a file they are made of."""
+
+    text: str
+    of_a_file: bool = False
 
 
 def mend(
@@ -118,15 +130,19 @@ def _choose(report: Report, unsafe: bool, kept: set[str], banned: set[_Key]) -> 
         fix = finding.fix
         if fix is None or not (fix.safe or unsafe) or _key(finding) in banned:
             continue
-        if any(r.place.path in kept for r in fix.replacements):
+        if not kept.isdisjoint(fix.paths):
             continue
         spans = [(r.place.path, r.place.start, r.place.end, r.data) for r in fix.replacements]
+        spans += [(r.path, 0, _ALL, r.how.encode()) for r in fix.remakes]
         if any(_meets(taken.get(path, []), a, b, data) for path, a, b, data in spans):
             continue
         for path, start, end, data in spans:
             taken.setdefault(path, []).append((start, end, data))
         chosen.append(finding)
     return chosen
+
+
+_ALL = 1 << 62
 
 
 def _meets(taken: Sequence[tuple[int, int, bytes]], start: int, end: int, data: bytes) -> bool:
@@ -139,8 +155,8 @@ def _meets(taken: Sequence[tuple[int, int, bytes]], start: int, end: int, data: 
     return False
 
 
-def _attempt(mended: Mended, chosen: Sequence[Finding], options: Options) -> str:
-    """Apply some fixes at once; gives what would become worse, and nothing where it was done."""
+def _attempt(mended: Mended, chosen: Sequence[Finding], options: Options) -> _Wrong | None:
+    """Apply some fixes at once; gives what would become worse, and None where it was done."""
     replaced: dict[str, list[tuple[int, int, bytes]]] = {}
     files: dict[str, bytes] = {}
     for finding in chosen:
@@ -150,18 +166,36 @@ def _attempt(mended: Mended, chosen: Sequence[Finding], options: Options) -> str
             files.setdefault(place.path, _bytes_of(mended, place.path, place.file.data))
             replaced.setdefault(place.path, []).append((place.start, place.end, replacement.data))
     edited = {path: _edited(files[path], spans) for path, spans in replaced.items()}
+    before: dict[str, bytes | None] = dict(files)
+    try:
+        with reading_instead(mended.after):
+            for remake in _remakes(chosen):
+                before[remake.path] = _now(remake.path)
+                edited[remake.path] = remade(remake)
+    except (UrdftoolError, OSError) as error:
+        return _Wrong(f"{remake.origin} cannot be made {remake.how}: {error}", True)
     after = {**mended.after, **edited}
     with reading_instead(after):
         report = lint_file(mended.report.path, options)
     wrong = _worse(mended.report, report, chosen)
     if wrong:
-        return wrong
-    for path, data in files.items():
+        return _Wrong(wrong)
+    for path, data in before.items():
         mended.before.setdefault(path, data)
     mended.after = after
     mended.report = report
     mended.applied.update(finding.rule for finding in chosen)
-    return ""
+    return None
+
+
+def _remakes(chosen: Sequence[Finding]) -> Iterator[Remake]:
+    for finding in chosen:
+        yield from finding.fix.remakes if finding.fix is not None else ()
+
+
+def _now(path: str) -> bytes | None:
+    """What is in a file; None where it is not there."""
+    return bytes_of(path) if os.path.lexists(path) else None
 
 
 def _bytes_of(mended: Mended, path: str, data: bytes) -> bytes:
@@ -195,10 +229,11 @@ def _one_by_one(
             return
         for finding in some:
             wrong = _attempt(mended, [finding], options)
-            if not wrong:
+            if wrong is None:
                 return
             banned.add(_key(finding))
-            mended.broken.setdefault(rule, f"{finding.place}: {wrong}")
+            kind = mended.unmade if wrong.of_a_file else mended.broken
+            kind.setdefault(rule, f"{finding.place}: {wrong.text}")
 
 
 def _key(finding: Finding) -> _Key:
@@ -262,6 +297,12 @@ def _worse_for_others(mended: Mended, others: Sequence[Report], options: Options
     return shared
 
 
-def changed(before: Mapping[str, bytes], after: Mapping[str, bytes]) -> list[str]:
+def concerns(report: Report, paths: Iterable[str]) -> bool:
+    """Whether a description, or a fix of it, is of any of these files."""
+    theirs = set(report.files).union(*(f.fix.paths for f in report.findings if f.fix is not None))
+    return not theirs.isdisjoint(paths)
+
+
+def changed(before: Mapping[str, bytes | None], after: Mapping[str, bytes]) -> list[str]:
     """Paths of the files whose bytes differ."""
     return [path for path, data in after.items() if data != before.get(path)]

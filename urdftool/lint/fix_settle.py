@@ -14,8 +14,8 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from ..errors import SourceError
-from ..finding import Replacement
-from ..rules.fixes.proposal import Change, Proposal, Span, source_of
+from ..finding import Remake, Replacement
+from ..rules.fixes.proposal import Change, Proposal, RefusedError, Span, source_of
 from ..source import edit
 from ..source.description import Description
 from ..source.document import STDIN, Element
@@ -24,10 +24,6 @@ from ..source.location import Place, SourceFile
 from ..source.packages import own_package, shown_path
 
 _QUOTES = {"&quot;": '"', "&apos;": "'"}
-
-
-class RefusedError(Exception):
-    """A change that is not made; its text says why."""
 
 
 class Settler:
@@ -79,6 +75,17 @@ class Settler:
                 raise RefusedError("its parts overlap")
         return tuple(found)
 
+    def remakes(self, proposals: Sequence[Proposal]) -> tuple[Remake, ...]:
+        """The files that are made anew for the proposals of one finding.
+
+        Raises:
+            RefusedError: One of them is not the user's to write.
+        """
+        found = [c for p in proposals for c in p.changes if isinstance(c, Remake)]
+        for remake in found:
+            self._check_inside(remake.path)
+        return tuple(dict.fromkeys(found))
+
     def _span(self, span: Span) -> Replacement:
         self._check_file(span.file)
         return Replacement(Place(span.file, span.start, span.end), span.data)
@@ -107,13 +114,15 @@ class Settler:
             with open(file.path, "rb") as stream:
                 if stream.read(4).startswith((b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")):
                     raise RefusedError("it is in UTF-16 or UTF-32; save it as UTF-8")
-        if file.path == self.main:
-            return
+        if file.path != self.main:
+            self._check_inside(file.path)
+
+    def _check_inside(self, file: str) -> None:
         path = self.description.packages.file
         own = own_package(path)
         root = os.path.realpath(own[1] if own else path.parent)
-        if self.main == STDIN or not os.path.realpath(file.path).startswith(root + os.sep):
-            raise RefusedError(f"it is written in {file.path}, outside of {shown_path(root)}")
+        if self.main == STDIN or not os.path.realpath(file).startswith(root + os.sep):
+            raise RefusedError(f"it is written in {file}, outside of {shown_path(root)}")
 
 
 def _edits(source: edit.Source, raw: Element, change: Change) -> Iterator[edit.Edit]:

@@ -77,7 +77,10 @@ def fix_record(fix: Fix | None) -> dict[str, Any] | None:
                 "replacement": data.decode(place.file.encoding, "replace"),
             }
         )
-    return {"applicability": fix.applicability, "message": fix.message, "edits": edits}
+    record = {"applicability": fix.applicability, "message": fix.message, "edits": edits}
+    if fix.remakes:
+        record["files"] = [{"path": f.path, "of": f.origin, "as": f.how} for f in fix.remakes]
+    return record
 
 
 def _calls(calls: Iterable[Any]) -> list[dict[str, Any]]:

@@ -142,6 +142,23 @@ FIXES: dict[str, dict[str, str]] = {
         "package-uri-unresolvable": UNSAFE,
         "mujoco-missing-compiler": UNSAFE,
     },
+    "mesh_files": {
+        "ascii-stl": SAFE,
+        "binary-stl-starts-with-solid": SAFE,
+        "inverted-mesh": UNSAFE,
+        "degenerate-triangles": UNSAFE,
+        "dae-as-collision": UNSAFE,
+        "unsupported-mesh-format": UNSAFE,
+        "mirrored-scale": UNSAFE,
+        "unsafe-file-name": UNSAFE,
+        "mesh-stem-collision": UNSAFE,
+    },
+    "package": {
+        "undeclared-mesh-dependency": SAFE,
+        "gazebo-path-not-exported": SAFE,
+        "directory-not-installed": UNSAFE,
+        "obsolete-cli-option": SAFE,
+    },
     "gazebo": {
         "missing-gazebo-tags": UNSAFE,
         "missing-gazebo-material": SAFE,

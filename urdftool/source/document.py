@@ -160,6 +160,12 @@ def reading_instead(copies: Mapping[str, bytes]) -> Iterator[None]:
         _instead.reset(token)
 
 
+def copy_of(path: str | Path) -> bytes | None:
+    """What a file is read as instead; None where it is read as it is on disk."""
+    copies = _instead.get()
+    return copies.get(_key(str(path))) if copies else None
+
+
 def _key(path: str) -> str:
     return path if path == STDIN else os.path.realpath(path)
 
@@ -171,11 +177,10 @@ def read_file(path: str | Path) -> SourceFile:
         SourceError: It is missing, a folder, unreadable, empty or larger than ``MAX_BYTES``.
     """
     shown = str(path)
-    if copies := _instead.get():
-        named = STDIN if shown == "-" else shown
-        copy = copies.get(_key(named))
-        if copy is not None:
-            return SourceFile(named, copy)
+    named = STDIN if shown == "-" else shown
+    copy = copy_of(named)
+    if copy is not None:
+        return SourceFile(named, copy)
     try:
         if shown == "-":
             shown = STDIN

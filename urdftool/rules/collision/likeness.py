@@ -28,7 +28,7 @@ def faces_of(path: Path | None) -> int:
     try:
         key = stamp(path)
         if key not in _faces:
-            facts = stl_facts(path)
+            facts = stl_facts(key[0])
             _faces[key] = (facts.triangles or 0) if facts.size_agrees else 0
     except OSError:
         return 0

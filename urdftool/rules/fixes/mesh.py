@@ -16,7 +16,8 @@ from ..rule import Problem
 from .proposal import Around, Change, Proposal, attribute_at, first, put, safe, sub, unsafe
 
 
-def _uses(around: Around, uri: str | None) -> list[MeshUse]:
+def uses_of(around: Around, uri: str | None) -> list[MeshUse]:
+    """The uses of a mesh by what names it; of all meshes where that is None."""
     found = mesh_uses(around.robot, around.description)
     return [use for use in found if uri is None or use.uri == uri]
 
@@ -28,7 +29,7 @@ def _everywhere(
     found = attribute_at(problem)
     if found is None:
         return None
-    changes = [change(use) for use in _uses(around, found[0].get(found[1]))]
+    changes = [change(use) for use in uses_of(around, found[0].get(found[1]))]
     whole = [one for one in changes if one is not None]
     return whole if len(whole) == len(changes) else None
 
@@ -92,7 +93,7 @@ def relative_uri_in_ros(problem: Problem, around: Around) -> Proposal | None:
     """By its package, all of them."""
     own = own_package(around.description.packages.file)
     changes = []
-    for use in _uses(around, None):
+    for use in uses_of(around, None):
         if not use.uri.strip() or "://" in use.uri or use.is_absolute or malformation(use):
             continue
         uri = _in_package(use.path, own)
@@ -156,7 +157,7 @@ def _compiler(around: Around) -> Proposal | None:
         return None
     folders = {
         os.path.dirname(os.path.realpath(use.path))
-        for use in _uses(around, None)
+        for use in uses_of(around, None)
         if use.path is not None and use.exists
     }
     if len(folders) != 1 or around.description.path == "-":

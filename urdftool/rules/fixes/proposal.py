@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
+from ...finding import Remake
 from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
 from ...source.document import Document, Element
@@ -53,6 +54,10 @@ class Change(NamedTuple):
         return self.kind, self.name, self.value, self.pattern, self.blocks
 
 
+class RefusedError(Exception):
+    """A change that is not made; its text says why."""
+
+
 class Span(NamedTuple):
     """Bytes of a file that become others, where no element is concerned."""
 
@@ -74,7 +79,7 @@ class Proposal:
 
     safe: bool
     message: str
-    changes: tuple[Change | Span, ...]
+    changes: tuple[Change | Span | Remake, ...]
 
 
 @dataclass
@@ -111,12 +116,12 @@ class Around:
         return problem.subject
 
 
-def safe(message: str, *changes: Change | Span) -> Proposal:
+def safe(message: str, *changes: Change | Span | Remake) -> Proposal:
     """A proposal of a safe fix."""
     return Proposal(True, message, changes)
 
 
-def unsafe(message: str, *changes: Change | Span) -> Proposal:
+def unsafe(message: str, *changes: Change | Span | Remake) -> Proposal:
     """A proposal of an unsafe fix."""
     return Proposal(False, message, changes)
 

@@ -11,6 +11,7 @@ from ...inputs import Remembered
 from ...meshes.facts import LFS_MARK, stl_facts
 from ...model.elements import Robot
 from ...source.description import Description
+from ...source.nearby import stand_in
 from ...source.packages import own_package, shown_path
 from ..rule import ERROR, Problem, rule
 from ..words import nearest
@@ -177,6 +178,7 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
 def what_is_wrong(path: Path) -> str:
     """What keeps a file from being a mesh, to be read after its name; empty where nothing does."""
     try:
+        path = stand_in(path)
         if path.suffix.lower() != ".stl":
             with open(path, "rb") as file:
                 head = file.read(len(LFS_MARK))

@@ -79,7 +79,7 @@ def _stl(use: MeshUse) -> StlFacts | None:
     try:
         key = stamp(use.path)
         if key not in _facts:
-            _facts[key] = stl_facts(use.path)
+            _facts[key] = stl_facts(key[0])
     except OSError:
         return None
     return _facts[key]
@@ -109,11 +109,7 @@ def binary_stl_starts_with_solid(robot: Robot, description: Description) -> Iter
     one exporter in fifteen writes it there; loaders that look no further read the file as text and
     fail.
     """
-    found = []
-    for use in _first_uses(robot, description):
-        facts = _stl(use)
-        if facts is not None and facts.kind == "binary" and facts.begins_with_solid:
-            found.append(use)
+    found = [use for use in _first_uses(robot, description) if begins_with_solid(use)]
     if found:
         more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
         yield Problem(
@@ -122,6 +118,12 @@ def binary_stl_starts_with_solid(robot: Robot, description: Description) -> Iter
             "overwrite the first 80 bytes",
             at=found[0].mesh.element.attribute_place("filename"),
         )
+
+
+def begins_with_solid(use: MeshUse) -> bool:
+    """Whether a mesh is binary STL with the mark of the text form."""
+    facts = _stl(use)
+    return facts is not None and facts.kind == "binary" and facts.begins_with_solid
 
 
 _UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']([^\"']+)[\"']")
@@ -147,21 +149,9 @@ def dae_unit_or_axis(
     """
     found: dict[str, list[MeshUse]] = {}
     for use in _first_uses(robot, description):
-        if use.path is None or not use.exists or _ending(use) != "dae":
-            continue
-        try:
-            with open(use.path, "rb") as file:
-                head = file.read(16384)
-        except OSError:
-            continue
-        unit, up = _UNIT.search(head), _UP.search(head)
-        said = []
-        if unit and not _is_one(unit[1]):
-            said.append(f"its unit is {unit[1].decode('ascii', 'replace')} m")
-        if up and up[1].upper() != b"Z_UP":
-            said.append(f"it says {up[1].decode('ascii', 'replace')}")
+        said = unit_and_axis(use)
         if said:
-            found.setdefault(" and ".join(said), []).append(use)
+            found.setdefault(said, []).append(use)
     for what, uses in found.items():
         several = len(uses) > together
         more = f" (and of {len(uses) - 1} more)" if several else ""
@@ -172,6 +162,24 @@ def dae_unit_or_axis(
                 "export it in metres with z up",
                 at=use.mesh.element.attribute_place("filename"),
             )
+
+
+def unit_and_axis(use: MeshUse) -> str:
+    """What a COLLADA file says of its unit and axes, if that is not metres with z up."""
+    if use.path is None or not use.exists or _ending(use) != "dae":
+        return ""
+    try:
+        with open(use.path, "rb") as file:
+            head = file.read(16384)
+    except OSError:
+        return ""
+    unit, up = _UNIT.search(head), _UP.search(head)
+    said = []
+    if unit and not _is_one(unit[1]):
+        said.append(f"its unit is {unit[1].decode('ascii', 'replace')} m")
+    if up and up[1].upper() != b"Z_UP":
+        said.append(f"it says {up[1].decode('ascii', 'replace')}")
+    return " and ".join(said)
 
 
 def _is_one(text: bytes) -> bool:

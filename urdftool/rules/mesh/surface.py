@@ -112,17 +112,23 @@ def degenerate_triangles(
     are not a number, and programs that make hulls stumble. ``most`` is the part that is let pass.
     One finding names the links.
     """
-    found = [
-        (use, f"{surface.flat} of its {surface.faces} triangles")
-        for use, _, surface in _surfaces(robot, description)
-        if surface.flat > most * surface.faces
-    ]
     yield from _together(
-        found,
+        with_slivers(robot, description, most),
         lambda use: (
             f"collision mesh '{use.uri}' of link '{use.link.name}' has slivers: {{}} have no area"
         ),
     )
+
+
+def with_slivers(
+    robot: Robot, description: Description, most: float = 0.01
+) -> list[tuple[MeshUse, str]]:
+    """The collision meshes of which more than a part of the triangles has no area."""
+    return [
+        (use, f"{surface.flat} of its {surface.faces} triangles")
+        for use, _, surface in _surfaces(robot, description)
+        if surface.flat > most * surface.faces
+    ]
 
 
 @rule(

@@ -12,6 +12,8 @@ from pathlib import Path
 from ...errors import PackageNotFound
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...source.description import Description, GltfUp
+from ...source.document import copy_of
+from ...source.nearby import stand_in
 
 _SEEN, _TOUCHED = 0.02, 0.1  # [µs] a byte of a mesh takes in plain Python
 
@@ -125,6 +127,10 @@ def _locate(use: MeshUse, description: Description, lost: dict[str, list[str]]) 
             use.missing_package, use.searched = package, list(error.notes)
             lost[package] = use.searched
         return
+    copy = copy_of(use.path)
+    if copy is not None:
+        use.size = len(copy)
+        return
     try:
         status = os.stat(use.path)
     except (OSError, ValueError):
@@ -138,11 +144,14 @@ Stamp = tuple[str, int, int]
 def stamp(path: Path) -> Stamp:
     """What stands for a file as it is now, where what was read of it is kept.
 
+    The path in it is that of the bytes to be read, which are elsewhere while a fix is tried.
+
     Raises:
         OSError: It is not there.
     """
-    status = path.stat()
-    return str(path), status.st_mtime_ns, status.st_size
+    there = stand_in(path)
+    status = there.stat()
+    return str(there), status.st_mtime_ns, status.st_size
 
 
 def actual_case(path: Path) -> Path | None:

@@ -9,8 +9,9 @@ from pathlib import Path
 
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.location import Place, SourceFile
-from ...source.packages import own_package, shown_path
+from ...source.location import Place
+from ...source.nearby import file_at
+from ...source.packages import own_package
 from ..rule import INFO, ROS, Problem, rule
 
 _OBSOLETE = re.compile(rb"(?<![\w./-])(?:--inorder|--legacy|xacro\.py)\b")
@@ -36,13 +37,10 @@ def obsolete_cli_option(robot: Robot, description: Description) -> Iterator[Prob
         return
     name = description.packages.file.name.encode()
     for path in _callers(own[1]):
-        try:
-            data = path.read_bytes()[:_MOST_BYTES]
-        except OSError:
+        file = file_at(path)
+        if file is None or name not in file.data or len(file.data) > _MOST_BYTES:
             continue
-        if name not in data:
-            continue
-        file = SourceFile(shown_path(path), data)
+        data = file.data
         for match in _OBSOLETE.finditer(data):
             line_start = data.rfind(b"\n", 0, match.start()) + 1
             line_end = data.find(b"\n", match.end())

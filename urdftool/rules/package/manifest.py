@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.document import Element
+from ...source.document import Element, copy_of
 from ...source.location import Place
 from ...source.packages import own_package
 from ..mesh.uses import MeshUse, Stamp, mesh_uses, stamp
@@ -31,6 +31,9 @@ _texts: dict[Stamp, str] = {}
 
 def _text_of(path: Path) -> str:
     """The text of a file of the package; empty where it cannot be read."""
+    copy = copy_of(path)
+    if copy is not None:
+        return copy.decode("utf-8", "replace")
     try:
         key = stamp(path)
         if key not in _texts:

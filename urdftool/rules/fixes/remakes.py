@@ -1,0 +1,116 @@
+"""Meshes made anew for a fix: the bytes of the file that is written, from the one that is there."""
+
+from __future__ import annotations
+
+import math
+import re
+import struct
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from ...errors import MeshError
+from ...finding import Remake
+from ...meshes.facts import HEADER_BYTES, TRIANGLE_BYTES, stl_facts
+from ...source.nearby import stand_in
+
+BINARY, TURNED, WITHOUT_FLAT = "binary STL", "turned inside out", "without its flat triangles"
+MIRRORED, HEADED, COPIED = "mirrored, as STL, along ", "with another word at its head", "a copy"
+
+_RECORD = struct.Struct("<12fH")
+_CORNERS = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
+
+Record = tuple[Any, ...]
+"""Normal, three corners and the attribute of a triangle, in a row."""
+
+
+def remade(remake: Remake) -> bytes:
+    """What a file is to be.
+
+    Raises:
+        MeshError: What it is made of cannot be read.
+        OSError: The same.
+    """
+    try:
+        return _remade(stand_in(Path(remake.origin)), remake)
+    except (ValueError, OverflowError, struct.error) as error:
+        raise MeshError(str(error), path=remake.origin) from error
+
+
+def _remade(path: Path, remake: Remake) -> bytes:
+    if remake.how == COPIED:
+        return path.read_bytes()
+    if remake.how == HEADED:
+        data = path.read_bytes()
+        return re.sub(rb"solid", b"STL: ", data[:80], count=1, flags=re.IGNORECASE) + data[80:]
+    if remake.how == BINARY:
+        return _text_as_binary(path) if _is_text(path) else _as_stl(path, (1.0, 1.0, 1.0))
+    if remake.how.startswith(MIRRORED):
+        axes = remake.how.removeprefix(MIRRORED)
+        x, y, z = (-1.0 if axis in axes else 1.0 for axis in "xyz")
+        return _as_stl(path, (x, y, z))
+    head, records = _records(path)
+    if remake.how == TURNED:
+        return head + b"".join(_turned(record) for record in records)
+    kept = [_RECORD.pack(*record) for record in records if not _is_flat(record)]
+    return head[:80] + struct.pack("<I", len(kept)) + b"".join(kept)
+
+
+def _is_text(path: Path) -> bool:
+    return path.suffix.lower() == ".stl" and stl_facts(path).kind == "ascii"
+
+
+def _text_as_binary(path: Path) -> bytes:
+    """An STL text as the same triangles in the binary form."""
+    data = path.read_bytes()
+    numbers = [float(word) for row in _CORNERS.findall(data) for word in row]
+    facets = len(re.findall(rb"\bendfacet\b", data, re.IGNORECASE))
+    if len(numbers) != 9 * facets or not re.search(rb"\bendsolid\b", data[-1024:], re.IGNORECASE):
+        raise MeshError("the STL text is not whole", path=path)
+    return _written(numbers[at : at + 9] for at in range(0, len(numbers), 9))
+
+
+def _as_stl(path: Path, scale: tuple[float, float, float]) -> bytes:
+    """The triangles of any mesh file, in its own frame, scaled by 1 or -1."""
+    from ...meshes.load import load_mesh
+
+    mesh = load_mesh(path, scale)
+    return _written(mesh.vertices[mesh.faces].reshape(-1, 9).tolist())
+
+
+def _written(triangles: Iterable[list[float]]) -> bytes:
+    rows = [_RECORD.pack(*_normal(corners), *corners, 0) for corners in triangles]
+    return b"".join((b"\0" * 80, struct.pack("<I", len(rows)), *rows))
+
+
+def _cross(corners: tuple[float, ...] | list[float]) -> tuple[float, float, float]:
+    a, b, c, d, e, f, g, h, i = corners
+    d, e, f, g, h, i = d - a, e - b, f - c, g - a, h - b, i - c
+    return e * i - f * h, f * g - d * i, d * h - e * g
+
+
+def _normal(corners: list[float]) -> tuple[float, float, float]:
+    x, y, z = _cross(corners)
+    length = math.hypot(x, y, z) or 1.0
+    return x / length, y / length, z / length
+
+
+def _records(path: Path) -> tuple[bytes, Iterator[Record]]:
+    """The head and the triangles of a binary STL file."""
+    facts = stl_facts(path)
+    if facts.kind != "binary" or not facts.size_agrees:
+        raise MeshError("is no binary STL file", path=path)
+    data = path.read_bytes()
+    whole = HEADER_BYTES + TRIANGLE_BYTES * (facts.triangles or 0)
+    return data[:HEADER_BYTES], _RECORD.iter_unpack(data[HEADER_BYTES:whole])
+
+
+def _turned(record: Record) -> bytes:
+    normal, (a, b, c), attribute = record[:3], (record[3:6], record[6:9], record[9:12]), record[12]
+    return _RECORD.pack(*(0.0 - value for value in normal), *a, *c, *b, attribute)
+
+
+def _is_flat(record: Record) -> bool:
+    """Whether two corners of a triangle are one: it can go, and leaves no hole."""
+    a, b, c = record[3:6], record[6:9], record[9:12]
+    return a == b or b == c or c == a
