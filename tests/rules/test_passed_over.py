@@ -35,3 +35,30 @@ def test_joints_that_were_passed_over_are_counted_once(chain, bound, monkeypatch
     expected = ("'j0'", "8 of 8") if bound == "TRIES" else ("'j2'", "6 of 8")
     assert all(word in finding.message for word in expected)
     assert check(chain, select=("analysis-incomplete",)) == []
+
+
+HEAP = """<joint name="j{0}" type="continuous"><origin xyz="0.001 0 0"/><parent link="l{0}"/>
+<child link="l{1}"/><axis xyz="1 0 0"/></joint>
+"""
+
+
+@pytest.fixture
+def heap(write):
+    """Thirty balls in one place, each on the one before: 406 pairs that no joint joins."""
+    links = "".join(map(LINK.format, range(30)))
+    joints = "".join(HEAP.format(n, n + 1) for n in range(29))
+    return write("heap.urdf", f"<robot name='heap'>{links}{joints}</robot>")
+
+
+def test_pairs_that_were_passed_over_are_said(heap, monkeypatch):
+    monkeypatch.setattr(overlap, "RESTING", 100)
+    found = check(heap, select=("self-collision-at-zero", "analysis-incomplete"))
+    part, rest = sorted(found, key=lambda finding: finding.rule)
+    assert "the first 100 pairs" in part.message
+    assert "and 87 more pairs" in rest.message
+
+
+def test_a_heap_is_one_finding_that_can_be_read(heap):
+    (finding,) = check(heap, select=("self-collision-at-zero", "analysis-incomplete"))
+    assert "and 393 more pairs" in finding.message
+    assert len(finding.message) < 500

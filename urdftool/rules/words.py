@@ -46,6 +46,13 @@ def quoted(names: Iterable[str], most: int = 4) -> str:
     return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) if words else ""
 
 
+def some_of(items: list[str], kind: str, most: int = 12) -> str:
+    """The items with commas; from more than ``most``, the first and how many of a kind follow."""
+    if len(items) <= most + 1:
+        return ", ".join(items)
+    return f"{', '.join(items[:most])} and {len(items) - most} more {kind}"
+
+
 def words(text: str) -> frozenset[str]:
     """The words of a text, for tables."""
     return frozenset(text.split())

@@ -10,10 +10,14 @@ from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import MOVABLE, limits_of, motion_of
 from ...model.pose import IDENTITY, Pose, pose_of, rotate, transpose
 from ..rule import GAZEBO, INFO, WARNING, Problem, rule
+from ..words import some_of
 from .pieces import Pieces, pieces
 
 STEPS = 9
 """Positions at which a joint is looked at within its range."""
+
+RESTING = 10_000
+"""Pairs of bodies that are looked at where all joints rest; more are passed over."""
 
 TRIES = 6000
 """Pairs of bodies that are looked at closely; a robot with more is looked at in part."""
@@ -61,10 +65,10 @@ def _overlap(one: Link, other: Link, depth: float, more: str) -> Problem:
 
 
 def _pairs(found: list[tuple[Link, Link, float]]) -> str:
-    return ", ".join(f"'{one.name}' and '{other.name}'" for one, other, _ in found)
+    return some_of([f"'{one.name}' and '{other.name}'" for one, other, _ in found], "pairs")
 
 
-_resting: tuple[Robot, list[tuple[Link, Link, float]]] | None = None
+_resting: tuple[Robot, list[tuple[Link, Link, float]], bool] | None = None
 
 
 def resting(robot: Robot, deeper: float = 0.001) -> list[tuple[Link, Link, float]]:
@@ -73,12 +77,18 @@ def resting(robot: Robot, deeper: float = 0.001) -> list[tuple[Link, Link, float
     if _resting is None or _resting[0] is not robot:
         found = []
         known = pieces(robot)
-        for one, other in known.strangers():
+        pairs, complete = known.strangers(RESTING)
+        for one, other in pairs:
             deepest = known.deepest(one, other, least=deeper)
             if deepest is not None:
                 found.append(deepest)
-        _resting = robot, found
+        _resting = robot, found, complete
     return _resting[1]
+
+
+def resting_in_part(robot: Robot) -> bool:
+    """Whether so many links are near each other at rest that not all pairs were looked at."""
+    return _resting is not None and _resting[0] is robot and not _resting[2]
 
 
 @rule(
@@ -86,25 +96,33 @@ def resting(robot: Robot, deeper: float = 0.001) -> list[tuple[Link, Link, float
     on=GAZEBO,
     effects={"gz, gazebo-classic": "throw the links apart in the first step"},
 )
-def self_collide_at_spawn(robot: Robot) -> Iterator[Problem]:
+def self_collide_at_spawn(robot: Robot, *, together: float = 4) -> Iterator[Problem]:
     """Links that overlap at rest are told to collide with each other.
 
     With ``<self_collide>true</self_collide>`` Gazebo makes contacts between the links of a robot.
-    Two that overlap when it is spawned fly apart, and the rest with them.
+    Two that overlap when it is spawned fly apart, and the rest with them. More than ``together``
+    pairs are one finding.
     """
     whole = any(_says(block.value("self_collide")) for block in robot.extensions.get(None, ()))
-    for one, other, depth in resting(robot):
-        told = all(
-            any(_says(block.value("selfCollide")) for block in robot.extensions.get(link.name, ()))
-            for link in (one, other)
+    told = {
+        name
+        for name, blocks in robot.extensions.items()
+        if any(_says(block.value("selfCollide")) for block in blocks)
+    }
+    found = [
+        (one, other, depth)
+        for one, other, depth in resting(robot)
+        if whole or (one.name in told and other.name in told)
+    ]
+    many = len(found) > together
+    more = f"; so are {_pairs(found[1:])}" if many else ""
+    for one, other, depth in found[:1] if many else found:
+        yield Problem(
+            other,
+            f"links '{one.name}' and '{other.name}' overlap by {depth * 1000:.3g} mm where the "
+            f"robot is spawned, and are told to collide with each other{more}",
+            at=other.collisions[0],
         )
-        if whole or told:
-            yield Problem(
-                other,
-                f"links '{one.name}' and '{other.name}' overlap by {depth * 1000:.3g} mm where the "
-                "robot is spawned, and are told to collide with each other",
-                at=other.collisions[0],
-            )
 
 
 def _says(value: str | None) -> bool:
@@ -131,7 +149,7 @@ def link_inside_parent(
         if depth > core and parent is not None:
             found.append((joint, parent))
     many = len(found) > together
-    names = ", ".join(f"'{joint.name}'" for joint, _ in found[1:])
+    names = some_of([f"'{joint.name}'" for joint, _ in found[1:]], "joints")
     for joint, parent in found[:1] if many else found:
         yield Problem(
             joint,
@@ -220,9 +238,8 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
     if found:
         joint, one, other, where = found[0]
         unit = "m" if joint.type == "prismatic" else "rad"
-        more = "; the same is true of " + ", ".join(
-            f"'{j.name}' ('{a.name}' into '{b.name}')" for j, a, b, _ in found[1:]
-        )
+        others = [f"'{j.name}' ('{a.name}' into '{b.name}')" for j, a, b, _ in found[1:]]
+        more = f"; the same is true of {some_of(others, 'joints')}"
         yield Problem(
             joint,
             f"joint '{joint.name}' moves link '{one.name}' into '{other.name}' at {where:.3g} "

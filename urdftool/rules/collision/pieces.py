@@ -116,11 +116,17 @@ class Pieces:
         (a, r), (b, q) = self.spheres[one], self.spheres[other]
         return math.dist(a, b) < r + q
 
-    def strangers(self) -> list[tuple[str, str]]:
+    def strangers(self, most: int) -> tuple[list[tuple[str, str]], bool]:
         """Pairs of bodies that no joint joins and that may meet, in the order of the tree.
 
         By sweeping along the axis on which they stand furthest apart, so that a thousand links are
         not half a million pairs.
+
+        Args:
+            most: How many pairs are looked for.
+
+        Returns:
+            The pairs, and whether they are all there are.
         """
         number = {name: n for n, name in enumerate(self.bodies)}
         middles = [middle for middle, _ in self.spheres.values()]
@@ -139,7 +145,10 @@ class Pieces:
                 if self.near(name, other) and frozenset((name, other)) not in self.neighbours:
                     found.append((name, other) if number[name] < number[other] else (other, name))
             open_.append(name)
-        return sorted(found, key=lambda pair: (number[pair[0]], number[pair[1]]))
+            if len(found) > most:
+                break
+        found.sort(key=lambda pair: (number[pair[0]], number[pair[1]]))
+        return found[:most], len(found) <= most
 
 
 def _sphere(found: list[tuple[Link, Convex]]) -> tuple[Vector, float]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.description import Description
-from ..collision.overlap import passed_over
+from ..collision import overlap
 from ..mesh.outlines import outline_of
 from ..mesh.uses import mesh_uses
 from ..rule import INFO, Problem, rule
@@ -21,7 +21,8 @@ def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Prob
     A clean run must not mean that nothing was looked at. The size of a mesh tells whether mass,
     inertia, scale and collision of its link are plausible, and whether links overlap; without it
     these rules are silent. Meshes that are not there, or corrupt, have findings of their own. One
-    finding names the links. Another counts the joints that ``self-collision-in-range`` passed over,
+    finding names the links. Others say that pairs of links were passed over by
+    ``self-collision-at-zero``, and count the joints that ``self-collision-in-range`` passed over,
     in a robot of so many links that it would take minutes.
     """
     found = {}
@@ -45,7 +46,13 @@ def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Prob
             "inertia, scale and overlaps were not checked there",
             at=first.mesh.element.attribute_place("filename"),
         )
-    joints = passed_over(robot)
+    if overlap.resting_in_part(robot):
+        yield Problem(
+            robot,
+            "whether links overlap where all joints are at rest was looked at for the first "
+            f"{overlap.RESTING} pairs only; more are near each other",
+        )
+    joints = overlap.passed_over(robot)
     if joints:
         yield Problem(
             joints[0],
