@@ -275,6 +275,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "plugin-unknown-entity",
             "duplicate-plugin-name",
         ),
+        "drives": ("drive-size-mismatch", "drive-direction-mismatch"),
     },
     "control": {
         "transmissions": (
@@ -389,6 +390,7 @@ ONLY_WITH: dict[str, tuple[str, ...]] = {
     "gazebo.lumping": ("gazebo",),
     "gazebo.sensors": ("gazebo",),
     "gazebo.plugins": ("plugin",),
+    "gazebo.drives": ("plugin", "ros2_control"),
     "control.transmissions": ("transmission", "plugin"),
     "control.ros2_control": ("ros2_control",),
     "control.ros2_control_form": ("ros2_control",),
