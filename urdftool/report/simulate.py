@@ -69,9 +69,10 @@ def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
     else:
         yield "at rest", f"after {rest.settled:.2f} s"
     if not bodies.nailed and math.isfinite(rest.drop):
+        went = "sank" if rest.drop > -5e-5 else "rose"  # less is said as 0.0 mm
         yield (
             "root",
-            f"sank {1000 * rest.drop:.1f} mm, moved {1000 * rest.drift:.1f} mm, "
+            f"{went} {1000 * abs(rest.drop):.1f} mm, moved {1000 * rest.drift:.1f} mm, "
             f"tilted {math.degrees(rest.tilt):.1f}°",
         )
     if rest.supports and not bodies.nailed:

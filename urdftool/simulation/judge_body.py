@@ -41,7 +41,7 @@ def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
     for number, body in enumerate(bodies.bodies):
         if number == 0 and bodies.nailed:
             continue
-        if body.properties is not None and _is_impossible(body.properties.inertia):
+        if body.properties is not None and is_impossible(body.properties.inertia):
             told.add(body.name)
             yield from _tensor(robot, body)
         for name in body.links:
@@ -146,7 +146,8 @@ def _is_hollow(robot: Robot, name: str) -> bool:
     return not robot.link[name].mass and has_shapes(robot, name)
 
 
-def _is_impossible(tensor: Array) -> bool:
+def is_impossible(tensor: Array) -> bool:
+    """Whether no body has a tensor: it is not positive, or breaks the triangle inequality."""
     low, middle, high = np.linalg.eigvalsh(tensor).tolist()
     possible: bool = low >= -1e-9 * abs(high) and 0 < high <= (low + middle) * (1 + ROUNDED)
     return not possible
@@ -157,7 +158,7 @@ def _tensor(robot: Robot, body: Body) -> Iterator[Fault]:
     bad = [
         link
         for link in (robot.link[name] for name in body.links)
-        if (own := mass_of(link)) is not None and _is_impossible(own.inertia)
+        if (own := mass_of(link)) is not None and is_impossible(own.inertia)
     ]
     link = max(bad, key=lambda link: link.mass) if bad else robot.link[body.name]
     own = mass_of(link)

@@ -90,6 +90,7 @@ def _in_each_other(robot: Robot, run: Run) -> Iterator[Fault]:
     bodies = {body.name: body for body in run.bodies.bodies}
     owner = {link: body.name for body in run.bodies.bodies for link in body.links}
     at_start = {_pair(contact) for contact in run.recording.start_contacts}
+    blamed = set()
     for contact in (*run.recording.start_contacts, *run.recording.contacts):
         if contact.other == GROUND or contact.depth < _deep(run, INTO):
             continue
@@ -105,6 +106,10 @@ def _in_each_other(robot: Robot, run: Run) -> Iterator[Fault]:
         depth = contact.depth if depth is None else min(depth, contact.depth)
         frame = 0 if starting else -1
         beside = _misplaced(robot, run, frame, contact) if adjacent else None
+        if beside is not None:
+            if beside[0] in blamed:
+                continue  # it is in another neighbour, too, for the same reason
+            blamed.add(beside[0])
         thin = min(_extents(bodies[owner[name]]).min() for name in (contact.one, contact.other))
         fails = beside is not None or bool(not adjacent and depth > THICK * thin)
         when = "at the start" if starting else "at rest"
@@ -174,8 +179,8 @@ def _pair(contact: Contact) -> frozenset[str]:
 
 def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
     """Moving bodies that are seen on the floor and have nothing to touch it with."""
-    if run.bodies.nailed and not any(body.shapes for body in run.bodies.bodies):
-        return  # nothing of it touches, which is said, and nothing of it was to carry it
+    if not any(body.shapes for body in run.bodies.bodies):
+        return  # nothing of it touches, which is said
     parents = {body.parent for body in run.bodies.bodies}
     for number, body in enumerate(run.bodies.bodies):
         seen = [name for name in body.links if robot.link[name].visuals]

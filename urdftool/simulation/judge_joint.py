@@ -12,6 +12,7 @@ from ..model.pose import rotation_of_quaternion
 from .bodies import JointOf
 from .control import driven
 from .fault import Fault
+from .judge_body import is_impossible
 from .judge_rest import FAR, Rest, is_swinging
 from .recording import GROUND
 from .run import Run
@@ -84,8 +85,11 @@ def _sag(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
                 f"it swings: the {allowed:.4g} {force} that it may use brake what it moves too "
                 "late; something struck that, or its inertia is too large"
             )
-        else:
+        elif abs(used := float(recording.efforts[-1, column])) > _NEARLY * allowed:
             why = f"it may use {allowed:.4g} {force}, which was not enough"
+        else:
+            why = f"it uses {abs(used):.4g} of the {allowed:.4g} {force} that it may: "
+            why += _why_idle(run, column)
         yield Fault(
             "sags",
             f"joint '{joint.name}' is held at {target:.3g} {length} and "
@@ -96,6 +100,14 @@ def _sag(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
             why,
             "implausible-effort",
         )
+
+
+def _why_idle(run: Run, column: int) -> str:
+    """Why a joint does not go where it is held, though it could use more effort."""
+    body = run.bodies.bodies[column + 1]
+    if body.properties is not None and is_impossible(body.properties.inertia):
+        return f"link '{body.name}' has an inertia that no body has, and is not turned by it"
+    return "it is blocked, or moves too slowly to be there in time"
 
 
 def needed_effort(run: Run, column: int) -> float | None:

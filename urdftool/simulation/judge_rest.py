@@ -11,6 +11,7 @@ import numpy as np
 from ..model.elements import Robot
 from ..model.pose import IDENTITY, matrix_product, rotation_of_quaternion, transpose
 from .fault import Fault
+from .footprint import footprint
 from .recording import GROUND, Array, Recording
 from .run import Run
 from .shapes import lowest
@@ -76,7 +77,7 @@ def rest_of(run: Run) -> Rest:
         float(math.hypot(*(last[:2] - first[:2]))),
         tilt_of(first, last, run),
         centre,
-        None if centre is None else _margin(recording, centre, run.settings.slope),
+        None if centre is None else _margin(run, centre),
         supports,
         float(gain),
         bool(lost and not bodies.nailed),
@@ -107,14 +108,12 @@ def _centre(run: Run) -> tuple[float, float, float] | None:
     return a, b, c
 
 
-def _margin(recording: Recording, centre: tuple[float, float, float], slope: float) -> float | None:
+def _margin(run: Run, centre: tuple[float, float, float]) -> float | None:
     """From the centre of mass, along gravity, to the nearest edge of the support polygon [m]."""
-    points = np.array(
-        [c.point[:2] for c in recording.contacts if c.other == GROUND and c.force > 0]
-    )
+    points = footprint(run)
     if not len(points):
         return None
-    below = np.array([centre[0] + centre[2] * math.tan(slope), centre[1]])
+    below = np.array([centre[0] + centre[2] * math.tan(run.settings.slope), centre[1]])
     return support_margin(points, below)
 
 

@@ -7,8 +7,7 @@ is; a collision that is in the neighbour and away from them was misplaced.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from .extent import box_of, is_beside, is_off_mass, looks_of
 from .overlap import primitive_triangles
 from .recording import Array
 from .run import Run, body_pose
+from .solid import Solid, Solids, hulls
 
 UNLIKE = 0.45
 """How much of collision and visual is in both at most, for a misplaced one, of the smaller."""
@@ -39,31 +39,11 @@ COMPACT = 0.8
 HOUSING = 0.25
 """How far from a joint a housing may be put that belongs around it, as a part of its size."""
 
+FIT = 0.15
+"""How much more of the smaller of collision and visual is in both where their middles meet."""
+
 SHARE = 0.1
 """How much of the smaller of two neighbours is in both, for one to be misplaced."""
-
-STEPS = 13
-"""Points along each edge of the box around a part, by which its volume is compared."""
-
-
-@dataclass(frozen=True, eq=False)
-class Solid:
-    """A convex part, as the points x with ``normals @ x <= offsets``."""
-
-    normals: Array
-    offsets: Array
-    corners: Array
-
-    def holds(self, points: Array) -> Array:
-        """Which points are in it, shape (n,)."""
-        inside: Array = (points @ self.normals.T <= self.offsets + 1e-9).all(axis=1)
-        return inside
-
-    def moved(self, pose: Pose) -> Solid:
-        """The same in the frame in which ``pose`` is that of its present one."""
-        turn, at = np.array(pose.rotation), np.array(pose.translation)
-        normals = self.normals @ turn.T
-        return Solid(normals, self.offsets + normals @ at, self.corners @ turn.T + at)
 
 
 def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | None:
@@ -87,12 +67,23 @@ def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | 
     back = (body_pose(run, own, frame) @ bodies[own].places[link]).inverse()
     there = back @ body_pose(run, other, frame)
     at = {name: there @ place for name, place in bodies[other].places.items()}
-    touches = list(_touching(robot, bodies[own], link))
-    theirs = [s.moved(at[n]) for n in at for s in _touching(robot, bodies[other], n)]
-    smaller = min(_volume(touches), _volume(theirs))
-    if not smaller or _is_housing(box, shown_box, run, link, other):
+    touches = Solids(_touching(robot, bodies[own], link))
+    theirs = Solids(s.moved(at[n]) for n in at for s in _touching(robot, bodies[other], n))
+    smaller = min(touches.volume, theirs.volume)
+    if not smaller:
         return None
-    share = _shared(touches, theirs) / smaller
+    share = touches.shared(theirs) / smaller
+    around = _is_housing(box, shown_box, run, link, other)
+    seen = Solids(_seen(robot, link))
+    if share > SHARE and shown_box is not None and not (around and bodies[other].parent == own):
+        off = (shown_box[0] + shown_box[1] - box[0] - box[1]) / 2
+        if (more := _fits_better(touches, off, seen, theirs)) > FIT:
+            return (
+                f"moved by {np.linalg.norm(off):.3g} m, onto the middle of what is seen of it, "
+                f"the collision of '{link}' would fit it {more:.0%} better and be less in the other"
+            )
+    if around:
+        return None
     if share > SHARE and is_beside(robot, link):
         what = "what is seen of it" if shown_box is not None else "its mass"
         return f"the collision of '{link}' lies beside {what}"
@@ -102,15 +93,14 @@ def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | 
         if away > float((high - low).max()):
             return f"the collision of '{link}' is {away:.3g} m away from its own frame"
         return None
-    seen = list(_seen(robot, link))
-    shown = [s.moved(at[n]) for n in at for s in _seen(robot, n)]
+    shown = Solids(s.moved(at[n]) for n in at for s in _seen(robot, n))
     if not seen:
         return None
-    would = max(_shared(seen, theirs), _shared(seen, shown))
+    would = max(seen.shared(theirs), seen.shared(shown))
     gain = share - would / smaller
     if gain <= GAIN:
         return None
-    if _shared(touches, seen) < UNLIKE * min(_volume(touches), _volume(seen)):
+    if touches.shared(seen) < UNLIKE * min(touches.volume, seen.volume):
         return (
             f"the collision of '{link}' is moved from what is seen of it, and {gain:.0%} more of "
             "the two is in each other"
@@ -129,6 +119,25 @@ def _copy_moved(box: tuple[Array, Array], shown: tuple[Array, Array]) -> float:
     off = np.abs(box[0] + box[1] - shown[0] - shown[1]) / 2
     far = off > np.maximum(OFF * size_seen, OFF / 2 * largest)
     return float(np.linalg.norm(off)) if far.any() else 0.0
+
+
+def _fits_better(touches: Solids, off: Array, seen: Solids, theirs: Solids) -> float:
+    """How much more of the smaller one a collision and its visual share when it is moved.
+
+    Args:
+        touches: The collision.
+        off: How it is moved [m].
+        seen: The visual.
+        theirs: What touches of the neighbour, of which it has to share less when it is moved.
+    """
+    smaller = min(touches.volume, seen.volume)
+    if not smaller:
+        return 0.0
+    pose = Pose(translation=(float(off[0]), float(off[1]), float(off[2])))
+    moved = Solids(solid.moved(pose) for solid in touches.solids)
+    if not moved.shared(theirs) < touches.shared(theirs):
+        return 0.0
+    return (moved.shared(seen) - touches.shared(seen)) / smaller
 
 
 def _is_housing(
@@ -166,58 +175,13 @@ def _touching(robot: Robot, body: Body, link: str) -> Iterator[Solid]:
     for shape, collision in zip(shapes, robot.link[link].collisions, strict=True):
         pose = pose_of(collision.origin)
         clouds = shape.pieces or (primitive_triangles(collision).reshape(-1, 3),)
-        yield from (solid.moved(pose) for solid in _hulls(clouds))
+        yield from (solid.moved(pose) for solid in hulls(clouds))
 
 
-def _seen(robot: Robot, link: str) -> Iterator[Solid]:
+def _seen(robot: Robot, link: str) -> list[Solid]:
     """The hulls of what is seen of a link, in its frame."""
-    return _hulls(
+    return hulls(
         points
         for visual in looks_of(robot.link[link])
         if (points := shape_points(robot, visual)) is not None
     )
-
-
-def _hulls(clouds: Iterable[Array]) -> Iterator[Solid]:
-    from scipy.spatial import ConvexHull, QhullError
-
-    for points in clouds:
-        try:
-            found = ConvexHull(points)
-        except (QhullError, ValueError):  # flat: it has no volume
-            continue
-        normals, offsets = found.equations[:, :3], -found.equations[:, 3]
-        yield Solid(normals, offsets, points[found.vertices])
-
-
-def _points(solids: list[Solid]) -> tuple[Array, float]:
-    """Points spread evenly in some solids, and the volume that each stands for [m³]."""
-    corners = np.concatenate([solid.corners for solid in solids])
-    low, high = corners.min(axis=0), corners.max(axis=0)
-    steps = (np.arange(STEPS) + 0.5) / STEPS
-    grid = np.stack(np.meshgrid(steps, steps, steps), axis=-1).reshape(-1, 3)
-    points = low + grid * (high - low)
-    return points[_held(points, solids)], float(np.prod((high - low) / STEPS))
-
-
-def _volume(solids: list[Solid]) -> float:
-    """The volume of the union of some solids [m³]."""
-    points, each = _points(solids)
-    return len(points) * each
-
-
-def _shared(some: list[Solid], others: list[Solid]) -> float:
-    """The volume that two sets of solids share [m³], by the points of the smaller one."""
-    if not (some and others):
-        return 0.0
-    if _volume(some) > _volume(others):
-        some, others = others, some
-    points, each = _points(some)
-    return float(_held(points, others).sum()) * each
-
-
-def _held(points: Array, solids: list[Solid]) -> Array:
-    inside = np.zeros(len(points), dtype=bool)
-    for solid in solids:
-        inside |= solid.holds(points)
-    return inside

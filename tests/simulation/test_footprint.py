@@ -1,0 +1,25 @@
+"""What carries a robot is all of a shape that is down there, not only where an engine says."""
+
+from dataclasses import replace
+
+import pytest
+
+from tests.simulation.robots import body, runs
+from urdftool.simulation.judge_rest import rest_of
+from urdftool.simulation.recording import GROUND
+from urdftool.simulation.run import Run
+
+
+@pytest.mark.parametrize("count", [1, 4])
+def test_a_box_stands_on_its_whole_side_whatever_contacts_are_told(write, count):
+    text = body('<box size=".4 .2 .1"/>', 1, (0.01, 0.01, 0.01))
+    (run,) = runs(write("box.urdf", text), duration=0.5)
+    floor = [contact for contact in run.recording.contacts if contact.other == GROUND]
+    told = replace(run.recording, contacts=floor[:count])
+    margin = rest_of(Run(run.settings, run.bodies, told)).margin
+    assert margin == pytest.approx(0.1, abs=1e-3)
+
+
+def test_a_ball_stands_on_a_point(write):
+    (run,) = runs(write("ball.urdf", body('<sphere radius=".1"/>', 1, (0.004,) * 3)), duration=0.5)
+    assert rest_of(run).margin == pytest.approx(0.0, abs=1e-3)
