@@ -49,6 +49,7 @@ def test_a_full_disk_leaves_no_half_file(write):
         [sys.executable, "-m", "urdftool", *words],
         capture_output=True,
         text=True,
+        env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},  # it would be cut off, too
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100)),
     )
     assert done.returncode == 2, done.stderr

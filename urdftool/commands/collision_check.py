@@ -14,6 +14,7 @@ from ..console import Console
 from ..report import collision_check as report
 from ..report.counted import counted
 from .collision_options import Progress
+from .read_strict import say_gltf
 
 if TYPE_CHECKING:
     from ..collision.links import Wishes
@@ -65,6 +66,7 @@ def _tell(
     if not found:
         console.say(f"{path}: nothing was checked, since {_nothing(robot, wishes)}")
         return 2
+    say_gltf(console, robot)
     bad = sum(not report.is_good(item, limit) for item in found)
     console.note(
         f"{path}: {counted(len(found), 'link')} with visuals, {bad} not within {limit:.2%}"

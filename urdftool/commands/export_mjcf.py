@@ -12,7 +12,7 @@ from ..console import Console
 from .export_options import export_options
 from .export_report import put_files, say_refused, say_written
 from .options import gltf_option, package_options, robot_argument
-from .read_strict import read_strict
+from .read_strict import read_strict, say_gltf
 
 
 @click.command("mjcf")
@@ -85,19 +85,21 @@ def command(
 
     as_json = style == "json"
     description = read_strict(console, robot, package, package_path)
+    model = robot_of(description)
+    say_gltf(console, model)
     file = Path(output).name if output and Path(output).suffix.lower() in FILES else ""
     cutter = partial(cut_meshes, gltf_up=description.gltf_up) if decompose else None
     options = Options(
         mesh_dir="" if mesh_dir == "." else mesh_dir, file=file, cutter=cutter, **choices
     )
     try:
-        written = write(robot_of(description), options)
+        written = write(model, options)
         if strict and (lost := said.strict(written.losses)):
             raise Refused(lost)
     except Refused as refused:
         return say_refused(refused.findings, as_json=as_json)
-    checks = verify_copy(robot_of(description), options, written) if verified else []
-    inputs = sorted(sources(robot_of(description)))
+    checks = verify_copy(model, options, written) if verified else []
+    inputs = sorted(sources(model))
     inputs += [str(options.srdf)] if options.srdf is not None else []
     target = output or "-"
     put_files(

@@ -10,7 +10,7 @@ import click
 from ..console import Console
 from .export_options import export_options
 from .options import gltf_option, package_options, robot_argument
-from .read_strict import read_strict
+from .read_strict import read_strict, say_gltf
 
 if TYPE_CHECKING:
     from ..formats.check import Check
@@ -88,6 +88,7 @@ def command(
     options = _options(place, choices)
     description = read_strict(console, robot, package, package_path)
     model = robot_of(description)
+    say_gltf(console, model)
     as_json = style == "json"
     try:
         written = write(model, options)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ..console import Console
 
 if TYPE_CHECKING:
+    from ..model.elements import Robot
     from ..source.description import Description
 
 
@@ -44,6 +45,19 @@ def read_strict(
     )
     say_unknown(console, description)
     return description
+
+
+def say_gltf(console: Console, robot: Robot) -> None:
+    """Say that glTF meshes are turned, which not every reader does.
+
+    Args:
+        console: Where it is said.
+        robot: Any robot.
+    """
+    from ..model.gltf_axes import gltf_note
+
+    if axes := gltf_note(robot):
+        console.note(f"note: {axes}")
 
 
 def say_unknown(

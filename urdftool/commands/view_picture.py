@@ -11,6 +11,7 @@ import click
 from ..console import Console
 from .mesh_progress import MeshProgress
 from .picture_file import checked_picture, write_picture
+from .read_strict import say_gltf
 
 if TYPE_CHECKING:
     from ..drawing.camera import Camera
@@ -168,7 +169,6 @@ def write_pictures(
     from ..drawing.shapes import robot_shapes
     from ..errors import ModelError
     from ..model.files import sources
-    from ..model.gltf_axes import gltf_note
     from ..model.kinematics import check_positions, link_poses, with_mimics
     from ..output import check_targets
 
@@ -180,8 +180,7 @@ def write_pictures(
         shapes = robot_shapes(robot, show=show, progress=progress)
     for problem in shapes.problems:
         console.error(problem)
-    if axes := gltf_note(robot):
-        console.note(f"note: {axes}")
+    say_gltf(console, robot)
     poses = link_poses(robot, with_mimics(robot, positions))
     if not len(shapes):
         what = "shape" if show == "both" else show

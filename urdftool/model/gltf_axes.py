@@ -18,13 +18,16 @@ def is_gltf(shape: Visual | Collision) -> bool:
 
 
 def gltf_note(robot: Robot) -> str:
-    """What one should know who sees the robot drawn; empty where it has no such mesh."""
+    """What one should know whose robot has such meshes; empty where none is turned."""
+    if robot.source is not None and robot.source.gltf_up == "z":
+        return ""
     shapes: Iterable[Visual | Collision] = (shape for _, shape in robot.shapes)
     files = {s.geometry.filename for s in shapes if isinstance(s.geometry, Mesh) and is_gltf(s)}
     if not files:
         return ""
     which = f"'{files.pop()}' is" if len(files) == 1 else f"{len(files)} meshes are"
     return (
-        f"{which} glTF, drawn with Y up, as the standard and RViz since 2025 have it; Gazebo, "
-        "SAPIEN and older RViz keep the file's axes, so a robot made for them falls apart here"
+        f"{which} glTF, read with Y up, as the standard and RViz since 2025 have it; Gazebo, "
+        "SAPIEN and older RViz keep the axes of the file: a robot made for them falls apart here "
+        "unless --gltf-up z is given"
     )

@@ -6,6 +6,7 @@ from ...model.elements import Capsule, Collision, Cylinder, Link, Origin, Sphere
 from ...model.pose import Pose, pose_of, rpy_of_rotation
 from ...source.document import Element
 from .extensions import merged, values
+from .gltf import in_file_axes
 from .keywords import COLLISION_KEYWORDS
 from .shapes import geometry, set_place, writable
 from .translation import Translation
@@ -30,6 +31,7 @@ def collision(node: Node, t: Translation, link: Link, part: Collision, name: str
 
 
 def _one(node: Node, t: Translation, link: Link, part: Collision, name: str) -> None:
+    part = in_file_axes(t, link, part)
     made = add(node, "collision", name=name)
     set_place(made, t, link, part.origin)
     assert part.geometry is not None

@@ -28,6 +28,7 @@ ELEMENTS = (
     ),
     ("box, cylinder, sphere, capsule", "the same", "capsule from SDF 1.8 on"),
     ("mesh filename, scale", "mesh uri, scale", "copied with the textures it names"),
+    ("mesh glTF", "the same, turned by its pose", "Gazebo keeps its axes; not with `--gltf-up z`"),
     ("color rgba", "ambient and diffuse", "and transparency; not made brighter"),
     (
         "texture filename",

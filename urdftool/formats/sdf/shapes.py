@@ -17,6 +17,7 @@ from ...model.elements import (
     UnknownShape,
     Visual,
 )
+from ...model.mesh_formats import READ_BY
 from ...model.pose import IDENTITY, pose_of
 from ..numbers import number_text, numbers_text
 from .pose import set_origin, set_pose
@@ -61,7 +62,24 @@ def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
             link,
         )
         return False
+    if isinstance(geometry, Mesh):
+        _check_format(t, link, geometry)
     return True
+
+
+def _check_format(t: Translation, link: Link, mesh: Mesh) -> None:
+    """Say which mesh the target cannot read; it is written all the same."""
+    known = READ_BY[t.options.target]
+    name = mesh.filename.rpartition("/")[2]
+    if name.rpartition(".")[2].lower() not in known:
+        reader = "Gazebo Classic" if t.options.classic else "gz"
+        t.lose(
+            "mesh-format",
+            f"mesh '{mesh.filename}' of link '{link.name}' is a format that {reader} does not read",
+            mesh,
+            link,
+            hint=f"convert it, for instance to {known[0]}",
+        )
 
 
 def has_extent(geometry: Geometry) -> bool:

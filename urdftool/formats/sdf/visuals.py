@@ -5,6 +5,7 @@ from __future__ import annotations
 from ...model.elements import Capsule, Cylinder, Link, Visual
 from ...source.document import Element
 from .extensions import merged, values
+from .gltf import in_file_axes
 from .keywords import COLLISION_KEYWORDS
 from .materials import material
 from .shapes import geometry, set_place, writable
@@ -16,6 +17,7 @@ def visual(node: Node, t: Translation, link: Link, part: Visual, name: str) -> N
     """A visual."""
     if not writable(t, link, part):
         return
+    part = in_file_axes(t, link, part)
     made = add(node, "visual", name=name)
     set_place(made, t, link, part.origin)
     shape = part.geometry

@@ -7,18 +7,11 @@ from collections.abc import Iterator
 
 from ...meshes.facts import StlFacts, stl_facts
 from ...model.elements import Robot
+from ...model.mesh_formats import READ_BY
 from ...source.description import Description
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
-_READ = {
-    "mujoco": ("stl", "obj", "msh"),
-    "pybullet": ("obj", "stl", "dae", "cdf", "vtk"),
-    "gazebo-classic": ("dae", "stl", "obj"),
-    "gz": ("dae", "stl", "obj", "gltf", "glb", "fbx"),
-    "ros1": ("dae", "stl", "mesh", "obj", "ply", "3ds", "fbx", "gltf", "glb", "stlb"),
-    "ros2": ("dae", "stl", "mesh", "obj", "ply", "3ds", "fbx", "gltf", "glb", "stlb"),
-}
 _facts: dict[Stamp, StlFacts] = {}
 
 
@@ -52,7 +45,7 @@ def unsupported_mesh_format(
             continue
         who = [
             target
-            for target, known in _READ.items()
+            for target, known in READ_BY.items()
             if target in targets and ending not in known and (target != "mujoco" or use.collides)
         ]
         key = ending, " and ".join(who)
@@ -63,7 +56,7 @@ def unsupported_mesh_format(
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}'{more} is a format that {' and '.join(who)} cannot read; "
-                f"convert it, for instance to {_READ[who[0]][0]}",
+                f"convert it, for instance to {READ_BY[who[0]][0]}",
                 at=use.mesh.element.attribute_place("filename"),
             )
 

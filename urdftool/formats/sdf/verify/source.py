@@ -24,6 +24,7 @@ from ....model.elements import (
     Sphere,
     Visual,
 )
+from ....model.gltf_axes import is_gltf
 from .mechanism import Array, Body, Hinge, Mechanism, Shape, by_quaternion, matrix, turned
 
 KINDS = {
@@ -117,6 +118,10 @@ def _limits(joint: Joint) -> dict[str, float]:
 
 def _shape(robot: Robot, link: Link, shape: Visual | Collision) -> Shape:
     made = Shape(link.name, link.name, pose(shape.origin), _what(robot, shape.geometry))
+    if is_gltf(shape) and robot.source is not None and robot.source.gltf_up == "y":
+        made.pose = made.pose @ matrix(turned((np.pi / 2, 0.0, 0.0)), (0.0, 0.0, 0.0))
+        kind, digested, x, y, z = made.what
+        made.what = kind, digested, x, z, y  # Gazebo keeps the axes of the file
     if isinstance(shape, Visual) and shape.material is not None and not _told(robot, link):
         made.rgba, made.picture = _looks(robot, shape.material)
     return made
