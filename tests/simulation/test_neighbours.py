@@ -25,7 +25,7 @@ SOUND = [
     ("quadruped/spirit40.urdf", ("upper0", "lower2")),
     ("quadruped/vision60.urdf", ("upper0", "lower2")),
     ("a1/a1.urdf", ("FR_upper", "RL_lower")),
-    ("aliengo/aliengo.urdf", ("FR_lower", "RL_lower")),
+    ("aliengo/aliengo.urdf", ("FR_upper", "FR_lower", "RL_lower")),
     ("mini_cheetah/mini_cheetah.urdf", ("thigh_fr", "shank_hl")),
     ("laikago/laikago_toes_zup.urdf", ("FR_upper_leg", "RL_lower_leg")),
     ("husky/husky.urdf", ("front_left_wheel_link", "rear_right_wheel_link")),

@@ -83,6 +83,9 @@ def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
                 "static margin",
                 f"{1000 * rest.margin:.1f} mm from the centre of mass to the nearest edge",
             )
+    if run.swept:
+        blocked = sum(fault.kind == "blocked" for fault in verdict.faults)
+        yield "sweep", f"{counted(len(run.swept), 'joint')} through their limits, {blocked} blocked"
 
 
 def _faults(faults: Sequence[Fault], paint: Painter) -> Iterator[str]:

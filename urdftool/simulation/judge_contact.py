@@ -117,7 +117,7 @@ def _in_each_other(robot: Robot, run: Run) -> Iterator[Fault]:
         yield Fault(
             "parts-collide",
             f"links '{contact.one}' and '{contact.other}' are {depth:.3g} m in each other {when}",
-            robot.link[named].place,
+            (robot.link[named].collisions[0] if beside else robot.link[named]).place,
             "link",
             named,
             beside[1]

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..formats.mjcf.extent import shape_points
-from ..model.elements import Robot
+from ..model.elements import Link, Robot
 from ..model.pose import Pose, pose_of
 from .bodies import Body
 from .extent import box_of, is_beside, is_off_mass, looks_of
@@ -39,8 +39,11 @@ COMPACT = 0.8
 HOUSING = 0.25
 """How far from a joint a housing may be put that belongs around it, as a part of its size."""
 
-FIT = 0.15
-"""How much more of the smaller of collision and visual is in both where their middles meet."""
+FIT = 0.2
+"""How much more of a collision is where its link is seen, if it is moved to the middle of that."""
+
+FREE = 0.3
+"""How much of a collision is where nothing is seen, of its link or the other, to be misplaced."""
 
 SHARE = 0.1
 """How much of the smaller of two neighbours is in both, for one to be misplaced."""
@@ -75,12 +78,15 @@ def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | 
     share = touches.shared(theirs) / smaller
     around = _is_housing(box, shown_box, run, link, other)
     seen = Solids(_seen(robot, link))
+    shown = Solids(s.moved(at[n]) for n in at for s in _seen(robot, n))
     if share > SHARE and shown_box is not None and not (around and bodies[other].parent == own):
         off = (shown_box[0] + shown_box[1] - box[0] - box[1]) / 2
-        if (more := _fits_better(touches, off, seen, theirs)) > FIT:
+        more = _fits_better(touches, off, seen, theirs)
+        free = 1 - touches.shared(seen | shown) / touches.volume
+        if more > FIT and (free > FREE or _is_nearer_mass(part, box, off)):
             return (
                 f"moved by {np.linalg.norm(off):.3g} m, onto the middle of what is seen of it, "
-                f"the collision of '{link}' would fit it {more:.0%} better and be less in the other"
+                f"{more:.0%} more of the collision of '{link}' would be in it, less in the other"
             )
     if around:
         return None
@@ -93,7 +99,6 @@ def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | 
         if away > float((high - low).max()):
             return f"the collision of '{link}' is {away:.3g} m away from its own frame"
         return None
-    shown = Solids(s.moved(at[n]) for n in at for s in _seen(robot, n))
     if not seen:
         return None
     would = max(seen.shared(theirs), seen.shared(shown))
@@ -122,7 +127,7 @@ def _copy_moved(box: tuple[Array, Array], shown: tuple[Array, Array]) -> float:
 
 
 def _fits_better(touches: Solids, off: Array, seen: Solids, theirs: Solids) -> float:
-    """How much more of the smaller one a collision and its visual share when it is moved.
+    """How much more of a collision is in its visual when it is moved, as a part of it.
 
     Args:
         touches: The collision.
@@ -130,14 +135,20 @@ def _fits_better(touches: Solids, off: Array, seen: Solids, theirs: Solids) -> f
         seen: The visual.
         theirs: What touches of the neighbour, of which it has to share less when it is moved.
     """
-    smaller = min(touches.volume, seen.volume)
-    if not smaller:
-        return 0.0
     pose = Pose(translation=(float(off[0]), float(off[1]), float(off[2])))
     moved = Solids(solid.moved(pose) for solid in touches.solids)
     if not moved.shared(theirs) < touches.shared(theirs):
         return 0.0
-    return (moved.shared(seen) - touches.shared(seen)) / smaller
+    return (moved.shared(seen) - touches.shared(seen)) / touches.volume
+
+
+def _is_nearer_mass(part: Link, box: tuple[Array, Array], off: Array) -> bool:
+    """Whether a collision that is moved is nearer to the centre of its link's mass."""
+    if not part.mass or part.inertial is None:
+        return False
+    centre = np.array(part.inertial.origin.xyz if part.inertial.origin else (0.0, 0.0, 0.0))
+    away = centre - (box[0] + box[1]) / 2
+    return bool(np.linalg.norm(away - off) < np.linalg.norm(away))
 
 
 def _is_housing(
