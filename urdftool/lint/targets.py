@@ -9,7 +9,7 @@ from ..model.elements import Robot
 from ..source.description import Description
 from ..source.packages import own_package
 
-_CLASSIC_PREFIXES = ("libgazebo_", "libhector_", "libroboticsgroup_")
+_CLASSIC_PREFIXES = ("libgazebo_", "libhector_", "libroboticsgroup_", "librotors_gazebo_")
 _GZ_PREFIXES = (
     "gz-sim",
     "libgz-sim",

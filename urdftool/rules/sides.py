@@ -65,7 +65,8 @@ class Sides:
         self.normal: int | None = None
         self.off: list[tuple[Pair, float]] = []
         moving = [pair for pair in self.pairs if _moves(robot, pair)]
-        steps = [(pair, *steps) for pair in moving if (steps := self._steps(pair))]
+        both = [(pair, *ends) for pair in moving if (ends := self._steps(pair))]
+        steps = [step for step in both if not _in_one_place(*step)]
         long = [step for step in steps if max(map(math.hypot, *zip(*step[1:], strict=True))) > 0.01]
         best = 0
         for normal in (1, 0, 2):
@@ -77,6 +78,7 @@ class Sides:
         if best < 2:
             self.normal = None
             self.off = [found for pair, a, b in long if (found := _nearly(pair, a, b))]
+        self.off += _stacked(both, 1 if self.normal is None else self.normal)
 
     def _steps(self, pair: Pair) -> tuple[Vector, Vector] | None:
         """From each one's parent to it, in the frame of the root [m]."""
@@ -154,6 +156,20 @@ def _gap(pair: Pair, left: Vector, right: Vector, normal: int) -> float:
             for i, (a, b) in enumerate(zip(left, right, strict=True))
         )
     )
+
+
+def _in_one_place(pair: Pair, left: Vector, right: Vector) -> bool:
+    """Whether both hang off to one side of their parent, in the same place, as no two limbs do."""
+    shared = pair.left_joint.parent == pair.right_joint.parent
+    turns = pair.left_joint.type in ("revolute", "continuous")
+    return shared and turns and max(map(abs, left)) > 0.01 and math.dist(left, right) < 0.001
+
+
+def _stacked(steps: list[tuple[Pair, Vector, Vector]], normal: int) -> Iterator[tuple[Pair, float]]:
+    """Pairs in one place beside the plane between left and right, with what they are off [m]."""
+    for pair, left, right in steps:
+        if _in_one_place(pair, left, right) and abs(left[normal]) > 0.01:
+            yield pair, 2 * abs(left[normal])
 
 
 def _nearly(pair: Pair, left: Vector, right: Vector) -> tuple[Pair, float] | None:

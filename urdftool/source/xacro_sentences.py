@@ -119,7 +119,11 @@ def _of_macros(failure: Failure) -> tuple[str, str] | None:
             f"macro '{macro}' is called without {missing}, which has no default",
         )
     if match := _ODD_PARAMETER.search(text):
-        return "macro-arguments-mismatch", f"macro '{macro}' has no parameter '{match[1]}'"
+        called = next(iter(getattr(failure.error, "macros", None) or ()), None)
+        takes = {name.lstrip("*") for name in getattr(called, "params", ())}
+        return "macro-arguments-mismatch", (
+            f"macro '{macro}' has no parameter '{match[1]}'{_nearest(match[1], takes)}"
+        )
     if match := _FORWARD.search(text):
         name = match[1]
         return "macro-arguments-mismatch", (

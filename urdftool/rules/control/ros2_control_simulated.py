@@ -22,10 +22,13 @@ def ros2_control_wrong_sim_plugin(robot: Robot, targets: frozenset[str]) -> Iter
     """The simulated hardware is that of the other Gazebo.
 
     ``gazebo_ros2_control/GazeboSystem`` is for Gazebo Classic, ``gz_ros2_control/GazeboSimSystem``
-    for new Gazebo. The class of the one is not found by the other.
+    for new Gazebo. The class of the one is not found by the other. Where the robot is for both,
+    the plugin that runs ros2_control tells which.
     """
     if {"gz", "gazebo-classic"} <= targets:
-        return
+        targets = _of_plugins(robot)
+        if len(targets) != 1:
+            return
     for control in robot.ros2_controls:
         plugin = control.plugin or ""
         wrong, right = (
@@ -40,6 +43,14 @@ def ros2_control_wrong_sim_plugin(robot: Robot, targets: frozenset[str]) -> Iter
                 f"'{plugin}' is for the other Gazebo; write {right}",
                 at=hardware.child("plugin"),
             )
+
+
+def _of_plugins(robot: Robot) -> frozenset[str]:
+    """The Gazebos for which a plugin runs ros2_control."""
+    names = [plugin.filename for plugin in robot.plugins]
+    found = {"gz" for name in names if any(word in name for word in _GZ_PLUGINS)}
+    found |= {"gazebo-classic" for name in names if "gazebo_ros2_control" in name}
+    return frozenset(found)
 
 
 @rule(ERROR, on=GAZEBO, effects={"gazebo": "no controller_manager starts, or one without hardware"})

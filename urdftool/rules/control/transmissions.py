@@ -218,7 +218,7 @@ def actuated_joint_without_transmission(robot: Robot) -> Iterator[Problem]:
     """A joint moves and has no transmission, in a robot that ros_control drives.
 
     ``gazebo_ros_control`` knows the joints of transmissions and no others: this one swings freely,
-    and no joint state tells where it is.
+    and no joint state tells where it is. In a loop that a joint of SDF closes the others move it.
     """
     if not any("gazebo_ros_control" in plugin.filename for plugin in robot.plugins):
         return
@@ -229,12 +229,27 @@ def actuated_joint_without_transmission(robot: Robot) -> Iterator[Problem]:
         for child in plugin.element.children
         if "oint" in child.tag
     }
+    others.update(_in_loops(robot))
     for joint in robot.moving_joints:
         if joint.mimic is None and joint.name not in driven | others and joint.has_axis:
             yield Problem(
                 joint,
                 f"joint '{joint.name}' moves and has no <transmission>, so nothing drives it",
             )
+
+
+def _in_loops(robot: Robot) -> Iterator[str]:
+    """Joints of the loops that a ``<joint>`` in a ``<gazebo>`` closes."""
+    for block in robot.gazebo:
+        for joint in () if block.reference else block.element.all("joint"):
+            sides = []
+            for end in (joint.child("parent"), joint.child("child")):
+                name = end.text.strip() if end is not None else ""
+                sides.append({name, *robot.tree.ancestors(name)} if name in robot.link else set())
+            for name in sides[0] ^ sides[1]:
+                above = robot.tree.parent_joint(name)
+                if above is not None:
+                    yield above.name
 
 
 @rule(INFO, on=("ros2",), effects={"ros2_control": "does not look at it"})

@@ -12,7 +12,7 @@ _CASTER = re.compile(r"caster|castor", re.IGNORECASE)
 _FOOT = re.compile(r"(^|[_\d])(foot|feet|toe)([_\d]|$)", re.IGNORECASE)
 _FINGER = re.compile(r"finger|(^|_)(gripper_)?pad(_|\d|$)|(^|_)jaw(_|\d|$)", re.IGNORECASE)
 _NOT_WHEEL = re.compile(
-    r"lidar|laser|scan|radar|rotor|prop|fan|camera|head|yaw|steer", re.IGNORECASE
+    r"lidar|laser|scan|radar|rotor|prop|fan|thrust|impeller|camera|head|yaw|steer", re.IGNORECASE
 )
 
 

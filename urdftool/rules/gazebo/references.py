@@ -18,8 +18,10 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
 
     The block is thrown away without a word: the wheel has no grip, the camera does not exist, the
     joint is lumped. A misspelt name, a prefix that was forgotten, or a link that is no longer
-    there.
+    there. A ``<joint>`` of SDF that closes a loop needs links that are there as well; without them
+    Gazebo loads no robot at all.
     """
+    yield from _loops(robot)
     names = {*robot.link, *robot.joint}
     stripped = {name.strip() for name in names}
     for block in robot.gazebo:
@@ -34,20 +36,39 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
         )
 
 
+def _loops(robot: Robot) -> Iterator[Problem]:
+    for block in robot.gazebo:
+        for joint in () if block.reference else block.element.all("joint"):
+            for end in (joint.child("parent"), joint.child("child")):
+                name = end.text.strip() if end is not None else ""
+                if end is None or not name or name in robot.link or name == "world":
+                    continue
+                if "::" in name or is_unexpanded(name):
+                    continue
+                yield Problem(
+                    block.element,
+                    f"<{end.tag}> of joint '{joint.get('name') or ''}' is '{name}', which is no "
+                    f"link{did_you_mean(name, robot.link)}",
+                    at=end,
+                )
+
+
 @rule(ERROR, effects={"gazebo": "drops it silently"})
 def misplaced_extension(robot: Robot) -> Iterator[Problem]:
     """A word of Gazebo's stands at a link and belongs to a joint, or the other way round.
 
     Friction, contact, colour and gravity belong to links; springs, stops, feedback and
     ``preserveFixedJoint`` to joints. At the other kind, or in a block without a reference, they
-    are dropped: a fixed joint preserved at its link is lumped all the same.
+    are dropped: a fixed joint preserved at its link is lumped all the same. So is a sensor that no
+    reference hangs on a link.
     """
     for block in robot.gazebo:
         name = block.reference or ""
         if name in robot.link and name in robot.joint:
             continue
         if not name:
-            wrong, belongs = LINK_KEYWORDS | JOINT_KEYWORDS, "in a block without a reference"
+            wrong = LINK_KEYWORDS | JOINT_KEYWORDS | {"sensor"}
+            belongs = "in a block without a reference"
         elif name in robot.link:
             wrong, belongs = JOINT_KEYWORDS, f"at link '{name}'"
         elif name in robot.joint:
@@ -64,7 +85,7 @@ def _misplaced(
 ) -> Problem:
     tags = quoted(dict.fromkeys(child.tag for child in children)).replace("'", "")
     name = block.reference or ""
-    right = "a link" if children[0].tag in LINK_KEYWORDS else "a joint"
+    right = "a link" if children[0].tag in LINK_KEYWORDS | {"sensor"} else "a joint"
     if name in robot.joint and robot.joint[name].child:
         right = f"link '{robot.joint[name].child}'"
     elif name in robot.link:

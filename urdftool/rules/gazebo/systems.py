@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from ...model.gazebo_plugins import CONTROL_PLUGINS, SYSTEM_PLUGINS, file_of
 
-CLASSIC = ("libgazebo_ros", "libhector_gazebo", "libhector_", "libroboticsgroup_", "libgazebo_")
+CLASSIC = (
+    *("libgazebo_ros", "libhector_gazebo", "libhector_", "libroboticsgroup_", "libgazebo_"),
+    "librotors_gazebo_",
+)
 """How the libraries of Gazebo Classic begin."""
 
 _PARTS = {

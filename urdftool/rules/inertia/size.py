@@ -10,7 +10,7 @@ from ...model.tensor3 import Six
 from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
 from .proposals import remedy_text
-from .solids import solid_moments, solid_text, spread_ratio
+from .solids import centre_of_solids, solid_moments, solid_text, spread_ratio
 from .tensors import is_positive, is_zero, moments_of, six_of, tensors
 
 
@@ -183,6 +183,9 @@ def inertial_not_at_com_suspect(robot: Robot, *, far: float = 0.2) -> Iterator[P
         if max(lower) - slack > 0 or min(upper) + slack < 0:
             continue  # the centre of mass is outside, which is more than a suspicion
         centre = box.centre
+        solid = centre_of_solids(link)
+        if solid is not None and math.hypot(*solid) <= far * math.dist(lower, upper):
+            continue  # what lies to one side is thin
         if math.hypot(*centre) > far * math.dist(lower, upper):
             shown = " ".join(f"{value:.4g}" for value in centre)
             yield Problem(

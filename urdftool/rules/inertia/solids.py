@@ -47,6 +47,24 @@ def solid_volume(geometry: Geometry | None) -> float:
     return 0.0
 
 
+def centre_of_solids(link: Link) -> Vector | None:
+    """The centre of mass [m] in the link frame, were each of a link's shapes solid and alike.
+
+    What collides counts, or what is seen where nothing does. None unless all are primitives.
+    """
+    shapes: list[Visual | Collision] = [*(link.collisions or link.visuals)]
+    volumes = [solid_volume(shape.geometry) for shape in shapes]
+    whole = sum(volumes)
+    if not whole or not all(volumes):
+        return None
+    places = [pose_of(shape.origin).translation for shape in shapes]
+    x, y, z = (
+        sum(volume * place[i] for volume, place in zip(volumes, places, strict=True)) / whole
+        for i in range(3)
+    )
+    return x, y, z
+
+
 def _disc(radius: float) -> float:
     return math.pi * radius * radius  # of a power too large Python makes no infinity
 

@@ -29,7 +29,7 @@ def multiple_roots(robot: Robot) -> Iterator[Problem]:
     roots = robot.tree.roots
     if len(roots) < 2 or "joint" in misspelt_children(robot.element).values():
         return
-    main = max(roots, key=lambda link: sum(1 for _ in robot.tree.descendants(link.name)))
+    main = _main(robot)
     others = [link for link in roots if link is not main]
     lost = sum(1 for joint in robot.joints if joint.child not in robot.link)
     if len(others) <= lost or any(is_unexpanded(link.name) for link in others):
@@ -41,6 +41,11 @@ def multiple_roots(robot: Robot) -> Iterator[Problem]:
     else:
         message = f"links {names}{more} are children of no joint, as is '{main.name}'; join them"
     yield Problem(others[0], f"{message} by joints")
+
+
+def _main(robot: Robot) -> Link:
+    """The root that most links hang on; there is one."""
+    return max(robot.tree.roots, key=lambda link: sum(1 for _ in robot.tree.descendants(link.name)))
 
 
 @rule(ERROR, effects={"urdfdom": "rejects the robot: no root link found", "others": "the same"})
@@ -133,17 +138,27 @@ def multiple_parents(robot: Robot) -> Iterator[Problem]:
     URDF is a tree, it cannot close a chain. urdfdom passes it on without a word; tf then hears two
     poses for one frame, Gazebo and MuJoCo refuse the model, and PyBullet crashes.
     """
+    roots = robot.tree.roots
+    main = _main(robot) if roots else None
+    orphans = {link.name for link in roots if link is not main}
     for name, joints in robot.tree.joints_of_child.items():
         if len(joints) < 2 or name not in robot.link:
             continue
         joined = [joint for joint in joints if joint.parent != joint.child]
+        joined.sort(key=lambda joint: joint.parent in orphans)  # which may be the wrong way round
         first = joined[0] if joined else joints[0]
         for joint in joined[1:]:
             if joint.name == first.name:
                 continue
+            if joint.parent in orphans:
+                right = f"is '{joint.parent}' meant to be the child, and '{name}' the parent?"
+            elif len(orphans) == 1:
+                right = f"is '{next(iter(orphans))}' meant, which hangs on no joint?"
+            else:
+                right = "take one away, or close the chain in the simulator"
             yield Problem(
                 joint,
                 f"link '{name}' is the child of joint '{joint.name}' and already of "
-                f"'{first.name}'; take one away, or close the chain in the simulator",
+                f"'{first.name}'; {right}",
                 at=joint.child_element,
             )

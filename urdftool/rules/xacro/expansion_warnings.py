@@ -41,10 +41,31 @@ def shadowed_builtin(description: Description) -> Iterator[Problem]:
     every expression. One that is defined anew is another thing from there on, also where
     ``${pi/2}`` means the number.
     """
+    told: set[tuple[str, str, int]] = set()
     for match, root, place in _warned(description, _GLOBAL):
-        yield Problem(
-            root, f"'{match[1]}' is a name that xacro has itself; choose another", at=place
-        )
+        at = _parameter(description, match[1], place) or place
+        key = (match[1], at.path, at.start)
+        if key not in told:
+            told.add(key)
+            yield Problem(
+                root, f"'{match[1]}' is a name that xacro has itself; choose another", at=at
+            )
+
+
+def _parameter(description: Description, name: str, call: Place) -> Place | None:
+    """The ``params`` with a name, of the macro that is called at a place; None for a property."""
+    from .definitions import definitions
+
+    written = call.file.data[call.start : call.start + 200].decode(call.file.encoding, "replace")
+    tag = re.match(r"<xacro:([\w.:-]+)", written)
+    if tag is None or tag[1] in ("property", "arg"):
+        return None
+    called = re.search(r"\bmacro\s*=\s*[\"']([^\"']+)", written) if tag[1] == "call" else tag
+    macro = called[1].rpartition(".")[2] if called is not None else ""
+    for element in definitions(description).macros.get(macro, []):
+        if re.search(rf"(?<![\w*]){re.escape(name)}(?!\w)", element.get("params") or ""):
+            return element.attribute_place("params")
+    return None
 
 
 @rule(WARNING, effects={"xacro": "warns, and passes over it"})

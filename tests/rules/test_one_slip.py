@@ -1,0 +1,147 @@
+"""Slips that are told as what they are, and robots that look as if they had one."""
+
+import pytest
+
+from urdftool.lint.run import check
+
+BOX = '<{0}><origin xyz="{1}"/><geometry><box size="0.1 0.1 0.1"/></geometry></{0}>'
+
+
+def _link(name, at="0 0 0"):
+    return f'<link name="{name}">{BOX.format("collision", at)}</link>'
+
+
+def _joint(name, parent, child, at="0 0 0", kind="continuous"):
+    return (
+        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+        f'<origin xyz="{at}"/><axis xyz="0 1 0"/></joint>'
+    )
+
+
+def _found(tmp_path, inside, rule, name="robot.urdf"):
+    path = tmp_path / name
+    path.write_text(
+        f'<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">{inside}\n</robot>'
+    )
+    return [finding for finding in check(path) if finding.rule == rule]
+
+
+def test_a_joint_the_wrong_way_round_is_told_as_that(tmp_path):
+    links = "".join(map(_link, "abc"))
+    joints = _joint("one", "a", "b") + _joint("two", "c", "b")
+    (found,) = _found(tmp_path, links + joints, "multiple-parents")
+    assert found.message.endswith("; is 'c' meant to be the child, and 'b' the parent?")
+
+
+def test_the_link_that_was_meant_is_asked_for(tmp_path):
+    links = "".join(map(_link, "abc"))
+    joints = _joint("one", "a", "b") + _joint("two", "a", "b")
+    (found,) = _found(tmp_path, links + joints, "multiple-parents")
+    assert found.message.endswith("; is 'c' meant, which hangs on no joint?")
+
+
+@pytest.mark.parametrize(("y", "count"), [("0.2", 1), ("-0.2", 0)])
+def test_twins_in_one_place_are_no_mirror_images(tmp_path, y, count):
+    robot = "".join(map(_link, ("base", "left_leg", "right_leg")))
+    robot += _joint("left_hip", "base", "left_leg", "0 0.2 0")
+    robot += _joint("right_hip", "base", "right_leg", f"0 {y} 0")
+    assert len(_found(tmp_path, robot, "joint-not-mirrored")) == count
+
+
+def test_fingers_that_start_in_one_place_are_let_pass(tmp_path):
+    robot = "".join(map(_link, ("hand", "left_finger", "right_finger")))
+    for side in ("left", "right"):
+        robot += _joint(f"{side}_slide", "hand", f"{side}_finger", "0 0.1 0.1", "prismatic")
+    assert not _found(tmp_path, robot, "joint-not-mirrored")
+
+
+LOOP = """{links}
+<gazebo>
+  <joint name="closing" type="revolute">
+    <parent>{end}</parent>
+    <child>rocker</child>
+  </joint>
+</gazebo>
+<gazebo><plugin name="control" filename="libgazebo_ros_control.so"/></gazebo>
+<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+  <joint name="crank_joint">
+    <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface></joint>
+  <actuator name="m"/>
+</transmission>"""
+
+
+def _loop(end):
+    links = "".join(map(_link, ("world", "crank", "coupler", "rocker")))
+    links += _joint("crank_joint", "world", "crank") + _joint("elbow", "crank", "coupler")
+    return LOOP.format(links=links + _joint("rocker_joint", "world", "rocker"), end=end)
+
+
+def test_what_closes_a_loop_has_to_be_there(tmp_path):
+    (found,) = _found(tmp_path, _loop("couple"), "dangling-reference")
+    assert found.message == (
+        "<parent> of joint 'closing' is 'couple', which is no link; did you mean 'coupler'?"
+    )
+    assert found.place.line == 4
+
+
+def test_joints_of_a_closed_loop_need_no_transmission(tmp_path):
+    assert not _found(tmp_path, _loop("coupler"), "dangling-reference")
+    assert not _found(tmp_path, _loop("coupler"), "actuated-joint-without-transmission")
+
+
+def test_a_sensor_that_hangs_on_no_link_is_told(tmp_path):
+    robot = _link("base") + '<gazebo>\n<sensor name="s" type="camera"/></gazebo>'
+    (found,) = _found(tmp_path, robot, "misplaced-extension")
+    assert found.message == (
+        "sensor does nothing in a block without a reference; write it at a link"
+    )
+
+
+def test_simulated_hardware_of_the_other_gazebo_than_the_plugin(tmp_path):
+    robot = """<link name="base"/>
+<ros2_control name="c" type="system"><hardware>
+<plugin>gazebo_ros2_control/GazeboSystem</plugin></hardware></ros2_control>
+<gazebo><plugin filename="gz_ros2_control-system" name="p"/></gazebo>"""
+    (found,) = _found(tmp_path, robot, "ros2-control-wrong-sim-plugin")
+    assert found.place.line == 3
+
+
+def test_a_thin_mast_does_not_move_the_centre(tmp_path):
+    mast = '<visual><origin xyz="0 0 0.5"/><geometry><box size="0.01 0.01 1"/></geometry></visual>'
+    mass = (
+        '<inertial><mass value="1"/><inertia ixx="0.002" ixy="0" ixz="0" iyy="0.002" iyz="0" '
+        'izz="0.002"/></inertial>'
+    )
+    robot = f'<link name="base">{mass}{BOX.format("collision", "0 0 0")}{mast}</link>'
+    assert not _found(tmp_path, robot, "inertial-not-at-com-suspect")
+
+
+def test_a_propeller_is_no_wheel(tmp_path):
+    round_one = (
+        '<link name="thruster_1"><collision><origin rpy="1.5708 0 0"/><geometry>'
+        '<cylinder radius="0.1" length="0.02"/></geometry></collision></link>'
+    )
+    robot = _link("hull") + round_one + _joint("turn", "hull", "thruster_1", "0 0.2 0")
+    plugin = '<gazebo><plugin filename="gz-sim-thruster-system" name="t"/></gazebo>'
+    assert not _found(tmp_path, robot + plugin, "missing-gazebo-tags")
+
+
+def test_a_parameter_with_a_name_of_xacro_is_told_once_and_where_it_is_declared(tmp_path):
+    robot = """
+<xacro:macro name="bar" params="name len">
+  <link name="${name}${len}"/>
+</xacro:macro>
+<xacro:bar name="a" len="1"/>
+<xacro:bar name="b" len="2"/>"""
+    (found,) = _found(tmp_path, robot, "shadowed-builtin", "robot.urdf.xacro")
+    assert (found.place.line, found.place.column) == (2, 25)
+
+
+def test_the_parameter_that_was_meant_is_asked_for(tmp_path):
+    robot = """
+<xacro:macro name="bar" params="name mirror">
+  <link name="${name}${mirror}"/>
+</xacro:macro>
+<xacro:bar name="a" miror="1"/>"""
+    (found,) = _found(tmp_path, robot, "macro-arguments-mismatch", "robot.urdf.xacro")
+    assert found.message.endswith("'miror'; did you mean 'mirror'?")
