@@ -73,19 +73,20 @@ def rule_page(rule: Rule) -> str:
 def fix_shown(rule: str) -> str:
     """What the fix of a rule makes of a fixture, as a diff."""
     option = "--fix" if FIXABLE[rule] == "safe" else "--fix --unsafe-fixes"
-    for fixed in sorted((FIXTURES / rule).glob("fixed*")):
-        lines = []
+    lines: list[str] = []
+    found = sorted((FIXTURES / rule).glob("fixed*"), key=Path.is_dir)
+    stem = found[0].name.split(".")[0]
+    for fixed in (path for path in found if path.name.split(".")[0] == stem):
         if fixed.is_dir():
             for path in sorted(filter(Path.is_file, fixed.rglob("*"))):
                 inside = path.relative_to(fixed).as_posix()
                 lines += _difference(FIXTURES / rule / inside, path, inside)
         else:
             bad = fixed.with_name(fixed.name.replace("fixed", "bad", 1))
-            lines = _difference(bad, fixed, bad.name)
-        text = "\n".join(line.rstrip() for line in lines)
-        how = f"`urdftool lint {option}`, which is {FIXABLE[rule]}:"
-        return f"## Fixed\n\n{how}\n\n```diff\n{text}\n```"
-    return ""
+            lines += _difference(bad, fixed, bad.name)
+    text = "\n".join(line.rstrip() for line in lines)
+    how = f"`urdftool lint {option}`, which is {FIXABLE[rule]}:"
+    return f"## Fixed\n\n{how}\n\n```diff\n{text}\n```"
 
 
 def _difference(old: Path, new: Path, name: str) -> list[str]:

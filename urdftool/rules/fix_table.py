@@ -64,12 +64,13 @@ FIXES: dict[str, dict[str, str]] = {
         "unused-arg": UNSAFE,
         "unused-property": UNSAFE,
         "unused-macro": UNSAFE,
+        "hard-coded-name-in-macro": UNSAFE,
+        "shadowed-builtin": UNSAFE,
     },
     "tree": {
         "unknown-parent-link": BOTH,
         "unknown-child-link": UNSAFE,
         "duplicate-joint-name": UNSAFE,
-        "link-joint-name-clash": UNSAFE,
         "conflicting-material": SAFE,
     },
     "joint": {
@@ -162,6 +163,7 @@ FIXES: dict[str, dict[str, str]] = {
     "gazebo": {
         "missing-gazebo-tags": UNSAFE,
         "missing-gazebo-material": SAFE,
+        "ogre-material-script": SAFE,
         "missing-friction": UNSAFE,
         "missing-contact-parameters": UNSAFE,
         "dangling-reference": UNSAFE,
@@ -185,6 +187,10 @@ FIXES: dict[str, dict[str, str]] = {
         "duplicate-sensor-name": UNSAFE,
         "duplicate-plugin-name": UNSAFE,
         "camera-sensor-not-optical": UNSAFE,
+    },
+    "migration": {
+        "ros1-transmission-in-ros2": UNSAFE,
+        "mujoco-welds-root": UNSAFE,
     },
     "plugins": {
         "classic-plugin-in-gz": UNSAFE,
@@ -213,13 +219,25 @@ FIXES: dict[str, dict[str, str]] = {
         "ros2-control-wrong-sim-plugin": UNSAFE,
         "ros2-control-unknown-imu-interface": UNSAFE,
     },
-    "names": {
-        "colon-space-in-comment": UNSAFE,
+    "renames": {
+        "link-joint-name-clash": UNSAFE,
         "invalid-frame-name": UNSAFE,
-        "duplicate-geometry-name": UNSAFE,
+        "reserved-name": UNSAFE,
+        "not-portable-identifier": UNSAFE,
+        "name-style": UNSAFE,
+        "non-ascii-name": UNSAFE,
+    },
+    "moveit": {
         "srdf-robot-name": SAFE,
         "srdf-unknown-link": UNSAFE,
         "srdf-unknown-joint": UNSAFE,
+        "group-state-out-of-bounds": UNSAFE,
+        "missing-virtual-joint": UNSAFE,
+        "adjacent-pair-not-disabled": SAFE,
+    },
+    "names": {
+        "colon-space-in-comment": UNSAFE,
+        "duplicate-geometry-name": UNSAFE,
     },
 }
 """Applicability by rule, by the file in ``fixes``."""

@@ -49,10 +49,11 @@ def visual_mesh_as_collision(
 
     What is drawn has every screw; what touches needs the outline. Planning scenes have become sixty
     times faster with simpler shapes. Where the mesh is known to have more than ``dense`` triangles
-    it is a warning. One finding for the robot names the links; dense ones have one each.
+    it is a warning. One finding for the robot names the links with such meshes, and one counts the
+    others.
     """
     seen: dict[str, set[str]] = {}
-    plain = []
+    plain, heavy = [], []
     for use in mesh_uses(robot, description):
         if not use.collides:
             seen.setdefault(use.link.name, set()).add(use.uri)
@@ -61,15 +62,21 @@ def visual_mesh_as_collision(
             continue
         faces = faces_of(use.path) if use.exists else 0
         if faces > dense:
-            yield Problem(
-                use.link,
-                f"link '{use.link.name}' collides with its visual mesh of {faces} triangles; "
-                "use a primitive or a simpler mesh",
-                at=use.mesh.element.attribute_place("filename"),
-                severity=WARNING,
-            )
+            heavy.append((use, faces))
         elif faces == 0 or faces > dense / 10:
             plain.append(use)
+    if heavy:
+        names = list(dict.fromkeys(use.link.name for use, _ in heavy))
+        most = max(faces for _, faces in heavy)
+        others = ", ".join(f"'{name}'" for name in names[1:])
+        yield Problem(
+            heavy[0][0].link,
+            f"link '{names[0]}' collides with its visual mesh of {heavy[0][1]} triangles"
+            + (f"; so do {others} with theirs, of up to {most}" if others else "")
+            + "; use primitives or simpler meshes",
+            at=heavy[0][0].mesh.element.attribute_place("filename"),
+            severity=WARNING,
+        )
     if plain:
         more = f" (and {len(plain) - 1} more links theirs)" if len(plain) > 1 else ""
         yield Problem(

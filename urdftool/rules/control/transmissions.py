@@ -152,17 +152,25 @@ def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
 def several_hardware_interfaces(robot: Robot) -> Iterator[Problem]:
     """A joint of a transmission has several hardware interfaces.
 
-    Real hardware may offer them all; ``gazebo_ros_control`` takes the first and says so.
+    Real hardware may offer them all; ``gazebo_ros_control`` takes the first and says so. One
+    finding names the joints.
     """
-    for transmission in robot.transmissions:
-        for joint in transmission.joints:
-            if len(joint.hardware_interfaces) > 1:
-                yield Problem(
-                    transmission.element,
-                    f"joint '{joint.name}' in {called(transmission)} has "
-                    f"{len(joint.hardware_interfaces)} interfaces; Gazebo takes the first",
-                    at=list(joint.element.all("hardwareInterface"))[1],
-                )
+    found = [
+        (transmission, joint)
+        for transmission in robot.transmissions
+        for joint in transmission.joints
+        if len(joint.hardware_interfaces) > 1
+    ]
+    if found:
+        (transmission, joint), *rest = found
+        others = ", ".join(f"'{other.name}'" for _, other in rest)
+        yield Problem(
+            transmission.element,
+            f"joint '{joint.name}' in {called(transmission)} has "
+            f"{len(joint.hardware_interfaces)} interfaces; Gazebo takes the first"
+            + (f"; so it does of {others}" if others else ""),
+            at=list(joint.element.all("hardwareInterface"))[1],
+        )
 
 
 @rule(WARNING, effects={"ros_control": "takes two resources for one"})

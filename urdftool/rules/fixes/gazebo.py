@@ -180,6 +180,27 @@ def _material(link: Link, robot: Robot) -> tuple[str, ...] | None:
     )
 
 
+def ogre_material_script(problem: Problem, around: Around) -> Proposal | None:
+    """Gone wherever it stands, where the URDF has a colour for each of the links."""
+    said = problem.message.partition("'")[2].partition("'")[0]
+    changes = []
+    for block in around.robot.gazebo:
+        link = around.robot.link.get(block.reference or "")
+        for element in block.element.walk():
+            if element.tag == "script":
+                uri = element.child("uri")
+                named = uri is not None and uri.text.strip() == said
+            else:
+                value = (element.get("value") or element.text).strip()
+                named = element.tag == "material" and value == said
+            if not named:
+                continue
+            if link is None or _material(link, around.robot) is None:
+                return None
+            changes.append(remove(element))
+    return safe("leave it to the colour of the URDF", *changes) if changes else None
+
+
 def missing_friction(problem: Problem, around: Around) -> Proposal | None:
     """Rubber's, or none for a caster."""
     link = around.link(problem)

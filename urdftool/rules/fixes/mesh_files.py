@@ -14,15 +14,15 @@ from pathlib import Path
 
 from ...finding import Remake
 from ...source.document import copy_of
-from ...source.packages import own_package, shown_path
+from ...source.packages import shown_path
 from ..mesh.uses import MeshUse, mesh_uses
 from ..rule import Problem
+from .elsewhere import check_alone
 from .mesh import uses_of
 from .proposal import (
     Around,
     Change,
     Proposal,
-    RefusedError,
     attribute_at,
     put,
     safe,
@@ -30,9 +30,6 @@ from .proposal import (
     unsafe,
 )
 from .remakes import BINARY, COPIED, HEADED, MIRRORED, TURNED, WITHOUT_FLAT
-
-_NAMING = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf", ".yaml", ".yml", ".py", ".launch")
-_MOST_FILES, _MOST_BYTES = 2000, 2_000_000
 
 
 def _named(problem: Problem, around: Around) -> list[MeshUse]:
@@ -66,7 +63,7 @@ def inverted_mesh(problem: Problem, around: Around) -> Proposal | None:
     uses = [use for use in _named(problem, around) if use.uri.lower().endswith(".stl")]
     if not uses:
         return None
-    _check_own(uses[0], around)
+    check_alone(around, str(uses[0].path and uses[0].path.name), robots=True)
     return unsafe("turn its triangles round", *_in_place(uses[:1], TURNED))
 
 
@@ -78,7 +75,7 @@ def degenerate_triangles(problem: Problem, around: Around) -> Proposal | None:
     if not uses or any(not use.uri.lower().endswith(".stl") for use in uses):
         return None
     for use in uses:
-        _check_own(use, around)
+        check_alone(around, str(use.path and use.path.name), robots=True)
     return unsafe("take them away", *_in_place(uses, WITHOUT_FLAT))
 
 
@@ -177,26 +174,3 @@ def _beside(use: MeshUse, name: str) -> str | None:
     """A new file beside a mesh; None where there is one of that name."""
     path = Path(str(use.path)).with_name(name)
     return None if os.path.lexists(path) or copy_of(path) is not None else shown_path(path)
-
-
-def _check_own(use: MeshUse, around: Around) -> None:
-    """Refuse to change a mesh that other files around the description name, too."""
-    name = str(use.path and use.path.name).encode()
-    mine = {os.path.realpath(file.path) for file in around.description.files}
-    own = own_package(around.description.packages.file)
-    root = own[1] if own is not None else around.description.packages.file.parent
-    seen = 0
-    for where, folders, files in os.walk(root):
-        folders[:] = sorted(folder for folder in folders if not folder.startswith("."))
-        for file in sorted(files):
-            path = os.path.join(where, file)
-            if not file.endswith(_NAMING) or os.path.realpath(path) in mine:
-                continue
-            seen += 1
-            try:
-                with open(path, "rb") as stream:
-                    named = name in stream.read(_MOST_BYTES)
-            except OSError:
-                continue
-            if named or seen > _MOST_FILES:
-                raise RefusedError(f"{shown_path(path)} names that mesh, too")

@@ -1,4 +1,4 @@
-"""Fixes of names, comments, and of the SRDF beside a robot."""
+"""Fixes of names that are there twice, and of comments."""
 
 from __future__ import annotations
 
@@ -6,8 +6,7 @@ import re
 
 from ...source.document import parse
 from ..rule import Problem
-from .proposal import Around, Proposal, Span, attribute_at, meant, put, safe, sub, unsafe
-from .tree import renamed_link
+from .proposal import Around, Proposal, Span, attribute_at, sub, unsafe
 
 
 def colon_space_in_comment(problem: Problem, around: Around) -> Proposal | None:
@@ -28,18 +27,6 @@ def colon_space_in_comment(problem: Problem, around: Around) -> Proposal | None:
     return unsafe("write ' - ' for ': ' in comments", *spans) if spans else None
 
 
-def invalid_frame_name(problem: Problem, around: Around) -> Proposal | None:
-    """Without slash and blanks, here and where it is named; many have a cause elsewhere."""
-    if "; write '" not in problem.message:
-        return None
-    link = around.link(problem)
-    new = problem.message.rpartition("; write '")[2].partition("'")[0]
-    if not new or new in around.robot.link or new in around.robot.joint:
-        return None
-    changes = list(renamed_link(around.robot.element, link.name, new))
-    return unsafe(f"call it '{new}', here and where it is named", *changes)
-
-
 def duplicate_geometry_name(problem: Problem, around: Around) -> Proposal | None:
     """A number behind the second."""
     found = attribute_at(problem)
@@ -50,29 +37,3 @@ def duplicate_geometry_name(problem: Problem, around: Around) -> Proposal | None
     while f"{name}_{number}" in taken:
         number += 1
     return unsafe(f"call it '{name}_{number}'", sub(*found, r"(?<=\S)(?=\s*$)", f"_{number}"))
-
-
-def srdf_robot_name(problem: Problem, around: Around) -> Proposal | None:
-    """The robot's."""
-    name = around.robot.name
-    if not name:
-        return None
-    return safe(f"write '{name}'", put(problem.element, "name", name))
-
-
-def srdf_unknown_link(problem: Problem, around: Around) -> Proposal | None:
-    """The link that was meant."""
-    return _rename(problem)
-
-
-def srdf_unknown_joint(problem: Problem, around: Around) -> Proposal | None:
-    """The joint that was meant."""
-    return _rename(problem)
-
-
-def _rename(problem: Problem) -> Proposal | None:
-    found = attribute_at(problem)
-    name = meant(problem, found[0].get(found[1]) or "") if found is not None else ""
-    if found is None or not name:
-        return None
-    return unsafe(f"write '{name}'", put(*found, name))

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from ...source.document import Element
 from ..rule import Problem
 from .proposal import (
     Around,
-    Change,
     Proposal,
     attribute_at,
     first,
@@ -17,11 +13,8 @@ from .proposal import (
     remove,
     safe,
     same,
-    say,
     unsafe,
 )
-
-_LINK_ATTRIBUTES = {"link": "name", "parent": "link", "child": "link"}
 
 
 def unknown_parent_link(problem: Problem, around: Around) -> Proposal | None:
@@ -60,41 +53,6 @@ def _free(name: str, taken: set[str]) -> str:
     while f"{name}_{number}" in taken:
         number += 1
     return f"{name}_{number}"
-
-
-def link_joint_name_clash(problem: Problem, around: Around) -> Proposal | None:
-    """The joint is called ``…_joint``, here and where it is named."""
-    joint = around.joint(problem)
-    new = f"{joint.name}_joint"
-    if new in around.robot.joint or new in around.robot.link:
-        return None
-    if around.robot.extensions.get(joint.name):
-        return None  # the link or the joint may be meant
-    changes = list(_renamed_joint(around.robot.element, joint.name, new))
-    return unsafe(f"call the joint '{new}', here and where it is named", *changes)
-
-
-def _renamed_joint(root: Element, name: str, new: str) -> Iterator[Change]:
-    for element in root.walk():
-        if element.tag == "joint" and element.get("name") == name:
-            yield put(element, "name", new)
-        elif element.tag == "mimic" and element.get("joint") == name:
-            yield put(element, "joint", new)
-        elif "oint" in element.tag and element.text.strip() == name and not element.children:
-            yield say(element, new)
-
-
-def renamed_link(root: Element, name: str, new: str) -> Iterator[Change]:
-    """A link by another name, here and where it is named."""
-    for element in root.walk():
-        attribute = _LINK_ATTRIBUTES.get(element.tag, "reference")
-        if attribute == "reference" and element.tag != "gazebo":
-            attribute = ""
-        if attribute and element.get(attribute) == name:
-            yield put(element, attribute, new)
-        elif not attribute and element.text.strip() == name and not element.children:
-            if "ame" in element.tag or "ink" in element.tag:
-                yield say(element, new)
 
 
 def conflicting_material(problem: Problem, around: Around) -> Proposal | None:

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Iterator
+from math import inf, isclose
 
+from ...model.read import number
 from ...source.document import Element
+from ...source.location import SourceFile
 from ..rule import Problem
+from ..xacro.definitions import definitions
 from ..xacro.tags import XMLNS
 from .proposal import (
     Around,
@@ -17,10 +23,13 @@ from .proposal import (
     remove,
     retag,
     safe,
+    say,
     sub,
     sub_text,
+    to_write,
     unsafe,
 )
+from .renames import joints_named, links_named
 
 _FOR_LAUNCH = {"find-pkg-share": "find", "find-pkg-prefix": "find", "var": "arg"}
 
@@ -113,3 +122,52 @@ def deprecated_global_function(problem: Problem, around: Around) -> Proposal | N
         for call in calls
     ]
     return safe(f"write {match[2]}()", *spans) if spans else None
+
+
+def hard_coded_name_in_macro(problem: Problem, around: Around) -> Proposal | None:
+    """With its prefix, also where the macro names it."""
+    macro: Element | None = problem.element
+    while macro is not None and macro.tag != "xacro:macro":
+        macro = macro.parent
+    name, new = problem.element.get("name") or "", to_write(problem)
+    if macro is None or not new:
+        return None
+    named = links_named if problem.element.tag == "link" else joints_named
+    changes = [put(e, at, new) if at else say(e, new) for e, at in named(macro, name)]
+    return unsafe(f"write {new}, here and where the macro names it", *changes)
+
+
+def shadowed_builtin(problem: Problem, around: Around) -> Proposal | None:
+    """Without it, where it is what xacro has; else by another name, where a property has it."""
+    match = re.match(r"'(\w+)' is a name", problem.message)
+    found = definitions(around.description)
+    name = match[1] if match is not None else ""
+    properties = found.properties.get(name, [])
+    macros = [macro for same in found.macros.values() for macro in same]
+    if len(properties) != 1 or any(
+        re.search(rf"(?<!\w){name}(?!\w)", macro.get("params") or "") for macro in macros
+    ):
+        return None
+    (element,), value = properties, number(properties[0].get("value"))
+    if value is not None and isclose(value, _constant(name), rel_tol=1e-3):
+        return unsafe(f"take it away, as xacro has '{name}'", remove(element))
+    new = f"{name}_value"
+    if any(new.encode() in file.data for file in around.description.files):
+        return None
+    spans = [span for file in around.description.files for span in _said(file, name, new)]
+    return unsafe(f"call it '{new}'", put(element, "name", new), *spans)
+
+
+def _constant(name: str) -> float:
+    """A number that is there in every expression; infinity where it is none."""
+    found = getattr(math, name, inf)
+    return found if isinstance(found, float) else inf
+
+
+def _said(file: SourceFile, name: str, new: str) -> Iterator[Span]:
+    """Where expressions of a file name a property, but for those in comments."""
+    text = re.sub(rb"<!--.*?-->", lambda m: b" " * len(m[0]), file.data, flags=re.DOTALL)
+    word = re.compile(rb"(?<![\w.'\"])" + name.encode() + rb"(?![\w('\"])")
+    for expression in re.finditer(rb"\$\{[^}]*\}", text):
+        for match in word.finditer(text, expression.start(), expression.end()):
+            yield Span(file, match.start(), match.end(), new.encode())

@@ -171,6 +171,7 @@ def implausible_density(
     most_possible: float = 22600.0,
     small: float = 0.02,
     most_of_box: float = 8000.0,
+    together: float = 6,
 ) -> Iterator[Problem]:
     """A link's mass does not go with its size.
 
@@ -178,8 +179,10 @@ def implausible_density(
     Beyond that, a unit is wrong: grams, or millimetres. A shape of millimetres is mostly a mark for
     a frame, and no more than a remark. Of a mesh, or of several shapes, the box around them counts:
     one that is all of steel has ``most_of_box``, and one lighter than air is hollow beyond belief.
+    More than ``together`` remarks are one, which names the links.
     """
     reach = reaches(robot)
+    remarks: list[tuple[Problem, float]] = []
     for link, mass, element in _masses(robot):
         density, in_box = _density(reach.link(link), link, mass)
         if density is None or least <= density <= (most_of_box if in_box else most):
@@ -190,13 +193,22 @@ def implausible_density(
         box = reach.link(link)
         if box is None or max(box.size) < small:
             impossible = False
-        yield Problem(
+        problem = Problem(
             link,
             f"link '{link.name}' weighs {mass:g} kg and has a density of {density:.3g} kg/m³"
             f"{' in the box around it' if in_box else ''}; water has 1000",
             at=element.attribute_place("value"),
             severity=WARNING if impossible else INFO,
         )
+        if impossible:
+            yield problem
+        else:
+            remarks.append((problem, density))
+    if len(remarks) > together:
+        others = ", ".join(f"'{one.name}' {density:.3g}" for one, density in remarks[1:])
+        remarks[0][0].message += f"; densities are as odd of {others}"
+        del remarks[1:]
+    yield from (problem for problem, _ in remarks)
 
 
 def _density(box: Bounds | None, link: Link, mass: float) -> tuple[float | None, bool]:

@@ -152,18 +152,16 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
     """A mimic joint or its leader does not have just one way to move, or the multiplier is 0.
 
     A fixed joint has no position to follow or to give, a floating or planar one has several. With a
-    multiplier of 0 the joint stands still.
+    multiplier of 0 the joint stands still. Fixed followers are one finding, and so are all
+    followers of one leader.
     """
+    alike: dict[tuple[str, str], list[tuple[Joint, Mimic]]] = {}
     for joint, mimic in _mimics(robot):
         leader = robot.joint.get(mimic.joint)
         for one in (joint, leader):
             if one is not None and one.type in ("fixed", "floating", "planar"):
-                what = "follows another" if one is joint else f"is followed by '{joint.name}'"
-                yield Problem(
-                    joint,
-                    f"joint '{one.name}' is {one.type} and {what}; only a joint with one axis can",
-                    at=mimic,
-                )
+                key = (one.type, "" if one is joint else one.name)
+                alike.setdefault(key, []).append((joint, mimic))
                 break
         else:
             if mimic.multiplier == 0.0 and leader is not None:
@@ -173,6 +171,14 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
                     "moves; write how far it goes, or make it fixed",
                     at=mimic.element.attribute_place("multiplier"),
                 )
+    for (kind, leading), found in alike.items():
+        (joint, mimic), names = found[0], [f"'{joint.name}'" for joint, _ in found]
+        if leading:
+            what = f"'{leading}' is {kind} and is followed by {', '.join(names)}"
+        else:
+            what = f"{names[0]} is {kind} and follows another"
+            what += f"; so are {', '.join(names[1:])}" if names[1:] else ""
+        yield Problem(joint, f"joint {what}; only a joint with one axis can", at=mimic)
 
 
 @rule(

@@ -13,7 +13,7 @@ from ...model.elements import Robot
 from ...source.description import Description
 from ..rule import WARNING, Problem, rule
 from ..words import quoted
-from .uses import mesh_uses
+from .uses import MeshUse, mesh_uses
 
 _OBJ = re.compile(rb"^mtllib[ \t]+(.+?)[ \t\r]*$", re.MULTILINE)
 _DAE = re.compile(rb"<init_from\s*>(?:\s*<ref\s*>)?\s*([^<]+?)\s*<")
@@ -22,24 +22,32 @@ _MOST = 4_000_000  # bytes that are looked at
 
 
 @rule(WARNING, effects={"rviz, gazebo": "show it in grey; glTF without its buffer is not loaded"})
-def missing_mesh_dependency(robot: Robot, description: Description) -> Iterator[Problem]:
+def missing_mesh_dependency(
+    robot: Robot, description: Description, *, together: float = 3
+) -> Iterator[Problem]:
     """A file that a mesh refers to is not beside it.
 
     The colours of an OBJ file are in an MTL file, the pictures of a COLLADA file and the buffers of
-    a glTF file in files of their own. They are left behind when a mesh is copied.
+    a glTF file in files of their own. They are left behind when a mesh is copied. More than
+    ``together`` such meshes are one finding.
     """
     told: set[str] = set()
+    found: list[tuple[MeshUse, tuple[str, ...]]] = []
     for use in mesh_uses(robot, description):
         if use.path is None or not use.exists or use.uri in told or use.collides:
             continue
         told.add(use.uri)
         missing = _missing(use.path)
         if missing:
-            yield Problem(
-                use.link,
-                f"mesh '{use.uri}' refers to {quoted(missing)}, which is not beside it",
-                at=use.mesh.element.attribute_place("filename"),
-            )
+            found.append((use, missing))
+    several = len(found) > together
+    for use, missing in found[:1] if several else found:
+        others = f" (and {len(found) - 1} more meshes to theirs)" if several else ""
+        yield Problem(
+            use.link,
+            f"mesh '{use.uri}' refers to {quoted(missing)}, which is not beside it{others}",
+            at=use.mesh.element.attribute_place("filename"),
+        )
 
 
 @Remembered

@@ -47,7 +47,7 @@ def _read(robot: Robot, description: Description) -> Iterator[Document]:
             yield document
 
 
-def _references(root: Element, kind: str) -> Iterator[tuple[Element, str, bool]]:
+def references(root: Element, kind: str) -> Iterator[tuple[Element, str, bool]]:
     """Where a link or joint is named: the element, the attribute, and whether it is essential."""
     links = {
         "chain": ("base_link", "tip_link"),
@@ -81,7 +81,7 @@ def srdf_unknown_link(robot: Robot, description: Description) -> Iterator[Proble
     """
     told: set[str] = set()
     for document in semantics(robot, description):
-        for element, attribute, essential in _references(document.root, "link"):
+        for element, attribute, essential in references(document.root, "link"):
             name = element.get(attribute)
             if name and name not in robot.link and (essential or name not in told):
                 told.add(name)
@@ -102,7 +102,7 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
     """
     for document in semantics(robot, description):
         virtual = {joint.get("name") for joint in document.root.all("virtual_joint")}
-        for element, attribute, _ in _references(document.root, "joint"):
+        for element, attribute, _ in references(document.root, "joint"):
             name = element.get(attribute)
             if name and name not in robot.joint and name not in virtual:
                 yield Problem(

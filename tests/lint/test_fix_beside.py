@@ -1,0 +1,222 @@
+"""``lint --fix`` of what stands beside a robot: the same promises as for the robot itself."""
+
+import json
+import os
+import shutil
+import struct
+from pathlib import Path
+
+import pytest
+
+from tests.conftest import FIXTURES
+
+RULES = FIXTURES / "rules"
+INVERTED = RULES / "inverted-mesh" / "meshes" / "arm_bad.stl"
+MANIFEST = (
+    b'<package format="3">\r\n\t<name>cart</name>\r\n\t<depend>tf2</depend>\r\n</package>\r\n'
+)
+ROBOT = """<robot name="r">
+  <link name="base">
+    <collision>
+      <geometry><mesh filename="{}"/></geometry>
+    </collision>
+  </link>
+</robot>
+"""
+FIX = ("--fix", "--unsafe-fixes", "--no-cache", "--exit-zero")
+
+
+@pytest.fixture
+def cart(write):
+    """A package with two robots that use a mesh of another package, as lines with CR LF."""
+    write("mesh_store/package.xml", "<package><name>mesh_store</name></package>")
+    write("mesh_store/hull.stl", INVERTED.read_bytes())
+    write("cart/package.xml", MANIFEST)
+    names = ("cart/urdf/a.urdf", "cart/urdf/b.urdf")
+    return [write(name, ROBOT.format("package://mesh_store/hull.stl")) for name in names]
+
+
+DECLARED = (
+    "--select",
+    "undeclared-mesh-dependency",
+    "--target",
+    "ros2",
+    "-p",
+    "mesh_store=mesh_store",
+)
+
+
+def test_what_two_robots_want_of_one_file_is_done_once(cart, urdftool):
+    shown = urdftool("lint", *cart, *DECLARED, "--diff", "--no-cache")
+    assert shown.code == 1
+    assert shown.out.count("+++ cart/package.xml") == 1
+    assert Path("cart/package.xml").read_bytes() == MANIFEST
+    result = urdftool("lint", *cart, *DECLARED, *FIX)
+    assert result.err.startswith("Fixed 1 in 1 file: undeclared-mesh-dependency × 1\n")
+    wanted = b"</depend>\r\n\t<exec_depend>mesh_store</exec_depend>\r\n"
+    assert Path("cart/package.xml").read_bytes() == MANIFEST.replace(b"</depend>\r\n", wanted)
+    assert "Nothing to fix." in urdftool("lint", *cart, *DECLARED, *FIX).err
+
+
+def test_a_manifest_that_is_a_link_stays_one_and_one_that_is_read_only_is_left(
+    cart, urdftool, monkeypatch
+):
+    os.rename("cart/package.xml", "cart/real.xml")
+    os.symlink("real.xml", "cart/package.xml")
+    real = os.access
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "access", lambda p, mode: mode != os.W_OK and real(p, mode))
+        result = urdftool("lint", cart[0], *DECLARED, *FIX)
+    assert result.code == 2
+    assert "cart/package.xml: is not fixed: it is read-only" in result.err
+    assert Path("cart/real.xml").read_bytes() == MANIFEST
+    assert urdftool("lint", cart[0], *DECLARED, *FIX).code == 0
+    assert os.path.islink("cart/package.xml")
+    assert b"<exec_depend>" in Path("cart/real.xml").read_bytes()
+
+
+def test_a_package_that_is_not_there_is_not_declared(cart, urdftool):
+    shutil.rmtree("mesh_store")
+    result = urdftool("lint", cart[0], *DECLARED[:4], *FIX)
+    assert "Nothing to fix." in result.err
+    assert Path("cart/package.xml").read_bytes() == MANIFEST
+
+
+def test_a_mesh_of_another_package_is_left(cart, urdftool):
+    before = Path("mesh_store/hull.stl").read_bytes()
+    os.remove(cart[1])
+    result = urdftool(
+        "lint", cart[0], "--select", "inverted-mesh", "-p", "mesh_store=mesh_store", *FIX
+    )
+    assert Path("mesh_store/hull.stl").read_bytes() == before
+    assert "1 fix is not made in mesh_store/hull.stl, outside of cart" in result.err
+
+
+def test_a_mesh_that_another_robot_names_is_not_turned(write, urdftool):
+    write("arm.stl", INVERTED.read_bytes())
+    path = write("r.urdf", ROBOT.format("arm.stl"))
+    other = write("other.urdf", ROBOT.format("arm.stl"))
+    words = ("lint", path, "--select", "inverted-mesh", *FIX)
+    result = urdftool("-v", *words)
+    assert Path("arm.stl").read_bytes() == INVERTED.read_bytes()
+    assert "other.urdf names 'arm.stl', too" in result.err
+    os.remove(other)
+    assert "Fixed 1" in urdftool(*words).err
+    turned = Path("arm.stl").read_bytes()
+    assert turned[:84] == INVERTED.read_bytes()[:84]
+    for at in range(84, len(turned), 50):
+        old, new = (struct.unpack_from("<12f", d, at) for d in (INVERTED.read_bytes(), turned))
+        assert new == (*(-v for v in old[:3]), *old[3:6], *old[9:12], *old[6:9])
+
+
+def test_diff_says_what_becomes_of_a_binary_file(write, urdftool):
+    write("arm.stl", INVERTED.read_bytes())
+    path = write("r.urdf", ROBOT.format("arm.stl"))
+    size = len(INVERTED.read_bytes())
+    words = ("--select", "inverted-mesh", "--unsafe-fixes", "--no-cache")
+    shown = urdftool("lint", path, "--diff", *words)
+    assert shown.out == f"binary file arm.stl: {size} bytes → {size} bytes\n"
+    assert Path("arm.stl").read_bytes() == INVERTED.read_bytes()
+
+
+def test_a_new_mesh_is_made_with_what_names_it_or_not_at_all(write, urdftool, monkeypatch):
+    from urdftool import output
+
+    write("arm#1.stl", INVERTED.read_bytes())
+    path = write("r.urdf", ROBOT.format("arm#1.stl"))
+    words = ("lint", path, "--select", "unsafe-file-name", *FIX)
+    original = output.write_file
+
+    def only_meshes(target, data, **kwargs):
+        if str(target).endswith(".urdf"):
+            raise output.OutputError("cannot be written: no space left", path=target)
+        original(target, data, **kwargs)
+
+    was = {"new.stl": None, path: Path(path).read_bytes()}
+    with monkeypatch.context() as patch, pytest.raises(output.OutputError):
+        patch.setattr(output, "write_file", only_meshes)
+        output.rewrite(was, {"new.stl": b"x", path: b"y"})
+    assert sorted(os.listdir(".")) == ["arm#1.stl", "r.urdf"]
+    shown = urdftool(*words[:-4], "--diff", "--unsafe-fixes", "--no-cache").out
+    assert f"binary file arm_1.stl: new {len(INVERTED.read_bytes())} bytes\n" in shown
+    assert urdftool(*words).code == 0
+    assert Path("arm_1.stl").read_bytes() == INVERTED.read_bytes()
+    assert 'filename="arm_1.stl"' in Path(path).read_text()
+    assert "Nothing to fix." in urdftool(*words).err
+
+
+def test_json_says_which_files_are_made(write, urdftool):
+    write("arm#1.stl", INVERTED.read_bytes())
+    path = write("r.urdf", ROBOT.format("arm#1.stl"))
+    found = json.loads(
+        urdftool("lint", path, "--select", "unsafe-file-name", "--format", "json").out
+    )
+    (finding,) = found["findings"]
+    assert finding["fix"]["files"] == [{"path": "arm_1.stl", "of": "arm#1.stl", "as": "a copy"}]
+    sarif = json.loads(
+        urdftool("lint", path, "--select", "unsafe-file-name", "--format", "sarif").out
+    )
+    assert "fixes" not in sarif["runs"][0]["results"][0]
+
+
+def test_a_mesh_that_cannot_be_read_is_said(write, urdftool):
+    write("arm.stl", b"solid arm\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\nendsolid arm\n")
+    path = write("r.urdf", ROBOT.format("arm.stl"))
+    result = urdftool("lint", path, "--select", "ascii-stl", *FIX)
+    assert "is not fixed [ascii-stl]" in result.err
+    assert "arm.stl cannot be made binary STL" in result.err
+    assert "bug" not in result.err
+
+
+NAMED = """<robot name="r">
+  <link name="base"/>
+  <link name="upper-arm"/>
+  <joint name="j" type="fixed"><parent link="base"/><child link="upper-arm"/></joint>
+  <gazebo reference="upper-arm"><mu1>1</mu1></gazebo>
+</robot>
+"""
+GROUPS = '<robot name="r"><group name="g"><link name="upper-arm"/></group></robot>\n'
+
+
+def test_a_link_has_its_new_name_in_the_srdf_too_unless_a_list_names_it(write, urdftool):
+    path = write("r.urdf", NAMED)
+    write("r.srdf", GROUPS)
+    write("config/sensors.yaml", "frame: upper-arm\n")
+    words = ("lint", path, "--select", "not-portable-identifier", *FIX)
+    result = urdftool("-v", *words)
+    assert Path(path).read_text() == NAMED
+    assert "config/sensors.yaml names 'upper-arm', too" in result.err
+    write("config/sensors.yaml", "frame: upper-arm-2\n")
+    assert "Fixed 1 in 2 files" in urdftool(*words).err
+    assert Path(path).read_text() == NAMED.replace("upper-arm", "upper_arm")
+    assert Path("r.srdf").read_text() == GROUPS.replace("upper-arm", "upper_arm")
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        (
+            "install(DIRECTORY\n  urdf\n  DESTINATION share/${PROJECT_NAME}\n)\nament_package()\n",
+            "install(DIRECTORY\n  urdf\n  meshes\n  DESTINATION share/${PROJECT_NAME}\n)\n"
+            "ament_package()\n",
+        ),
+        (
+            "# install(DIRECTORY urdf DESTINATION share/${PROJECT_NAME})\nament_package()",
+            "# install(DIRECTORY urdf DESTINATION share/${PROJECT_NAME})\n"
+            "install(DIRECTORY meshes DESTINATION share/${PROJECT_NAME})\nament_package()",
+        ),
+        (
+            'catkin_package()\ninstall(DIRECTORY urdf DESTINATION x\n PATTERN "*.urdf")',
+            'catkin_package()\ninstall(DIRECTORY urdf DESTINATION x\n PATTERN "*.urdf")\n'
+            "install(DIRECTORY meshes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})\n",
+        ),
+    ],
+)
+def test_a_folder_is_installed_where_the_others_are(write, urdftool, before, after):
+    write("package.xml", "<package><name>cart</name></package>")
+    write("CMakeLists.txt", before)
+    write("meshes/arm.stl", INVERTED.read_bytes())
+    path = write("urdf/r.urdf", ROBOT.format("package://cart/meshes/arm.stl"))
+    words = ("--select", "directory-not-installed", "--target", "ros2")
+    assert urdftool("lint", path, *words, *FIX).code == 0
+    assert Path("CMakeLists.txt").read_text() == after

@@ -1,0 +1,53 @@
+"""Whether files around a description name something of it, so that it is not changed alone."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Collection, Iterator
+
+from ...source.nearby import bytes_of
+from ...source.packages import own_package, shown_path
+from .proposal import Around, RefusedError
+
+DESCRIPTIONS = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf")
+_USES = (".yaml", ".yml", ".json", ".py", ".launch", ".lua", ".rviz", ".cpp", ".hpp", ".h", ".srdf")
+
+_MOST_FILES, _MOST_BYTES = 2000, 2_000_000
+
+
+def check_alone(around: Around, word: str, *, robots: bool, but: Collection[str] = ()) -> None:
+    """Make sure that no file of the package names a word, but the description's own.
+
+    Args:
+        around: The robot and its description.
+        word: What is looked for, as a whole word.
+        robots: Whether other descriptions count, which have links of the same names.
+        but: Files that are changed with it.
+
+    Raises:
+        RefusedError: One does.
+    """
+    pattern = re.compile(rb"(?<![\w-])" + re.escape(word.encode()) + rb"(?![\w-])")
+    mine = {os.path.realpath(file.path) for file in around.description.files}
+    mine.update(map(os.path.realpath, but))
+    for number, path in enumerate(_files(around)):
+        named = path.endswith(_USES) or (path.endswith(DESCRIPTIONS) and robots)
+        if not named or os.path.realpath(path) in mine:
+            continue
+        try:
+            found = pattern.search(bytes_of(path)[:_MOST_BYTES])
+        except OSError:
+            continue
+        if found is not None or number > _MOST_FILES:
+            raise RefusedError(f"{shown_path(path)} names '{word}', too")
+
+
+def _files(around: Around) -> Iterator[str]:
+    """The files of the description's package, or of its folder."""
+    own = own_package(around.description.packages.file)
+    root = own[1] if own is not None else around.description.packages.file.parent
+    for where, folders, files in os.walk(root):
+        folders[:] = sorted(folder for folder in folders if not folder.startswith("."))
+        for file in sorted(files):
+            yield os.path.join(where, file)
