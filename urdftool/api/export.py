@@ -12,8 +12,9 @@ from ..model.elements import Robot
 from ..source.description import GltfUp
 
 if TYPE_CHECKING:
+    from ..formats.mended import FixInertia
     from ..formats.mjcf.cut import Cut
-    from ..formats.mjcf.options import Actuators, Base, FixInertia
+    from ..formats.mjcf.options import Actuators, Base
 
 
 def export_sdf(
@@ -25,6 +26,7 @@ def export_sdf(
     fixed_joints: Literal["", "keep", "lump"] = "",
     uri: Literal["", "relative", "model", "package", "file"] = "",
     world: bool = False,
+    fix_inertia: FixInertia = "none",
     mesh_dir: str = "meshes",
     force: bool = False,
     verify: bool = False,
@@ -40,6 +42,7 @@ def export_sdf(
         fixed_joints: Keep them, or make one link of what they join; the target's default if empty.
         uri: How meshes are named; the usual of the target if empty.
         world: Whether to write a world with ground and sun around it.
+        fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` mends tensors that no rigid body has.
         mesh_dir: The folder of the meshes, relative to the model.
         force: Whether to go on past errors where a robot is left.
         verify: Whether to read the result back and compare it; ``checks`` has what was found.
@@ -59,7 +62,9 @@ def export_sdf(
         known = ", ".join(VERSIONS.get(target, ()))
         raise ConfigError(f"'{target}' does not read SDF {version}; it reads {known or 'nothing'}")
     folder, file = folder_and_file(output or robot.name or "robot")
-    options = Options(target, version, fixed_joints, uri, world, force, folder, file, mesh_dir)
+    options = Options(
+        target, version, fixed_joints, uri, world, force, folder, file, mesh_dir, fix_inertia
+    )
     written = write(robot, options)
     if output is not None:
         _put(robot, written, output, bool(file), overwrite)

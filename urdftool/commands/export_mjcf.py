@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from ..console import Console
-from .export_options import export_options
+from .export_options import export_options, fix_inertia_option
 from .export_report import put_files, say_refused, say_written
 from .options import gltf_option, package_options, robot_argument
 from .read_strict import read_strict, say_gltf
@@ -37,12 +37,7 @@ from .read_strict import read_strict, say_gltf
 )
 @click.option("--scene", is_flag=True, help="Write also scene.xml, with a floor and light.")
 @click.option("--srdf", metavar="FILE", type=Path, help="Take over an SRDF's disabled collisions.")
-@click.option(
-    "--fix-inertia",
-    type=click.Choice(("none", "lift", "balance", "box")),
-    default="none",
-    help="What to do with a tensor that no rigid body has; none: refuse it.",
-)
+@fix_inertia_option
 @click.option(
     "--decompose", is_flag=True, help="Cut meshes that collide and are not convex into pieces."
 )

@@ -8,6 +8,8 @@ from typing import Any, TypeVar
 
 import click
 
+from ..formats.mended import REPAIRS
+
 F = TypeVar("F", bound=Callable[..., Any])
 
 
@@ -46,6 +48,16 @@ def export_options(*, mesh_dir: str, verify: str) -> Callable[[F], F]:
         return function
 
     return decorate
+
+
+def fix_inertia_option(function: F) -> F:
+    """``--fix-inertia``: what becomes of a tensor that no rigid body has."""
+    return click.option(
+        "--fix-inertia",
+        type=click.Choice(REPAIRS),
+        default="none",
+        help="What to do with a tensor that no rigid body has; none: refuse it.",
+    )(function)
 
 
 def _beside(ctx: click.Context, parameter: click.Parameter, value: str) -> str:

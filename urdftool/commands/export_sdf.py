@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..console import Console
-from .export_options import export_options
+from .export_options import export_options, fix_inertia_option
 from .options import gltf_option, package_options, robot_argument
 from .read_strict import read_strict, say_gltf
 
@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     help="How meshes are named; with package and file none is copied.",
 )
 @click.option("--world", is_flag=True, help="Write a world with ground and sun around it.")
+@fix_inertia_option
 @export_options(mesh_dir="meshes", verify="Read it back and compare.")
 @gltf_option
 @package_options

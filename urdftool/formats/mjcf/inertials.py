@@ -14,12 +14,12 @@ import numpy as np
 from ...finding import Finding, Severity
 from ...model.elements import Link
 from ..defects import defect
+from ..mended import FixInertia
 from ..written import Written
 from . import inertia as tensors
 from .extent import link_size
 from .inertia import Array
 from .link_inertia import LinkInertia, inertia_of
-from .options import FixInertia
 from .structure import Structure
 
 TINY = 1e-12

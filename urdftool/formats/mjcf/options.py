@@ -6,15 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from ..mended import FixInertia
 from .cut import Cutter
 
 Actuators = Literal["auto", "none", "position", "velocity", "motor"]
 Base = Literal["auto", "fixed", "free"]
-FixInertia = Literal["none", "lift", "balance", "box"]
 
 ACTUATORS: tuple[Actuators, ...] = ("auto", "none", "position", "velocity", "motor")
 BASES: tuple[Base, ...] = ("auto", "fixed", "free")
-REPAIRS: tuple[FixInertia, ...] = ("none", "lift", "balance", "box")
 
 FILES = (".xml", ".mjcf")
 """Suffixes of an output that is one file."""

@@ -80,7 +80,7 @@ def inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
             (inertia or worst).place,
             "link",
             worst.name,
-            "--force writes the nearest one that a body can have",
+            "--fix-inertia lift, balance or box changes it",
         )
 
 

@@ -6,7 +6,8 @@ from ...finding import Severity
 from ...model.elements import Link, Part
 from ...model.pose import Pose, Rotation
 from ..numbers import number_text
-from .mass import ROUNDING, lifted, shortfall, tensor_of
+from .mass import CLEAR, ROUNDING, lifted, shortfall, tensor_of
+from .mended import mended, moments_text
 from .plan import EXACT
 from .pose import set_origin, set_pose
 from .translation import Translation
@@ -14,7 +15,6 @@ from .xml import Node, add
 
 _MARGIN = 1e-12
 _EPSILON = 2e-15
-_CLEAR = 1e-6
 
 WEIGHTLESS = 1e-12
 """The mass [kg] of a moving link that has none; its radius of gyration is a millimetre."""
@@ -30,25 +30,34 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
     alone = link.name in t.plan.alone
     own = link.inertial
     about: Part = own or link
+    short = shortfall(mass.tensor, mass.mass)
     node = add(node, "inertial")
-    if alone and own is not None:
+    if alone and own is not None and short <= ROUNDING:
         set_origin(node, own.origin, exact=t.options.since("1.9"))
         tensor = tensor_of(own.inertia)
     else:
         set_pose(node, Pose(translation=mass.center))
         tensor = mass.tensor
     add(node, "mass", number_text(mass.mass))
-    short = shortfall(tensor, mass.mass)
-    if short > EXACT:
-        what = "is possible but for rounding" if short <= ROUNDING else "no rigid body has"
+    if short > ROUNDING:
+        tensor, how = mended(t, link.name)
         t.lose(
             "inertia",
-            f"link '{link.name}' has an inertia that {what}: the largest moment exceeds the sum of "
-            f"the others by {short:.2g} of itself; the nearest possible one is written",
+            f"link '{link.name}' has principal moments {moments_text(mass.tensor)} kg·m², which no "
+            f"rigid body has: {how} to {moments_text(tensor)} kg·m²",
             about,
             link,
         )
-        tensor = lifted(tensor, _CLEAR)
+    elif short > EXACT:
+        t.lose(
+            "inertia",
+            f"link '{link.name}' has an inertia that is possible but for rounding: the largest "
+            f"moment exceeds the sum of the others by {short:.2g} of itself; the nearest possible "
+            "one is written",
+            about,
+            link,
+        )
+        tensor = lifted(tensor, CLEAR)
     _tensor(node, tensor if _is_safe(tensor) else lifted(tensor))
 
 

@@ -14,7 +14,7 @@ LOSSES = {
     "frame": "SDF 1.6 has no frames; the name of a lumped link is gone",
     "frame-id": "SDF before 1.12 cannot name the frame of a sensor's messages",
     "gltf-axes": "a glTF with Y up is turned by its pose, since Gazebo keeps the axes of the file",
-    "inertia": "no body has such moments; the nearest possible ones are written",
+    "inertia": "no body has such moments; what `--fix-inertia` says is written",
     "joint-extension": "what is said of a fixed joint that became a frame is left out",
     "joint-type": "an unknown type of joint; it is fixed (`--force`)",
     "limit": "a limit is not what it says: negative, zero, exchanged, or missing",

@@ -18,6 +18,9 @@ from ...model.tensor3 import SMALLEST_RADIUS
 ROUNDING = 0.01
 """How far moments may miss the triangle inequality, relative to the largest, by rounding."""
 
+CLEAR = 1e-6
+"""What is added to a mended tensor, relative to its largest moment, so that no reader doubts it."""
+
 NO_TENSOR: Rotation = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 

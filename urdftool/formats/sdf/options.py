@@ -6,6 +6,8 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..mended import FixInertia
+
 VERSIONS: dict[str, tuple[str, ...]] = {
     "gz": ("1.9", "1.10", "1.11", "1.12"),
     "gazebo-classic": ("1.6", "1.7"),
@@ -52,6 +54,7 @@ class Options:
         folder: The name of the folder it goes to, which is the model's in ``model://`` URIs.
         file: The name of the file, where it is one file; empty for a folder.
         mesh_dir: Where meshes go, relative to the output.
+        fix_inertia: What becomes of a tensor that no rigid body has.
     """
 
     target: str = "gz"
@@ -63,6 +66,7 @@ class Options:
     folder: str = ""
     file: str = ""
     mesh_dir: str = "meshes"
+    fix_inertia: FixInertia = "none"
 
     @property
     def classic(self) -> bool:

@@ -49,7 +49,8 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     if any(finding.rule in FATAL | STRUCTURAL for finding in found):
         refuse(found, force=options.force, fatal=FATAL)
     plan = make_plan(robot, lump=options.lump)
-    found += inertia_defects(robot, plan)
+    if options.fix_inertia == "none":
+        found += inertia_defects(robot, plan)
     refuse(found, force=options.force, fatal=FATAL)
     names = make_names(robot, anchored=plan.anchored)
     written = Written(options.file or MODEL, renamed=names.renamed)
