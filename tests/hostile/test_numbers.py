@@ -28,6 +28,7 @@ COMMANDS = (
 )
 
 
+@pytest.mark.filterwarnings("error::RuntimeWarning")
 @pytest.mark.parametrize("value", ["1e308", "-1e308", "1e155", "5e-324", "nan"])
 @pytest.mark.parametrize("command", COMMANDS)
 def test_no_number_breaks_a_command(command, value, urdftool, write):

@@ -149,7 +149,12 @@ def combine(bodies: Iterable[MassProperties]) -> MassProperties:
 def scale_mass(properties: MassProperties, mass: float) -> MassProperties:
     """The same body made of denser or lighter stuff, so that it weighs ``mass`` [kg]."""
     factor = mass / properties.mass
-    return MassProperties(float(mass), properties.com, properties.inertia * factor)
+    if math.isinf(factor):  # the body's own size is in both, and may yet bring them together
+        with np.errstate(over="ignore"):
+            inertia = properties.inertia / properties.mass * mass
+    else:
+        inertia = properties.inertia * factor
+    return MassProperties(float(mass), properties.com, inertia)
 
 
 def principal(inertia: Array) -> tuple[Array, Array]:

@@ -76,3 +76,18 @@ def test_without_mujoco_it_says_what_to_install(monkeypatch, urdftool, tmp_path)
     assert result.code == 2
     assert "pip install 'urdftool[mujoco]'" in result.err
     assert not (tmp_path / "out").exists()
+
+
+def test_a_temple_is_equal_as_far_as_single_precision_goes(urdftool, write):
+    trimesh = pytest.importorskip("trimesh")
+    temple = trimesh.creation.icosphere(3, 60.0)
+    temple.apply_transform(trimesh.transformations.rotation_matrix(1.0, (1, 2, 3), (3, 1, 2)))
+    write("temple.obj", trimesh.exchange.obj.export_obj(temple, digits=9))
+    shapes = "".join(
+        f'<{kind}><origin rpy="1.5 0.2 0.3"/><geometry><mesh filename="temple.obj"/></geometry>'
+        f"</{kind}>"
+        for kind in ("visual", "collision")
+    )
+    path = write("r.urdf", f'<robot name="r"><link name="a">{shapes}</link></robot>')
+    done = urdftool("export", "mjcf", path, "-o", "out", "--verify")
+    assert done.code == 0, done.out

@@ -31,6 +31,8 @@ from .compiled import Compiled
 from .convert import Image, part_image
 
 SIMPLE, MESH = 1e-9, 1e-6
+SINGLE = 2.0**-23
+"""What MuJoCo's numbers of a mesh's points are rounded by, relative to its size."""
 
 Bounds = tuple[Array, Array]
 
@@ -59,7 +61,7 @@ def collision_check(
                 if expected is None:
                     continue
                 simple = not isinstance(shape.geometry, Mesh)
-                factor = MESH / SIMPLE if simple else 1.0  # to the tolerance of the row
+                factor = MESH / SIMPLE if simple else _rounded(expected)  # to that of the row
                 difference = _apart(expected, _geom_bounds(compiled, geom)) * factor
                 check.compare(difference, f"a collision of link '{link.name}'", known=known)
     return check
@@ -86,9 +88,8 @@ def visual_check(
             check.compare(math.inf, text, known=known)
         elif boxes:
             found = _union([_geom_bounds(compiled, geom) for geom in geoms])
-            check.compare(
-                _apart(_union(boxes), found), f"visuals of link '{link.name}'", known=known
-            )
+            difference = _apart(_union(boxes), found) * _rounded(_union(boxes))
+            check.compare(difference, f"visuals of link '{link.name}'", known=known)
         expected = sorted(_colors(robot, link))
         seen = sorted(_rgba(compiled, geom) for geom in geoms)
         if expected and len(expected) == len(seen):
@@ -108,6 +109,11 @@ def _geoms(compiled: Compiled, link: Link, group: int) -> Iterator[int]:
 
 def _apart(one: Bounds, other: Bounds) -> float:
     return float(max(abs(one[0] - other[0]).max(), abs(one[1] - other[1]).max()))
+
+
+def _rounded(box: Bounds) -> float:
+    """What a difference counts of a mesh that is too large for single precision; else 1."""
+    return min(1.0, MESH / (SINGLE * float(np.max(box[1] - box[0])) or MESH))
 
 
 def _union(boxes: list[Bounds]) -> Bounds:
