@@ -44,6 +44,8 @@ class Result:
         measures: What was measured, as :meth:`Measures.as_dict`.
         before: ``triangles`` and ``vertices`` of the mesh.
         notes: What should be known of it; complete sentences.
+        hollow: What a filled hollow explains of an error that is larger than was asked for:
+            ``depth`` [m], and the ``error`` beside it; None where none does.
         seconds: How long it took [s], when it was computed.
         cached: Whether it was computed before.
     """
@@ -55,6 +57,7 @@ class Result:
     notes: tuple[str, ...]
     seconds: float
     cached: bool = False
+    hollow: dict[str, float] | None = None
 
     @property
     def error(self) -> float:
@@ -70,6 +73,7 @@ class Result:
             "before": self.before,
             "notes": list(self.notes),
             "seconds": self.seconds,
+            "hollow": self.hollow,
         }
         return json.dumps(table, separators=(",", ":")).encode()
 
@@ -90,6 +94,7 @@ def result_of(data: bytes, *, cached: bool = False) -> Result:
             tuple(table["notes"]),
             float(table["seconds"]),
             cached,
+            table["hollow"],
         )
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"a result that cannot be read: {error}") from error
@@ -117,6 +122,7 @@ def compute(task: Task) -> Result:
         {"triangles": surface.triangles, "vertices": surface.points},
         (*surface.notes, *choice.notes),
         perf_counter() - begin,
+        hollow=None if choice.hollow is None else choice.hollow.as_dict(),
     )
 
 

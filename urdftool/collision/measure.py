@@ -14,7 +14,7 @@ from ..inertia.sampling import spread_points
 from ..inertia.winding import boxes_of, winding_numbers
 from ..meshes.mesh import Points
 from . import convex, primitives
-from .distance import Samples, Surface, spread
+from .distance import Samples, Surface, areas_of, spread
 from .piece import Piece, mesh_piece
 from .surface import Prepared
 from .touchable import Flood, flood
@@ -115,6 +115,11 @@ class Target:
         return float(1 - self._all[1][:SAMPLES].mean())
 
     @cached_property
+    def area(self) -> float:
+        """Area [m²] of what can be touched."""
+        return float(areas_of(self.corners).sum()) * len(self.even) / SAMPLES
+
+    @cached_property
     def nearest(self) -> Surface:
         """Answers how far points are from it."""
         return Surface(self.corners, spread(self.corners, _DENSE))
@@ -129,22 +134,55 @@ class Target:
         return by_cells
 
 
-def measure(target: Target, pieces: Sequence[Piece]) -> Measures:
-    """How good some pieces are for a visual."""
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """Distances of two surfaces, point by point.
+
+    Attributes:
+        points: Points [m] of the collision that can be touched.
+        areas: The area [m²] each of them stands for.
+        back: How far [m] each is from the visual.
+        forth: How far [m] each of the visual's touchable points is from the collision.
+    """
+
+    points: Points
+    areas: Points
+    back: Points
+    forth: Points
+
+    @property
+    def hausdorff(self) -> float:
+        """The largest of all [m]."""
+        return float(max(self.forth.max(), self.back.max()))
+
+
+def compare(target: Target, pieces: Sequence[Piece]) -> Compared:
+    """How far a visual and some pieces are apart everywhere."""
     outer = _outer_samples(pieces, target)
     points = np.concatenate([samples.points for samples in outer])
+    each = [
+        float(areas_of(piece.corners).sum()) / max(SAMPLES // len(pieces), 400) for piece in pieces
+    ]
+    areas = np.repeat(each, [len(samples) for samples in outer])
     collision = _surface_of(pieces, outer)
     back = target.nearest.distance(points)
     if len(pieces) == 1 and pieces[0].is_primitive:
         forth = np.abs(primitives.signed_distance(pieces[0], target.touchable))
     else:
         forth = collision.distance(target.touchable)
+    return Compared(points, areas, back, forth)
+
+
+def measure(target: Target, pieces: Sequence[Piece]) -> Measures:
+    """How good some pieces are for a visual."""
+    compared = compare(target, pieces)
+    forth, back = compared.forth, compared.back
     mean = (float(forth[: len(target.even)].mean()) + float(back.mean())) / 2
-    depth = depths(target.even, pieces)
+    depth = depths(target.even, pieces, near=MARGIN * target.size)
     volume = volume_of(pieces)
     return Measures(
         size=target.size,
-        hausdorff=float(max(forth.max(), back.max())),
+        hausdorff=compared.hausdorff,
         mean=mean,
         visual_to_collision=float(forth.max()),
         collision_to_visual=float(back.max()),
@@ -229,26 +267,37 @@ def _surface_of(pieces: Sequence[Piece], outer: Sequence[Samples]) -> Surface:
     return Surface(np.concatenate(corners), Samples(np.concatenate(points), np.concatenate(owners)))
 
 
-def depths(points: Points, pieces: Sequence[Piece]) -> Points:
+def depths(points: Points, pieces: Sequence[Piece], near: float = 0.0) -> Points:
     """How far points lie outside all pieces [m]; negative where they are in one.
 
     Exact in sign; near a convex piece's edges the distance is somewhat too small.
+
+    Args:
+        points: Points [m].
+        pieces: The pieces.
+        near: Distance [m] to a concave piece up to which the sign does not matter.
     """
     result = np.full(len(points), np.inf)
     for piece in pieces:
-        result = np.minimum(result, _depth(points, piece))
+        result = np.minimum(result, _depth(points, piece, near))
     return result
 
 
-def _depth(points: Points, piece: Piece) -> Points:
+def _depth(points: Points, piece: Piece, near: float) -> Points:
     if piece.is_primitive:
         return primitives.signed_distance(piece, points)
     if piece.kind == "convex":
         return convex.signed_distance(points, piece.sides)
     corners = piece.corners
-    inside = np.abs(winding_numbers(points, boxes_of(corners))) > 0.5
     off = Surface(corners, spread(corners, SAMPLES)).distance(points)
-    return np.where(inside, -off, off)
+    asked = off > near
+    if asked.any():
+        off[asked] *= np.where(_is_within(points[asked], corners), -1.0, 1.0)
+    return off
+
+
+def _is_within(points: Points, corners: Points) -> npt.NDArray[np.bool_]:
+    return np.asarray(np.abs(winding_numbers(points, boxes_of(corners))) > 0.5)
 
 
 def volume_of(pieces: Sequence[Piece]) -> float:

@@ -33,17 +33,23 @@ class Flood:
         side: Edge of a cell [m].
         reached: Cells within two of one that the flood reached.
         volume: What the flood did not reach [m³]; cells of the surface count half.
+        outside: Cells that the flood reached itself; beside the surface it keeps one away.
     """
 
     low: Points
     side: float
     reached: npt.NDArray[np.bool_]
     volume: float
+    outside: npt.NDArray[np.bool_]
+
+    def cells(self, points: Points) -> npt.NDArray[np.int64]:
+        """The cell that each point is in, or the nearest to it."""
+        cells = np.floor((points - self.low) / self.side).astype(np.int64)
+        return np.clip(cells, 0, np.array(self.reached.shape) - 1)
 
     def touches(self, points: Points) -> npt.NDArray[np.bool_]:
         """Whether each point of the surface can be touched."""
-        cells = np.floor((points - self.low) / self.side).astype(np.int64)
-        cells = np.clip(cells, 0, np.array(self.reached.shape) - 1)
+        cells = self.cells(points)
         return np.asarray(self.reached[cells[:, 0], cells[:, 1], cells[:, 2]])
 
 
@@ -68,4 +74,4 @@ def flood(corners: Points) -> Flood:
     inner = ~(grown | wall)
     volume = (float(np.count_nonzero(inner)) + 0.5 * float(np.count_nonzero(wall))) * side**3
     near = ndimage.binary_dilation(outside, np.ones((3, 3, 3), dtype=bool), iterations=2)
-    return Flood(low, side, near, volume)
+    return Flood(low, side, near, volume, outside)

@@ -29,7 +29,7 @@ def check(console: Console, robots: Sequence[tuple[Robot, Wishes]], values: dict
         for link in robot.links:
             if (wishes.only and link.name not in wishes.only) or link.name in wishes.skip:
                 continue
-            look = look_at(robot, link)
+            look = look_at(robot, link, wishes.settings.max_error)
             if look is not None:
                 looks.append(look)
                 owners.append(number)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..collision.check import Checked
-from .collision import aligned
+from .collision import aligned, explained, with_hollows
 
 
 def is_good(item: Checked, limit: float) -> bool:
@@ -24,8 +24,10 @@ def as_dict(path: str, found: Sequence[Checked], limit: float) -> dict[str, Any]
                 "link": item.link,
                 "within": is_good(item, limit),
                 "measures": item.measures,
+                "hollow": item.hollow,
                 "concave_meshes": item.concave,
                 "hull_error": item.hull_error,
+                "hull_hollow": item.hull_hollow,
                 "trouble": item.trouble,
             }
             for item in found
@@ -58,7 +60,7 @@ def table(found: Sequence[Checked], limit: float) -> str:
                 f"{m['outside']:.1%}",
             )
         )
-    return aligned(lines)
+    return aligned(with_hollows(lines, [item.hollow for item in found]))
 
 
 def remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
@@ -69,10 +71,11 @@ def remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
         elif item.measures is not None and item.measures["error"] > limit:
             yield (
                 f"link '{item.link}': error {item.measures['error']:.2%} of its size, "
-                f"not within {limit:.2%}"
+                f"not within {limit:.2%}{explained(item.hollow)}"
             )
         if item.hull_error is not None:
             yield (
                 f"link '{item.link}': {item.concave} collision mesh{'es' * (item.concave > 1)} not "
                 f"convex; PyBullet and MuJoCo touch the hull, whose error is {item.hull_error:.2%}"
+                f"{explained(item.hull_hollow)}"
             )
