@@ -220,3 +220,42 @@ def test_a_folder_is_installed_where_the_others_are(write, urdftool, before, aft
     words = ("--select", "directory-not-installed", "--target", "ros2")
     assert urdftool("lint", path, *words, *FIX).code == 0
     assert Path("CMakeLists.txt").read_text() == after
+
+
+def _triangles(data):
+    rows = (struct.unpack_from("<12f", data, at)[3:] for at in range(84, len(data), 50))
+    return [(row[0:3], row[3:6], row[6:9]) for row in rows]
+
+
+def _volume(triangles):
+    return sum(
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+        - a[1] * (b[0] * c[2] - b[2] * c[0])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+        for a, b, c in triangles
+    )
+
+
+def test_a_mirrored_mesh_is_the_mirror_image_with_its_triangles_turned(write, urdftool):
+    here = (RULES / "degenerate-triangles" / "meshes" / "arm.stl").read_bytes()
+    write("arm.stl", here)
+    mirrored = ROBOT.format("arm.stl").replace("/></geo", ' scale="0.5 -0.5 0.5"/></geo')
+    paths = [write(name, mirrored) for name in ("a.urdf", "b.urdf")]
+    assert urdftool("lint", *paths, "--select", "mirrored-scale", *FIX).code == 0
+    for path in paths:  # the second finds what was made for the first
+        assert '"arm_mirrored_y.stl" scale="0.5 0.5 0.5"' in Path(path).read_text()
+    old, new = _triangles(here), _triangles(Path("arm_mirrored_y.stl").read_bytes())
+    wanted = [frozenset((x, -y, z) for x, y, z in triangle) for triangle in old]
+    assert sorted(map(sorted, wanted)) == sorted(map(sorted, map(frozenset, new)))
+    assert _volume(new) == pytest.approx(_volume(old))
+
+
+def test_a_text_becomes_the_same_triangles(write, urdftool):
+    text = "solid arm\n"
+    for triangle in _triangles(INVERTED.read_bytes()):
+        corners = "".join(f"vertex {x!r} {y!r} {z!r}\n" for x, y, z in triangle)
+        text += f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n"
+    write("arm.stl", text + "endsolid arm\n")
+    path = write("r.urdf", ROBOT.format("arm.stl"))
+    assert urdftool("lint", path, "--select", "ascii-stl", "--fix", "--no-cache").code == 0
+    assert _triangles(Path("arm.stl").read_bytes()) == _triangles(INVERTED.read_bytes())

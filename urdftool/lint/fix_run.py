@@ -170,8 +170,9 @@ def _attempt(mended: Mended, chosen: Sequence[Finding], options: Options) -> _Wr
     try:
         with reading_instead(mended.after):
             for remake in _remakes(chosen):
-                before[remake.path] = _now(remake.path)
-                edited[remake.path] = remade(remake)
+                now, made = _now(remake.path), remade(remake)
+                if now != made:
+                    before[remake.path], edited[remake.path] = now, made
     except (UrdftoolError, OSError) as error:
         return _Wrong(f"{remake.origin} cannot be made {remake.how}: {error}", True)
     after = {**mended.after, **edited}

@@ -12,8 +12,10 @@ import unicodedata
 from collections.abc import Iterable
 from pathlib import Path
 
+from ...errors import MeshError
 from ...finding import Remake
 from ...source.document import copy_of
+from ...source.nearby import bytes_of
 from ...source.packages import shown_path
 from ..mesh.uses import MeshUse, mesh_uses
 from ..rule import Problem
@@ -29,7 +31,7 @@ from .proposal import (
     sub,
     unsafe,
 )
-from .remakes import BINARY, COPIED, HEADED, MIRRORED, TURNED, WITHOUT_FLAT
+from .remakes import BINARY, COPIED, HEADED, MIRRORED, TURNED, WITHOUT_FLAT, pointed, remade
 
 
 def _named(problem: Problem, around: Around) -> list[MeshUse]:
@@ -71,10 +73,17 @@ def degenerate_triangles(problem: Problem, around: Around) -> Proposal | None:
     """Without those of which two corners are one, which leaves no hole."""
     from ..mesh.surface import with_slivers
 
-    uses = [use for use, _ in with_slivers(around.robot, around.description)]
+    found = with_slivers(around.robot, around.description)
+    uses = [use for use, _ in found]
     if not uses or any(not use.uri.lower().endswith(".stl") for use in uses):
         return None
-    for use in uses:
+    for use, surface in found:
+        try:
+            gone = pointed(Path(str(use.path)))
+        except (MeshError, OSError):
+            return None
+        if surface.flat - gone > 0.01 * (surface.faces - gone):
+            return None  # corners in a row: without those there would be gaps
         check_alone(around, str(use.path and use.path.name), robots=True)
     return unsafe("take them away", *_in_place(uses, WITHOUT_FLAT))
 
@@ -105,13 +114,13 @@ def _as_stl(uses: list[MeshUse]) -> Proposal | None:
         if use.path is None:
             return None
         endings = (".stl", "_collision.stl")
-        free = [(e, new) for e in endings if (new := _beside(use, use.path.stem + e)) is not None]
+        free = [(e, new) for e in endings if (new := _beside(use, use.path.stem + e, BINARY))]
         if not free:
             return None
         ending, new = free[0]
         old = re.escape(os.path.splitext(use.uri)[1]) + r"(?=\s*$)"
         changes.append(sub(use.mesh.element, "filename", old, ending))
-        changes.append(Remake(new, shown_path(use.path), BINARY))
+        changes += new
     return unsafe("convert it to STL, beside it", *dict.fromkeys(changes)) if changes else None
 
 
@@ -125,13 +134,13 @@ def mirrored_scale(problem: Problem, around: Around) -> Proposal | None:
         if use.path is None or not use.exists or not use.uri.lower().endswith(".stl"):
             return None
         axes = "".join(axis for axis, factor in zip("xyz", (x, y, z), strict=True) if factor < 0)
-        new = _beside(use, f"{use.path.stem}_mirrored_{axes}.stl")
-        if new is None:
+        new = _beside(use, f"{use.path.stem}_mirrored_{axes}.stl", MIRRORED + axes)
+        if not new:
             return None
         element = use.mesh.element
         changes.append(sub(element, "filename", r"\.(?=\w+\s*$)", f"_mirrored_{axes}."))
         changes.append(put(element, "scale", " ".join(f"{abs(v):.12g}" for v in (x, y, z))))
-        changes.append(Remake(new, shown_path(use.path), MIRRORED + axes))
+        changes += new
     return unsafe("mirror the file, beside it", *dict.fromkeys(changes)) if changes else None
 
 
@@ -160,17 +169,25 @@ def _copied(uses: list[MeshUse], name: str) -> Proposal | None:
     path = uses[0].path
     if path is None or not name or name == path.name or not uses[0].uri.endswith(path.name):
         return None
-    new = _beside(uses[0], name)
-    if new is None:
+    new = _beside(uses[0], name, COPIED)
+    if not new:
         return None
     pattern = re.escape(path.name) + "$"
     changes = [sub(use.mesh.element, "filename", pattern, name) for use in uses]
-    return unsafe(
-        f"copy it to '{name}' and name that", *changes, Remake(new, shown_path(path), COPIED)
-    )
+    return unsafe(f"copy it to '{name}' and name that", *changes, *new)
 
 
-def _beside(use: MeshUse, name: str) -> str | None:
-    """A new file beside a mesh; None where there is one of that name."""
-    path = Path(str(use.path)).with_name(name)
-    return None if os.path.lexists(path) or copy_of(path) is not None else shown_path(path)
+def _beside(use: MeshUse, name: str, how: str) -> list[Remake]:
+    """A file beside a mesh that is made of it; none where there is another of that name.
+
+    Robots share meshes: what was made for one serves the next.
+    """
+    old = Path(str(use.path))
+    new = old.with_name(name)
+    remake = Remake(shown_path(new), shown_path(old), how)
+    if os.path.lexists(new) or copy_of(new) is not None:
+        try:
+            return [remake] if bytes_of(new) == remade(remake) else []
+        except (MeshError, OSError):
+            return []
+    return [remake]

@@ -26,6 +26,10 @@ def ros1_transmission_in_ros2(problem: Problem, around: Around) -> Proposal | No
     if "ros1" in targets or set(_HARDWARE) <= targets:
         return None
     joints = list(_driven(robot))
+    if not all(commands or robot.joint[name].mimic is not None for name, commands in joints):
+        return None  # transmissions that another reader than ros_control has
+    if not joints:
+        return None
     if robot.ros2_controls:
         there = {part.name for control in robot.ros2_controls for part in control.components}
         if not there.issuperset(name for name, _ in joints):
@@ -33,7 +37,7 @@ def ros1_transmission_in_ros2(problem: Problem, around: Around) -> Proposal | No
         return unsafe(
             "leave it to <ros2_control>", *(remove(t.element) for t in robot.transmissions)
         )
-    if not joints or any(is_computed(t.element) or t.element.calls for t in robot.transmissions):
+    if any(is_computed(t.element) or t.element.calls for t in robot.transmissions):
         return None
     plugin = next((v for name, v in _HARDWARE.items() if name in targets), _NO_HARDWARE)
     lines: Lines = (
@@ -59,7 +63,7 @@ def ros1_transmission_in_ros2(problem: Problem, around: Around) -> Proposal | No
 
 
 def _driven(robot: Robot) -> Iterator[tuple[str, list[str]]]:
-    """The joints of the transmissions that are there, each once, with their commands."""
+    """The joints of the transmissions that are there, each once, with their commands, if any."""
     found: dict[str, list[str]] = {}
     for transmission in robot.transmissions:
         for joint in transmission.joints:
@@ -67,7 +71,7 @@ def _driven(robot: Robot) -> Iterator[tuple[str, list[str]]]:
                 found.setdefault(joint.name, []).extend(_commands(transmission, joint.name))
     for name, commands in found.items():
         mimics = robot.joint[name].mimic is not None
-        yield name, [] if mimics else list(dict.fromkeys(commands)) or ["position"]
+        yield name, [] if mimics else list(dict.fromkeys(commands))
 
 
 def _commands(transmission: Transmission, name: str) -> Iterator[str]:

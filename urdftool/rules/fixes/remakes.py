@@ -110,6 +110,16 @@ def _turned(record: Record) -> bytes:
     return _RECORD.pack(*(0.0 - value for value in normal), *a, *c, *b, attribute)
 
 
+def pointed(path: Path) -> int:
+    """How many triangles of a binary STL file have two corners in one place.
+
+    Raises:
+        MeshError: It is none.
+        OSError: It cannot be read.
+    """
+    return sum(map(_is_flat, _records(stand_in(path))[1]))
+
+
 def _is_flat(record: Record) -> bool:
     """Whether two corners of a triangle are one: it can go, and leaves no hole."""
     a, b, c = record[3:6], record[6:9], record[9:12]

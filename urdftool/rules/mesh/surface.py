@@ -112,8 +112,12 @@ def degenerate_triangles(
     are not a number, and programs that make hulls stumble. ``most`` is the part that is let pass.
     One finding names the links.
     """
+    found = [
+        (use, f"{surface.flat} of its {surface.faces} triangles")
+        for use, surface in with_slivers(robot, description, most)
+    ]
     yield from _together(
-        with_slivers(robot, description, most),
+        found,
         lambda use: (
             f"collision mesh '{use.uri}' of link '{use.link.name}' has slivers: {{}} have no area"
         ),
@@ -122,10 +126,10 @@ def degenerate_triangles(
 
 def with_slivers(
     robot: Robot, description: Description, most: float = 0.01
-) -> list[tuple[MeshUse, str]]:
+) -> list[tuple[MeshUse, Surface]]:
     """The collision meshes of which more than a part of the triangles has no area."""
     return [
-        (use, f"{surface.flat} of its {surface.faces} triangles")
+        (use, surface)
         for use, _, surface in _surfaces(robot, description)
         if surface.flat > most * surface.faces
     ]
