@@ -23,31 +23,48 @@ are named, and keeps results of files that did not change."""
 def rows() -> Iterator[Table | str]:
     """A row for each pile of files, with and without a cache."""
     pairs = Pairs("files", PEERS)
-    check, simcheck = peers.tool("check_urdf"), peers.tool("simcheck")
-    for name, found in (("check_urdf", check), ("simcheck", simcheck)):
-        if found is None:
+    for name in PEERS:
+        if peers.tool(name) is None:
             yield peers.missing(name)
     with tempfile.TemporaryDirectory() as folder:
         for name, files in _piles():
-            sides: dict[str, Call] = {
-                "urdftool": _lint("--no-cache", files=files),
-                "kept": _lint("--cache-dir", f"{folder}/kept", files=files),
-            }
-            if check:
-                sides["check_urdf"] = each([command([check, f], codes=range(256)) for f in files])
-            taken = in_turn(sides, budget=25, label=name)
-            slow: dict[str, Taken] = {}
-            if simcheck and len(files) <= 12:
-                words = [simcheck, "check", "--static-only", "--no-cache", *files]
-                slow = in_turn({"simcheck": command(words)}, rounds=3, budget=15)
-            kept = taken.pop("kept")
-            pairs.add(f"{name}, nothing kept", {**taken, **slow})
-            pairs.add(f"{name}, nothing changed", {**taken, **slow, "urdftool": kept})
+            add_pile(pairs, name, files, f"{folder}/kept", rounds=9, budget=25, most=12)
         yield pairs.table(
             "check_urdf does far less, in C++: on many files a whole lint comes near to it only "
             "where nothing changed, and the start of Python is most of it for one file."
         )
         yield _keeping(folder)
+
+
+def add_pile(
+    pairs: Pairs, name: str, files: list[Path], kept: str, *, rounds: int, budget: float, most: int
+) -> None:
+    """Add two rows for a pile of files: nothing kept, and nothing changed.
+
+    Args:
+        pairs: The table.
+        name: What the rows are called.
+        files: The pile.
+        kept: A folder for results.
+        rounds: As :func:`in_turn`.
+        budget: As :func:`in_turn`.
+        most: Files that simcheck gets; of more it would take minutes.
+    """
+    check, simcheck = (peers.tool(tool) for tool in PEERS)
+    sides: dict[str, Call] = {
+        "urdftool": _lint("--no-cache", files=files),
+        "kept": _lint("--cache-dir", kept, files=files),
+    }
+    if check:
+        sides["check_urdf"] = each([command([check, f], codes=range(256)) for f in files])
+    taken = in_turn(sides, rounds=rounds, budget=budget, label=name)
+    slow: dict[str, Taken] = {}
+    if simcheck and len(files) <= most:
+        words = [simcheck, "check", "--static-only", "--no-cache", *files]
+        slow = in_turn({"simcheck": command(words)}, rounds=3, budget=15)
+    unchanged = taken.pop("kept")
+    pairs.add(f"{name}, nothing kept", {**taken, **slow})
+    pairs.add(f"{name}, nothing changed", {**taken, **slow, "urdftool": unchanged})
 
 
 def _lint(*words: str, files: list[Path]) -> Call:

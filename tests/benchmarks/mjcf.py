@@ -10,7 +10,7 @@ from pathlib import Path
 
 from . import peers
 from .converters import CONVERTERS, Converter
-from .robots import example, made, resolved
+from .robots import examples_and_made, resolved
 from .table import Pairs, Table
 from .timing import Call, Taken, command, in_turn
 
@@ -39,7 +39,7 @@ def rows() -> Iterator[Table | str]:
     pairs = Pairs("robot", names)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        for robot, path in _robots(folder):
+        for robot, path in examples_and_made(ROBOTS, folder):
             copy = resolved(path, folder / "in")
             sides = {"urdftool": _call(ours, path, folder / "ours" / "x.xml", folder / "kept")}
             sides["anew"] = _call(ours, path, folder / "ours" / "x.xml", None)
@@ -89,13 +89,3 @@ def _refusal(path: Path) -> str:
     lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
     telling = [line for line in lines if "Error" in line or "violation" in line] or lines
     return "MuJoCo: " + telling[-1].replace(str(path.parent), "")[:150]
-
-
-def _robots(folder: Path) -> Iterator[tuple[str, Path]]:
-    for name in ROBOTS:
-        path = example(name)
-        if path is not None:
-            yield name, path
-    path = folder / "made.urdf"
-    path.write_text(made(100), "utf-8")
-    yield "made, 100 links", path

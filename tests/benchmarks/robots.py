@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -60,6 +60,17 @@ def bullet_robots() -> list[Path]:
 def example(name: str) -> Path | None:
     """A robot of example-robot-data by the name of its file."""
     return next((path for path in example_robots() if path.name == name), None)
+
+
+def examples_and_made(names: Iterable[str], folder: Path) -> Iterator[tuple[str, Path]]:
+    """Robots of example-robot-data that are there, and a made one of 100 links in a folder."""
+    for name in names:
+        path = example(name)
+        if path is not None:
+            yield name, path
+    path = folder / "made.urdf"
+    path.write_text(made(100), "utf-8")
+    yield "made, 100 links", path
 
 
 def options_of(path: Path) -> list[str]:

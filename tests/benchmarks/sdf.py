@@ -8,7 +8,7 @@ from pathlib import Path
 
 from . import peers
 from .converters import CONVERTERS
-from .robots import example, made, options_of, resolved
+from .robots import examples_and_made, options_of, resolved
 from .table import Pairs, Table
 from .timing import URDFTOOL, Call, command, in_turn
 
@@ -30,7 +30,7 @@ def rows() -> Iterator[Table | str]:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "copied").mkdir()
-        for robot, path in _robots(folder):
+        for robot, path in examples_and_made(ROBOTS, folder):
             ours = [*URDFTOOL, "-q", "export", "sdf", path, *options_of(path), "--overwrite"]
             ours.append("--force")
             sides: dict[str, Call] = {
@@ -46,13 +46,3 @@ def rows() -> Iterator[Table | str]:
             copying.add(f"{robot}, copying meshes", {**taken, "urdftool": copied})
     pairs.rows += copying.rows
     yield pairs.table("The rows that copy meshes do what the other does not.")
-
-
-def _robots(folder: Path) -> Iterator[tuple[str, Path]]:
-    for name in ROBOTS:
-        path = example(name)
-        if path is not None:
-            yield name, path
-    path = folder / "made.urdf"
-    path.write_text(made(100), "utf-8")
-    yield "made, 100 links", path

@@ -15,7 +15,7 @@ from .collision_options import (
     settings_of,
     settings_options,
 )
-from .options import gltf_option, gltf_up_for
+from .options import gltf_option, gltf_up_for, scale_factors
 from .picture_file import checked_picture
 
 if TYPE_CHECKING:
@@ -24,26 +24,13 @@ if TYPE_CHECKING:
 SUFFIXES = (".stl", ".obj")
 
 
-def _factors(
-    ctx: click.Context, parameter: click.Parameter, value: str
-) -> tuple[float, float, float]:
-    try:
-        words = [float(word) for word in value.replace(",", " ").split()]
-    except ValueError:
-        words = []
-    if len(words) not in (1, 3):
-        raise click.BadParameter(f"'{value}' is neither one factor nor three", ctx, parameter)
-    x, y, z = words * 3 if len(words) == 1 else words
-    return x, y, z
-
-
 @click.command("mesh")
 @click.argument("file", metavar="IN")
 @click.option("-o", "--output", metavar="OUT", help="An .stl or .obj file; without it, none.")
 @click.option(
     "--scale",
     default="1",
-    callback=_factors,
+    callback=scale_factors,
     metavar="S | 'SX SY SZ'",
     help="Factors, as URDF's <mesh scale>; negative ones mirror.",
 )

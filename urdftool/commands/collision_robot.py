@@ -18,11 +18,10 @@ from ..console import Console
 from ..errors import UrdftoolError
 from ..model.load import robot_of
 from ..report import collision as report
-from ..source.description import read_description
 from .collision_options import Progress, cache_of, given_names, settings_of
 from .picture_file import check_picture, write_picture
 from .read_lax import take_world
-from .read_strict import say_unknown
+from .read_strict import read_strict
 
 if TYPE_CHECKING:
     from ..collision.cache import Cache
@@ -141,16 +140,7 @@ def fleet(
 
 
 def _read(console: Console, path: str, arguments: dict[str, str], values: Values) -> Robot:
-    configuration = find_configuration(path, console.config)
-    description = read_description(
-        path,
-        arguments,
-        packages=values["package"],
-        package_paths=values["package_path"],
-        configured=configuration.packages,
-        gltf_up=console.gltf_up or configuration.gltf_up,
-    )
-    say_unknown(console, description)
+    description = read_strict(console, (path, arguments), values["package"], values["package_path"])
     return take_world(console, robot_of(description))
 
 

@@ -9,7 +9,7 @@ import click
 
 from ..console import Console
 from .inertia_options import amount_options, check_amount, check_pose, result_options
-from .options import gltf_option, gltf_up_for
+from .options import gltf_option, gltf_up_for, scale_factors
 
 if TYPE_CHECKING:
     from ..inertia.bodies import MeshBody
@@ -40,24 +40,13 @@ def _is_number(word: str) -> bool:
     return True
 
 
-def _factors(
-    ctx: click.Context, parameter: click.Parameter, value: str
-) -> tuple[float, float, float]:
-    words = value.split()
-    if len(words) not in (1, 3) or not all(map(_is_number, words)):
-        raise click.BadParameter(f"'{value}' is neither one factor nor three", ctx, parameter)
-    factors = [float(word) for word in words]
-    x, y, z = factors * 3 if len(factors) == 1 else factors
-    return x, y, z
-
-
 @click.command("mesh", cls=_Scaled)
 @click.argument("file", metavar="FILE")
 @amount_options
 @click.option(
     "--scale",
     default="1",
-    callback=_factors,
+    callback=scale_factors,
     metavar="S | SX SY SZ",
     help="Factors, as URDF's <mesh scale>; negative ones mirror.",
 )

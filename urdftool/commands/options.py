@@ -125,6 +125,20 @@ def gltf_up_for(console: Console, file: str) -> GltfUp:
     return console.gltf_up or find_configuration(file, console.config).gltf_up
 
 
+def scale_factors(
+    ctx: click.Context, parameter: click.Parameter, value: str
+) -> tuple[float, float, float]:
+    """The factors of ``--scale``: three, or one for all."""
+    try:
+        words = [float(word) for word in value.replace(",", " ").split()]
+    except ValueError:
+        words = []
+    if len(words) not in (1, 3):
+        raise click.BadParameter(f"'{value}' is neither one factor nor three", ctx, parameter)
+    x, y, z = words * 3 if len(words) == 1 else words
+    return x, y, z
+
+
 def output_option(help_text: str) -> Callable[[F], F]:
     """``-o FILE``; ``-`` is standard output."""
     return click.option("-o", "--output", metavar="FILE", help=help_text)

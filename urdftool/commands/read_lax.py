@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..console import Console
-from .read_strict import say_unknown
+from .read_strict import read_configured, say_unknown
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
@@ -39,41 +40,23 @@ def read_lax(
     Raises:
         UrdftoolError: As ``read_description`` and ``robot_of``.
     """
-    from ..configuration import find_configuration
     from ..errors import XmlError
     from ..model.load import robot_of
-    from ..source.description import is_xacro, read_description
+    from ..source.description import is_xacro
     from ..source.document import read_file
     from ..source.well_formed import mend
 
     file = read_file(path)
-    configuration = find_configuration(path, console.config)
-    configured = {**(neighbours or {}), **configuration.packages}
-    gltf_up = console.gltf_up or configuration.gltf_up
+    given = console, path, arguments, packages, package_paths
+    read = partial(read_configured, *given, neighbours=neighbours)
     try:
-        description = read_description(
-            path,
-            arguments,
-            packages=packages,
-            package_paths=package_paths,
-            configured=configured,
-            file=file,
-            gltf_up=gltf_up,
-        )
+        description = read(file=file)
     except XmlError as error:
         mended = None if is_xacro(file) else mend(file)
         if mended is None:
             raise
         try:
-            description = read_description(
-                path,
-                arguments,
-                packages=packages,
-                package_paths=package_paths,
-                configured=configured,
-                file=mended,
-                gltf_up=gltf_up,
-            )
+            description = read(file=mended)
         except XmlError:
             raise error from None
         console.note(f"{shown(error.where)}: warning: {error.message}; lax readers pass over it")

@@ -11,6 +11,7 @@ from ..console import Console
 if TYPE_CHECKING:
     from ..model.elements import Robot
     from ..source.description import Description
+    from ..source.location import SourceFile
 
 
 def read_strict(
@@ -30,21 +31,49 @@ def read_strict(
     Raises:
         SourceError: It cannot be read, parsed or expanded.
     """
+    path, arguments = robot
+    description = read_configured(console, path, arguments, packages, package_paths)
+    say_unknown(console, description)
+    return description
+
+
+def read_configured(
+    console: Console,
+    path: str,
+    arguments: Mapping[str, str],
+    packages: Mapping[str, Path],
+    package_paths: Iterable[str],
+    *,
+    neighbours: Mapping[str, Path] | None = None,
+    file: SourceFile | None = None,
+) -> Description:
+    """Read a description as the command line and its configuration say.
+
+    Args:
+        console: The configuration that was named, and what the line says of glTF.
+        path: The description.
+        arguments: Values for its xacro arguments.
+        packages: Folders by package name, from the command line.
+        package_paths: Folders with packages below.
+        neighbours: Folders by package name that count as configured.
+        file: The file, where it has been read already.
+
+    Raises:
+        SourceError: It cannot be read, parsed or expanded.
+    """
     from ..configuration import find_configuration
     from ..source.description import read_description
 
-    path, arguments = robot
     configuration = find_configuration(path, console.config)
-    description = read_description(
+    return read_description(
         path,
         arguments,
         packages=packages,
         package_paths=package_paths,
-        configured=configuration.packages,
+        configured={**(neighbours or {}), **configuration.packages},
+        file=file,
         gltf_up=console.gltf_up or configuration.gltf_up,
     )
-    say_unknown(console, description)
-    return description
 
 
 def say_gltf(console: Console, robot: Robot) -> None:
