@@ -197,6 +197,7 @@ FIXES: dict[str, dict[str, str]] = {
         "ignition-name": SAFE,
         "plugin-class-mismatch": SAFE,
         "plugin-unknown-entity": UNSAFE,
+        "ros2-control-sim-plugin-pair": UNSAFE,
     },
     "control": {
         "transmission-unknown-joint": UNSAFE,

@@ -14,6 +14,8 @@ from ..mesh.outlines import reaches
 from ..mesh.uses import Stamp, mesh_uses, stamp
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 
+_SIMPLER = "'urdftool collision' makes simpler shapes, and measures how far off they are"
+
 _faces: dict[Stamp, int] = {}
 
 _AXES = (
@@ -75,6 +77,7 @@ def visual_mesh_as_collision(
             + (f"; so do {others} with theirs, of up to {most}" if others else "")
             + "; use primitives or simpler meshes",
             at=heavy[0][0].mesh.element.attribute_place("filename"),
+            hint=_SIMPLER,
             severity=WARNING,
         )
     if plain:
@@ -118,6 +121,7 @@ def collision_mesh_too_dense(
                 use.link,
                 f"collision mesh '{use.uri}' has {faces} triangles; simplify it to some thousand",
                 at=use.mesh.element.attribute_place("filename"),
+                hint=_SIMPLER,
                 severity=ERROR if faces > mujoco else None,
             )
 

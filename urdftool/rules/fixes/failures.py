@@ -84,11 +84,14 @@ def unknown_macro(finding: Finding) -> Proposal | None:
 
 
 def undeclared_arg(finding: Finding) -> Proposal | None:
-    """Declared, with an empty default, as the first thing in the robot."""
+    """The one that was meant; else declared, with an empty default, first in the robot."""
+    meant = _MEANT.search(finding.message)
     match = re.search(r"the argument '([\w-]+)' has no value", finding.message)
     place = finding.place
     if match is None or place.calls or "was it meant by" in finding.message:
         return None
+    if meant is not None:
+        return _in_value(finding, match[1], meant[1], False)
     file = place.file
     root = re.search(rb"<robot\b", re.sub(rb"<!--.*?-->", _blank, file.data, flags=16))
     if root is None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from ...model.elements import Inertial, Link
 from ...model.inertia_slips import is_possible
 from ...model.pose import pose_of, transpose
@@ -29,6 +31,8 @@ from .proposal import (
 )
 
 DENSITY = 1000.0
+LIGHTEST = 1e-5
+"""Mass [kg] below which a shape marks a place, and has no mass that is worth writing."""
 """What a link is taken to weigh whose mass is not written: water [kg/m³]."""
 
 _SMALL = (0.01, 1e-6)
@@ -54,7 +58,8 @@ def missing_inertial(problem: Problem, around: Around) -> Proposal | None:
     """What its shapes have at the density of water."""
     link = around.link(problem)
     lines = _of_shapes(link, around)
-    if lines is None:
+    mass = re.search(r'<mass value="([^"]*)"', " ".join(lines or ()))
+    if lines is None or mass is None or float(mass[1]) < LIGHTEST:
         return None
     return unsafe(
         f"add the <inertial> of its shapes at {DENSITY:g} kg/m³", first(link.element, *lines)
@@ -153,10 +158,11 @@ def _rewritten(link: Link, six: Six, why: str) -> Proposal | None:
     if inertial is None or inertial.inertia is None or not is_possible(six):
         return None
     element = inertial.inertia.element
+    least = 1e-12 * max(map(abs, six))
     changes = [
-        put(element, name, f"{new + 0.0:.9g}")
+        put(element, name, f"{new + 0.0 if abs(new) > least else 0:.9g}")
         for name, old, new in zip(SIX, six_of(inertial.inertia), six, strict=True)
-        if f"{new:.9g}" != f"{old:.9g}"
+        if f"{new:.9g}" != f"{old:.9g}" and max(abs(new), abs(old)) > least
     ]
     return unsafe(why, *changes) if changes else None
 

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 from ...model.gazebo_plugins import SYSTEM_PLUGINS, carried, class_of, file_of, library
+from ...source.nearby import bytes_of
+from ...source.packages import own_package
 from ..gazebo.systems import REPLACEMENTS, SYSTEMS
 from ..rule import Problem
 from .proposal import (
     Around,
     Proposal,
     element_at,
+    insert,
     meant,
     put,
     quote,
@@ -83,3 +87,42 @@ def plugin_unknown_entity(problem: Problem, around: Around) -> Proposal | None:
     if element is None or not name or re.search(r"[,\s]", element.text.strip()):
         return None
     return unsafe(f"write {name}", say(element, name))
+
+
+_RUNS = {
+    "gz_ros2_control/": ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin"),
+    "gazebo_ros2_control/": ("libgazebo_ros2_control.so", "gazebo_ros2_control"),
+}
+
+
+def ros2_control_sim_plugin_pair(problem: Problem, around: Around) -> Proposal | None:
+    """The plugin, where the package has one file of controllers, without which it fails."""
+    described = around.description
+    own = own_package(described.packages.file)
+    controls = [c for c in around.robot.ros2_controls if c.element is problem.element]
+    if own is None or described.expansion is None or not controls:
+        return None
+    runs = [v for prefix, v in _RUNS.items() if (controls[0].plugin or "").startswith(prefix)]
+    files = [path for path in sorted((own[1] / "config").glob("*.y*ml")) if _manages(path)]
+    if len(files) != 1 or not runs:
+        return None
+    file, name = runs[0]
+    lines = (
+        "<gazebo>",
+        f'\t<plugin filename="{file}" name="{name}">',
+        f"\t\t<parameters>$(find {own[0]})/config/{quote(files[0].name)}</parameters>",
+        "\t</plugin>",
+        "</gazebo>",
+    )
+    return unsafe(
+        f"add it with the controllers of config/{files[0].name}",
+        insert(around.robot.element, *lines),
+    )
+
+
+def _manages(path: Path) -> bool:
+    """Whether a file has the parameters of a controller_manager."""
+    try:
+        return re.search(rb"^\W*controller_manager\W*:", bytes_of(path), re.MULTILINE) is not None
+    except OSError:
+        return False
