@@ -32,6 +32,7 @@ CASES = [
     pytest.param(MIRA, "thousandfold_mass", ("pitch_M2_link",), {}, "too-dense", marks=slow),
     pytest.param(LASER, "thousandfold_mass", ("link_left_wheel",), {}, "too-dense", marks=slow),
     pytest.param(MIRA, "millimetres", ("base_link",), {}, "too-large", marks=slow),
+    pytest.param(BASE, "millimetres", ("front_left_wheel_link",), {}, "too-large", marks=slow),
     pytest.param("husky/husky.urdf", "collision_in_millimetres", ("base_link",), {}, "too-large", marks=slow),
     pytest.param("a1/a1.urdf", "collision_in_millimetres", ("trunk",), {}, "too-large", marks=slow),
     pytest.param(ARM, "overlapping", ("link_04", (0.0, 0.0, -1.2)), {}, "parts-collide", marks=slow),

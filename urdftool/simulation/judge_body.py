@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..model.elements import Robot
+from ..errors import UrdftoolError
+from ..meshes.outline import outline
+from ..model.elements import Mesh, Robot
 from .bodies import Bodies, Body, mass_of
 from .extent import extent_of
 from .fault import Fault
@@ -48,6 +50,7 @@ def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
             yield from judge_size(robot, robot.link[name], run)
     yield from _unweighed(robot, bodies)
     yield from _giants(robot, bodies)
+    yield from _giant_looks(robot, bodies)
     for difference in run.recording.read_back:
         if difference.name in told:
             continue
@@ -210,3 +213,35 @@ def _giants(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
                 'its mesh is in millimetres; scale it with <mesh scale="0.001 0.001 0.001">',
                 "mesh-in-millimetres",
             )
+
+
+def _giant_looks(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
+    """Meshes that are seen in millimetres on a robot that touches in metres."""
+    source = robot.source
+    least = max(LARGEST, 30 * bodies.size)
+    if source is None or not bodies.size:
+        return
+    for name in (name for body in bodies.bodies for name in body.links):
+        for visual in robot.link[name].visuals:
+            mesh = visual.geometry
+            if not isinstance(mesh, Mesh):
+                continue
+            try:
+                found = outline(source.resolve(mesh.filename), source.gltf_up)
+            except UrdftoolError:
+                continue  # what is only seen need not be there
+            if found is None:
+                continue
+            edges = (np.array(found.high) - np.array(found.low)) * np.abs(mesh.scale)
+            if (size := float(edges.max())) > least:
+                yield Fault(
+                    "too-large",
+                    f"what is seen of link '{name}' is {size:,.0f} m large, and the robot "
+                    f"{bodies.size:.3g} m",
+                    mesh.place,
+                    "link",
+                    name,
+                    'its mesh is in millimetres; scale it with <mesh scale="0.001 0.001 0.001">',
+                    "mesh-in-millimetres",
+                )
+                break
