@@ -2,9 +2,12 @@
 
 import json
 import os
+import random
+import re
 import shutil
 import struct
 from pathlib import Path
+from xml.parsers import expat
 
 import pytest
 
@@ -259,3 +262,52 @@ def test_a_text_becomes_the_same_triangles(write, urdftool):
     path = write("r.urdf", ROBOT.format("arm.stl"))
     assert urdftool("lint", path, "--select", "ascii-stl", "--fix", "--no-cache").code == 0
     assert _triangles(Path("arm.stl").read_bytes()) == _triangles(INVERTED.read_bytes())
+
+
+def test_nobody_is_looked_for_in_a_disk_full_of_files(write, urdftool, monkeypatch):
+    from urdftool.rules.fixes import elsewhere
+
+    monkeypatch.setattr(elsewhere, "_MOST_FILES", 2)
+    write("arm.stl", INVERTED.read_bytes())
+    write("notes/one.txt", "x")
+    path = write("r.urdf", ROBOT.format("arm.stl"))
+    result = urdftool("-v", "lint", path, "--select", "inverted-mesh", *FIX)
+    assert "too many files around it" in result.err
+    assert Path("arm.stl").read_bytes() == INVERTED.read_bytes()
+
+
+PIECES = [
+    *("", " ", "\n", "\t", "<!-- c -->", "\n  ", "\n\n", "<?pi x?>"),
+    "<!-- <depend>mesh_store</depend> -->",
+]
+NEEDS = [
+    *("<depend>tf2</depend>", "<exec_depend>x</exec_depend>", "<run_depend>x</run_depend>"),
+    *("<buildtool_depend>catkin</buildtool_depend>", "<license>A &amp; é</license>"),
+    *("<export/>", "<export></export>", "<export>\n    <x/>\n  </export>"),
+]
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_random_manifests_get_what_they_lack_and_lose_nothing(cart, urdftool, seed):
+    chance = random.Random(seed)
+    inside = chance.sample(NEEDS, chance.randrange(len(NEEDS)))
+    inside = [i for i in inside if "export" not in i] + [i for i in inside if "export" in i][:1]
+    spaced = "".join(
+        "".join(chance.choices(PIECES, k=chance.randrange(3))) + piece
+        for piece in ("<name>cart</name>", *inside, "")
+    )
+    how = chance.choice(["", " format='1'", ' format="2"', ' format="3"'])
+    mark, end = chance.choice(["", "\ufeff"]), chance.choice(["\n", "\r\n"])
+    before = f"{mark}<package{how}>{spaced}</package>".replace("\n", end).encode()
+    Path("cart/package.xml").write_bytes(before)
+    path = cart[0]
+    words = (*DECLARED[:1], "package", "--target", "ros2,gz", *DECLARED[4:], *FIX)
+    assert urdftool("lint", path, *words).code == 0
+    after = Path("cart/package.xml").read_bytes()
+    expat.ParserCreate().Parse(after, True)
+    added = re.search(rb"<(run|exec)_depend>mesh_store</(run|exec)_depend>", after)
+    assert added is not None
+    assert (added[1] == b"run") == (how in ("", " format='1'"))
+    rest = re.sub(rb"(\r?\n[ \t]*)?<\w+_depend>mesh_store</\w+_depend>", b"", after)
+    assert rest == before
+    assert "Nothing to fix." in urdftool("lint", path, *words).err

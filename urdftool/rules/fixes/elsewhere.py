@@ -13,7 +13,7 @@ from .proposal import Around, RefusedError
 DESCRIPTIONS = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf")
 _USES = (".yaml", ".yml", ".json", ".py", ".launch", ".lua", ".rviz", ".cpp", ".hpp", ".h", ".srdf")
 
-_MOST_FILES, _MOST_BYTES = 2000, 2_000_000
+_MOST_FILES, _MOST_BYTES = 10_000, 2_000_000
 
 
 def check_alone(around: Around, word: str, *, robots: bool, but: Collection[str] = ()) -> None:
@@ -32,6 +32,10 @@ def check_alone(around: Around, word: str, *, robots: bool, but: Collection[str]
     mine = {os.path.realpath(file.path) for file in around.description.files}
     mine.update(map(os.path.realpath, but))
     for number, path in enumerate(_files(around)):
+        if number >= _MOST_FILES:
+            raise RefusedError(
+                f"there are too many files around it to know that none names '{word}'"
+            )
         named = path.endswith(_USES) or (path.endswith(DESCRIPTIONS) and robots)
         if not named or os.path.realpath(path) in mine:
             continue
@@ -39,7 +43,7 @@ def check_alone(around: Around, word: str, *, robots: bool, but: Collection[str]
             found = pattern.search(bytes_of(path)[:_MOST_BYTES])
         except OSError:
             continue
-        if found is not None or number > _MOST_FILES:
+        if found is not None:
             raise RefusedError(f"{shown_path(path)} names '{word}', too")
 
 
