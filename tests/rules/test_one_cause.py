@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.conftest import FIXTURES
 from urdftool import check
 
 LINK = '<link name="{0}"><inertial><mass value="1"/></inertial></link>\n'
@@ -79,3 +80,87 @@ def test_an_srdf_of_another_description_is_not_compared(write):
     assert check(other, select=("srdf-unknown-joint",), targets=("moveit",)) == []
     Path("arm.srdf").rename("both.srdf")
     assert len(check(other, select=("srdf-unknown-joint",), targets=("moveit",))) == 1
+
+
+SEEN = """<link name="l{0}"><inertial><origin xyz="{1}"/><mass value="{2}"/></inertial>
+<visual><geometry><mesh filename="{3}"/></geometry></visual>
+<collision><geometry><mesh filename="{3}"/></geometry></collision></link>
+"""
+
+
+def meshes(count, mesh, com="0 0 0", mass="1"):
+    return (
+        f"<robot name='r'>{''.join(SEEN.format(n, com, mass, mesh) for n in range(count))}</robot>"
+    )
+
+
+def block(faces):
+    """A box of a decimetre as binary STL, with its first triangle as often as is wanted."""
+    data = (FIXTURES / "rules" / "ascii-stl" / "meshes" / "arm.stl").read_bytes()
+    rows = data[84:] + data[84:134] * faces
+    return data[:80] + (len(rows) // 50).to_bytes(4, "little") + rows
+
+
+def test_dense_visual_meshes_that_collide_are_one_finding_that_names_the_links(write):
+    write("dense.stl", block(6000))
+    path = write("r.urdf", meshes(5, "dense.stl"))
+    (finding,) = check(path, select=("visual-mesh-as-collision",))
+    assert finding.severity.label == "warning"
+    assert "'l0' collides" in finding.message
+    assert "so do 'l1', 'l2', 'l3', 'l4' with theirs" in finding.message
+
+
+@pytest.mark.parametrize(("count", "findings"), [(8, 1), (4, 4)])
+def test_many_odd_densities_are_one_remark(write, count, findings):
+    write("arm.stl", block(0))
+    path = write("r.urdf", meshes(count, "arm.stl", mass="1.6"))
+    found = check(path, select=("implausible-density",))
+    assert len(found) == findings
+    assert all(f"'l{number}'" in "".join(map(str, found)) for number in range(count))
+
+
+@pytest.mark.parametrize(("count", "findings"), [(8, 1), (4, 4)])
+def test_many_centres_just_outside_are_one_remark(write, count, findings):
+    write("arm.stl", block(0))
+    path = write("r.urdf", meshes(count, "arm.stl", com="0.07 0 0"))
+    found = check(path, select=("com-outside-geometry",))
+    assert {finding.severity.label for finding in found} == {"info"}
+    assert len(found) == findings
+    assert all(f"'l{number}'" in "".join(map(str, found)) for number in range(count))
+
+
+def test_files_of_a_folder_of_another_machine_are_one_finding_with_one_fix(write, tmp_path):
+    names = [f"arm_{number}.stl" for number in range(6)]
+    for name in names:
+        write(f"cart/meshes/{name}", block(0))
+    write("cart/package.xml", "<package><name>cart</name></package>")
+    robot = meshes(6, "/home/me/cart/meshes/arm_NUMBER.stl")
+    for number in range(6):
+        robot = robot.replace("NUMBER", str(number), 2)
+    path = write("cart/r.urdf", robot)
+    (finding,) = check(path, select=("absolute-path",), fixes=True)
+    assert "5 more are wanted from /home/me/cart/meshes" in finding.message
+    assert len(finding.fix.replacements) == 12
+
+
+TWO = """<transmission name="t{0}"><type>transmission_interface/SimpleTransmission</type>
+<joint name="j{0}"><hardwareInterface>a</hardwareInterface><hardwareInterface>b</hardwareInterface>
+</joint></transmission>
+"""
+
+
+def test_several_interfaces_are_one_finding_that_names_the_joints(write):
+    text = chain(4, 'lower="-1" upper="1" effort="9" velocity="9"')
+    text = text.replace("</robot>", "".join(map(TWO.format, ["l0", "l1", "l2"])) + "</robot>")
+    rule = ("several-hardware-interfaces",)
+    (finding,) = check(write("r.urdf", text), select=rule, targets=("ros1",))
+    assert "joint 'jl0'" in finding.message
+    assert "so it does of 'jl1', 'jl2'" in finding.message
+
+
+def test_followers_that_are_fixed_are_one_finding(write):
+    text = chain(4, "", "fixed").replace("<limit />", '<mimic joint="lead"/>')
+    lead = JOINT.format("l4", "end", "revolute", 'lower="0" upper="1"').replace("jl4", "lead")
+    text = text.replace("</robot>", LINK.format("end") + lead + "</robot>")
+    (finding,) = check(write("r.urdf", text), select=("mimic-dof-mismatch",))
+    assert "'jl0' is fixed and follows another; so are 'jl1', 'jl2', 'jl3'" in finding.message

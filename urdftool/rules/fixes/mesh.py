@@ -10,7 +10,7 @@ from pathlib import Path
 from ...model.elements import Mesh
 from ...source.document import Element
 from ...source.packages import own_package
-from ..mesh.uris import malformation
+from ..mesh.uris import folder_of, malformation
 from ..mesh.uses import MeshUse, actual_case, mesh_uses
 from ..rule import Problem
 from .proposal import Around, Change, Proposal, attribute_at, first, put, safe, sub, unsafe
@@ -118,6 +118,10 @@ def absolute_path(problem: Problem, around: Around) -> Proposal | None:
         return None if uri is None else put(use.mesh.element, "filename", uri)
 
     changes = _everywhere(problem, around, change)
+    if " more are wanted from " in problem.message:
+        folder = problem.message.rpartition(" more are wanted from ")[2]
+        uses = [use for use in uses_of(around, None) if use.is_absolute and not use.exists]
+        changes = list(filter(None, [change(use) for use in uses if folder_of(use) == folder]))
     return unsafe("write it as a package:// URI", *changes) if changes else None
 
 

@@ -123,14 +123,18 @@ def inertia_below_geometry(robot: Robot, *, least: float = 0.12) -> Iterator[Pro
 
 
 @rule(WARNING, effects={"every simulator": "takes it; the link tips over or turns off centre"})
-def com_outside_geometry(robot: Robot, *, margin: float = 0.02) -> Iterator[Problem]:
+def com_outside_geometry(
+    robot: Robot, *, margin: float = 0.02, together: float = 6
+) -> Iterator[Problem]:
     """A link's centre of mass is outside the box around its shapes.
 
     The mean of a body's mass is inside its hull. Millimetres, or the pose of another frame, put it
     elsewhere; the link then falls to a side it should not. ``margin`` is the part of the box's
     diagonal that is let pass, of a mesh twice that. A mesh often shows the cover and not the motor
-    that weighs most, so there it is a warning only beyond half a diagonal.
+    that weighs most, so there it is a warning only beyond half a diagonal; more than ``together``
+    that are none are one finding, which names the links.
     """
+    remarks: list[tuple[Problem, str]] = []
     reach = reaches(robot)
     for link in robot.links:
         inertial = link.inertial
@@ -150,13 +154,22 @@ def com_outside_geometry(robot: Robot, *, margin: float = 0.02) -> Iterator[Prob
         ]
         if off:
             distance, axis = max(off)
-            yield Problem(
+            less = has_mesh and distance < diagonal / 2
+            problem = Problem(
                 link,
                 f"centre of mass of link '{link.name}' is {distance:.3g} m outside its shapes "
                 f"along {'xyz'[axis]}; they reach from {lower[axis]:.4g} to {upper[axis]:.4g} m",
                 at=inertial.origin if inertial.origin is not None else inertial,
-                severity=INFO if has_mesh and distance < diagonal / 2 else None,
+                severity=INFO if less else None,
             )
+            if less:
+                remarks.append((problem, f"'{link.name}' by {distance:.3g} m along {'xyz'[axis]}"))
+            else:
+                yield problem
+    if len(remarks) > together:
+        remarks[0][0].message += f"; so are those of {', '.join(said for _, said in remarks[1:])}"
+        del remarks[1:]
+    yield from (problem for problem, _ in remarks)
 
 
 @rule(INFO, effects={"every simulator": "hangs the mass on the joint's axis"})

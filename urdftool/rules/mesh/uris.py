@@ -14,26 +14,45 @@ from .uses import MeshUse, mesh_uses
 
 
 @rule(WARNING, effects={"every reader": "finds the file on one machine only"})
-def absolute_path(robot: Robot, description: Description) -> Iterator[Problem]:
+def absolute_path(
+    robot: Robot, description: Description, *, together: float = 3
+) -> Iterator[Problem]:
     r"""A mesh is named by a path from the root of a disk.
 
     ``/home/…``, ``C:\…`` or ``file:///…`` is right on the machine it was written on. What xacro
     makes of ``file://$(find NAME)`` is not meant: that is found anew on every machine. Where the
-    file is not on this machine either, it is an error.
+    file is not on this machine either, it is an error, and more than ``together`` such files of one
+    folder are one.
     """
     told: set[str] = set()
+    lost: dict[str, list[Problem]] = {}
     for use in mesh_uses(robot, description):
         if not use.is_absolute or use.uri in told or "$" in use.written:
             continue
         told.add(use.uri)
+        folder = folder_of(use)
         name = use.uri.replace("\\", "/").rstrip("/").rpartition("/")[2]
-        yield Problem(
+        problem = Problem(
             use.link,
             f"mesh '{use.uri}' is a path of one machine{'' if use.exists else ', and not there'}; "
             f"write package://PACKAGE/meshes/{name}",
             at=use.mesh.element.attribute_place("filename"),
             severity=None if use.exists else ERROR,
         )
+        if use.exists:
+            yield problem
+        else:
+            lost.setdefault(folder, []).append(problem)
+    for folder, problems in lost.items():
+        if len(problems) > together:
+            problems[0].message += f"; {len(problems) - 1} more are wanted from {folder}"
+            del problems[1:]
+        yield from problems
+
+
+def folder_of(use: MeshUse) -> str:
+    """The folder of a mesh as it is named."""
+    return use.uri.replace("\\", "/").rstrip("/").rpartition("/")[0]
 
 
 @rule(ERROR, effects={"every reader": "may or may not find the file"})
