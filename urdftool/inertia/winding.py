@@ -25,6 +25,9 @@ FAR = 1.8
 
 _PAIRS_AT_ONCE = 400_000
 
+_DENSE = 60_000
+"""Points times boxes at once: what the cache holds, and too little for BLAS to start threads."""
+
 
 @dataclass(frozen=True, eq=False)
 class Boxes:
@@ -78,7 +81,7 @@ def winding_numbers(points: Array, boxes: Boxes) -> Array:
         boxes: The surface, from ``boxes_of``.
     """
     result = np.empty(len(points))
-    step = max(1, 4_000_000 // max(1, len(boxes.radius)))
+    step = max(1, _DENSE // max(1, len(boxes.radius)))
     for begin in range(0, len(points), step):
         result[begin : begin + step] = _chunk(points[begin : begin + step], boxes)
     return result / (4 * np.pi)
