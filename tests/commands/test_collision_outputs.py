@@ -1,4 +1,4 @@
-"""What ``urdftool collision`` may not write over is refused before it writes anything."""
+"""What ``urdftool collision`` writes and keeps: nothing over an input, nothing by chance."""
 
 import os
 from pathlib import Path
@@ -88,3 +88,42 @@ def test_pieces_of_before_are_replaced(urdftool, arm):
     done = urdftool(*words, "--max-vertices", "8")
     assert done.code == 0, done.err
     assert Path("arm/arm.urdf").read_bytes() == first
+
+
+def test_links_whose_meshes_cannot_be_used_are_named(urdftool, write):
+    write("box.stl", stl(*noisy("box", (0.3, 0.2, 0.1))))
+    write("bad.stl", b"")
+    links = (("a", "box.stl", ""), ("left hand", "bad.stl", ""), ("c", "bad.stl", ' scale="2 2 2"'))
+    done = urdftool("collision", write("r.urdf", robot(*links)), "-o", "out.urdf", *HULL)
+    assert done.code == 2
+    assert "--skip-link 'left hand' --skip-link c leaves these links as they are" in done.err
+
+
+def test_a_robot_without_meshes_is_said_to_have_none(urdftool, write):
+    path = write("r.urdf", '<robot name="r"><link name="a"/></robot>')
+    done = urdftool("collision", path, "-o", "out.urdf", *HULL)
+    assert done.code == 0
+    assert "no link has a mesh" in done.err
+
+
+@pytest.mark.parametrize("way", ["robot", "mesh"])
+def test_what_comes_of_a_killed_coacd_is_said_and_not_kept(urdftool, write, monkeypatch, way):
+    from urdftool.collision import decompose
+
+    killer = "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"
+    popen = decompose.subprocess.Popen
+    monkeypatch.setattr(
+        decompose.subprocess,
+        "Popen",
+        lambda words, **more: popen([words[0], "-c", killer], **more),
+    )
+    mesh = write("bracket.stl", stl(*l_profile()))
+    options = ("--method", "coacd", "--cache-dir", "kept", "-o")
+    if way == "mesh":
+        done = urdftool("collision", "mesh", mesh, *options, "out.stl")
+    else:
+        path = write("r.urdf", robot(("a", mesh, "")))
+        done = urdftool("collision", path, *options, "out.urdf", "-j", "1")
+    assert done.code == 0, done.err
+    assert "CoACD was killed, perhaps for want of memory" in done.err
+    assert [file for _, _, files in os.walk("kept") for file in files] == []

@@ -12,7 +12,7 @@ from typing import Any
 from ..errors import MeshError, UrdftoolError
 from ..source.description import GltfUp
 from .piece import Piece, piece_of
-from .settings import Settings
+from .settings import KILLED, Settings
 
 Vector = tuple[float, float, float]
 
@@ -63,6 +63,11 @@ class Result:
     def error(self) -> float:
         """The Hausdorff distance relative to the size."""
         return float(self.measures["error"])
+
+    @property
+    def lasting(self) -> bool:
+        """Whether the next time gives the same: no process was killed from outside."""
+        return not any(note.startswith(KILLED) for note in self.notes)
 
     def as_bytes(self) -> bytes:
         """All of it as text that :func:`result_of` reads."""

@@ -26,6 +26,7 @@ from .convex import capped_hull
 from .piece import Piece, mesh_piece
 from .quadric import simplify
 from .remesh import common, remesh
+from .settings import KILLED
 from .surface import Prepared, prepare
 
 TRIANGLES = 2000
@@ -181,6 +182,7 @@ def run_child(vertices: Points, faces: Faces, options: dict[str, Any]) -> list[P
     text = np.frombuffer(json.dumps(options).encode(), dtype=np.uint8)
     np.savez(stream, vertices=vertices, faces=faces, options=text)
     limit = options["time_limit"]
+    begin = _children_time()
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": "1"}
     child = subprocess.Popen(
         [sys.executable, "-m", "urdftool.collision.coacd_child"],
@@ -198,7 +200,8 @@ def run_child(vertices: Points, faces: Faces, options: dict[str, Any]) -> list[P
             child.kill()
             child.communicate()
     if child.returncode:
-        raise _death(child.returncode, err.decode("utf-8", "replace"))
+        in_time = _children_time() - begin < limit
+        raise _death(child.returncode, err.decode("utf-8", "replace"), in_time=in_time)
     try:
         with np.load(io.BytesIO(out)) as found:
             return [found[f"v{index}"] for index in range(len(found.files) // 2)]
@@ -206,7 +209,9 @@ def run_child(vertices: Points, faces: Faces, options: dict[str, Any]) -> list[P
         raise DecompositionError("CoACD ended without a result") from error
 
 
-def _death(code: int, err: str) -> UrdftoolError:
+def _death(code: int, err: str, *, in_time: bool) -> UrdftoolError:
+    if code == -getattr(signal, "SIGKILL", 9) and in_time:
+        return DecompositionError(KILLED)
     if code < 0 and -code in (getattr(signal, "SIGXCPU", 0), signal.SIGKILL):
         return DecompositionError(_TOO_LONG)
     lines = [line for line in err.strip().splitlines() if line.strip()]

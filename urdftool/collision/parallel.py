@@ -67,8 +67,9 @@ def compute_all(
         key = ordered[index]
         result: Result | UrdftoolError
         if isinstance(outcome, bytes):
-            cache.write(key, outcome)
             result = result_of(outcome)
+            if result.lasting:
+                cache.write(key, outcome)
         else:
             result = outcome
         found.update(dict.fromkeys(groups[key], result))

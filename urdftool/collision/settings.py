@@ -11,6 +11,9 @@ METHODS = ("auto", "primitive", "hull", "coacd", "simplify")
 FEW_HULLS = 32
 """Convex pieces that ``auto`` may make of a mesh."""
 
+KILLED = "CoACD was killed, perhaps for want of memory"
+"""Said of a process that was ended from outside; the next time it may be otherwise."""
+
 
 @dataclass(frozen=True)
 class Settings:

@@ -72,9 +72,9 @@ def command(
         outcome = attempt(task)
         if isinstance(outcome, UrdftoolError):
             raise outcome
-        if key is not None:
-            cache.write(key, outcome)
         result = result_of(outcome)
+        if key is not None and result.lasting:
+            cache.write(key, outcome)
     files = _write(file, result, output, values["overwrite"])
     settings = task.settings
     row = report.Row(

@@ -6,6 +6,7 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
     from ..model.elements import Robot
 
 Values = dict[str, Any]
+
+_FEW = 6
 
 
 @dataclass
@@ -64,8 +67,7 @@ def one(
     job = _planned(console, path, robot, wishes, values["output"], values)
     cache = cache_of(values)
     results = _compute(console, job.tasks, cache, values)
-    problems = [found for found in results.values() if isinstance(found, UrdftoolError)]
-    _refuse(console, problems)
+    _refuse_failed(console, job, results)
     done = {task: found for task, found in results.items() if not isinstance(found, UrdftoolError)}
     _tell(console, [_write(console, job, done)], values)
     if values["picture"]:
@@ -126,10 +128,7 @@ def fleet(
     reports = []
     for job in jobs:
         try:
-            _refuse(
-                console,
-                [f for t in job.tasks if isinstance(f := results[t], UrdftoolError)],
-            )
+            _refuse_failed(console, job, results)
             own = {t: f for t in job.tasks if not isinstance(f := results[t], UrdftoolError)}
             reports.append(_write(console, job, own))
         except UrdftoolError as error:
@@ -192,14 +191,27 @@ def _place(path: str, output: str | None, values: Values) -> Place:
     )
 
 
-def _refuse(console: Console, problems: Sequence[UrdftoolError]) -> None:
+def _refuse_failed(console: Console, job: Job, results: dict[Task, Result | UrdftoolError]) -> None:
+    """Say which meshes could not be simplified, and the links that want them."""
+    problems, links = [], []
+    for item in job.plans:
+        failed = [f for t in tasks_of([item]) if isinstance(f := results[t], UrdftoolError)]
+        problems += failed
+        links += [item.link.name] * bool(failed)
+    _refuse(console, problems, links)
+
+
+def _refuse(console: Console, problems: Sequence[UrdftoolError], links: Sequence[str] = ()) -> None:
     """Say all that is wrong with meshes, the last as the error that ends the work."""
     unique = list({str(problem): problem for problem in problems}.values())
     for problem in unique[:-1]:
         console.error(problem)
     if unique:
         last = unique[-1]
-        last.notes = (*last.notes, "nothing was written; --skip-link NAME leaves a link as it is")
+        names = links if 0 < len(links) <= _FEW else ("NAME",)
+        skips = " ".join(f"--skip-link {quote(name)}" for name in names)
+        which = "leaves a link as it is" if len(names) == 1 else "leaves these links as they are"
+        last.notes = (*last.notes, f"nothing was written; {skips} {which}")
         raise last
 
 

@@ -223,6 +223,8 @@ def summary(report: Report) -> str:
     missed = sum(not row.within for row in rows)
     cached = sum(row.result.cached for row in rows)
     words = [f"{len(rows)} mesh{'es' * (len(rows) != 1)} to {pieces} piece{'s' * (pieces != 1)}"]
+    if report.output and not rows:
+        words.append("no link has a mesh to work on; the robot is as it was")
     if missed:
         words.append(f"{missed} not within the error")
     if cached:
