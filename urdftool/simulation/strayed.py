@@ -42,8 +42,11 @@ HOUSING = 0.25
 FIT = 0.2
 """How much more of a collision is where its link is seen, if it is moved to the middle of that."""
 
-FREE = 0.3
+FREE = 0.15
 """How much of a collision is where nothing is seen, of its link or the other, to be misplaced."""
+
+ROUGH = 0.05
+"""How far volumes that are measured by points may be off."""
 
 SHARE = 0.1
 """How much of the smaller of two neighbours is in both, for one to be misplaced."""
@@ -86,7 +89,7 @@ def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | 
         if more > FIT and (free > FREE or _is_nearer_mass(part, box, off)):
             return (
                 f"moved by {np.linalg.norm(off):.3g} m, onto the middle of what is seen of it, "
-                f"{more:.0%} more of the collision of '{link}' would be in it, less in the other"
+                f"{more:.0%} more of the collision of '{link}' would be in that"
             )
     if around:
         return None
@@ -133,11 +136,11 @@ def _fits_better(touches: Solids, off: Array, seen: Solids, theirs: Solids) -> f
         touches: The collision.
         off: How it is moved [m].
         seen: The visual.
-        theirs: What touches of the neighbour, of which it has to share less when it is moved.
+        theirs: What touches of the neighbour, of which it may share no more when it is moved.
     """
     pose = Pose(translation=(float(off[0]), float(off[1]), float(off[2])))
     moved = Solids(solid.moved(pose) for solid in touches.solids)
-    if not moved.shared(theirs) < touches.shared(theirs):
+    if moved.shared(theirs) > (1 + ROUGH) * touches.shared(theirs):
         return 0.0
     return (moved.shared(seen) - touches.shared(seen)) / touches.volume
 
