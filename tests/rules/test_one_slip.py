@@ -2,6 +2,7 @@
 
 import pytest
 
+from urdftool.errors import SourceError
 from urdftool.lint.run import check
 
 BOX = '<{0}><origin xyz="{1}"/><geometry><box size="0.1 0.1 0.1"/></geometry></{0}>'
@@ -145,3 +146,33 @@ def test_the_parameter_that_was_meant_is_asked_for(tmp_path):
 <xacro:bar name="a" miror="1"/>"""
     (found,) = _found(tmp_path, robot, "macro-arguments-mismatch", "robot.urdf.xacro")
     assert found.message.endswith("'miror'; did you mean 'mirror'?")
+
+
+def test_the_argument_that_was_meant_is_asked_for_and_written(tmp_path, urdftool):
+    robot = (
+        '\n<xacro:arg name="right_gripper" default="true"/>\n<link name="$(arg rigth_gripper)"/>'
+    )
+    (found,) = _found(tmp_path, robot, "undeclared-arg", "robot.urdf.xacro")
+    assert found.message.endswith("(declared: right_gripper); did you mean 'right_gripper'?")
+    path = tmp_path / "robot.urdf.xacro"
+    urdftool("lint", path, "--fix", "--unsafe-fixes", "--select", "undeclared-arg")
+    assert path.read_text().count("$(arg right_gripper)") == 1
+    assert path.read_text().count("<xacro:arg") == 1
+
+
+@pytest.mark.parametrize(("size", "weighed"), [("0.001", 1), ("0.1", 2)])
+def test_a_marker_gets_no_mass(tmp_path, urdftool, size, weighed):
+    box = f'<geometry><box size="{size} {size} {size}"/></geometry>'
+    robot = f'<link name="base"><visual>{box}</visual></link>{_link("arm")}'
+    robot += _joint("swing", "base", "arm")
+    assert len(_found(tmp_path, robot, "missing-inertial")) == 2
+    path = tmp_path / "robot.urdf"
+    urdftool("lint", path, "--fix", "--unsafe-fixes", "--select", "missing-inertial")
+    assert path.read_text().count("<inertial>") == weighed
+
+
+def test_an_srdf_is_sent_to_its_robot(tmp_path):
+    path = tmp_path / "arm.srdf"
+    path.write_text('<robot name="arm"><group name="all"><joint name="a"/></group></robot>')
+    with pytest.raises(SourceError, match="is an SRDF, which is checked with the robot"):
+        check(path)

@@ -163,6 +163,13 @@ def _lint_once(
         if description.expansion is not None and not (root.child("link") or root.child("joint")):
             report.skipped = "only macros: it has no link of its own"
             return report
+        if str(path).endswith(".srdf") and root.tag == "robot" and not root.child("link"):
+            report.error = SourceError(
+                "is an SRDF, which is checked with the robot that it is for: lint the URDF or "
+                "xacro beside it",
+                path=str(path),
+            )
+            return report
         if root.tag == "robot":
             robot = read_robot(root)
             robot.source = description

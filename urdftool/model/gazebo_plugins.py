@@ -331,6 +331,6 @@ def is_for_gz(element: Element) -> bool:
 def is_for_classic(element: Element) -> bool:
     """Whether a plugin is known to be one of Gazebo Classic."""
     words = library(element)
-    return words.startswith(("gazebo_", "hector_gazebo_")) or any(
+    return words.startswith(("gazebo_", "hector_gazebo_", "rotors_gazebo_")) or any(
         words in table for table in (SYSTEM_PLUGINS, SENSOR_PLUGINS, MIMIC_PLUGINS)
     )

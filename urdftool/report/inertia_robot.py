@@ -75,7 +75,7 @@ def _compared(comparison: Comparison | None, item: LinkReview) -> tuple[str, str
     return (
         " ".join(f"{ratio:.3g}" for ratio in comparison.ratio),
         "–" if comparison.angle is None else f"{math.degrees(comparison.angle):.1f}",
-        f"{comparison.distance * 1000:.3g}",
+        f"{comparison.distance * 1000:.3g}" if comparison.distance > 1e-8 else "0",
         f"{comparison.density:.4g}",
     )
 
@@ -157,7 +157,7 @@ def summary(reviews: Sequence[LinkReview]) -> str:
     counts = {
         label: sum(item.status == status for item in reviews)
         for status, label in (
-            ("wrong", "cannot be"),
+            ("wrong", "that cannot be"),
             ("doubtful", "doubtful"),
             ("missing", "without inertial"),
             ("incomplete", "incomplete"),

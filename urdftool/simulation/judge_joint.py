@@ -51,6 +51,23 @@ def judge_joints(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
             rule="zero-outside-limits",
             fails=False,
         )
+    if not recording.engine.startswith("MuJoCo"):  # which closes them
+        yield from _open(robot)
+
+
+def _open(robot: Robot) -> Iterator[Fault]:
+    """Joints of SDF in ``<gazebo>``, which close loops; what is simulated is the tree of URDF."""
+    for block in robot.gazebo:
+        for element in () if block.reference else block.element.all("joint"):
+            yield Fault(
+                "loop-open",
+                f"joint '{element.get('name') or ''}' in <gazebo> closes a loop, and is not "
+                "simulated; the joints of the loop are held one by one",
+                element.place,
+                "joint",
+                element.get("name") or "",
+                fails=False,
+            )
 
 
 def _joint(robot: Robot, name: str) -> Joint:

@@ -101,7 +101,7 @@ def _of_names(failure: Failure) -> tuple[str, str] | None:
         return "undeclared-arg", (
             f"the argument '{name}' has no value and no <xacro:arg> before it declares it; "
             f"give {name}:=VALUE, or declare it with a default "
-            f"(declared: {known}){_nearest(name, set(result.given), 'was it meant by')}"
+            f"(declared: {known}){_argument_meant(name, result)}"
         )
     if "circular variable definition" in text:
         return "circular-property", text.split(" Consider ")[0]
@@ -267,6 +267,11 @@ def _in_expression(failed_text: str | None) -> str:
     if not failed_text:
         return ""
     return f", in ${{{failed_text}}}" if "$" not in failed_text else f", in {failed_text}"
+
+
+def _argument_meant(name: str, result: Expansion) -> str:
+    given = _nearest(name, set(result.given), "was it meant by")
+    return given or _nearest(name, set(result.arguments))
 
 
 def _nearest(name: str, known: set[str], asking: str = "did you mean") -> str:

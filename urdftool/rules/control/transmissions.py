@@ -253,6 +253,8 @@ def _in_loops(robot: Robot) -> Iterator[str]:
             sides = []
             for end in (joint.child("parent"), joint.child("child")):
                 name = end.text.strip() if end is not None else ""
+                if name not in robot.link and name != "world":
+                    yield from robot.joint  # which of them are in the loop is not known
                 sides.append({name, *robot.tree.ancestors(name)} if name in robot.link else set())
             for name in sides[0] ^ sides[1]:
                 above = robot.tree.parent_joint(name)

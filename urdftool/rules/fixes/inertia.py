@@ -31,9 +31,10 @@ from .proposal import (
 )
 
 DENSITY = 1000.0
+"""What a link is taken to weigh whose mass is not written: water [kg/m³]."""
+
 LIGHTEST = 1e-5
 """Mass [kg] below which a shape marks a place, and has no mass that is worth writing."""
-"""What a link is taken to weigh whose mass is not written: water [kg/m³]."""
 
 _SMALL = (0.01, 1e-6)
 """Mass [kg] and moments [kg·m²] of a frame that a simulator wants to weigh something."""
