@@ -1,6 +1,7 @@
 """What fills a cup is told apart from what sticks out, or is cut short."""
 
 import json
+import re
 
 import jsonschema
 import numpy as np
@@ -147,3 +148,9 @@ def test_check_says_it_as_well(urdftool, write, shape):
     done = urdftool("collision", path, "--check")
     assert "fills a hollow that is open to the outside" in done.err
     assert done.code == int("cyl" in shape)
+
+
+def test_a_hollow_of_metres_is_told_in_plain_digits(urdftool):
+    done = urdftool("collision", "mesh", ROOT / "fixtures/meshes/open_box.stl", "--method", "hull",
+                    "--no-cache")  # fmt: skip
+    assert re.search(r"\(up to (99\d|100\d) mm deep\)", done.err)

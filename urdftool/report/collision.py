@@ -163,6 +163,12 @@ def aligned(lines: Sequence[Sequence[str]]) -> str:
     )
 
 
+def millimetres(length: float) -> str:
+    """A length [m] in millimetres, three digits of it or all before the point."""
+    found = length * 1000
+    return f"{found:.3g}" if found < 999.5 else f"{found:.0f}"
+
+
 def remarks(rows: Iterable[Row]) -> Iterable[str]:
     """What should be known beside the table: parts that miss the error, and what was met."""
     for row in rows:
@@ -179,7 +185,7 @@ def explained(hollow: Mapping[str, float] | None) -> str:
         return ""
     return (
         ", since it fills a hollow that is open to the outside "
-        f"(up to {hollow['depth'] * 1000:.3g} mm deep); beside that the error is "
+        f"(up to {millimetres(hollow['depth'])} mm deep); beside that the error is "
         f"{hollow['error']:.2%}"
     )
 
@@ -250,7 +256,7 @@ def _cells(row: Row) -> tuple[str, ...]:
         str(len(result.pieces)),
         f"{result.before['vertices']} → {measures['vertices']}",
         f"{result.before['triangles']} → {measures['triangles']}",
-        f"{measures['hausdorff'] * 1000:.3g} mm {result.error:.2%}",
+        f"{millimetres(measures['hausdorff'])} mm {result.error:.2%}",
         f"{measures['mean'] / measures['size']:.2%}",
         f"{measures['volume_ratio']:.3f}",
         f"{measures['outside']:.1%}",

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..collision.check import Checked
-from .collision import aligned, explained, with_hollows
+from .collision import aligned, explained, millimetres, with_hollows
 
 
 def is_good(item: Checked, limit: float) -> bool:
@@ -54,7 +54,7 @@ def table(found: Sequence[Checked], limit: float) -> str:
                 verdict,
                 str(m["pieces"]),
                 str(m["triangles"]),
-                f"{m['hausdorff'] * 1000:.3g} mm {m['error']:.2%}",
+                f"{millimetres(m['hausdorff'])} mm {m['error']:.2%}",
                 f"{m['mean'] / m['size']:.2%}",
                 f"{m['volume_ratio']:.3f}",
                 f"{m['outside']:.1%}",
