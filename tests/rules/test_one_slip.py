@@ -85,6 +85,11 @@ def test_what_closes_a_loop_has_to_be_there(tmp_path):
     assert found.place.line == 4
 
 
+def test_what_closes_a_loop_may_be_a_link_of_sdf(tmp_path):
+    robot = _loop("couple") + '<gazebo><link name="couple"/></gazebo>'
+    assert not _found(tmp_path, robot, "dangling-reference")
+
+
 def test_joints_of_a_closed_loop_need_no_transmission(tmp_path):
     assert not _found(tmp_path, _loop("coupler"), "dangling-reference")
     assert not _found(tmp_path, _loop("coupler"), "actuated-joint-without-transmission")

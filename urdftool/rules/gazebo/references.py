@@ -37,11 +37,17 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
 
 
 def _loops(robot: Robot) -> Iterator[Problem]:
+    of_sdf = {
+        element.get("name") or ""
+        for block in robot.gazebo
+        for element in block.element.walk()
+        if element.tag in ("link", "frame")
+    }
     for block in robot.gazebo:
         for joint in () if block.reference else block.element.all("joint"):
             for end in (joint.child("parent"), joint.child("child")):
                 name = end.text.strip() if end is not None else ""
-                if end is None or not name or name in robot.link or name == "world":
+                if end is None or not name or name in robot.link or name in {"world", *of_sdf}:
                     continue
                 if "::" in name or is_unexpanded(name):
                     continue
