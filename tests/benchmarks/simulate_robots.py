@@ -46,7 +46,8 @@ def row(named: tuple[str, Path]) -> str:
         robot = load(path)
         (run,) = simulate(robot, Settings())
     except UrdftoolError as error:
-        return f"| {name} | refused | {error.message[:110]} |"
+        said = error.message.partition("; what it names is in")[0]  # a path
+        return f"| {name} | refused | {said[:110]} |"
     verdict = judge(robot, run)
     first: dict[str, str] = {}
     for fault in verdict.faults:
