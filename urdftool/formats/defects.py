@@ -108,7 +108,9 @@ def defect(
 
 def _names(robot: Robot) -> Iterator[Finding]:
     if not robot.links:
-        yield defect("no-links", "the robot has no link; write at least one", robot.place, "robot")
+        macros = robot.source is not None and robot.source.expansion is not None
+        what = "name a file that calls its macros" if macros else "write at least one"
+        yield defect("no-links", f"the robot has no link; {what}", robot.place, "robot")
     named: tuple[tuple[str, Sequence[Link | Joint]], ...] = (
         ("link", robot.links),
         ("joint", robot.joints),

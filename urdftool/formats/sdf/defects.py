@@ -98,7 +98,7 @@ def _inertial(link: Link) -> Iterator[Finding]:
         text = f"<inertial> of link '{link.name}' has no {what}"
         yield defect("incomplete-inertial", text, inertial.place, "link", link.name)
     if (inertial.mass or 0.0) < 0 and mass is not None:
-        text = f"mass {inertial.mass:g} of link '{link.name}' is negative"
+        text = f"mass {inertial.mass:g} of link '{link.name}' is negative; write one above zero"
         yield defect("negative-mass", text, mass.attribute_place("value"), "link", link.name)
 
 
