@@ -2,7 +2,8 @@
 
 In each robot of ``pybullet_data`` and ``example-robot-data`` (whose name has one of some words, if
 there are any) the collision of a link is moved to the middle of that of the link above it, and half
-the way, and the robot judged as it starts. One link stands for those of its name on other sides or with other numbers.
+the way, and the robot judged as it starts. One link stands for those of its name on other sides or
+with other numbers.
 """
 
 from __future__ import annotations
