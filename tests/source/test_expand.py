@@ -226,7 +226,7 @@ def test_an_attribute_of_an_expanded_element_is_found_in_the_source(xacro_file):
         ('<a b="$(arg prefix)"/>', 2, 4, "prefix:=VALUE"),
         ('<xacro:include filename="absent.xacro"/>', 2, 16, "absent.xacro: no such file"),
         ('<xacro:macro name="m" params="a"/>\n<xacro:m/>', 3, 1, "without 'a'"),
-        ('<xacro:macro name="m"/>\n<xacro:m a="1"/>', 3, 1, "no parameter 'a'"),
+        ('<xacro:macro name="m"/>\n<xacro:m a="1"/>', 3, 10, "no parameter 'a'"),
         ('<xacro:if value="maybe"/>', 2, 1, "neither true nor false"),
         ('<xacro:property name="a" value="${a}"/><b c="${a}"/>', 2, 43, "circular"),
         ('<a b="${1 +}"/>', 2, 4, "invalid syntax"),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import UrdftoolError, XacroError
 from .location import Place
-from .xacro_sentences import Failure, causes_of, sentence_of
+from .xacro_sentences import Failure, causes_of, odd_parameter, sentence_of
 
 if TYPE_CHECKING:
     from .expansion import Expansion
@@ -26,7 +26,7 @@ def explain(
         failed_text: The text or expression that could not be evaluated, if it was that.
         result: What was read so far.
     """
-    at = None if node is None else _place(node, failed_text)
+    at = None if node is None else _place(node, failed_text, odd_parameter(error))
     for cause in causes_of(error):
         if isinstance(cause, UrdftoolError) and cause.line is None and at is not None:
             if cause.path is not None:  # a file that could not be read, named where it is wanted
@@ -56,10 +56,10 @@ def _missing(path: str, reason: str, at: Place) -> XacroError:
     return XacroError(f"{path}: {reason}{hint}", at=at, rule="include-not-found")
 
 
-def _place(node: XacroElement, failed_text: str | None) -> Place:
-    """The attribute whose value holds the text that failed; the element otherwise."""
-    if node.tagName == "xacro:include" and not failed_text:
-        span = node.file.attribute_spans(node.start).get("filename")
+def _place(node: XacroElement, failed_text: str | None, odd: str) -> Place:
+    """The attribute that is odd, or whose value holds the text that failed; else the element."""
+    if (odd or node.tagName == "xacro:include") and not failed_text:
+        span = node.file.attribute_spans(node.start).get(odd or "filename")
         return node.place if span is None else Place(node.file, *span, node.calls)
     if failed_text:
         for name, span in node.file.attribute_spans(node.start).items():

@@ -108,6 +108,12 @@ def _of_names(failure: Failure) -> tuple[str, str] | None:
     return None
 
 
+def odd_parameter(error: Exception) -> str:
+    """The attribute of a call that its macro has no parameter for; empty for other errors."""
+    match = _ODD_PARAMETER.search(str(error))
+    return match[1] if match else ""
+
+
 def _of_macros(failure: Failure) -> tuple[str, str] | None:
     """Macros, and what they are called with."""
     text, node = failure.text, failure.node
