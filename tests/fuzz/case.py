@@ -24,8 +24,9 @@ from .robots import copied
 OWN = ("urdftool", ".cache", ".sdformat")
 """What may be left in the home folder: the cache, and the log of the library that reads SDF."""
 
-EDITED = (".urdf", ".xacro", ".srdf")
-"""What a fix may edit: descriptions, and an SRDF that belongs to one."""
+EDITED = (".urdf", ".xacro", ".srdf", ".xml", ".txt", ".py", ".launch", ".yaml", ".stl")
+"""What a fix may edit or make: descriptions, SRDF, package.xml, CMakeLists.txt, launch files, and
+meshes. It must say which."""
 
 CONTROL = re.compile("\r(?!\n)|[\0-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
 """What a terminal obeys instead of showing it."""
@@ -186,7 +187,11 @@ def _harm(outcome, scratch, before):
     after = _contents(scratch / "in")
     changed = {name for name in before | after if before.get(name) != after.get(name)}
     if "--fix" in outcome.words:
-        changed = {n for n in changed if not (n in before and n.endswith(EDITED))}
+        said = _text(scratch / "stderr")
+        asked = os.path.relpath(outcome.words[1], scratch / "in")
+        changed = {
+            n for n in changed if n != asked and not (n.endswith(EDITED) and Path(n).name in said)
+        }
     if changed:
         yield f"inputs changed: {sorted(changed)[:3]}"
     expected = ("in", "out", "home", "stdout", "stderr")

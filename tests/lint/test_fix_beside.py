@@ -55,7 +55,8 @@ def test_what_two_robots_want_of_one_file_is_done_once(cart, urdftool):
     assert shown.out.count("+++ cart/package.xml") == 1
     assert Path("cart/package.xml").read_bytes() == MANIFEST
     result = urdftool("lint", *cart, *DECLARED, *FIX)
-    assert result.err.startswith("Fixed 1 in 1 file: undeclared-mesh-dependency × 1\n")
+    said = "Fixed 1 in 1 file: undeclared-mesh-dependency × 1\nchanged: cart/package.xml\n"
+    assert result.err.startswith(said)
     wanted = b"</depend>\r\n\t<exec_depend>mesh_store</exec_depend>\r\n"
     assert Path("cart/package.xml").read_bytes() == MANIFEST.replace(b"</depend>\r\n", wanted)
     assert "Nothing to fix." in urdftool("lint", *cart, *DECLARED, *FIX).err

@@ -75,6 +75,7 @@ def fix_files(
         if diff:
             return _show(console, done, wanted)
         _say(console, "Fixed", done)
+        _say_where(console, done, files)
         if "-" in files:
             wanted.to_stderr = wanted.output_file is None
             sys.stdout.flush()
@@ -172,6 +173,23 @@ def _say(console: Console, did: str, done: _Done) -> None:
     files = len(done.after)
     where = f"in {files} file{'s' * (files != 1)}"
     console.note(f"{did} {total} {where}: {', '.join(rules[:_MOST])}{more}")
+
+
+def _say_where(console: Console, done: _Done, files: Sequence[str]) -> None:
+    """The files that changed or were made beside the ones that were asked for."""
+    from ..source.packages import shown_path
+
+    asked = {os.path.realpath(path) for path in files}
+    for what, new in (("changed", False), ("made", True)):
+        paths = [
+            shown_path(path)
+            for path, before in done.before.items()
+            if (before is None) is new
+            and before != done.after[path]
+            and os.path.realpath(path) not in asked
+        ]
+        if paths:
+            console.note(f"{what}: {', '.join(sorted(paths))}")
 
 
 def _show(console: Console, done: _Done, wanted: Wanted) -> int:
