@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .points import bounds, extent, shifted, turned
 from .raster import Floats
 
 MARGIN = 0.06
@@ -31,7 +32,7 @@ class View:
 
     def seen(self, points: Floats) -> Floats:
         """Points [m] of the world in the camera's axes, from the eye; what is ahead has z < 0."""
-        return np.asarray((points - self.eye) @ self.axes.T)
+        return turned(shifted(points, -self.eye), self.axes)
 
     def pixels(self, points: Floats) -> Floats:
         """Where points of the world are in the picture: column and row, from the upper left."""
@@ -74,8 +75,8 @@ class Camera:
         shorter = min(size)
         reach = (half * size[0] / shorter, half * size[1] / shorter)
         if self.target is None and self.distance is None:
-            return View(axes, _fitted(points @ axes.T, reach) @ axes, reach, size)
-        low, high = points.min(axis=0), points.max(axis=0)
+            return View(axes, _fitted(turned(points, axes), reach) @ axes, reach, size)
+        low, high = bounds(points)
         target = (low + high) / 2 if self.target is None else np.array(self.target)
         distance = self.distance
         if distance is None:
@@ -87,20 +88,20 @@ class Camera:
         return View(axes, target + axes[2] * distance, reach, size)
 
 
-def _fitted(turned: Floats, reach: tuple[float, float]) -> Floats:
+def _fitted(placed: Floats, reach: tuple[float, float]) -> Floats:
     """The nearest eye, in the camera's axes, that has all points in its sight.
 
     A point (r, u, b) is in sight of an eye (x, y, z) where |r - x| ≤ t (z - b), and so upwards:
     of each side of the picture the outermost point sets a bound that is linear in the eye.
     """
     middle, apart = [], []
-    back = turned[:, 2]
+    back = placed[:, 2]
     for axis in (0, 1):
         slope = reach[axis] * (1 - 2 * MARGIN)
-        more = float((turned[:, axis] + slope * back).max())
-        less = float((slope * back - turned[:, axis]).max())
+        more = float((placed[:, axis] + slope * back).max())
+        less = float((slope * back - placed[:, axis]).max())
         apart.append((more + less) / (2 * slope))
         middle.append((more - less) / 2)
-    size = float(np.ptp(turned, axis=0).max())
+    size = extent(placed)
     ahead = max(*apart, float(back.max()) + max(1e-3 * size, 1e-9))
     return np.array([middle[0], middle[1], ahead])

@@ -15,6 +15,7 @@ from .camera import Camera, View
 from .lettering import Words, lettered
 from .picture import draw, view_of
 from .png_file import Image
+from .points import extent, middle
 from .raster import Indices
 from .shapes import Shapes
 
@@ -103,7 +104,7 @@ def contact_sheet(
     given = dict(positions or {})
     corners, _, there = shapes.posed(link_poses(robot, with_mimics(robot, given)))
     seen = corners[there].reshape(-1, 3)
-    size = float(np.ptp(seen, axis=0).max()) if len(seen) else 1.0
+    size = extent(seen) if len(seen) else 1.0
     sweeps = sweeps_of(robot, slide=_SLIDE * size)
     layout = layout_of(len(sweeps), cell)
     page = np.full((layout.height, layout.width, 3), 255, np.uint8)
@@ -245,8 +246,8 @@ def _facing(shapes: Shapes, poses: Mapping[str, Pose], robot: Robot, sweep: Swee
     if not (moved & there).any():
         return camera
     points = corners[there].reshape(-1, 3)
-    size = float(np.ptp(points, axis=0).max())
-    aside = corners[moved & there].reshape(-1, 3).mean(axis=0) - points.mean(axis=0)
+    size = extent(points)
+    aside = middle(corners[moved & there].reshape(-1, 3)) - middle(points)
 
     def nearness(azimuth: float) -> float:
         return math.cos(azimuth) * float(aside[0]) + math.sin(azimuth) * float(aside[1])

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .camera import View
+from .points import bounds, turned
 from .raster import Floats, front
 
 Colors = npt.NDArray[np.float32]
@@ -86,15 +87,16 @@ class ShadowMap:
         length = float(np.linalg.norm(side))
         side = side / length if length > 1e-9 else np.array([1.0, 0.0, 0.0])
         self._axes = np.stack([side, np.cross(direction, side), direction])
-        seen = corners.reshape(-1, 3) @ self._axes.T
-        low, high = seen.min(axis=0), seen.max(axis=0)
+        seen = turned(corners.reshape(-1, 3), self._axes)
+        low, high = bounds(seen)
         self.resolution = resolution
         self.texel = max(float((high - low)[:2].max()), 1e-12) / (resolution * 0.85)
         self._corner = (low + high)[:2] / 2 - self.texel * resolution / 2
         self._low, self._range = float(low[2]), max(float(high[2] - low[2]), 1e-12)
-        flat = np.concatenate(
-            [(seen[:, :2] - self._corner) / self.texel, self._near(seen[:, 2:])], axis=1
-        )
+        flat = np.empty_like(seen)
+        for axis in (0, 1):
+            flat[:, axis] = (seen[:, axis] - self._corner[axis]) / self.texel
+        flat[:, 2] = self._near(seen[:, 2])
         _, self._nearness = front(flat.reshape(-1, 3, 3), (resolution, resolution))
 
     def _near(self, along: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:

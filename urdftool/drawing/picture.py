@@ -17,6 +17,7 @@ from .clip import clipped, nearest
 from .ground import Ground, backdrop
 from .light import Colors, ShadowMap, lights_of, to_screen
 from .png_file import Image, png
+from .points import bounds, shifted
 from .raster import Floats, Indices, covered, front
 from .scene import OPAQUE, Scene
 from .shapes import Shapes
@@ -91,12 +92,11 @@ def _of_size_one(corners: Floats, view: View) -> tuple[Floats, View, float, floa
     Returns:
         Triangles, camera, the height of the origin and the length of the unit [m].
     """
-    points = corners.reshape(-1, 3)
-    low, high = points.min(axis=0), points.max(axis=0)
+    low, high = bounds(corners.reshape(-1, 3))
     middle = low + (high - low) / 2
     scale = float((high - low).max()) or 1.0
     moved = View(view.axes, (view.eye - middle) / scale, view.reach, view.size)
-    return (corners - middle) / scale, moved, float(middle[2]), scale
+    return shifted(corners, -middle) / scale, moved, float(middle[2]), scale
 
 
 def view_of(corners: Floats, camera: Camera | View | None, size: tuple[int, int]) -> View:

@@ -16,6 +16,7 @@ from ..model.pose import Pose
 from .gather import LARGEST, Gathering, Surface, shape_surface
 from .materials import Materials, Rgba
 from .normals import corner_normals
+from .points import turned
 from .raster import Floats, Indices
 from .texture import Texels
 
@@ -78,8 +79,8 @@ class Shapes:
             rotation, shift = np.array(pose.rotation), np.array(pose.translation)
             if not (np.isfinite(rotation).all() and (np.abs(shift) < LARGEST).all()):
                 continue
-            corners[some] = self.corners[some] @ rotation.T + shift
-            normals[some] = self.normals[some] @ rotation.T
+            corners[some] = turned(self.corners[some], rotation, shift)
+            normals[some] = turned(self.normals[some], rotation)
             there[some] = True
         return corners, normals, there
 
