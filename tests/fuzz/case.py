@@ -171,7 +171,8 @@ def _problems(outcome, scratch, before):
     said = err + out if "--fleet" in outcome.words else err  # its table says it
     if outcome.code == 2 and not said.strip():
         found.append("could not be done, and nothing is said")
-    if control := CONTROL.search(err if "json" in outcome.words else err + out):
+    exact = not {"json", "--check", "--diff"}.isdisjoint(outcome.words)  # a result, as it is
+    if control := CONTROL.search(err if exact else err + out):
         found.append(f"a control character is printed: {control[0]!r}")
     found += _harm(outcome, scratch, before)
     written = sorted((scratch / "out").rglob("*"))
