@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..formats.mjcf.extent import shape_points
+from ..formats.mjcf.extent import geometry_points, placed, shape_points
 from ..model.elements import Box, Capsule, Collision, Cylinder, Link, Mesh, Robot, Sphere, Visual
 from .recording import Array
 
@@ -51,7 +51,7 @@ def extent_of(robot: Robot, name: str, *, only_collisions: bool = False) -> Exte
         groups.append(link.visuals)
     read = []
     for group in groups:
-        found = [(shape, shape_points(robot, shape)) for shape in group]
+        found = [(shape, points_of(robot, shape)) for shape in group]
         read.append(tuple((shape, corners) for shape, corners in found if corners is not None))
     points = [corners for shapes in read for _, corners in shapes]
     return Extent(np.concatenate(points), tuple(read)) if points else Extent()
@@ -96,11 +96,29 @@ def is_off_mass(robot: Robot, name: str) -> bool:
     return bool((centre < touches[0] - slack).any() or (centre > touches[1] + slack).any())
 
 
+def points_of(robot: Robot, shape: Visual | Collision) -> Array | None:
+    """As :func:`shape_points`; the mesh is read once for all shapes of a robot that use it."""
+    global _read
+    geometry = shape.geometry
+    if not isinstance(geometry, Mesh):
+        return shape_points(robot, shape)
+    if _read is None or _read[0] is not robot:
+        _read = robot, {}
+    known, name = _read[1], (geometry.filename, *geometry.scale)
+    if name not in known:
+        known[name] = geometry_points(robot, geometry)
+    points = known[name]
+    return None if points is None else placed(points, shape)
+
+
+_read: tuple[Robot, dict[tuple[str | float, ...], Array | None]] | None = None
+
+
 def box_of(
     robot: Robot, shapes: Sequence[Collision] | Sequence[Visual]
 ) -> tuple[Array, Array] | None:
     """Two corners of the box around some shapes, along the axes of their link."""
-    found = [corners for shape in shapes if (corners := shape_points(robot, shape)) is not None]
+    found = [corners for shape in shapes if (corners := points_of(robot, shape)) is not None]
     if not found:
         return None
     points = np.concatenate(found)

@@ -7,15 +7,14 @@ is; a collision that is in the neighbour and away from them was misplaced.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..formats.mjcf.extent import shape_points
 from ..model.elements import Link, Robot
 from ..model.pose import Pose, pose_of
 from .bodies import Body
-from .extent import box_of, is_beside, is_off_mass, looks_of
+from .extent import box_of, is_beside, is_off_mass, looks_of, points_of
 from .overlap import primitive_triangles
 from .recording import Array
 from .run import Run, body_pose
@@ -183,19 +182,38 @@ def _body_of(run: Run, link: str) -> int:
     return next(number for number, body in enumerate(run.bodies.bodies) if link in body.links)
 
 
-def _touching(robot: Robot, body: Body, link: str) -> Iterator[Solid]:
+def _touching(robot: Robot, body: Body, link: str) -> list[Solid]:
     """The convex pieces of a link that touch, as engines have them, in its frame."""
+    return _kept(robot, f"touches {link}", lambda: list(_pieces(robot, body, link)))
+
+
+def _seen(robot: Robot, link: str) -> list[Solid]:
+    """The hulls of what is seen of a link, in its frame."""
+    looks = looks_of(robot.link[link])
+    return _kept(
+        robot,
+        f"seen {link}",
+        lambda: hulls(points for look in looks if (points := points_of(robot, look)) is not None),
+    )
+
+
+_solids: tuple[Robot, dict[str, list[Solid]]] | None = None
+
+
+def _kept(robot: Robot, name: str, make: Callable[[], list[Solid]]) -> list[Solid]:
+    """Solids of a link, made once for all neighbours that it is compared with."""
+    global _solids
+    if _solids is None or _solids[0] is not robot:
+        _solids = robot, {}
+    known = _solids[1]
+    if name not in known:
+        known[name] = make()
+    return known[name]
+
+
+def _pieces(robot: Robot, body: Body, link: str) -> Iterator[Solid]:
     shapes = [shape for shape in body.shapes if shape.link == link]
     for shape, collision in zip(shapes, robot.link[link].collisions, strict=True):
         pose = pose_of(collision.origin)
         clouds = shape.pieces or (primitive_triangles(collision).reshape(-1, 3),)
         yield from (solid.moved(pose) for solid in hulls(clouds))
-
-
-def _seen(robot: Robot, link: str) -> list[Solid]:
-    """The hulls of what is seen of a link, in its frame."""
-    return hulls(
-        points
-        for visual in looks_of(robot.link[link])
-        if (points := shape_points(robot, visual)) is not None
-    )

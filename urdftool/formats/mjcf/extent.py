@@ -40,15 +40,22 @@ def shape_points(robot: Robot, shape: Visual | Collision) -> Array | None:
 
     None where the shape has no size or its mesh cannot be read.
     """
-    points = None if shape.geometry is None else _points(robot, shape.geometry)
-    if points is None:
-        return None
+    points = None if shape.geometry is None else geometry_points(robot, shape.geometry)
+    return None if points is None else placed(points, shape)
+
+
+def placed(points: Array, shape: Visual | Collision) -> Array:
+    """Points of a shape's geometry in the frame of its link [m], shape (n, 3)."""
     pose = pose_of(shape.origin)
-    placed: Array = points @ np.array(pose.rotation).T + np.array(pose.translation)
-    return placed
+    moved: Array = points @ np.array(pose.rotation).T + np.array(pose.translation)
+    return moved
 
 
-def _points(robot: Robot, geometry: Geometry) -> Array | None:
+def geometry_points(robot: Robot, geometry: Geometry) -> Array | None:
+    """Points [m] that reach as far as a geometry does along every axis of its own frame.
+
+    None where it has no size or its mesh cannot be read.
+    """
     if isinstance(geometry, Box):
         return _corners([edge / 2 for edge in geometry.size])
     if isinstance(geometry, Sphere):
