@@ -102,9 +102,10 @@ def points_of(robot: Robot, shape: Visual | Collision) -> Array | None:
     geometry = shape.geometry
     if not isinstance(geometry, Mesh):
         return shape_points(robot, shape)
-    if _read is None or _read[0] is not robot:
-        _read = robot, {}
-    known, name = _read[1], (geometry.filename, *geometry.scale)
+    kept = _read  # another thread may put its own robot there
+    if kept is None or kept[0] is not robot:
+        kept = _read = robot, {}
+    known, name = kept[1], (geometry.filename, *geometry.scale)
     if name not in known:
         known[name] = geometry_points(robot, geometry)
     points = known[name]

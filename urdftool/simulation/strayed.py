@@ -203,9 +203,10 @@ _solids: tuple[Robot, dict[str, list[Solid]]] | None = None
 def _kept(robot: Robot, name: str, make: Callable[[], list[Solid]]) -> list[Solid]:
     """Solids of a link, made once for all neighbours that it is compared with."""
     global _solids
-    if _solids is None or _solids[0] is not robot:
-        _solids = robot, {}
-    known = _solids[1]
+    kept = _solids  # another thread may put its own robot there
+    if kept is None or kept[0] is not robot:
+        kept = _solids = robot, {}
+    known = kept[1]
     if name not in known:
         known[name] = make()
     return known[name]
