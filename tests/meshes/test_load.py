@@ -198,3 +198,12 @@ def test_cut_off_anywhere(tmp_path, name):
         file.write_bytes(data[: int(share * len(data))])
         with pytest.raises(MeshError):
             load_mesh(file)
+
+
+def test_a_textured_face_that_names_no_vertex_is_damaged(tmp_path):
+    data = bytearray((FIXTURES / "textured.glb").read_bytes())
+    data[1174] = 252  # the last index of a face
+    damaged = tmp_path / "textured.glb"
+    damaged.write_bytes(data)
+    with pytest.raises(MeshError, match="a face names vertex 252"):
+        load_mesh(damaged)

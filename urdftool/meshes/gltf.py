@@ -77,7 +77,8 @@ def read(path: Path, *, gltf_up: GltfUp = "y") -> Reading:
         texture, image = looks.get(str(getattr(material, "name", "")), (None, None))
         points = getattr(geometry.visual, "uv", None)
         uv = None
-        if points is not None and len(points) == len(vertices):
+        whole = not faces.size or faces.max() < len(vertices)  # else refused with its number
+        if points is not None and len(points) == len(vertices) and whole:
             uv = np.asarray(points, dtype=np.float64)[faces]
         pieces.append(Piece(vertices, faces, str(name), _rgba(material), texture, image, uv))
     return Reading(pieces, [_NOTES[gltf_up]])
