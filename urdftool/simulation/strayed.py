@@ -69,6 +69,9 @@ def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | 
         return f"the collision of '{link}' is as large as what is seen of it, and {moved:.3g} m off"
     bodies = run.bodies.bodies
     own = _body_of(run, link)
+    around = _is_housing(box, shown_box, run, link, other)
+    if around and bodies[other].parent == own:
+        return None
     back = (body_pose(run, own, frame) @ bodies[own].places[link]).inverse()
     there = back @ body_pose(run, other, frame)
     at = {name: there @ place for name, place in bodies[other].places.items()}
@@ -78,10 +81,9 @@ def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | 
     if not smaller:
         return None
     share = touches.shared(theirs) / smaller
-    around = _is_housing(box, shown_box, run, link, other)
     seen = Solids(_seen(robot, link))
     shown = Solids(s.moved(at[n]) for n in at for s in _seen(robot, n))
-    if share > SHARE and shown_box is not None and not (around and bodies[other].parent == own):
+    if share > SHARE and shown_box is not None:
         off = (shown_box[0] + shown_box[1] - box[0] - box[1]) / 2
         more = _fits_better(touches, off, seen, theirs)
         free = 1 - touches.shared(seen | shown) / touches.volume
