@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 
 from ..errors import ConfigError
+from ..model.controllers import DRIVES, Controller, controllers_in
 from ..model.elements import Robot
+from ..source.yaml_tree import Node, read_yaml
 from .control import NONE, POSITION, SERVO, VELOCITY, Control, Pid
-from .controllers_yaml import Node, read_yaml
 
 _SILENT = ("Broadcaster", "StateController", "SensorController")
 """Controllers that only tell."""
@@ -27,34 +28,7 @@ _TRAJECTORY = (
     *("GripperActionController", "ParallelGripperActionController"),
 )
 _PID = ("PidController",)
-# class -> parameters with joints that are driven by velocity, and by position
-_DRIVES: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    "DiffDriveController": (
-        ("left_wheel", "right_wheel", "left_wheel_names", "right_wheel_names"), ()
-    ),
-    "FourWheelSteeringController": (
-        ("front_wheel", "rear_wheel"), ("front_steering", "rear_steering")
-    ),
-    "AckermannSteeringController": (
-        ("rear_wheel", "rear_wheels_names", "traction_joints_names"),
-        ("front_steer", "front_wheels_names", "steering_joints_names"),
-    ),
-    "TricycleController": (("traction_joint_name",), ("steering_joint_name",)),
-    "TricycleSteeringController": (
-        ("rear_wheels_names", "traction_joints_names"),
-        ("front_wheels_names", "steering_joints_names"),
-    ),
-    "BicycleSteeringController": (
-        ("rear_wheels_names", "traction_joints_names"),
-        ("front_wheels_names", "steering_joints_names"),
-    ),
-    "MecanumDriveController": (
-        ("front_left_wheel_command_joint_name", "front_right_wheel_command_joint_name",
-         "rear_left_wheel_command_joint_name", "rear_right_wheel_command_joint_name"), ()
-    ),
-}  # fmt: skip
-
-KNOWN = (*_POSITION, *_VELOCITY, *_EFFORT, *_FORWARD, *_TRAJECTORY, *_PID, *_DRIVES)
+KNOWN = (*_POSITION, *_VELOCITY, *_EFFORT, *_FORWARD, *_TRAJECTORY, *_PID, *DRIVES)
 
 _INTERFACES = ("position", "velocity", "effort")
 
@@ -72,21 +46,6 @@ class Controls:
     notes: tuple[str, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class _Controller:
-    name: str
-    type: Node
-    parameters: Node
-
-    @property
-    def kind(self) -> str:
-        return (self.type.text or "").rpartition("/")[2].rpartition(":")[2]
-
-    @property
-    def package(self) -> str:
-        return (self.type.text or "").partition("/")[0]
-
-
 def read_controllers(path: str, robot: Robot) -> Controls:
     """The controllers of a file that are for a robot.
 
@@ -97,7 +56,7 @@ def read_controllers(path: str, robot: Robot) -> Controls:
         SourceError: It cannot be read.
     """
     root = read_yaml(path)
-    controllers = list(_controllers(root))
+    controllers = list(controllers_in(root))
     if not controllers:
         raise ConfigError(
             "has no controller: a mapping with a 'type' such as "
@@ -124,23 +83,6 @@ def read_controllers(path: str, robot: Robot) -> Controls:
     return Controls(joints, tuple(notes))
 
 
-def _controllers(root: Node) -> Iterator[_Controller]:
-    """Each controller with its parameters, which in ROS 2 stand apart from its type."""
-    parameters: dict[str, Node] = {}
-    for path, node in root.walk():
-        if path and path[-1] == "ros__parameters" and len(path) > 1:
-            parameters.setdefault(path[-2].rpartition("/")[2], node)
-    for path, node in root.walk():
-        kind = (node.fields or {}).get("type")
-        if kind is None or not path or kind.text is None:
-            continue
-        own = path[-2] if path[-1] == "ros__parameters" and len(path) > 1 else path[-1]
-        name = own.rpartition("/")[2]
-        if "/" not in kind.text and "::" not in kind.text:
-            continue  # another thing with a type
-        yield _Controller(name, kind, parameters.get(name, node))
-
-
 def _simulated_gains(root: Node, robot: Robot) -> dict[str, Node]:
     """``gazebo_ros_control/pid_gains`` by joint."""
     found: dict[str, Node] = {}
@@ -153,7 +95,7 @@ def _simulated_gains(root: Node, robot: Robot) -> dict[str, Node]:
 
 
 def _claims(
-    controller: _Controller, robot: Robot, simulated: dict[str, Node]
+    controller: Controller, robot: Robot, simulated: dict[str, Node]
 ) -> Iterator[tuple[Node, Control]]:
     """Each joint that a controller drives, and how."""
     kind = controller.kind
@@ -173,11 +115,11 @@ def _claims(
         yield node, _control(controller, node, joint, interface, simulated)
 
 
-def _joints(controller: _Controller) -> Iterator[tuple[Node, str]]:
+def _joints(controller: Controller) -> Iterator[tuple[Node, str]]:
     """The joints of a controller, each with the interface that is commanded."""
     kind, parameters = controller.kind, controller.parameters
-    if kind in _DRIVES:
-        wheels, steered = _DRIVES[kind]
+    if kind in DRIVES:
+        wheels, steered = DRIVES[kind]
         found = False
         for names, interface in ((wheels, "velocity"), (steered, "position")):
             for name in names:
@@ -204,7 +146,7 @@ def _joints(controller: _Controller) -> Iterator[tuple[Node, str]]:
     )
 
 
-def _interface(controller: _Controller) -> str:
+def _interface(controller: Controller) -> str:
     """What a controller commands: position, velocity or effort."""
     for word in _INTERFACES:
         if controller.package == f"{word}_controllers":
@@ -248,7 +190,7 @@ def _in_robot(node: Node, joint: str, robot: Robot) -> None:
 
 
 def _has_interface(
-    controller: _Controller, node: Node, joint: str, interface: str, robot: Robot
+    controller: Controller, node: Node, joint: str, interface: str, robot: Robot
 ) -> None:
     """Refuse a joint whose hardware takes other commands, as the controller manager does."""
     there = [
@@ -278,7 +220,7 @@ def _has_interface(
 
 
 def _control(
-    controller: _Controller, node: Node, joint: str, interface: str, simulated: dict[str, Node]
+    controller: Controller, node: Node, joint: str, interface: str, simulated: dict[str, Node]
 ) -> Control:
     kind = controller.kind
     if interface == "effort":
@@ -294,13 +236,13 @@ def _control(
     return Control(controller.name, SERVO, None, node.at)
 
 
-def _measures_velocity(controller: _Controller) -> bool:
+def _measures_velocity(controller: Controller) -> bool:
     node = controller.parameters.find("reference_and_state_interfaces")
     words = [] if node is None else [one.text for one in node.names(node.key)]
     return bool(words) and "position" not in words
 
 
-def _gains(controller: _Controller, joint: str) -> Node:
+def _gains(controller: Controller, joint: str) -> Node:
     parameters = controller.parameters
     for keys in (("pid",), (joint, "pid"), ("gains", joint), ("gains",)):
         found = parameters.find(*keys)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ConfigError
-from ..source.document import read_file
-from ..source.location import Place, SourceFile
+from .document import read_file
+from .location import Place, SourceFile
 
 MOST_BYTES = 256 * 1024
 MOST_NODES = 50_000
@@ -141,9 +141,18 @@ def read_yaml(path: str) -> Node:
         ConfigError: It is no YAML, no mapping, or beyond the bounds.
         SourceError: It cannot be read.
     """
+    return yaml_of(read_file(path))
+
+
+def yaml_of(file: SourceFile) -> Node:
+    """The mapping in a file that was read.
+
+    Raises:
+        ConfigError: It is no YAML, no mapping, or beyond the bounds.
+    """
     import yaml
 
-    file = read_file(path)
+    path = file.path
     if len(file.data) > MOST_BYTES:
         raise ConfigError(
             f"has {len(file.data)} bytes; parameters of controllers have at most {MOST_BYTES}",
