@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..formats.mjcf.extent import geometry_points, placed, shape_points
+from ..meshes.hull import convex_hull
 from ..model.elements import Box, Capsule, Collision, Cylinder, Link, Mesh, Robot, Sphere, Visual
 from .recording import Array
 
@@ -138,9 +139,5 @@ def _volume(shape: Collision | Visual, points: Array) -> float:
         return float(np.pi * geometry.radius**2 * (geometry.length + ends))
     if not isinstance(geometry, Mesh):
         return 0.0
-    from scipy.spatial import ConvexHull, QhullError
-
-    try:
-        return float(ConvexHull(points).volume)
-    except (QhullError, ValueError):
-        return 0.0
+    found = convex_hull(points)
+    return 0.0 if found is None else found.volume()

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import ModelError, UrdftoolError
+from ..meshes.hull import convex_hull, hull_surface
 from ..meshes.load import load_named
 from ..meshes.mesh import Faces
 from ..meshes.mesh import Mesh as Triangles
@@ -132,26 +133,13 @@ def _convex_parts(mesh: Triangles) -> Iterator[tuple[Array, Faces]]:
 
 def hull(points: Array) -> tuple[Array, Faces]:
     """Corners and triangles of the convex hull of points; of flat ones, the points themselves."""
-    from scipy.spatial import ConvexHull, QhullError
-
-    try:
-        found = ConvexHull(points)
-        if len(found.vertices) > MOST_VERTICES:
-            points = _thinned(points[found.vertices])
-            found = ConvexHull(points)
-    except (QhullError, ValueError):
+    found = convex_hull(points)
+    if found is not None and found.num_vert() > MOST_VERTICES:
+        found = convex_hull(_thinned(hull_surface(found)[0]))
+    if found is None:
         points = _thinned(points) if len(points) > MOST_VERTICES else points
         return points, _fan(len(points))
-    names = np.full(len(points), -1)
-    names[found.vertices] = np.arange(len(found.vertices))
-    corners = points[found.vertices]
-    faces = names[found.simplices]
-    normals = np.cross(
-        corners[faces[:, 1]] - corners[faces[:, 0]], corners[faces[:, 2]] - corners[faces[:, 0]]
-    )
-    inward = np.einsum("ij,ij->i", normals, found.equations[:, :3]) < 0
-    faces[inward] = faces[inward][:, ::-1]
-    return corners, faces
+    return hull_surface(found)
 
 
 def _fan(count: int) -> Faces:

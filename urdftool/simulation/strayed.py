@@ -7,7 +7,7 @@ is; a collision that is in the neighbour and away from them was misplaced.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from .extent import box_of, is_beside, is_off_mass, looks_of, points_of
 from .overlap import primitive_triangles
 from .recording import Array
 from .run import Run, body_pose
-from .solid import Solid, Solids, hulls
+from .solid import Solids, hulls
 
 UNLIKE = 0.45
 """How much of collision and visual is in both at most, for a misplaced one, of the smaller."""
@@ -75,14 +75,14 @@ def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | 
     back = (body_pose(run, own, frame) @ bodies[own].places[link]).inverse()
     there = back @ body_pose(run, other, frame)
     at = {name: there @ place for name, place in bodies[other].places.items()}
-    touches = Solids(_touching(robot, bodies[own], link))
-    theirs = Solids(s.moved(at[n]) for n in at for s in _touching(robot, bodies[other], n))
+    touches = _touching(robot, bodies[own], link)
+    theirs = _union(_touching(robot, bodies[other], name).moved(at[name]) for name in at)
     smaller = min(touches.volume, theirs.volume)
     if not smaller:
         return None
     share = touches.shared(theirs) / smaller
-    seen = Solids(_seen(robot, link))
-    shown = Solids(s.moved(at[n]) for n in at for s in _seen(robot, n))
+    seen = _seen(robot, link)
+    shown = _union(_seen(robot, name).moved(at[name]) for name in at)
     if share > SHARE and shown_box is not None:
         off = (shown_box[0] + shown_box[1] - box[0] - box[1]) / 2
         more = _fits_better(touches, off, seen, theirs)
@@ -139,8 +139,7 @@ def _fits_better(touches: Solids, off: Array, seen: Solids, theirs: Solids) -> f
         seen: The visual.
         theirs: What touches of the neighbour, of which it may share no more when it is moved.
     """
-    pose = Pose(translation=(float(off[0]), float(off[1]), float(off[2])))
-    moved = Solids(solid.moved(pose) for solid in touches.solids)
+    moved = touches.moved(Pose(translation=(float(off[0]), float(off[1]), float(off[2]))))
     if moved.shared(theirs) > (1 + ROUGH) * touches.shared(theirs):
         return 0.0
     return (moved.shared(seen) - touches.shared(seen)) / touches.volume
@@ -184,12 +183,16 @@ def _body_of(run: Run, link: str) -> int:
     return next(number for number, body in enumerate(run.bodies.bodies) if link in body.links)
 
 
-def _touching(robot: Robot, body: Body, link: str) -> list[Solid]:
+def _union(some: Iterable[Solids]) -> Solids:
+    return Solids(part for solids in some for part in solids.parts)
+
+
+def _touching(robot: Robot, body: Body, link: str) -> Solids:
     """The convex pieces of a link that touch, as engines have them, in its frame."""
-    return _kept(robot, f"touches {link}", lambda: list(_pieces(robot, body, link)))
+    return _kept(robot, f"touches {link}", lambda: _union(_pieces(robot, body, link)))
 
 
-def _seen(robot: Robot, link: str) -> list[Solid]:
+def _seen(robot: Robot, link: str) -> Solids:
     """The hulls of what is seen of a link, in its frame."""
     looks = looks_of(robot.link[link])
     return _kept(
@@ -199,10 +202,10 @@ def _seen(robot: Robot, link: str) -> list[Solid]:
     )
 
 
-_solids: tuple[Robot, dict[str, list[Solid]]] | None = None
+_solids: tuple[Robot, dict[str, Solids]] | None = None
 
 
-def _kept(robot: Robot, name: str, make: Callable[[], list[Solid]]) -> list[Solid]:
+def _kept(robot: Robot, name: str, make: Callable[[], Solids]) -> Solids:
     """Solids of a link, made once for all neighbours that it is compared with."""
     global _solids
     kept = _solids  # another thread may put its own robot there
@@ -214,9 +217,8 @@ def _kept(robot: Robot, name: str, make: Callable[[], list[Solid]]) -> list[Soli
     return known[name]
 
 
-def _pieces(robot: Robot, body: Body, link: str) -> Iterator[Solid]:
+def _pieces(robot: Robot, body: Body, link: str) -> Iterator[Solids]:
     shapes = [shape for shape in body.shapes if shape.link == link]
     for shape, collision in zip(shapes, robot.link[link].collisions, strict=True):
-        pose = pose_of(collision.origin)
         clouds = shape.pieces or (primitive_triangles(collision).reshape(-1, 3),)
-        yield from (solid.moved(pose) for solid in hulls(clouds))
+        yield hulls(clouds).moved(pose_of(collision.origin))
