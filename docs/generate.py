@@ -60,6 +60,7 @@ def rule_page(rule: Rule) -> str:
             if path.suffix in (".urdf", ".xacro"):
                 text = path.read_text("utf-8", "replace").rstrip()
                 parts.append(f"## {title}\n\n```xml\n{text}\n```")
+                parts += _controllers(path)
                 break
     if rule.name in FIXABLE:
         parts.append(fix_shown(rule.name))
@@ -68,6 +69,14 @@ def rule_page(rule: Rule) -> str:
         "on the line or before the element."
     )
     return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def _controllers(path: Path) -> list[str]:
+    """The file of controllers that a fixture names."""
+    file = path.parent / "config" / f"{path.name.split('.')[0]}.yaml"
+    if not file.exists():
+        return []
+    return [f"with `config/{file.name}`:\n\n```yaml\n{file.read_text('utf-8').rstrip()}\n```"]
 
 
 def fix_shown(rule: str) -> str:

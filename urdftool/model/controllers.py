@@ -34,6 +34,8 @@ DRIVES: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 }  # fmt: skip
 """By class, the parameters with joints that are driven by velocity, and by position."""
 
+_JOINTS = ("joints", "joint", "dof_names", "dof_name", "command_joints")
+
 
 @dataclass(frozen=True, eq=False)
 class Controller:
@@ -58,6 +60,23 @@ class Controller:
     def package(self) -> str:
         """The package of its class."""
         return (self.type.text or "").partition("/")[0]
+
+    @property
+    def joints(self) -> list[Node]:
+        """The scalars that name joints, in the order of the parameters."""
+        wheels, steered = DRIVES.get(self.kind, ((), ()))
+        return [one for name in (*wheels, *steered, *_JOINTS) for one in self.named(name)]
+
+    def named(self, parameter: str) -> list[Node]:
+        """The scalars of a parameter that is one or a list; none where it is something else."""
+        node = (self.parameters.fields or {}).get(parameter)
+        nodes = [] if node is None else [node] if node.items is None else node.items
+        return [one for one in nodes if one.text]
+
+
+def joint_of(node: Node) -> str:
+    """The joint that a scalar names, without the controller behind which it stands."""
+    return (node.text or "").rpartition("/")[2]
 
 
 def controllers_in(root: Node) -> Iterator[Controller]:

@@ -315,6 +315,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "ros2-control-unknown-imu-interface",
             "sensor-name-mismatch",
         ),
+        "controllers": ("controller-unknown-joint",),
     },
     "simulation": {
         "stability": ("mass-ratio",),
@@ -390,11 +391,12 @@ ONLY_WITH: dict[str, tuple[str, ...]] = {
     "gazebo.lumping": ("gazebo",),
     "gazebo.sensors": ("gazebo",),
     "gazebo.plugins": ("plugin",),
-    "gazebo.drives": ("plugin", "ros2_control"),
+    "gazebo.drives": ("plugin", "ros2_control", "transmission"),
     "control.transmissions": ("transmission", "plugin"),
     "control.ros2_control": ("ros2_control",),
     "control.ros2_control_form": ("ros2_control",),
     "control.ros2_control_simulated": ("ros2_control", "plugin"),
+    "control.controllers": ("ros2_control", "transmission"),
 }
 
 FAMILIES = tuple(RULES)

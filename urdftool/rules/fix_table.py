@@ -219,6 +219,7 @@ FIXES: dict[str, dict[str, str]] = {
         "ros2-control-nested": SAFE,
         "ros2-control-wrong-sim-plugin": UNSAFE,
         "ros2-control-unknown-imu-interface": UNSAFE,
+        "controller-unknown-joint": UNSAFE,
     },
     "renames": {
         "link-joint-name-clash": UNSAFE,

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
+
 from ...source.document import Element
 from ..rule import Problem
 from .proposal import (
     Around,
     Change,
     Proposal,
+    Span,
     after,
     attribute_at,
     element_at,
@@ -253,3 +256,15 @@ def ros2_control_wrong_sim_plugin(problem: Problem, around: Around) -> Proposal 
 def ros2_control_unknown_imu_interface(problem: Problem, around: Around) -> Proposal | None:
     """The state that was meant."""
     return _rename(problem)
+
+
+def controller_unknown_joint(problem: Problem, around: Around) -> Proposal | None:
+    """The joint that was meant, in the file of controllers."""
+    file, start, end = problem.place.file, problem.place.start, problem.place.end
+    written_there = file.data[start:end]
+    wrong = re.search(rb"[\w.-]+(?=[\"']?$)", written_there)
+    name = meant(problem, wrong[0].decode("utf-8", "replace")) if wrong is not None else ""
+    if wrong is None or not name:
+        return None
+    at = start + wrong.start()
+    return unsafe(f"write {name}", Span(file, at, at + len(wrong[0]), name.encode()))

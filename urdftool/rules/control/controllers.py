@@ -1,0 +1,129 @@
+"""Controllers of ros_control and ros2_control in YAML, beside the joints that the robot has."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ...model.controllers import Controller, joint_of
+from ...model.elements import Robot
+from ...source.description import Description
+from ...source.yaml_tree import Node
+from ..rule import ROS, WARNING, Problem, rule
+from ..words import nearest
+from .controller_files import ControllerFile, Package, package_of
+
+_TOLD = ("Broadcaster", "StateController", "SensorController")
+_WORDS = re.compile(r"[a-z]+|\d+")
+
+
+@rule(
+    WARNING,
+    on=ROS,
+    effects={"controller_manager": "the controller does not start: its joint is not there"},
+)
+def controller_unknown_joint(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A controller names a joint that the robot does not have, or that cannot move.
+
+    The controllers stand in a YAML file, away from the robot, and a name that is mistaken there is
+    found when the controller is loaded. Looked at are the files that ``<parameters>`` of the plugin
+    that runs ros2_control names, and those of the robot's own package that a launch file names
+    beside the description, or that can be for no other robot. Where parts of the robot are left
+    away by arguments of xacro, or the file is for several robots, only a name that is near to a
+    joint which the controller lacks is told.
+    """
+    package = package_of(robot, description)
+    for file in package.controller_files:
+        for controller in file.controllers:
+            for node in controller.joints:
+                yield from _wrong(robot, package, file, controller, node)
+
+
+def _wrong(
+    robot: Robot,
+    package: Package,
+    file: ControllerFile,
+    controller: Controller,
+    node: Node,
+) -> Iterator[Problem]:
+    name = joint_of(node)
+    if _has(robot, name):
+        joint = robot.joint.get(name)
+        fixed = joint is not None and joint.is_fixed and not controller.kind.endswith(_TOLD)
+        if fixed and not file.shared:
+            yield Problem(
+                robot,
+                f"joint '{name}' is fixed, and controller '{controller.name}' cannot move it",
+                at=node.place,
+            )
+        return
+    if not re.fullmatch(r"[\w.-]+", name) or _is_elsewhere(robot, package, name):
+        return
+    if package.description.expansion is not None and _have_prefix(robot, controller):
+        return
+    near = _meant(robot, controller, name)
+    if near or (not file.shared and _is_sure(robot, package, file, controller)):
+        asked = f"; did you mean '{near}'?" if near else ""
+        yield Problem(
+            robot,
+            f"controller '{controller.name}' names joint '{name}', which the robot does not "
+            f"have{asked}",
+            at=node.place,
+        )
+
+
+def _has(robot: Robot, name: str) -> bool:
+    return name in robot.joint or any(
+        name == component.name for block in robot.ros2_controls for component in block.components
+    )
+
+
+def _has_some(robot: Robot, *controllers: Controller) -> bool:
+    return any(_has(robot, joint_of(node)) for one in controllers for node in one.joints)
+
+
+def _is_sure(robot: Robot, package: Package, file: ControllerFile, controller: Controller) -> bool:
+    """Whether a controller is for this robot as it is, and not for one with other arguments."""
+    if not file.by_plugin and not file.by_launch:
+        return False
+    if _has_some(robot, controller):
+        return True
+    if package.description.expansion is None:
+        return True
+    if file.by_plugin and not _has_some(robot, *file.controllers):
+        return True
+    sources = [source.data for source in package.description.files]
+    return not any(b"<xacro:if" in data or b"<xacro:unless" in data for data in sources)
+
+
+def _have_prefix(robot: Robot, controller: Controller) -> bool:
+    """Whether the joints of a controller are those of the robot with another prefix."""
+    names = [joint_of(node) for node in controller.joints]
+    known = [joint.name for joint in robot.joints if joint.name]
+    return all(a not in known and any(a.endswith(b) or b.endswith(a) for b in known) for a in names)
+
+
+def _is_elsewhere(robot: Robot, package: Package, name: str) -> bool:
+    """Whether a name is written in a part of the package that this robot is made without."""
+    if name in robot.link:
+        return False
+    sources = package.description.files if package.description.expansion is not None else []
+    word = re.compile(rb"(?<!\w)" + re.escape(name.encode()) + rb"(?!\w)")
+    return any(word.search(file.data) for file in (*sources, *(package.other_files or ())))
+
+
+def _meant(robot: Robot, controller: Controller, name: str) -> str:
+    """The joint that was perhaps meant: of nearly that name, and not named by the controller."""
+    named = {joint_of(node) for node in controller.joints}
+    if name in robot.link:  # the link's name for that of the joint which moves it
+        joint = robot.tree.parent_joint(name)
+        return joint.name if joint is not None and joint.has_axis else ""
+    free = [joint.name for joint in robot.moving_joints if joint.name not in named]
+    words = sorted(_WORDS.findall(name.lower()))
+    for other in free:
+        if sorted(_WORDS.findall(other.lower())) == words:
+            return other
+    longer = [f for f in free if f.startswith(f"{name}_") or name.startswith(f"{f}_")]
+    if len(longer) == 1:
+        return longer[0]
+    return nearest(name, free, 0.8)

@@ -1,0 +1,236 @@
+"""What drives on wheels, plugins and controllers: on which, and what it is told of them."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from ...model.controllers import Controller, joint_of
+from ...model.elements import Joint, Plugin, Robot, Vector
+from ...model.kinematics import link_poses
+from ...model.pose import Pose, norm, rotate
+from ...source.document import Element
+from ...source.location import Place
+from ...source.yaml_tree import Node
+from ..control.controller_files import package_of
+
+_SKIDS = re.compile(r"skid[-_]steer")
+_DRIVES = re.compile(r"diff[-_]drive|skid[-_]steer")
+_ROLLS = re.compile(r"diff[-_]drive|skid[-_]steer|mecanum[-_]drive")
+_LEFT = (
+    *("left_joint", "leftJoint", "leftFrontJoint", "leftRearJoint"),
+    *("front_left_joint", "back_left_joint"),
+)
+_SEPARATION = ("wheel_separation", "wheelSeparation")
+_RADIUS = ("wheel_radius", "wheelRadius")
+_DIAMETER = ("wheel_diameter", "wheelDiameter")
+
+
+class Wheel(NamedTuple):
+    """A wheel as it stands where all joints are at zero, in the frame of the root [m]."""
+
+    joint: Joint
+    pose: Pose
+    axis: Vector
+
+    @property
+    def name(self) -> str:
+        """The link's name."""
+        return self.joint.child
+
+
+Pair = tuple[Wheel, Wheel]
+"""A left wheel and the right one."""
+
+
+class Told(NamedTuple):
+    """A length that a drive is told.
+
+    Attributes:
+        word: How it is written.
+        value: The length [m].
+        meant: The same, with what it is multiplied by [m].
+        place: Where it is written.
+        per_radius: Of a wheel's size, 2 for a diameter and 1 for a radius.
+    """
+
+    word: str
+    value: float
+    meant: float
+    place: Place
+    per_radius: int = 1
+
+
+class Drive(NamedTuple):
+    """A plugin or controller.
+
+    Attributes:
+        name: Which, in words.
+        subject: What a finding of it is about.
+        pairs: The wheels that it drives.
+        named: Where it names the first of them.
+        skids: Whether its wheels slip sideways when it turns.
+        turns: Whether it goes ahead when the wheels of both sides are given the same velocity.
+        separations: What it is told of the distance of a pair.
+        sizes: What it is told of the size of a wheel.
+    """
+
+    name: str
+    subject: Element | Joint
+    pairs: list[Pair]
+    named: Place
+    skids: bool
+    turns: bool
+    separations: list[tuple[Told, Pair]]
+    sizes: list[tuple[Told, Wheel]]
+
+
+def drives(robot: Robot) -> Iterator[Drive]:
+    """The drives of a robot whose wheels are known."""
+    poses: dict[str, Pose] = {}
+    for plugin in robot.plugins:
+        if _ROLLS.search(plugin.filename.rpartition("/")[2]):
+            poses = poses or link_poses(robot)
+            yield from _of_plugin(robot, plugin, poses)
+    if robot.source is None:
+        return
+    for file in package_of(robot, robot.source).controller_files:
+        for controller in file.controllers:
+            if controller.kind == "DiffDriveController":
+                poses = poses or link_poses(robot)
+                yield from _of_controller(robot, controller, poses)
+
+
+def _of_plugin(robot: Robot, plugin: Plugin, poses: dict[str, Pose]) -> Iterator[Drive]:
+    elements = _named(plugin, _LEFT)
+    rights = {
+        tag: [child.text.strip() for child in plugin.element.all(tag)]
+        for tag in {_mirrored(child.tag) for child in elements}
+    }
+    pairs = []
+    for child in elements:
+        others = rights[_mirrored(child.tag)]
+        other = others.pop(0) if others else ""
+        wheels = [wheel_of(robot, poses, name) for name in (child.text.strip(), other)]
+        if wheels[0] is not None and wheels[1] is not None:
+            pairs.append((wheels[0], wheels[1]))
+    if not pairs:
+        return
+    yield Drive(
+        f"plugin '{plugin.name}'",
+        plugin.element,
+        pairs,
+        elements[0].place,
+        len(pairs) > 1 or bool(_SKIDS.search(plugin.filename)),
+        bool(_DRIVES.search(plugin.filename.rpartition("/")[2])),
+        [
+            (told, pairs[min(index, len(pairs) - 1)])
+            for index, told in _told(plugin, _SEPARATION, 1)
+        ],
+        [
+            (told, pairs[min(index, len(pairs) - 1)][0])
+            for names, per_radius in ((_RADIUS, 1), (_DIAMETER, 2))
+            for index, told in _told(plugin, names, per_radius)
+        ],
+    )
+
+
+def _told(plugin: Plugin, names: tuple[str, ...], per_radius: int) -> Iterator[tuple[int, Told]]:
+    for index, element in enumerate(_named(plugin, names)):
+        value = _number(element.text)
+        if value is not None:
+            yield index, Told(f"<{element.tag}>", value, value, element.place, per_radius)
+
+
+def _of_controller(robot: Robot, controller: Controller, poses: dict[str, Pose]) -> Iterator[Drive]:
+    sides = [
+        [
+            (node, wheel_of(robot, poses, joint_of(node)))
+            for end in ("_names", "")
+            for node in controller.named(f"{side}_wheel{end}")
+        ]
+        for side in ("left", "right")
+    ]
+    pairs = [
+        (left, right)
+        for (_, left), (_, right) in zip(*sides, strict=False)
+        if left is not None and right is not None
+    ]
+    if not pairs:
+        return
+    yield Drive(
+        f"controller '{controller.name}'",
+        pairs[0][0].joint,
+        pairs,
+        sides[0][0][0].place,
+        len(pairs) > 1 or (_value(controller, "wheels_per_side") or 1) > 1,
+        _is_simulated(robot),
+        [
+            (told, pairs[0])
+            for told in _parameter(controller, "wheel_separation", "wheel_separation_multiplier")
+        ],
+        [
+            (told, pairs[0][0])
+            for told in _parameter(
+                controller,
+                "wheel_radius",
+                "wheel_radius_multiplier",
+                "left_wheel_radius_multiplier",
+            )
+        ],
+    )
+
+
+def _parameter(controller: Controller, name: str, *multipliers: str) -> Iterator[Told]:
+    for node in controller.named(name):
+        value = _scalar(node)
+        if value is not None:
+            meant = value * math.prod(_value(controller, word) or 1.0 for word in multipliers)
+            yield Told(name, value, meant, node.place)
+
+
+def _value(controller: Controller, name: str) -> float | None:
+    return next((_scalar(node) for node in controller.named(name)), None)
+
+
+def _scalar(node: Node) -> float | None:
+    return None if node.quoted else _number(node.text or "")
+
+
+def _is_simulated(robot: Robot) -> bool:
+    """Whether the wheels turn as their axes say, which hardware need not."""
+    return any("_ros2_control/" in (block.plugin or "") for block in robot.ros2_controls) or any(
+        "gazebo_ros_control" in plugin.filename for plugin in robot.plugins
+    )
+
+
+def _named(plugin: Plugin, names: tuple[str, ...]) -> list[Element]:
+    return [child for child in plugin.element.children if child.tag in names]
+
+
+def _mirrored(tag: str) -> str:
+    return tag.replace("left", "right")
+
+
+def wheel_of(robot: Robot, poses: dict[str, Pose], name: str) -> Wheel | None:
+    """The wheel that a joint turns; None where there is no such joint, or it cannot turn."""
+    joint = robot.joint.get(name)
+    if joint is None or joint.child not in poses or joint.is_fixed:
+        return None
+    axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+    length = norm(axis)
+    if not length:
+        return None
+    pose = poses[joint.child]
+    x, y, z = rotate(pose.rotation, axis)
+    return Wheel(joint, pose, (x / length, y / length, z / length))
+
+
+def _number(text: str) -> float | None:
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
