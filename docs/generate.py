@@ -83,7 +83,7 @@ def fix_shown(rule: str) -> str:
     """What the fix of a rule makes of a fixture, as a diff."""
     option = "--fix" if FIXABLE[rule] == "safe" else "--fix --unsafe-fixes"
     lines: list[str] = []
-    found = sorted((FIXTURES / rule).glob("fixed*"), key=Path.is_dir)
+    found = sorted((FIXTURES / rule).glob("fixed*"), key=lambda path: (path.is_dir(), path.name))
     stem = found[0].name.split(".")[0]
     for fixed in (path for path in found if path.name.split(".")[0] == stem):
         if fixed.is_dir():

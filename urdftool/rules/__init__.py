@@ -167,7 +167,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "collision-much-smaller-than-visual",
             "collision-off-visual",
         ),
-        "wheels": ("wheel-cylinder-axis", "paper-thin-collision"),
+        "wheels": ("wheel-cylinder-axis", "caster-height-mismatch", "paper-thin-collision"),
         "overlap": (
             "self-collision-at-zero",
             "self-collide-at-spawn",

@@ -126,6 +126,7 @@ FIXES: dict[str, dict[str, str]] = {
         "collision-off-visual": UNSAFE,
         "unsupported-shape": UNSAFE,
         "wheel-cylinder-axis": UNSAFE,
+        "caster-height-mismatch": UNSAFE,
         "invalid-color": UNSAFE,
         "fully-transparent": UNSAFE,
         "empty-material-name": SAFE,

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from ...model.bounds import size_of
-from ...model.elements import Box, Cylinder, Robot
+from ...model.elements import Box, Cylinder, Joint, Robot
 from ...model.pose import dot, norm, pose_of, rotate
 from ..rule import INFO, WARNING, Problem, rule
+
+if TYPE_CHECKING:
+    from .casters import Caster
 
 _WHEEL = re.compile(r"wheel|tire|caster", re.IGNORECASE)
 
@@ -43,6 +47,63 @@ def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Pro
                 f"'{joint.name}'; turn its <origin> so that z lies along the axis",
                 at=collision.origin or shape,
             )
+
+
+@rule(
+    WARNING,
+    effects={"every simulator": "the wheels spin in the air, or the robot and its sensors lean"},
+)
+def caster_height_mismatch(
+    robot: Robot, *, deepest: float = 0.001, steepest: float = 3.0
+) -> Iterator[Problem]:
+    """A caster ends lower or higher than the wheels that are driven.
+
+    With casters before and behind the axle that reach lower than the wheels, these hang in the air,
+    and the robot does not move. With casters on one side alone it lies tilted, and all that its
+    sensors see with it. Where a robot stands is worked out at zero of all joints, with the two
+    wheels of a drive, or the only two there are; casters are told by their names, and spheres that
+    are lower than all but the wheels are taken for such. Wheels and casters on springs are left
+    out. Let pass are ``deepest`` [m] of air below the wheels, and ``steepest`` [degrees] of tilt.
+    """
+    if sum(joint.type == "continuous" for joint in robot.joints) < 2 or robot.tree.root is None:
+        return
+    from math import degrees
+
+    from .casters import axle_of, casters_of
+
+    axle = axle_of(robot)
+    found = list(casters_of(robot, axle)) if axle is not None else []
+    found = [caster for caster in found if abs(caster.ahead) > 0.005]
+    ends = [[c for c in found if c.ahead > 0], [c for c in found if c.ahead < 0]]
+    firsts = [min(end, key=lambda c: c.tilt) for end in ends if end]
+    if len(firsts) == 2:
+        one, other = firsts
+        apart = abs(one.ahead) + abs(other.ahead)
+        air = -(one.above * abs(other.ahead) + other.above * abs(one.ahead)) / apart
+        if air > deepest:
+            low = min(firsts, key=lambda c: c.above)
+            yield _caster_problem(low, f"the wheels hang {air * 1000:.3g} mm in the air")
+            return
+    lying = min(firsts, key=lambda c: abs(c.tilt), default=None)
+    if lying is not None and degrees(abs(lying.tilt)) > steepest:
+        tilt = degrees(abs(lying.tilt))
+        yield _caster_problem(lying, f"the robot lies tilted by {tilt:.1f}°")
+
+
+def _caster_problem(caster: Caster, comes_of_it: str) -> Problem:
+    where = "below" if caster.above < 0 else "above"
+    what = "joint" if isinstance(caster.moved, Joint) else "collision"
+    right = "" if caster.height is None else f"; write z = {_length(caster.height)} for its {what}"
+    return Problem(
+        caster.link,
+        f"caster '{caster.link.name}' ends {abs(caster.above) * 1000:.3g} mm {where} the lowest "
+        f"point of the driven wheels, so {comes_of_it}{right}",
+        at=caster.moved.origin or caster.moved,
+    )
+
+
+def _length(value: float) -> str:
+    return f"{round(value, 5) + 0.0:g}"
 
 
 @rule(INFO, default=False, effects={"every simulator": "fast things pass through it in one step"})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 from ...model.elements import Box, Cylinder, Mesh, Sphere
 from ...model.pose import norm
@@ -15,6 +16,7 @@ from .proposal import (
     attribute_at,
     drop,
     element_at,
+    is_computed,
     lines_of,
     meant,
     put,
@@ -24,6 +26,7 @@ from .proposal import (
     safe,
     stands_in,
     unsafe,
+    written,
 )
 
 _PRIMITIVES = (Box, Cylinder, Sphere)
@@ -117,6 +120,19 @@ def wheel_cylinder_axis(problem: Problem, around: Around) -> Proposal | None:
     else:
         change = Change("first", collision.element, blocks=((f'<origin rpy="{rpy}"/>',),))
     return unsafe(f'write rpy="{rpy}"', change)
+
+
+def caster_height_mismatch(problem: Problem, around: Around) -> Proposal | None:
+    """At the height at which it ends where the wheels do."""
+    found = re.search(r"write z = (-?[\d.]+) for", problem.message)
+    origin = element_at(problem)
+    if found is None or origin is None or origin.tag != "origin":
+        return None
+    words = written(origin, "xyz").split()
+    if len(words) != 3 or is_computed(origin, "xyz"):
+        return None
+    x, y, _ = words
+    return unsafe(f"write z = {found[1]}", put(origin, "xyz", f"{x} {y} {found[1]}"))
 
 
 def invalid_color(problem: Problem, around: Around) -> Proposal | None:
