@@ -50,7 +50,8 @@ def command(
     Exit 0 if it stands, 1 if it does not, 2 if it could not be tried; of a --fleet 2 if one could
     not be tried, else 1 if one does not stand.
     """  # noqa: D301 -- click reads the escape
-    from ..simulation.engines import ENGINES, check_engines, default_engine
+    from ..simulation.child import Child
+    from ..simulation.engines import ENGINES, LIBRARIES, check_engines, default_engine
     from .read_lax import read_lax
     from .simulate_control import controlled
     from .simulate_fleet import Fleet, simulate_fleet
@@ -75,8 +76,9 @@ def command(
             frozenset(paths),
         )  # fmt: skip
         return simulate_fleet(fleet, paths, style=style, junit=junit, jobs=values["jobs"])
-    model = read_lax(console, paths[0], arguments, package, package_path)
-    settings = controlled(console, settings, model, controllers)
-    return simulate_one(
-        console, model, settings, engines, style=style, outputs=outputs, junit=junit
-    )
+    with Child(LIBRARIES[engines[0]]) as child:  # starts while the robot is read
+        model = read_lax(console, paths[0], arguments, package, package_path)
+        settings = controlled(console, settings, model, controllers)
+        return simulate_one(
+            console, model, settings, engines, child, style=style, outputs=outputs, junit=junit
+        )

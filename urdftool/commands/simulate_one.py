@@ -11,6 +11,7 @@ from .simulate_options import Progress
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
+    from ..simulation.child import Child
     from ..simulation.fault import Fault
     from ..simulation.run import Progress as Told
     from ..simulation.settings import Settings
@@ -23,8 +24,11 @@ def judged(
     settings: Settings,
     engines: tuple[str, ...],
     progress: Told = lambda *_: None,
+    child: Child | None = None,
 ) -> tuple[list[list[Verdict]], list[Fault]]:
     """The verdicts of each engine, and in what two engines differ.
+
+    ``child`` is a process of the first engine that waits for work.
 
     Raises:
         UrdftoolError: The robot cannot be simulated.
@@ -33,7 +37,11 @@ def judged(
     from ..simulation.run import simulate
     from ..simulation.verdict import judge
 
-    runs = [simulate(robot, settings, engine=engine, progress=progress) for engine in engines]
+    waiting = (child, *(None for _ in engines[1:]))
+    runs = [
+        simulate(robot, settings, engine=engine, progress=progress, child=process)
+        for engine, process in zip(engines, waiting, strict=True)
+    ]
     verdicts = [[judge(robot, run) for run in some] for some in runs]
     if len(engines) < 2:
         return verdicts, []
@@ -45,6 +53,7 @@ def simulate_one(
     robot: Robot,
     settings: Settings,
     engines: tuple[str, ...],
+    child: Child,
     *,
     style: str,
     outputs: Outputs,
@@ -57,6 +66,7 @@ def simulate_one(
         robot: The robot.
         settings: How it is spawned.
         engines: Modules of ``simulation``; two are compared.
+        child: A process of the first engine that waits for work.
         style: ``text``, ``json`` or ``junit``.
         outputs: What is drawn of the first trial.
         junit: A file for JUnit XML, beside what is shown.
@@ -75,7 +85,7 @@ def simulate_one(
     check_targets(files, inputs=sorted(sources(robot)))
     outputs.read(console, robot)
     with Progress(console) as progress:
-        verdicts, differ = judged(robot, settings, engines, progress)
+        verdicts, differ = judged(robot, settings, engines, progress, child)
     everything = [verdict for some in verdicts for verdict in some]
     path = robot.source.path if robot.source is not None else ""
     row = row_of(path, robot.name, everything, differ)

@@ -106,7 +106,8 @@ class World:
         p = self.p
         flags = p.URDF_USE_INERTIA_FROM_FILE | p.URDF_USE_IMPLICIT_CYLINDER
         flags |= p.URDF_MAINTAIN_LINK_ORDER
-        flags |= p.URDF_USE_SELF_COLLISION | p.URDF_USE_SELF_COLLISION_EXCLUDE_PARENT
+        if self.settings.self_collision:
+            flags |= p.URDF_USE_SELF_COLLISION | p.URDF_USE_SELF_COLLISION_EXCLUDE_PARENT
         try:
             number: int = p.loadURDF(
                 str(folder / NAME), flags=flags, useFixedBase=self.bodies.nailed
@@ -157,13 +158,6 @@ class World:
                 options["contactDamping"] = surface.damping or 1.0
             p.changeDynamics(self.robot, self.link_of[number], **options)
             self._check_friction(number, options["lateralFriction"])
-        if not settings.self_collision:
-            count = len(self.bodies.bodies)
-            for one in range(count):
-                for other in range(one):
-                    p.setCollisionFilterPair(
-                        self.robot, self.robot, self.link_of[one], self.link_of[other], 0
-                    )
 
     def lift(self) -> None:
         """Take the robot off the plane, which is not to matter."""

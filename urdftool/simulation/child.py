@@ -49,7 +49,9 @@ class Child:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """End it."""
+        """End it; once it has ended, this does nothing."""
+        if self._errors.closed:
+            return
         if self._process.poll() is None:
             self._process.kill()
         self._process.communicate()

@@ -10,6 +10,9 @@ from ..errors import MissingDependency
 ENGINES = {"pybullet": ("bullet",), "mujoco": ("mj",), "both": ("bullet", "mj")}
 """What ``--engine`` may be, and the modules that are run."""
 
+LIBRARIES = {"bullet": "pybullet", "mj": "mujoco"}
+"""Modules with a function ``run(bodies, settings, folder)``, and the library each imports."""
+
 MUJOCO = "pip install 'urdftool[mujoco]'"
 
 _LAST = (3, 11)  # the last Python for which PyBullet has wheels

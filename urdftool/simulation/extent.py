@@ -8,10 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
-from ..formats.mjcf.extent import geometry_points, placed, shape_points
+from ..formats.mjcf.extent import placed, shape_points
 from ..meshes.hull import convex_hull
 from ..model.elements import Box, Capsule, Collision, Cylinder, Link, Mesh, Robot, Sphere, Visual
 from .recording import Array
+from .remembered import mesh_points
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,22 +99,11 @@ def is_off_mass(robot: Robot, name: str) -> bool:
 
 
 def points_of(robot: Robot, shape: Visual | Collision) -> Array | None:
-    """As :func:`shape_points`; the mesh is read once for all shapes of a robot that use it."""
-    global _read
-    geometry = shape.geometry
-    if not isinstance(geometry, Mesh):
+    """As :func:`shape_points`, of a mesh the outermost ones."""
+    if not isinstance(shape.geometry, Mesh):
         return shape_points(robot, shape)
-    kept = _read  # another thread may put its own robot there
-    if kept is None or kept[0] is not robot:
-        kept = _read = robot, {}
-    known, name = kept[1], (geometry.filename, *geometry.scale)
-    if name not in known:
-        known[name] = geometry_points(robot, geometry)
-    points = known[name]
+    points = mesh_points(robot, shape.geometry)
     return None if points is None else placed(points, shape)
-
-
-_read: tuple[Robot, dict[tuple[str | float, ...], Array | None]] | None = None
 
 
 def box_of(

@@ -6,14 +6,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..errors import UrdftoolError
-from ..meshes.outline import outline
 from ..model.elements import Mesh, Robot
 from .bodies import Bodies, Body, mass_of
 from .extent import extent_of
 from .fault import Fault
 from .judge_size import has_shapes, judge_size
 from .recording import Array
+from .remembered import mesh_points
 from .run import Run
 from .urdf import ROUNDED
 
@@ -217,22 +216,18 @@ def _giants(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
 
 def _giant_looks(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
     """Meshes that are seen in millimetres on a robot that touches in metres."""
-    source = robot.source
     least = max(LARGEST, 30 * bodies.size)
-    if source is None or not bodies.size:
+    if not bodies.size:
         return
     for name in (name for body in bodies.bodies for name in body.links):
         for visual in robot.link[name].visuals:
             mesh = visual.geometry
             if not isinstance(mesh, Mesh):
                 continue
-            try:
-                found = outline(source.resolve(mesh.filename), source.gltf_up)
-            except UrdftoolError:
+            points = mesh_points(robot, mesh)
+            if points is None:
                 continue  # what is only seen need not be there
-            if found is None:
-                continue
-            edges = (np.array(found.high) - np.array(found.low)) * np.abs(mesh.scale)
+            edges = points.max(axis=0) - points.min(axis=0)
             if (size := float(edges.max())) > least:
                 yield Fault(
                     "too-large",

@@ -6,6 +6,7 @@ Points of one surface that lie inside the other, by the winding number of its tr
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -21,6 +22,8 @@ from .shapes import hull
 
 POINTS = 1500
 """Points of a surface that are tried."""
+
+_AT_ONCE = 64  # points whose distances to all others fit in the cache
 
 
 def overlap(robot: Robot, run: Run, frame: int, one: str, other: str) -> float | None:
@@ -100,8 +103,6 @@ def _deepest(one: Array, other: Array) -> float:
 
 def _inside(one: Array, other: Array, low: Array, high: Array) -> float:
     """How far points of one surface get into the other, looked for in a box that both share."""
-    from scipy.spatial import cKDTree  # takes a tenth of a second, and few robots come here
-
     points = _points(one)
     points = points[((points >= low) & (points <= high)).all(axis=1)]
     if not len(points):
@@ -109,8 +110,18 @@ def _inside(one: Array, other: Array, low: Array, high: Array) -> float:
     points = points[winding_numbers(points, boxes_of(other)) > 0.5]
     if not len(points):
         return 0.0
-    distances, _ = cKDTree(_points(other)).query(points)
-    return float(distances.max())
+    return math.sqrt(max(_nearest_squared(points, _points(other))))
+
+
+def _nearest_squared(points: Array, others: Array) -> Iterator[float]:
+    """The squared distance from each point to the nearest of others [m²]."""
+    middle = others.mean(axis=0)  # about which squares lose no digits
+    points, others = points - middle, (others - middle).T
+    squares = (others**2).sum(axis=0)
+    for first in range(0, len(points), _AT_ONCE):
+        some = points[first : first + _AT_ONCE]
+        nearest = (squares - 2 * some @ others).min(axis=1) + (some**2).sum(axis=1)
+        yield from np.maximum(0.0, nearest).tolist()
 
 
 def _points(triangles: Array) -> Array:

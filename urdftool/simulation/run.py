@@ -14,16 +14,15 @@ from ..model.elements import Robot
 from ..model.pose import Pose, rotation_of_quaternion
 from .bodies import Bodies
 from .child import Child
+from .engines import LIBRARIES
 from .prepare import prepare
 from .recording import Recording
+from .remembered import reading_looks
 from .settings import Settings
 from .sweep import Swept
 from .urdf import write_folder
 
 Progress = Callable[[int, int], None]
-
-LIBRARIES = {"bullet": "pybullet", "mj": "mujoco"}
-"""Modules with a function ``run(bodies, settings, folder)``, and the library each imports."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +55,7 @@ def simulate(
     engine: str = "bullet",
     progress: Progress = lambda *_: None,
     alter: Callable[[Bodies], Bodies] | None = None,
+    child: Child | None = None,
 ) -> list[Run]:
     """Spawn a robot and let it settle, as often as the settings say.
 
@@ -65,6 +65,7 @@ def simulate(
         engine: A key of ``LIBRARIES``.
         progress: Told before each trial: its number, how many.
         alter: Changes the bodies before an engine has them.
+        child: A process of this engine that waits for the first trial.
 
     Raises:
         ModelError: The robot is one that no engine can be given.
@@ -76,7 +77,7 @@ def simulate(
     for number, trial in enumerate(trials(settings), 1):
         progress(number, settings.trials)
         with (
-            Child(LIBRARIES[engine]) as child,
+            (number == 1 and child) or Child(LIBRARIES[engine]) as process,
             tempfile.TemporaryDirectory(prefix="urdftool-") as folder,
         ):
             bodies = prepare(robot, trial)
@@ -84,7 +85,10 @@ def simulate(
                 bodies = alter(bodies)
             _write(robot, bodies, trial, engine, Path(folder))
             left = max(0.1, ends - perf_counter()) if number > 1 else settings.time_limit
-            recording = child.call(engine, "run", bodies, trial, Path(folder), time_limit=left)
+            with reading_looks(robot):
+                recording = process.call(
+                    engine, "run", bodies, trial, Path(folder), time_limit=left
+                )
             swept = []
             if settings.sweep and number == 1:
                 swept = _sweep(bodies, trial, engine, Path(folder))

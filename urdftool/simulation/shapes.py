@@ -9,12 +9,12 @@ import numpy as np
 
 from ..errors import ModelError, UrdftoolError
 from ..meshes.hull import convex_hull, hull_surface
-from ..meshes.load import load_named
 from ..meshes.mesh import Faces
 from ..meshes.mesh import Mesh as Triangles
 from ..model.elements import Box, Capsule, Collision, Cylinder, Link, Mesh, Robot, Sphere
 from ..model.pose import Pose, pose_of
 from .recording import Array
+from .remembered import remembered, triangles_of
 
 MOST_PIECES = 32
 """A mesh file of more objects than this collides as one hull."""
@@ -114,11 +114,12 @@ def _pieces(
     try:
         if robot.source is None:
             raise ModelError("the robot was not read from a file, so its meshes are nowhere")
-        mesh = load_named(robot.source, geometry.filename, geometry.scale)
+        mesh = triangles_of(robot, geometry)
     except UrdftoolError as error:
         message = f"mesh '{geometry.filename}': {error.message}"
         raise ModelError(message, at=geometry.place, notes=error.notes, rule=error.rule) from None
-    parts = list(_convex_parts(mesh))
+    key = ("pieces", geometry.filename, geometry.scale)
+    parts = remembered(robot, key, lambda: [*_convex_parts(mesh)])
     return tuple(points for points, _ in parts), tuple(faces for _, faces in parts)
 
 
@@ -128,7 +129,9 @@ def _convex_parts(mesh: Triangles) -> Iterator[tuple[Array, Faces]]:
     if mesh.format == "stl" or not 1 < len(parts) <= MOST_PIECES:
         parts = [mesh.faces]
     for faces in parts:
-        yield hull(mesh.vertices[np.unique(faces)])
+        used = np.zeros(len(mesh.vertices), dtype=bool)
+        used[faces] = True
+        yield hull(mesh.vertices[used])
 
 
 def hull(points: Array) -> tuple[Array, Faces]:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..meshes.extremes import extreme_points
 from ..meshes.hull import convex_hull
 from ..model.pose import Pose
 from .recording import Array
-from .shapes import hull
 
 if TYPE_CHECKING:
     from manifold3d import Manifold
@@ -40,7 +40,7 @@ class Solids:
     @cached_property
     def volume(self) -> float:
         """Of the union [m³]."""
-        return self._union.volume()
+        return float(self._union.volume())
 
     def shared(self, other: Solids) -> float:
         """The volume that two unions share [m³]."""
@@ -56,6 +56,9 @@ class Solids:
 
 
 def hulls(clouds: Iterable[Array]) -> Solids:
-    """The convex hulls of clouds of points, without those that are flat, which have no volume."""
-    found = (convex_hull(hull(points)[0]) for points in clouds)
+    """The convex hulls of clouds of points, without those that are flat, which have no volume.
+
+    Of many points, the outermost have all but the same hull, at a fraction of the time.
+    """
+    found = (convex_hull(extreme_points(points)) for points in clouds)
     return Solids(part for part in found if part is not None)

@@ -7,17 +7,19 @@ is; a collision that is in the neighbour and away from them was misplaced.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable
 
 import numpy as np
 
-from ..model.elements import Link, Robot
+from ..model.elements import Collision, Link, Mesh, Robot, Visual
 from ..model.pose import Pose, pose_of
 from .bodies import Body
 from .extent import box_of, is_beside, is_off_mass, looks_of, points_of
 from .overlap import primitive_triangles
 from .recording import Array
+from .remembered import mesh_points, remembered
 from .run import Run, body_pose
+from .shapes import Shape
 from .solid import Solids, hulls
 
 UNLIKE = 0.45
@@ -45,7 +47,7 @@ FREE = 0.15
 """How much of a collision is where nothing is seen, of its link or the other, to be misplaced."""
 
 ROUGH = 0.05
-"""How far volumes that are measured by points may be off."""
+"""How much more of its neighbour a collision may share that is moved to where it belongs."""
 
 SHARE = 0.1
 """How much of the smaller of two neighbours is in both, for one to be misplaced."""
@@ -85,9 +87,11 @@ def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | 
     shown = _union(_seen(robot, name).moved(at[name]) for name in at)
     if share > SHARE and shown_box is not None:
         off = (shown_box[0] + shown_box[1] - box[0] - box[1]) / 2
-        more = _fits_better(touches, off, seen, theirs)
-        free = 1 - touches.shared(seen | shown) / touches.volume
-        if more > FIT and (free > FREE or _is_nearer_mass(part, box, off)):
+        more = _fits_better(touches, box, off, seen, theirs)
+        if more > FIT and (
+            _is_nearer_mass(part, box, off)
+            or touches.shared(seen | shown) < (1 - FREE) * touches.volume
+        ):
             return (
                 f"moved by {np.linalg.norm(off):.3g} m, onto the middle of what is seen of it, "
                 f"{more:.0%} more of the collision of '{link}' would be in that"
@@ -103,10 +107,11 @@ def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | 
         if away > float((high - low).max()):
             return f"the collision of '{link}' is {away:.3g} m away from its own frame"
         return None
-    if not seen:
+    if not seen or share <= GAIN:
         return None
-    would = max(seen.shared(theirs), seen.shared(shown))
-    gain = share - would / smaller
+    gain = share - seen.shared(theirs) / smaller
+    if gain > GAIN:
+        gain = min(gain, share - seen.shared(shown) / smaller)
     if gain <= GAIN:
         return None
     if touches.shared(seen) < UNLIKE * min(touches.volume, seen.volume):
@@ -130,19 +135,27 @@ def _copy_moved(box: tuple[Array, Array], shown: tuple[Array, Array]) -> float:
     return float(np.linalg.norm(off)) if far.any() else 0.0
 
 
-def _fits_better(touches: Solids, off: Array, seen: Solids, theirs: Solids) -> float:
+def _fits_better(
+    touches: Solids, box: tuple[Array, Array], off: Array, seen: Solids, theirs: Solids
+) -> float:
     """How much more of a collision is in its visual when it is moved, as a part of it.
 
     Args:
         touches: The collision.
+        box: Around it.
         off: How it is moved [m].
         seen: The visual.
         theirs: What touches of the neighbour, of which it may share no more when it is moved.
     """
-    moved = touches.moved(Pose(translation=(float(off[0]), float(off[1]), float(off[2]))))
-    if moved.shared(theirs) > (1 + ROUGH) * touches.shared(theirs):
+    size = box[1] - box[0]
+    swept = float(np.abs(off) @ (np.prod(size) / np.maximum(size, 1e-12)))
+    if swept <= FIT * touches.volume:  # it cannot get so much further in
         return 0.0
-    return (moved.shared(seen) - touches.shared(seen)) / touches.volume
+    moved = touches.moved(Pose(translation=(float(off[0]), float(off[1]), float(off[2]))))
+    more = (moved.shared(seen) - touches.shared(seen)) / touches.volume
+    if more <= FIT or moved.shared(theirs) > (1 + ROUGH) * touches.shared(theirs):
+        return 0.0
+    return more
 
 
 def _is_nearer_mass(part: Link, box: tuple[Array, Array], off: Array) -> bool:
@@ -189,36 +202,35 @@ def _union(some: Iterable[Solids]) -> Solids:
 
 def _touching(robot: Robot, body: Body, link: str) -> Solids:
     """The convex pieces of a link that touch, as engines have them, in its frame."""
-    return _kept(robot, f"touches {link}", lambda: _union(_pieces(robot, body, link)))
+    shapes = [shape for shape in body.shapes if shape.link == link]
+    collisions = robot.link[link].collisions
+    return _union(
+        _solids(robot, shape, collision).moved(pose_of(collision.origin))
+        for shape, collision in zip(shapes, collisions, strict=True)
+    )
+
+
+def _solids(robot: Robot, shape: Shape, collision: Collision) -> Solids:
+    """The convex pieces of a collision in its own frame."""
+    geometry = collision.geometry
+    if isinstance(geometry, Mesh):
+        key = ("solids", geometry.filename, geometry.scale)
+        return remembered(robot, key, lambda: hulls(shape.pieces))
+    return hulls([primitive_triangles(collision).reshape(-1, 3)])
 
 
 def _seen(robot: Robot, link: str) -> Solids:
     """The hulls of what is seen of a link, in its frame."""
-    looks = looks_of(robot.link[link])
-    return _kept(
-        robot,
-        f"seen {link}",
-        lambda: hulls(points for look in looks if (points := points_of(robot, look)) is not None),
-    )
+    return _union(_look(robot, look) for look in looks_of(robot.link[link]))
 
 
-_solids: tuple[Robot, dict[str, Solids]] | None = None
-
-
-def _kept(robot: Robot, name: str, make: Callable[[], Solids]) -> Solids:
-    """Solids of a link, made once for all neighbours that it is compared with."""
-    global _solids
-    kept = _solids  # another thread may put its own robot there
-    if kept is None or kept[0] is not robot:
-        kept = _solids = robot, {}
-    known = kept[1]
-    if name not in known:
-        known[name] = make()
-    return known[name]
-
-
-def _pieces(robot: Robot, body: Body, link: str) -> Iterator[Solids]:
-    shapes = [shape for shape in body.shapes if shape.link == link]
-    for shape, collision in zip(shapes, robot.link[link].collisions, strict=True):
-        clouds = shape.pieces or (primitive_triangles(collision).reshape(-1, 3),)
-        yield hulls(clouds).moved(pose_of(collision.origin))
+def _look(robot: Robot, look: Visual) -> Solids:
+    geometry, pose = look.geometry, pose_of(look.origin)
+    if isinstance(geometry, Mesh):
+        points = mesh_points(robot, geometry)
+        if points is None:
+            return Solids([])
+        key = ("look", geometry.filename, geometry.scale)
+        return remembered(robot, key, lambda: hulls([points])).moved(pose)
+    corners = points_of(robot, look)
+    return Solids([]) if corners is None else hulls([corners])
