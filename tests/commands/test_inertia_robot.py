@@ -338,3 +338,26 @@ def test_standard_input_and_a_file_for_the_table(urdftool, write, monkeypatch):
     done = urdftool("inertia", "robot", "-", "-o", "table.txt")
     assert (done.code, done.out) == (0, "")
     assert "no inertial" in Path("table.txt").read_text()
+
+
+MACROS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:macro name="wheel" params="name"><link name="${name}"/></xacro:macro>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "right"),
+    [
+        ("macros.xacro", MACROS, "name a file that calls its macros"),
+        ("empty.urdf", "<robot name='r'/>", "write at least one"),
+    ],
+)
+@pytest.mark.parametrize("command", ["inertia robot", "collision"])
+def test_a_robot_without_links_is_refused(urdftool, write, tmp_path, command, name, text, right):
+    path, out = write(name, text), tmp_path / "out.urdf"
+    options = ("--write", "--density", "1000") if command == "inertia robot" else ()
+    done = urdftool(*command.split(), path, *options, "-o", out)
+    assert (done.code, done.out) == (2, "")
+    assert done.err == f"{path}:1:1: the robot has no link; {right}\n"
+    assert not out.exists()

@@ -17,7 +17,7 @@ from ..collision.robot import SUFFIXES, Place, check_place, tasks_of, write_robo
 from ..configuration import find_configuration
 from ..console import Console
 from ..errors import UrdftoolError
-from ..model.load import robot_of
+from ..model.load import require_links, robot_of
 from ..report import collision as report
 from .collision_options import Progress, cache_of, given_names, settings_of
 from .picture_file import check_picture, write_picture
@@ -54,7 +54,7 @@ def one(
     ctx: click.Context, console: Console, path: str, arguments: dict[str, str], values: Values
 ) -> int:
     """One robot; what is wrong with it ends the command."""
-    robot = _read(console, path, arguments, values)
+    robot = require_links(_read(console, path, arguments, values))
     check_picture(values["picture"], robot)
     wishes = _wishes(ctx, console, path, values)
     if values["check"]:

@@ -12,6 +12,7 @@ from itertools import chain
 from ..errors import ModelError
 from ..finding import Finding, Severity
 from ..model.elements import JOINT_TYPES, Joint, Link, Robot
+from ..model.load import without_links
 from ..model.pose import norm
 from ..model.read import numbers
 from ..model.world import WORLD, with_world
@@ -107,10 +108,8 @@ def defect(
 
 
 def _names(robot: Robot) -> Iterator[Finding]:
-    if not robot.links:
-        macros = robot.source is not None and robot.source.expansion is not None
-        what = "name a file that calls its macros" if macros else "write at least one"
-        yield defect("no-links", f"the robot has no link; {what}", robot.place, "robot")
+    if wrong := without_links(robot):
+        yield defect("no-links", wrong, robot.place, "robot")
     named: tuple[tuple[str, Sequence[Link | Joint]], ...] = (
         ("link", robot.links),
         ("joint", robot.joints),

@@ -28,6 +28,26 @@ def robot_of(description: Description) -> Robot:
     return robot
 
 
+def without_links(robot: Robot) -> str:
+    """What is said of a robot that has no link, as a file of macros has none; else empty."""
+    if robot.links:
+        return ""
+    macros = robot.source is not None and robot.source.expansion is not None
+    what = "name a file that calls its macros" if macros else "write at least one"
+    return f"the robot has no link; {what}"
+
+
+def require_links(robot: Robot) -> Robot:
+    """The robot, which is to have a link.
+
+    Raises:
+        ModelError: It has none.
+    """
+    if wrong := without_links(robot):
+        raise ModelError(wrong, at=robot.place)
+    return robot
+
+
 def load(
     path: str | Path,
     *,
