@@ -93,11 +93,11 @@ def fleet(
     values: Values,
 ) -> int:
     """Many robots, their meshes in one heap; what is wrong with one does not stop the others."""
-    from ..lint.discover import find_descriptions
+    from ..lint.discover import find_descriptions, nothing_below
 
     files = find_descriptions(paths)
     if not files:
-        raise click.UsageError(f"no .urdf or .urdf.xacro below {', '.join(paths)}")
+        raise click.UsageError(nothing_below(paths))
     if values["picture"]:
         raise click.UsageError("--picture draws one robot, not several")
     root = os.path.commonpath([os.path.abspath(p) for p in paths])

@@ -97,7 +97,7 @@ def command(
     Exit 1 if there are findings of --fail-on or above that the baseline does not have (with --fix,
     those that are left; with --diff, if anything would be fixed), 2 if a file cannot be read.
     """  # noqa: D301 -- click reads the escape
-    from ..lint.discover import find_descriptions
+    from ..lint.discover import find_descriptions, nothing_below
     from ..lint.outcome import Options
     from ..lint.parallel import lint_files
     from ..lint.settings import Settings, check_selectors, check_targets
@@ -110,7 +110,7 @@ def command(
         raise click.UsageError("a file or folder is wanted")
     files = find_descriptions(paths)
     if not files:
-        raise click.UsageError(f"no .urdf or .urdf.xacro below {', '.join(paths)}")
+        raise click.UsageError(nothing_below(paths))
     settings = Settings(
         select=check_selectors(select) if select else None,
         extend_select=check_selectors(extend_select),

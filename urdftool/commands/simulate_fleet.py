@@ -82,7 +82,7 @@ def simulate_fleet(
     Raises:
         OutputError: The file cannot be written.
     """
-    from ..lint.discover import find_descriptions
+    from ..lint.discover import find_descriptions, nothing_below
     from ..output import write_file
     from ..report import simulate_fleet as report
     from ..simulation import verdict  # noqa: F401 -- forked workers then have it
@@ -91,7 +91,7 @@ def simulate_fleet(
     console = fleet.console
     found = find_descriptions(paths)
     if not found:
-        raise click.UsageError(f"no .urdf or .urdf.xacro below {' '.join(paths)}")
+        raise click.UsageError(nothing_below(paths))
     limit = len(fleet.engines) * fleet.settings.time_limit + PATIENCE
     rows = {}
     with MeshProgress(console, "robots") as progress:
