@@ -8,16 +8,21 @@ from urdftool.rules.collision import overlap
 LINK = """<link name="l{0}"><collision>
 <geometry><sphere radius="0.1"/></geometry></collision></link>
 """
-JOINT = """<joint name="j{0}" type="continuous"><origin xyz="0.3 0 0"/><parent link="l{0}"/>
+JOINT = """<joint name="j{0}" type="continuous"><origin xyz="{2} 0 0"/><parent link="l{0}"/>
 <child link="l{1}"/><axis xyz="1 0 0"/></joint>
 """
 
 
+def balls(count, apart):
+    """As many balls of 0.1 m in a row, each on the one before and so far from it [m]."""
+    links = "".join(map(LINK.format, range(count)))
+    joints = "".join(JOINT.format(n, n + 1, apart) for n in range(count - 1))
+    return f"<robot name='balls'>{links}{joints}</robot>"
+
+
 @pytest.fixture
 def chain(write):
-    links = "".join(map(LINK.format, range(9)))
-    joints = "".join(JOINT.format(n, n + 1) for n in range(8))
-    return write("chain.urdf", f"<robot name='chain'>{links}{joints}</robot>")
+    return write("chain.urdf", balls(9, apart=0.3))
 
 
 BOTH = ("self-collision-in-range", "analysis-incomplete")
@@ -37,17 +42,10 @@ def test_joints_that_were_passed_over_are_counted_once(chain, bound, monkeypatch
     assert check(chain, select=("analysis-incomplete",)) == []
 
 
-HEAP = """<joint name="j{0}" type="continuous"><origin xyz="0.001 0 0"/><parent link="l{0}"/>
-<child link="l{1}"/><axis xyz="1 0 0"/></joint>
-"""
-
-
 @pytest.fixture
 def heap(write):
     """Thirty balls in one place, each on the one before: 406 pairs that no joint joins."""
-    links = "".join(map(LINK.format, range(30)))
-    joints = "".join(HEAP.format(n, n + 1) for n in range(29))
-    return write("heap.urdf", f"<robot name='heap'>{links}{joints}</robot>")
+    return write("heap.urdf", balls(30, apart=0.001))
 
 
 def test_pairs_that_were_passed_over_are_said(heap, monkeypatch):
