@@ -57,6 +57,12 @@ def test_the_light_commands_stay_light(words):
     assert loaded(*words) == []
 
 
+def test_simulate_does_not_wait_for_scipy():
+    pytest.importorskip("pybullet")
+    meshes = FIXTURES / "robots" / "my_robot" / "urdf" / "robot_base.urdf.xacro"
+    assert "scipy" not in loaded("-q", "simulate", str(meshes))
+
+
 def test_lint_of_a_plain_urdf_needs_no_xacro():
     done = subprocess.run(
         [sys.executable, "-c", PROBE.format(heavy=["xacro", "multiprocessing"]), "lint", ROBOT],

@@ -18,6 +18,7 @@ FLAT = 1e-12
 def convex_hull(points: Points) -> Manifold | None:
     """The convex hull of points, shape (n, 3); None where they lie in a plane or are no numbers.
 
+    A point that is beyond the others' hull by less than about 1e-7 of their extent may be left out.
     The same points in the same order have the same hull, to the bit.
     """
     from manifold3d import Manifold

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import MeshError
 from .extremes import extreme_points
+from .hull import convex_hull
 from .load import load_mesh
 from .mesh import Faces, Points
 from .solid import Edges, collapsed, edges_of, merge_vertices
@@ -51,9 +52,8 @@ def _welded(vertices: Points, faces: Faces) -> tuple[Points, Faces, Edges]:
 
 def hull_volume(path: str | Path) -> float | None:
     """The volume of the convex hull of a mesh file, in its unit cubed; None for a flat one."""
-    from scipy.spatial import ConvexHull, QhullError
-
     try:
-        return float(ConvexHull(extreme_points(load_mesh(path).vertices)).volume)
-    except (MeshError, OSError, QhullError, ValueError):
+        hull = convex_hull(extreme_points(load_mesh(path).vertices))
+    except (MeshError, OSError, ValueError):
         return None
+    return None if hull is None else float(hull.volume())

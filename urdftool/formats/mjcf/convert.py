@@ -14,6 +14,7 @@ import numpy as np
 
 from ...errors import MeshError
 from ...meshes.facts import stl_facts
+from ...meshes.hull import convex_hull
 from ...meshes.load import load_mesh
 from ...meshes.mesh import Faces, Mesh, Part, Points
 from ...source.description import GltfUp
@@ -192,20 +193,14 @@ def _is_shell(vertices: Points, faces: Faces) -> bool:
 
 
 def _hull_ratio(mesh: Mesh) -> float | None:
-    """Volume of the hull over the mesh's; None for an open mesh, or without scipy."""
-    try:
-        from scipy.spatial import ConvexHull, QhullError  # type: ignore[import-untyped,unused-ignore]
-    except ImportError:
-        return None
+    """Volume of the hull over the mesh's; None for an open or a flat mesh."""
     if not _is_closed(mesh):
         return None
     volume = signed_volume(mesh.vertices, mesh.faces)
     if volume <= 0:
         return None
-    try:
-        return float(ConvexHull(mesh.vertices).volume) / volume
-    except QhullError:
-        return None
+    hull = convex_hull(mesh.vertices)
+    return None if hull is None else float(hull.volume()) / volume
 
 
 def _is_closed(mesh: Mesh) -> bool:

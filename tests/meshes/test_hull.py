@@ -1,0 +1,86 @@
+"""Convex hulls against closed forms and against Qhull."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.spatial import ConvexHull
+
+from urdftool.meshes.hull import convex_hull, hull_surface
+
+CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+
+
+def signed_volume(corners, faces):
+    a, b, c = (corners[faces[:, index]] for index in range(3))
+    return np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+
+
+def test_points_inside_are_left_out():
+    points = np.concatenate([CUBE, 0.1 + 0.8 * np.random.default_rng(0).random((500, 3))])
+    hull = convex_hull(points)
+    corners, faces = hull_surface(hull)
+    assert sorted(map(tuple, corners)) == sorted(map(tuple, CUBE))
+    assert len(faces) == 12
+    assert hull.volume() == pytest.approx(1.0)
+
+
+def test_triangles_are_counter_clockwise_seen_from_outside():
+    corners, faces = hull_surface(convex_hull(CUBE - 7))
+    assert signed_volume(corners, faces) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        CUBE[:3],
+        CUBE * [1, 1, 0],
+        CUBE * [1, 0, 0],
+        (CUBE * [1, 1, 0]) @ np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0],
+        np.zeros((9, 3)),
+        np.full((8, 3), np.nan),
+        np.zeros((0, 3)),
+    ],
+)
+def test_what_has_no_volume_has_no_hull(points):
+    assert convex_hull(points) is None
+
+
+@pytest.mark.parametrize("size", [1e-6, 1e-3, 1e6])
+def test_size_does_not_matter(size):
+    assert convex_hull(CUBE * size).volume() == pytest.approx(size**3)
+
+
+def test_a_thin_plate_has_a_hull():
+    assert convex_hull(CUBE * [1, 1, 1e-5]).volume() == pytest.approx(1e-5)
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    count=st.integers(5, 300),
+    stretch=st.floats(1e-3, 1e3),
+    rounded=st.booleans(),
+)
+def test_as_large_as_that_of_qhull(seed, count, stretch, rounded):
+    points = np.random.default_rng(seed).normal(size=(count, 3)) * [1, 1, stretch]
+    if rounded:
+        points = points.round(1)
+    hull = convex_hull(points)
+    assume(hull is not None)
+    corners, faces = hull_surface(hull)
+    other = ConvexHull(points)
+    near = 1e-6 * np.ptp(points) * other.area
+    assert hull.volume() == pytest.approx(other.volume, rel=1e-9, abs=near)
+    assert signed_volume(corners, faces) == pytest.approx(other.volume, rel=1e-9, abs=near)
+    beyond = other.equations[:, :3] @ corners.T + other.equations[:, 3:]
+    assert beyond.max() < 1e-9 * max(1.0, stretch)
+
+
+def test_it_is_the_same_each_time():
+    points = np.random.default_rng(5).normal(size=(2000, 3))
+    (a, b), (c, d) = (hull_surface(convex_hull(points)) for _ in range(2))
+    assert a.tobytes() == c.tobytes()
+    assert b.tobytes() == d.tobytes()
