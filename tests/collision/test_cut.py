@@ -7,14 +7,14 @@ from tests.collision.shapes import finer, l_profile, noisy
 from tests.conftest import FIXTURES
 from urdftool.collision import cut, decompose
 from urdftool.collision.choose import _ladder, choose
-from urdftool.collision.convex import hull
+from urdftool.collision.convex import hull, planes
 from urdftool.collision.cut import Cutter
 from urdftool.collision.decompose import solid_of
 from urdftool.collision.distance import Surface, spread
 from urdftool.collision.measure import Target, measure
 from urdftool.collision.merge import Joiner
 from urdftool.collision.piece import mesh_piece
-from urdftool.collision.remesh import Outside, common, remesh
+from urdftool.collision.remesh import Layer, Outside, common, remesh
 from urdftool.collision.settings import Settings
 from urdftool.collision.surface import prepare, read_surface
 from urdftool.collision.tessellate import primitive
@@ -34,7 +34,7 @@ def soup():
 
 def test_what_is_made_of_any_mesh_is_closed_and_near_to_it():
     surface = soup()
-    vertices, faces = remesh(surface.corners)
+    vertices, faces = remesh(Layer(surface.corners))
     edges = edges_of(faces)
     assert (edges.forward == 1).all()
     assert (edges.backward == 1).all()
@@ -47,7 +47,7 @@ def test_what_is_made_of_any_mesh_is_closed_and_near_to_it():
 
 def test_one_closed_body_is_cut_as_it_is():
     surface = prepare(*l_profile())
-    assert (solid_of(surface).vertices == surface.vertices).all()
+    assert (solid_of(Target(surface)).vertices == surface.vertices).all()
 
 
 def test_what_a_solid_and_a_box_have_in_common():
@@ -63,7 +63,7 @@ def test_what_a_solid_and_a_box_have_in_common():
 def test_the_distance_outside_is_read_from_a_grid():
     sphere = primitive("sphere", (0.1,), np.eye(3), (0, 0, 0))
     points = np.array([[0, 0, 0], [0.05, 0, 0], [0.105, 0, 0], [0, 0, 0.103]])
-    found = Outside(sphere.corners).distance(points)
+    found = Outside(Layer(sphere.corners)).distance(points)
     assert found == pytest.approx([0, 0, 0.005, 0.003], abs=0.001)
 
 
@@ -160,7 +160,7 @@ def test_all_runs_on_a_mesh_share_one_time_limit(monkeypatch):
     surface, whole, _ = slotted()
     limits: list[float] = []
 
-    def slow(vertices, faces, options):
+    def slow(vertices, faces, options, threads):
         limits.append(options["time_limit"])
         return [whole.vertices]
 
@@ -222,3 +222,37 @@ def test_no_more_pieces_than_are_allowed(most):
     assert choice.method == "coacd"
     assert 1 <= len(choice.pieces) <= most
     assert (choice.measures.error < 0.01) == (most > 1)
+
+
+def test_the_pieces_do_not_hang_on_the_number_of_cores():
+    surface = read_surface(FIXTURES / "meshes/open_box.stl")
+    settings = Settings(method="coacd")
+    one, many = (choose(surface, settings, cores) for cores in (1, 3))
+    assert len(one.pieces) > 1
+    assert [piece.as_dict() for piece in one.pieces] == [piece.as_dict() for piece in many.pieces]
+    assert one.measures == many.measures
+
+
+@pytest.mark.parametrize(
+    ("version", "threads"), [("1.0.14", 4), ("1.1.0", 4), ("1.0.9", 1), ("odd", 1)]
+)
+def test_an_older_coacd_works_with_one_thread(monkeypatch, version, threads):
+    monkeypatch.setattr("importlib.metadata.version", lambda name: version)
+    assert decompose.threads_of(4) == threads
+
+
+def test_what_is_grown_and_widened_is_what_morphology_says():
+    from scipy import ndimage
+
+    from urdftool.collision.touchable import _grown, widened
+
+    cells = np.random.default_rng(0).random((9, 7, 8)) > 0.95
+    assert (_grown(cells) == ndimage.binary_dilation(cells)).all()
+    whole = np.ones((3, 3, 3), dtype=bool)
+    assert (widened(cells, 2) == ndimage.binary_dilation(cells, whole, iterations=2)).all()
+
+
+def test_planes_are_told_once_each():
+    vertices, faces = hull(np.array(list(np.ndindex(2, 2, 2)), dtype=float))
+    assert len(faces) == 12
+    assert len(planes(vertices, faces)) == 6

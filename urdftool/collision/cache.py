@@ -9,7 +9,7 @@ from pathlib import Path
 from ..store import Store, cache_folder
 from .compute import Result, Task, result_of
 
-_VERSION = 8
+_VERSION = 9
 """To be raised whenever the same settings give another result."""
 
 

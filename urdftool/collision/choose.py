@@ -64,14 +64,14 @@ class Choice:
         return self.measures.error if self.hollow is None else self.hollow.error
 
 
-def choose(surface: Prepared, settings: Settings) -> Choice:
-    """The collision geometry of one mesh.
+def choose(surface: Prepared, settings: Settings, cores: int = 1) -> Choice:
+    """The collision geometry of one mesh, with so many cores; it does not hang on their number.
 
     Raises:
         MeshError: The mesh has no extent in two directions.
         MissingDependency: A library that the method needs is not installed.
     """
-    target = Target(surface)
+    target = Target(surface, cores)
     notes: list[str] = []
     if _is_flat(surface):
         return _plate(surface, target)

@@ -105,8 +105,8 @@ def result_of(data: bytes, *, cached: bool = False) -> Result:
         raise ValueError(f"a result that cannot be read: {error}") from error
 
 
-def compute(task: Task) -> Result:
-    """Simplify a mesh.
+def compute(task: Task, cores: int = 1) -> Result:
+    """Simplify a mesh, with so many cores; the result does not hang on their number.
 
     Raises:
         UrdftoolError: It cannot be read or simplified.
@@ -117,7 +117,7 @@ def compute(task: Task) -> Result:
     begin = perf_counter()
     surface = read_surface(task.path, task.scale, task.gltf_up)
     try:
-        choice = choose(surface, task.settings)
+        choice = choose(surface, task.settings, cores)
     except MeshError as error:
         raise MeshError(error.message, path=task.path) from error
     return Result(
@@ -131,10 +131,10 @@ def compute(task: Task) -> Result:
     )
 
 
-def attempt(task: Task) -> bytes | UrdftoolError:
+def attempt(task: Task, cores: int = 1) -> bytes | UrdftoolError:
     """As :func:`compute`, with what went wrong as a result, so that it goes between processes."""
     try:
-        return compute(task).as_bytes()
+        return compute(task, cores).as_bytes()
     except UrdftoolError as error:
         return type(error)(error.message, path=error.path)
     except (MemoryError, RecursionError) as error:

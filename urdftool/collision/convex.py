@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from ..errors import MeshError
 from ..meshes.mesh import Faces, Points
+from .columns import dot, lengths, normals
 
 _AT_ONCE = 200_000  # distances of points and planes that are computed together
 _LIMIT = 4000  # hull vertices beyond which a cap looks at the extreme ones of a direction only
@@ -23,14 +25,11 @@ def hull(points: Points) -> tuple[Points, Faces]:
         found = ConvexHull(points)
     except (QhullError, ValueError) as error:
         raise MeshError("the mesh is flat; it encloses no volume") from error
-    used = np.sort(found.vertices)
-    number = np.full(len(points), -1)
-    number[used] = np.arange(len(used))
-    faces = number[found.simplices].astype(np.int64)
-    vertices = points[used]
-    corners = vertices[faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    inwards = np.einsum("ij,ij->i", normals, found.equations[:, :3]) < 0
+    seen = np.zeros(len(points), dtype=bool)
+    seen[found.simplices] = True
+    faces = (np.cumsum(seen) - 1)[found.simplices]
+    vertices = points[seen]
+    inwards = dot(normals(vertices[faces]), found.equations) < 0
     faces[inwards] = faces[inwards][:, ::-1]
     return vertices, faces[np.lexsort(faces.T[::-1])]
 
@@ -89,16 +88,24 @@ def planes(vertices: Points, faces: Faces) -> Points:
     Triangles without an area, and all but one of those in one plane, are left out.
     """
     corners = vertices[faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1)
+    normal = normals(corners)
+    long = lengths(normal)
     extent = float(np.ptp(vertices, axis=0).max())
-    sound = lengths > 1e-12 * extent**2
-    unit = normals[sound] / lengths[sound, None]
-    offsets = np.einsum("ij,ij->i", unit, corners[sound, 0])
-    found = np.concatenate([unit, offsets[:, None]], axis=1)
+    sound = long > 1e-12 * extent**2
+    found = np.empty((np.count_nonzero(sound), 4))
+    found[:, :3] = normal[sound] / long[sound, None]
+    found[:, 3] = dot(found, corners[sound, 0])
     scale = np.array([1, 1, 1, 1 / max(extent, 1e-300)])
-    _, first = np.unique(np.round(found * scale, 6), axis=0, return_index=True)
-    return np.asarray(found[np.sort(first)])
+    return found[_first_of_each(np.round(found * scale, 6))]
+
+
+def _first_of_each(rows: Points) -> npt.NDArray[np.int64]:
+    """Where each different row, shape (n, 4), is for the first time, in that order."""
+    order = np.lexsort(rows.T)
+    ordered = rows[order]
+    new = np.ones(len(rows), dtype=bool)
+    np.any(ordered[1:] != ordered[:-1], axis=1, out=new[1:])
+    return np.sort(order[new])  # the order is a stable one
 
 
 def signed_distance(points: Points, sides: Points) -> Points:

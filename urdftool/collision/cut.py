@@ -63,7 +63,7 @@ class Cutter:
     @cached_property
     def solid(self) -> Prepared:
         """What is cut."""
-        return solid_of(self.target.surface)
+        return solid_of(self.target)
 
     @cached_property
     def joiner(self) -> Joiner:
@@ -98,6 +98,7 @@ class Cutter:
             max_hulls=self.most or -1,
             max_vertices=self.settings.max_vertices,
             budget=self.budget,
+            cores=self.target.cores,
         )
         if self.few is not None and len(cuts) > HOPELESS * self.few:
             self.hopeless = True
@@ -119,10 +120,10 @@ class Cutter:
         self, cuts: list[Piece], distance: float, within: float
     ) -> tuple[list[Piece], Measures] | None:
         """Joined and trimmed: the first near enough of those few enough, else the nearest."""
-        levels = self._levels(cuts)
+        joins = _Joins(self.joiner, cuts)
         tried: list[tuple[float, int, list[Piece], Measures]] = []
         for join in JOINS if self.few is None else JOINS_TO_FEW:
-            living = self._living(levels, join * distance)
+            living = joins.within(join * distance)
             if self.few is not None and len(living) > self.few:
                 continue
             before = math.inf
@@ -144,21 +145,10 @@ class Cutter:
             return None
         while True:
             distance *= COARSER
-            living = self._living(levels, distance)
+            living = joins.within(distance)
             pieces = self._trimmed(living, distance)
             if self._affordable(pieces) or distance > self.target.size:
                 return pieces, measure(self.target, pieces)
-
-    def _levels(self, cuts: list[Piece]) -> list[tuple[float, list[Piece]]]:
-        """The pieces after each join, with the largest cost of the joins until then."""
-        levels = [(0.0, cuts)]
-        for cost, living in self.joiner.steps(cuts):
-            levels.append((max(cost, levels[-1][0]), living))
-        return levels
-
-    @staticmethod
-    def _living(levels: list[tuple[float, list[Piece]]], distance: float) -> list[Piece]:
-        return next(living for cost, living in reversed(levels) if cost <= distance)
 
     def _affordable(self, pieces: list[Piece]) -> bool:
         if self.few is not None:
@@ -182,6 +172,7 @@ class Cutter:
                     distance / 2,
                     max_vertices=self.settings.max_vertices,
                     budget=self.budget,
+                    cores=self.target.cores,
                 )
             except DecompositionError as error:
                 self.notes.append(f"{error.message}; a piece too far off was not cut again.")
@@ -190,3 +181,20 @@ class Cutter:
                 found.remove(pieces[index])
                 found += parts
         return found
+
+
+class _Joins:
+    """The pieces after each join, as far as they were asked for."""
+
+    def __init__(self, joiner: Joiner, cuts: list[Piece]) -> None:
+        self.levels = [(0.0, cuts)]
+        self.steps = joiner.steps(cuts)
+
+    def within(self, distance: float) -> list[Piece]:
+        """The pieces where no join has cost more than a distance [m]."""
+        while self.levels[-1][0] <= distance:
+            step = next(self.steps, None)
+            if step is None:
+                break
+            self.levels.append((max(step[0], self.levels[-1][0]), step[1]))
+        return next(living for cost, living in reversed(self.levels) if cost <= distance)

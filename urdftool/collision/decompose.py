@@ -23,6 +23,7 @@ from ..errors import MeshError, MissingDependency, UrdftoolError
 from ..meshes.mesh import Faces, Points
 from ..meshes.solid import body_labels, edges_of
 from .convex import capped_hull
+from .measure import Target
 from .piece import Piece, mesh_piece
 from .quadric import simplify
 from .remesh import common, remesh
@@ -36,6 +37,8 @@ PART_TRIANGLES = 600
 """Triangles that a piece has at most when it is cut again."""
 
 _TOO_LONG = "CoACD took longer on the mesh than its time limit"
+# before, threads shared a row of quasirandom numbers, or pieces came in the order they ended in
+_ORDERLY = (1, 0, 14)
 _SLOWEST = 4.0  # share of a processor that a child may be left with before the watch ends it
 
 
@@ -67,11 +70,12 @@ class Budget:
         self.used += seconds
 
 
-def solid_of(surface: Prepared) -> Prepared:
+def solid_of(target: Target) -> Prepared:
     """A closed surface of few triangles near to a mesh, which CoACD takes as it is."""
+    surface = target.surface
     vertices, faces = surface.vertices, surface.faces
     if not _is_one_body(surface):
-        vertices, faces = remesh(surface.corners)
+        vertices, faces = remesh(target.layer)
     return prepare(*simplify(vertices, faces, TRIANGLES)) or surface
 
 
@@ -82,7 +86,7 @@ def decompose(
     max_hulls: int = -1,
     max_vertices: int,
     budget: Budget,
-    tolerance: float = 0.0,
+    cores: int = 1,
 ) -> list[Piece]:
     """Convex pieces that together are near to a solid.
 
@@ -92,7 +96,7 @@ def decompose(
         max_hulls: Pieces it may make; -1 is any number.
         max_vertices: Vertices each may have.
         budget: Processor time that is left for the mesh; what it takes is taken from it.
-        tolerance: Distance [m] that vertices of a piece may be left out.
+        cores: How many CoACD may use.
 
     Raises:
         DecompositionError: It died, took too long, or gave nothing.
@@ -112,10 +116,10 @@ def decompose(
     }
     before = _children_time()
     try:
-        parts = run_child(solid.vertices, solid.faces, options)
+        parts = run_child(solid.vertices, solid.faces, options, threads_of(cores))
     finally:
         budget.spend(_children_time() - before)
-    return _hulls(parts, max_vertices, tolerance)
+    return _hulls(parts, max_vertices)
 
 
 def _children_time() -> float:
@@ -129,7 +133,13 @@ def _children_time() -> float:
 
 
 def divided(
-    solid: Prepared, piece: Piece, distance: float, *, max_vertices: int, budget: Budget
+    solid: Prepared,
+    piece: Piece,
+    distance: float,
+    *,
+    max_vertices: int,
+    budget: Budget,
+    cores: int = 1,
 ) -> list[Piece]:
     """Smaller pieces in the place of one that is too far from the solid.
 
@@ -139,6 +149,7 @@ def divided(
         distance: How far from it the new pieces may be [m].
         max_vertices: Vertices each may have.
         budget: Processor time that is left for the mesh; what it takes is taken from it.
+        cores: How many CoACD may use.
 
     Raises:
         DecompositionError: It died, took too long, or gave nothing.
@@ -150,7 +161,9 @@ def divided(
     if made is None:
         return []
     longest = float(np.ptp(made.vertices, axis=0).max())
-    return decompose(made, 2 * distance / longest, max_vertices=max_vertices, budget=budget)
+    return decompose(
+        made, 2 * distance / longest, max_vertices=max_vertices, budget=budget, cores=cores
+    )
 
 
 def _is_one_body(surface: Prepared) -> bool:
@@ -161,11 +174,11 @@ def _is_one_body(surface: Prepared) -> bool:
     return twice and int(body_labels(len(surface.faces), edges).max()) == 0
 
 
-def _hulls(parts: list[Points], max_vertices: int, tolerance: float) -> list[Piece]:
+def _hulls(parts: list[Points], max_vertices: int) -> list[Piece]:
     pieces = []
     for points in parts:
         try:
-            vertices, faces = capped_hull(points, max_vertices, tolerance)
+            vertices, faces = capped_hull(points, max_vertices)
         except MeshError:  # a sliver of a cut
             continue
         pieces.append(mesh_piece(vertices, faces))
@@ -176,14 +189,27 @@ def _hulls(parts: list[Points], max_vertices: int, tolerance: float) -> list[Pie
     return pieces
 
 
-def run_child(vertices: Points, faces: Faces, options: dict[str, Any]) -> list[Points]:
+def threads_of(cores: int) -> int:
+    """How many threads CoACD may work with so that its pieces do not hang on their number."""
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        numbers = tuple(int(part) for part in version("coacd").split(".")[:3])
+    except (PackageNotFoundError, ValueError):
+        return 1
+    return cores if numbers >= _ORDERLY else 1
+
+
+def run_child(
+    vertices: Points, faces: Faces, options: dict[str, Any], threads: int = 1
+) -> list[Points]:
     """The points of each piece, as the child process found them."""
     stream = io.BytesIO()
     text = np.frombuffer(json.dumps(options).encode(), dtype=np.uint8)
     np.savez(stream, vertices=vertices, faces=faces, options=text)
     limit = options["time_limit"]
     begin = _children_time()
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": "1"}
+    environment = {**os.environ, "OMP_NUM_THREADS": str(threads), "PYTHONDONTWRITEBYTECODE": "1"}
     child = subprocess.Popen(
         [sys.executable, "-m", "urdftool.collision.coacd_child"],
         stdin=subprocess.PIPE,

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
 
 from ..meshes.mesh import Points
+from .columns import lengths, normals
 
 _GOLDEN = 1.324717957244746  # the real root of x³ = x + 1
 _NEIGHBOURS = 6
 _FEW = 24  # triangles all of which are tried
 _COARSE = 1000  # triangles below which more neighbours are looked at
+_KEPT = 100_000  # points whose places in triangles are remembered
+_AT_ONCE = 8192  # pairs of a point and a triangle that stay in the processor's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,8 +37,7 @@ class Samples:
 
 def areas_of(corners: Points) -> Points:
     """The area [m²] of each triangle."""
-    crossed = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return np.asarray(np.linalg.norm(crossed, axis=1) / 2)
+    return lengths(normals(corners)) / 2
 
 
 def spread(corners: Points, count: int) -> Samples:
@@ -50,36 +53,44 @@ def spread(corners: Points, count: int) -> Samples:
     ends = np.cumsum(areas_of(corners))
     if not len(ends) or ends[-1] <= 0:
         return Samples(corners[:, 0].copy(), np.arange(len(corners)))
-    marks = (np.arange(count) + 0.5) / count * ends[-1]
-    owners = np.minimum(np.searchsorted(ends, marks), len(ends) - 1)
-    numbers = np.arange(1, count + 1, dtype=np.float64)
-    u = (0.5 + numbers / _GOLDEN) % 1.0
-    v = (0.5 + numbers / _GOLDEN**2) % 1.0
-    over = u + v > 1
-    u, v = np.where(over, 1 - u, u), np.where(over, 1 - v, v)
-    first = corners[owners, 0]
-    points = (
-        first
-        + u[:, None] * (corners[owners, 1] - first)
-        + v[:, None] * (corners[owners, 2] - first)
-    )
+    shares, u, v = _places(count) if count <= _KEPT else _places.__wrapped__(count)
+    owners = np.minimum(np.searchsorted(ends, shares * ends[-1]), len(ends) - 1)
+    points = np.empty((count, 3))
+    triangles = corners.reshape(-1, 9).take(owners, axis=0)
+    for axis in range(3):
+        a, b, c = triangles[:, axis], triangles[:, axis + 3], triangles[:, axis + 6]
+        points[:, axis] = a + u * (b - a) + v * (c - a)
     return Samples(points, owners)
+
+
+@lru_cache(maxsize=32)
+def _places(count: int) -> tuple[Points, Points, Points]:
+    """For each of so many points the share of the area before it, and its place in a triangle."""
+    numbers = np.arange(1, count + 1, dtype=np.float64)
+    u, v = 0.5 + numbers / _GOLDEN, 0.5 + numbers / _GOLDEN**2
+    u -= np.floor(u)
+    v -= np.floor(v)
+    over = u + v > 1
+    shares = (np.arange(count) + 0.5) / count
+    return shares, np.where(over, 1 - u, u), np.where(over, 1 - v, v)
 
 
 class Surface:
     """Triangles to which the distance of points is asked for."""
 
-    def __init__(self, corners: Points, samples: Samples) -> None:
+    def __init__(self, corners: Points, samples: Samples, *, workers: int = 1) -> None:
         """Keep a tree of points on the triangles.
 
         Args:
             corners: The triangles [m], shape (m, 3, 3).
             samples: Points on them, on average nearer to each other than any distance that counts.
+            workers: Threads that may search it.
         """
         from scipy.spatial import cKDTree
 
         self.corners = corners
         self.samples = samples
+        self.workers = workers
         self.tree = cKDTree(samples.points)
 
     def distance(self, points: Points) -> Points:
@@ -90,18 +101,24 @@ class Surface:
         if not len(points):
             return np.zeros(0)
         if len(self.corners) <= _FEW:
-            each = [to_triangles(points, triangle[None]) for triangle in self.corners]
-            return np.asarray(np.min(each, axis=0))
+            return np.asarray(
+                np.min([to_triangles(points, one[None]) for one in self.corners], axis=0)
+            )
         wanted = _NEIGHBOURS * (2 if len(self.corners) < _COARSE else 1)
         near = min(wanted, len(self.samples))
-        found, index = self.tree.query(points, k=near)
+        found, index = self.tree.query(points, k=near, workers=self.workers)
         if near == 1:
             found, index = found[:, None], index[:, None]
         index = np.minimum(index, len(self.samples) - 1)  # beyond: none is at a finite distance
         owners = self.samples.owners[index]
-        pairs = np.repeat(points, near, axis=0)
-        exact = to_triangles(pairs, self.corners[owners.reshape(-1)]).reshape(-1, near)
-        return np.asarray(np.minimum(exact.min(axis=1), found[:, 0]))
+        result = np.empty(len(points))
+        step = max(1, _AT_ONCE // near)
+        for begin in range(0, len(points), step):
+            some = slice(begin, begin + step)
+            pairs = np.repeat(points[some], near, axis=0)
+            exact = to_triangles(pairs, self.corners[owners[some].reshape(-1)])
+            result[some] = exact.reshape(-1, near).min(axis=1)
+        return np.asarray(np.minimum(result, found[:, 0]))
 
 
 def to_triangles(points: Points, corners: Points) -> Points:
@@ -109,26 +126,41 @@ def to_triangles(points: Points, corners: Points) -> Points:
 
     The nearest point is within the triangle, or on one of its three edges.
     """
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    normal = np.cross(b - a, c - a)
-    square = np.einsum("ij,ij->i", normal, normal)
+    point = _columns(points)
+    a, b, c = (_columns(corners[:, corner]) for corner in range(3))
+    to_b, to_c, to_point = b - a, c - a, point - a
+    normal = _cross(to_b, to_c)
+    square = _dot(normal, normal)
     safe = np.where(square > 0, square, 1.0)
-    to_point = points - a
     # barycentric coordinates of the foot on the plane
-    v = np.einsum("ij,ij->i", np.cross(to_point, c - a), normal) / safe
-    w = np.einsum("ij,ij->i", np.cross(b - a, to_point), normal) / safe
+    v = _dot(_cross(to_point, to_c), normal) / safe
+    w = _dot(_cross(to_b, to_point), normal) / safe
     inside = (v >= 0) & (w >= 0) & (v + w <= 1) & (square > 0)
-    height = np.abs(np.einsum("ij,ij->i", to_point, normal)) / np.sqrt(safe)
+    height = np.abs(_dot(to_point, normal)) / np.sqrt(safe)
     edges = np.minimum(
-        np.minimum(_to_segments(points, a, b), _to_segments(points, b, c)),
-        _to_segments(points, c, a),
+        np.minimum(_to_segments(to_point, to_b), _to_segments(point - b, c - b)),
+        _to_segments(point - c, a - c),
     )
     return np.where(inside, height, np.sqrt(edges))
 
 
-def _to_segments(points: Points, begin: Points, end: Points) -> Points:
-    along = end - begin
-    square = np.einsum("ij,ij->i", along, along)
-    share = np.einsum("ij,ij->i", points - begin, along) / np.where(square > 0, square, 1.0)
-    foot = points - begin - np.clip(share, 0, 1)[:, None] * along
-    return np.asarray(np.einsum("ij,ij->i", foot, foot))
+def _to_segments(to_point: Points, along: Points) -> Points:
+    """The square [m²] of the distances of points, seen from where segments begin, in columns."""
+    square = _dot(along, along)
+    share = _dot(to_point, along) / np.where(square > 0, square, 1.0)
+    foot = to_point - np.clip(share, 0, 1) * along
+    return _dot(foot, foot)
+
+
+def _columns(rows: Points) -> Points:
+    return np.ascontiguousarray(rows.T)
+
+
+def _cross(one: Points, other: Points) -> Points:
+    (ax, ay, az), (bx, by, bz) = one, other
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
+
+
+def _dot(one: Points, other: Points) -> Points:
+    x, y, z = one * other
+    return np.asarray((x + z) + y)

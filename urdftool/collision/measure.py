@@ -15,7 +15,8 @@ from ..inertia.winding import boxes_of, winding_numbers
 from ..meshes.mesh import Points
 from . import convex, primitives
 from .distance import Samples, Surface, areas_of, spread
-from .piece import Piece, mesh_piece
+from .piece import Piece, mesh_piece, near_ones
+from .remesh import Layer
 from .surface import Prepared
 from .touchable import Flood, flood
 
@@ -72,9 +73,16 @@ class Measures:
 class Target:
     """A visual surface, with all that is needed to measure collisions against it."""
 
-    def __init__(self, surface: Prepared) -> None:
-        """Keep it; nothing is computed before it is asked for."""
+    def __init__(self, surface: Prepared, cores: int = 1) -> None:
+        """Keep it; nothing is computed before it is asked for.
+
+        Args:
+            surface: The visual.
+            cores: How many may be used; what is found does not hang on it.
+        """
         self.surface = surface
+        self.cores = cores
+        self.last: tuple[tuple[Piece, ...], Compared] | None = None
         self.size = surface.size
         self.longest = float(np.ptp(surface.vertices, axis=0).max())
 
@@ -122,7 +130,12 @@ class Target:
     @cached_property
     def nearest(self) -> Surface:
         """Answers how far points are from it."""
-        return Surface(self.corners, spread(self.corners, _DENSE))
+        return Surface(self.corners, spread(self.corners, _DENSE), workers=self.cores)
+
+    @cached_property
+    def layer(self) -> Layer:
+        """A thin layer on it, and what that encloses."""
+        return Layer(self.corners, self.cores)
 
     @cached_property
     def volume(self) -> float:
@@ -157,20 +170,23 @@ class Compared:
 
 
 def compare(target: Target, pieces: Sequence[Piece]) -> Compared:
-    """How far a visual and some pieces are apart everywhere."""
+    """How far a visual and some pieces are apart everywhere; what was asked last is remembered."""
+    if target.last is not None and target.last[0] == tuple(pieces):
+        return target.last[1]
     outer = _outer_samples(pieces, target)
     points = np.concatenate([samples.points for samples in outer])
     each = [
         float(areas_of(piece.corners).sum()) / max(SAMPLES // len(pieces), 400) for piece in pieces
     ]
     areas = np.repeat(each, [len(samples) for samples in outer])
-    collision = _surface_of(pieces, outer)
+    collision = _surface_of(pieces, outer, target.cores)
     back = target.nearest.distance(points)
     if len(pieces) == 1 and pieces[0].is_primitive:
         forth = np.abs(primitives.signed_distance(pieces[0], target.touchable))
     else:
         forth = collision.distance(target.touchable)
-    return Compared(points, areas, back, forth)
+    target.last = tuple(pieces), Compared(points, areas, back, forth)
+    return target.last[1]
 
 
 def measure(target: Target, pieces: Sequence[Piece]) -> Measures:
@@ -242,14 +258,12 @@ def _outer(index: int, pieces: Sequence[Piece], target: Target) -> Samples:
 
 def _others(piece: Piece, pieces: Sequence[Piece], gap: float) -> list[Piece]:
     """The convex ones beside a piece in which points of it can lie."""
-    return [
-        other
-        for other in pieces
-        if other is not piece and other.kind != "mesh" and piece.is_near(other, gap)
-    ]
+    near = near_ones(piece.bounds, np.stack([other.bounds for other in pieces]), gap)
+    beside = (pieces[index] for index in np.flatnonzero(near).tolist())
+    return [other for other in beside if other is not piece and other.kind != "mesh"]
 
 
-def _surface_of(pieces: Sequence[Piece], outer: Sequence[Samples]) -> Surface:
+def _surface_of(pieces: Sequence[Piece], outer: Sequence[Samples], workers: int) -> Surface:
     """The surface of all pieces, without what lies in another."""
     corners, points, owners = [], [], []
     first = 0
@@ -264,7 +278,8 @@ def _surface_of(pieces: Sequence[Piece], outer: Sequence[Samples]) -> Surface:
         points += [dense.points, seen.points]
         owners += [dense.owners + first, seen.owners + first]
         first += len(triangles)
-    return Surface(np.concatenate(corners), Samples(np.concatenate(points), np.concatenate(owners)))
+    samples = Samples(np.concatenate(points), np.concatenate(owners))
+    return Surface(np.concatenate(corners), samples, workers=workers)
 
 
 def depths(points: Points, pieces: Sequence[Piece], near: float = 0.0) -> Points:

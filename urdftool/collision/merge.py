@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterator, Sequence
-from itertools import combinations
 
 import numpy as np
 
@@ -18,12 +17,15 @@ from ..meshes.mesh import Points
 from .convex import hull, signed_distance
 from .distance import spread
 from .measure import Target
-from .piece import Piece, mesh_piece
+from .piece import Piece, mesh_piece, near_ones
 from .remesh import Outside
 
 _TOUCH = 0.01  # gap of neighbours, relative to the size
 _PROBES = 300
 _BURIED = 6000
+_ENDS = 16  # corners of a piece between which half ways are looked at
+_SURE = 0.7  # part of a guess that probes of the hull hardly ever miss
+_GUESSED, _BULGE, _WHOLE = range(3)  # what is known of a join's cost
 
 
 class Joiner:
@@ -31,7 +33,7 @@ class Joiner:
 
     def __init__(self, target: Target) -> None:
         """Take the mesh."""
-        self.outside = Outside(target.corners)
+        self.outside = Outside(target.layer)
         even = target.even
         self.seen = even[:: max(1, len(even) // _BURIED)]
         self.gap = _TOUCH * target.size
@@ -52,34 +54,55 @@ class Joiner:
             How far off the hull of the join is [m], and the pieces after it.
         """
         living = dict(enumerate(pieces))
-        queue: list[tuple[float, bool, int, int]] = []
+        boxes = np.empty((2 * len(pieces), 2, 3))
+        queue: list[tuple[float, int, int, int]] = []
         made: dict[tuple[int, int], Piece] = {}
 
-        def offer(a: int, b: int) -> None:
-            if not living[a].is_near(living[b], self.gap):
-                return
-            both = self._hull(living[a], living[b])
-            if both is not None:
-                made[a, b] = both
-                heapq.heappush(queue, (self._bulge(both), False, a, b))
+        def offer(number: int) -> None:
+            boxes[number] = living[number].bounds
+            before = np.array([other for other in living if other < number], dtype=np.int64)
+            near = before[near_ones(boxes[number], boxes[before], self.gap)].tolist()
+            least = self._least([living[other] for other in near], living[number])
+            for cost, other in zip(least, near, strict=True):
+                heapq.heappush(queue, (cost, _GUESSED, other, number))
 
-        for a, b in combinations(list(living), 2):
-            offer(a, b)
-        number = len(living)
+        for number in range(len(pieces)):
+            offer(number)
+        number = len(pieces)
         while queue:
-            cost, whole, a, b = heapq.heappop(queue)
+            cost, known, a, b = heapq.heappop(queue)
             if a not in living or b not in living:
                 made.pop((a, b), None)
                 continue
-            if not whole:  # what it buries is dear to find, and is asked for where it can matter
-                heapq.heappush(queue, (max(cost, self.burial(made[a, b])), True, a, b))
+            # a hull, and even more what it buries, is dear to find: asked for where it can matter
+            if known == _GUESSED:
+                both = self._hull(living[a], living[b])
+                if both is not None:
+                    made[a, b] = both
+                    heapq.heappush(queue, (self._bulge(both), _BULGE, a, b))
+                continue
+            if known == _BULGE:
+                heapq.heappush(queue, (max(cost, self.burial(made[a, b])), _WHOLE, a, b))
                 continue
             del living[a], living[b]
             living[number] = made.pop((a, b))
-            for other in list(living)[:-1]:
-                offer(other, number)
+            offer(number)
             number += 1
             yield cost, list(living.values())
+
+    def _least(self, ones: Sequence[Piece], other: Piece) -> list[float]:
+        """What the hull of each piece with another is out of the mesh at least [m].
+
+        Half way between two corners of theirs is in that hull.
+        """
+        if not ones:
+            return []
+        ends = _some(other.vertices)
+        middles = [((_some(one.vertices)[:, None] + ends) / 2).reshape(-1, 3) for one in ones]
+        starts = np.cumsum([0, *(len(points) for points in middles[:-1])])
+        off = self.outside.distance(np.concatenate(middles))
+        least: list[float] = (_SURE * np.maximum.reduceat(off, starts)).tolist()
+        return least
 
     @staticmethod
     def _hull(one: Piece, other: Piece) -> Piece | None:
@@ -97,3 +120,7 @@ class Joiner:
         low, high = piece.bounds
         within: Points = self.seen[((self.seen > low) & (self.seen < high)).all(axis=1)]
         return -float(signed_distance(within, piece.sides).min()) if len(within) else 0.0
+
+
+def _some(points: Points) -> Points:
+    return points[:: -(-len(points) // _ENDS)]

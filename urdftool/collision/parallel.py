@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 
 from ..errors import MeshError, UrdftoolError
@@ -62,7 +63,9 @@ def compute_all(
         outcomes = _counted(on_cluster(work, scheduler), work, under_way)
     else:
         workers = jobs or cores()
-        outcomes = run_all(attempt, work, workers=workers, lost=_lost, under_way=under_way)
+        # cores that no mesh of its own is left for help with the others
+        each = partial(attempt, cores=max(1, workers // max(1, len(work))))
+        outcomes = run_all(each, work, workers=workers, lost=_lost, under_way=under_way)
     for index, outcome in outcomes:
         key = ordered[index]
         result: Result | UrdftoolError

@@ -7,8 +7,10 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from ..meshes.mesh import Faces, Points
+from .columns import bounds
 
 PRIMITIVES = ("sphere", "capsule", "box", "cylinder")
 """Kinds that need no mesh file."""
@@ -57,12 +59,7 @@ class Piece:
     @cached_property
     def bounds(self) -> Points:
         """The lowest and the highest corner [m] of its box, shape (2, 3)."""
-        return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
-
-    def is_near(self, other: Piece, gap: float) -> bool:
-        """Whether the boxes of two pieces are at most a gap [m] apart along each axis."""
-        apart = np.maximum(self.bounds[0] - other.bounds[1], other.bounds[0] - self.bounds[1])
-        return bool((apart <= gap).all())
+        return bounds(self.vertices)
 
     def local(self, points: Points) -> Points:
         """Points of the mesh's frame in the primitive's own."""
@@ -93,6 +90,15 @@ class Piece:
             "vertices": self.vertices.tolist(),
             "faces": self.faces.tolist(),
         }
+
+
+def near_ones(box: Points, boxes: Points, gap: float) -> npt.NDArray[np.bool_]:
+    """Which boxes, shape (n, 2, 3), are at most a gap [m] from a box along each axis."""
+    near = np.ones(len(boxes), dtype=bool)
+    for axis in range(3):
+        near &= box[0, axis] - boxes[:, 1, axis] <= gap
+        near &= boxes[:, 0, axis] - box[1, axis] <= gap
+    return near
 
 
 def mesh_piece(vertices: Points, faces: Faces, *, convex: bool = True) -> Piece:

@@ -15,8 +15,10 @@ import numpy.typing as npt
 
 from ..inertia.winding import boxes_of, winding_numbers
 from ..meshes.mesh import Faces, Points
+from .columns import bounds
 from .convex import planes, signed_distance
 from .distance import Surface, areas_of, spread
+from .touchable import widened
 
 CELLS = 96
 """Cells along the longest side of the mesh's box; gaps narrower than two are closed."""
@@ -33,55 +35,64 @@ _NEAR = 0.7  # cells: about the nearest that such a corner is
 Numbers = npt.NDArray[np.int64]
 
 
-def remesh(corners: Points) -> tuple[Points, Faces]:
-    """The boundary of what triangles enclose, and of a thin layer on them.
+class Layer:
+    """The space around triangles in cells, and which of their corners are in a thin layer on them.
 
-    Args:
-        corners: The triangles [m], shape (m, 3, 3).
+    Attributes:
+        low: The first corner [m].
+        side: Edge of a cell [m].
+        surface: The triangles.
+        field: At each corner the distance from the layer, in cells; negative in what it encloses.
+    """
+
+    def __init__(self, corners: Points, workers: int = 1) -> None:
+        """Fill the cells around triangles [m], shape (m, 3, 3), with some threads."""
+        lowest, highest = bounds(corners.reshape(-1, 3))
+        extent = highest - lowest
+        self.side = float(extent.max()) / CELLS
+        count = int(min(_MOST_MARKS, _MARKS * areas_of(corners).sum() / self.side**2 + 20_000))
+        shape = np.ceil(extent / self.side).astype(np.int64) + 2 * _RIM + 1
+        self.low = lowest - _RIM * self.side
+        self.surface = Surface(corners, spread(corners, count), workers=workers)
+        self.field = _field(self.surface, self.low, self.side, shape)
+
+
+def remesh(layer: Layer) -> tuple[Points, Faces]:
+    """The boundary of what triangles enclose, and of a thin layer on them.
 
     Returns:
         Vertices [m] and triangles, outwards; every edge has two of them.
     """
-    low, side, surface, shape = _grid(corners)
-    vertices, faces = _boundary(_field(surface, low, side, shape))
-    vertices = low + vertices * side
+    vertices, faces = _boundary(layer.field)
+    vertices = layer.low + vertices * layer.side
     # back onto the mesh but for a part of the layer
-    ends = np.concatenate([surface.samples.points, np.unique(corners.reshape(-1, 3), axis=0)])
+    surface = layer.surface
+    ends = surface.corners.reshape(-1, 3)
+    ends = np.concatenate([surface.samples.points, np.unique(ends, axis=0)])
     from scipy.spatial import cKDTree
 
-    _, nearest = cKDTree(ends).query(vertices)
+    _, nearest = cKDTree(ends).query(vertices, workers=surface.workers)
     feet = ends[nearest]
     return feet + (vertices - feet) * (_LEFT / _WALL), faces
-
-
-def _grid(corners: Points) -> tuple[Points, float, Surface, Numbers]:
-    """The first corner [m] of the cells, their side [m], the surface, and how many corners."""
-    points = corners.reshape(-1, 3)
-    extent = np.ptp(points, axis=0)
-    side = float(extent.max()) / CELLS
-    count = int(min(_MOST_MARKS, _MARKS * areas_of(corners).sum() / side**2 + 20_000))
-    shape = np.ceil(extent / side).astype(np.int64) + 2 * _RIM + 1
-    return points.min(axis=0) - _RIM * side, side, Surface(corners, spread(corners, count)), shape
 
 
 class Outside:
     """How far points outside of a mesh are from it, read from a grid."""
 
-    def __init__(self, corners: Points) -> None:
-        """Fill the grid around triangles [m], shape (m, 3, 3)."""
+    def __init__(self, layer: Layer) -> None:
+        """Take the cells around it."""
         from scipy import ndimage
 
-        self.low, self.side, surface, shape = _grid(corners)
-        field = _field(surface, self.low, self.side, shape)
-        far = field == _FAR
+        self.low, self.side = layer.low, layer.side
+        far = layer.field == _FAR
         away = ndimage.distance_transform_edt(far) + _NEAR
-        self.values = np.maximum(np.where(far, away, field + _WALL), 0.0) * self.side
+        self.values = np.maximum(np.where(far, away, layer.field + _WALL), 0.0) * self.side
 
     def distance(self, points: Points) -> Points:
         """The distance [m] of points from the mesh; 0 for those that it encloses."""
         from scipy import ndimage
 
-        at = ((points - self.low) / self.side).T
+        at = (points.T - self.low[:, None]) / self.side
         return np.asarray(ndimage.map_coordinates(self.values, at, order=1, mode="nearest"))
 
 
@@ -118,7 +129,7 @@ def _field(surface: Surface, low: Points, side: float, shape: Numbers) -> Points
     for some in (surface.samples.points, surface.corners.reshape(-1, 3)):
         at = np.rint((some - low) / side).astype(np.int64)
         marked[at[:, 0], at[:, 1], at[:, 2]] = True
-    near = ndimage.binary_dilation(marked, np.ones((3, 3, 3), dtype=bool))
+    near = widened(marked, 1)
     field = np.full(marked.shape, _FAR)
     field[near] = surface.distance(np.argwhere(near) * side + low) / side - _WALL
     labels, _ = ndimage.label(field > 0)

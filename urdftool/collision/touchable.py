@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..meshes.mesh import Points
+from .columns import bounds
 from .distance import areas_of, spread
 
 CELLS = 100
@@ -44,13 +45,17 @@ class Flood:
 
     def cells(self, points: Points) -> npt.NDArray[np.int64]:
         """The cell that each point is in, or the nearest to it."""
-        cells = np.floor((points - self.low) / self.side).astype(np.int64)
-        return np.clip(cells, 0, np.array(self.reached.shape) - 1)
+        return np.stack(self._places(points), axis=1)
+
+    def _places(self, points: Points) -> tuple[npt.NDArray[np.int64], ...]:
+        found = _cells(points, self.low, self.side)
+        for at, count in zip(found, self.reached.shape, strict=True):
+            np.clip(at, 0, count - 1, out=at)
+        return found
 
     def touches(self, points: Points) -> npt.NDArray[np.bool_]:
         """Whether each point of the surface can be touched."""
-        cells = self.cells(points)
-        return np.asarray(self.reached[cells[:, 0], cells[:, 1], cells[:, 2]])
+        return np.asarray(self.reached[self._places(points)])
 
 
 def flood(corners: Points) -> Flood:
@@ -58,20 +63,52 @@ def flood(corners: Points) -> Flood:
     from scipy import ndimage
 
     points = corners.reshape(-1, 3)
-    extent = np.ptp(points, axis=0)
+    lowest, highest = bounds(points)
+    extent = highest - lowest
     side = float(extent.max()) / CELLS
-    low = points.min(axis=0) - _RIM * side
+    low = lowest - _RIM * side
     shape = np.ceil(extent / side).astype(np.int64) + 2 * _RIM + 1
     count = int(min(_MOST_MARKS, _MARKS * areas_of(corners).sum() / side**2 + 1000))
     wall = np.zeros(tuple(shape), dtype=bool)
     for some in (points, spread(corners, count).points):
-        cells = np.floor((some - low) / side).astype(np.int64)
-        wall[cells[:, 0], cells[:, 1], cells[:, 2]] = True
-    thick = ndimage.binary_dilation(wall)
+        wall[_cells(some, low, side)] = True
+    thick = _grown(wall)
     labels, _ = ndimage.label(~thick)
     outside = labels == labels[0, 0, 0]
-    grown = ndimage.binary_dilation(outside) & ~wall
+    grown = _grown(outside) & ~wall
     inner = ~(grown | wall)
     volume = (float(np.count_nonzero(inner)) + 0.5 * float(np.count_nonzero(wall))) * side**3
-    near = ndimage.binary_dilation(outside, np.ones((3, 3, 3), dtype=bool), iterations=2)
-    return Flood(low, side, near, volume, outside)
+    return Flood(low, side, widened(outside, 2), volume, outside)
+
+
+def _cells(points: Points, low: Points, side: float) -> tuple[npt.NDArray[np.int64], ...]:
+    """The cell that each point is in, axis by axis."""
+    return tuple(
+        np.floor((points[:, axis] - low[axis]) / side).astype(np.int64) for axis in range(3)
+    )
+
+
+def _grown(cells: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    """With the six neighbours of each."""
+    made: npt.NDArray[np.bool_] = cells.copy()
+    for axis in range(3):
+        _spread_along(axis, cells, made, 1)
+    return made
+
+
+def widened(cells: npt.NDArray[np.bool_], by: int) -> npt.NDArray[np.bool_]:
+    """With all that are no more than so many cells from one, along each axis."""
+    made: npt.NDArray[np.bool_] = cells.copy()
+    for axis in range(3):
+        before = made.copy()
+        for step in range(1, by + 1):
+            _spread_along(axis, before, made, step)
+    return made
+
+
+def _spread_along(
+    axis: int, cells: npt.NDArray[np.bool_], made: npt.NDArray[np.bool_], step: int
+) -> None:
+    source, target = np.moveaxis(cells, axis, 0), np.moveaxis(made, axis, 0)
+    target[step:] |= source[:-step]
+    target[:-step] |= source[step:]

@@ -63,13 +63,14 @@ def command(
     from ..collision.compute import Task, attempt, result_of
     from ..errors import UrdftoolError
     from ..report import collision as report
+    from ..workers import cores
 
     task = Task(Path(file), scale, settings_of(values), gltf_up_for(console, file))
     cache = cache_of(values)
     key = key_of(task)
     result = cache.read(key) if key is not None else None
     if result is None:
-        outcome = attempt(task)
+        outcome = attempt(task, cores())
         if isinstance(outcome, UrdftoolError):
             raise outcome
         result = result_of(outcome)

@@ -1,0 +1,52 @@
+"""Vectors in rows of three, worked on column by column.
+
+numpy goes through rows of three in steps of three, and its functions for them take ten times as
+long as the sums and products they consist of. The order of the sums is fixed, so that the same
+numbers come out on every machine.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..meshes.mesh import Points
+
+
+def cross(one: Points, other: Points) -> Points:
+    """The cross products of rows, shape (n, 3)."""
+    ax, ay, az = one[:, 0], one[:, 1], one[:, 2]
+    bx, by, bz = other[:, 0], other[:, 1], other[:, 2]
+    made = np.empty((len(one), 3))
+    made[:, 0] = ay * bz - az * by
+    made[:, 1] = az * bx - ax * bz
+    made[:, 2] = ax * by - ay * bx
+    return made
+
+
+def dot(one: Points, other: Points) -> Points:
+    """The products of rows, shape (n, 3), summed up."""
+    made = one[:, 0] * other[:, 0]
+    made += one[:, 2] * other[:, 2]
+    made += one[:, 1] * other[:, 1]
+    return made
+
+
+def lengths(rows: Points) -> Points:
+    """The length of each row, shape (n, 3)."""
+    x, y, z = rows[:, 0], rows[:, 1], rows[:, 2]
+    made = x * x
+    made += y * y
+    made += z * z
+    return np.asarray(np.sqrt(made, out=made))
+
+
+def normals(corners: Points) -> Points:
+    """The normal of each triangle, shape (n, 3, 3), twice as long as its area is large."""
+    first = corners[:, 0]
+    return cross(corners[:, 1] - first, corners[:, 2] - first)
+
+
+def bounds(rows: Points) -> Points:
+    """The least and the largest of each column, shape (2, 3), of at least one row."""
+    columns = [rows[:, axis] for axis in range(3)]
+    return np.array([[column.min() for column in columns], [column.max() for column in columns]])
