@@ -1,5 +1,7 @@
 """Which files of controllers are for a robot, and what is said of the joints in them."""
 
+import os
+
 import pytest
 
 from urdftool import check
@@ -155,3 +157,11 @@ def test_a_file_for_two_robots_tells_slips_only(lint):
     other = {"urdf/other.urdf.xacro": f'<robot name="o"{XACRO}><link name="a"/>cart.yaml</robot>'}
     assert lint(CONTROLLER.format("elbow", "right_wheel_joint"), other) == []
     assert len(lint(CONTROLLER.format("left_weel_joint", "right_wheel_joint"), other)) == 1
+
+
+def test_what_is_no_file_is_passed_over(lint, tmp_path):
+    for folder in ("config", "urdf", "launch"):
+        (tmp_path / folder).mkdir(exist_ok=True)
+        os.mkfifo(tmp_path / folder / "pipe.yaml")
+        os.mkfifo(tmp_path / folder / "pipe.urdf")
+    assert len(lint(CONTROLLER.format("left_weel_joint", "right_wheel_joint"), plugin="")) == 1

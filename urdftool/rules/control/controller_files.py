@@ -80,9 +80,11 @@ class Package:
             if entries > _MOST_ENTRIES:
                 return None
             paths = [Path(root, name) for name in names if name.endswith((".urdf", ".xacro"))]
-            found += [path for path in paths if os.path.realpath(path) not in self.own]
-        files = [file_at(path) for path in found[:_MOST_FILES]]
-        return [file for file in files if file is not None] if len(files) == len(found) else None
+            others = [path for path in paths if os.path.realpath(path) not in self.own]
+            found += [path for path in others if os.path.isfile(path)]
+        if len(found) > _MOST_FILES:
+            return None
+        return [file for path in found if (file := file_at(path)) is not None]
 
     @cached_property
     def other_robots(self) -> list[SourceFile] | None:
@@ -128,7 +130,7 @@ def _found(robot: Robot, package: Package) -> Iterator[ControllerFile]:
     named = {os.path.realpath(path) for path in _named_by_plugins(robot, package.description)}
     beside = {os.path.realpath(path) for path in _beside(package.folder)}
     for path in sorted(named | beside):
-        file = file_at(path)
+        file = file_at(path) if os.path.isfile(path) else None
         if file is None or len(file.data) > _MOST_BYTES or not _CONTROLLER.search(file.data):
             continue
         by_plugin, by_launch = path in named, package.launches(path)
@@ -170,7 +172,7 @@ def _beside(package: Path | None) -> list[Path]:
         for end in ("yaml", "yml")
         for path in package.glob(f"{name}/*.{end}")
     ]
-    return found[:_MOST_FILES]
+    return [path for path in found[:_MOST_FILES] if os.path.isfile(path)]
 
 
 def _stem(path: str) -> str:

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ...model.controllers import Controller, joint_of
 from ...model.elements import Joint, Plugin, Robot, Vector
 from ...model.kinematics import link_poses
 from ...model.pose import Pose, norm, rotate
+from ...model.read import number
 from ...source.document import Element
 from ...source.location import Place
-from ...source.yaml_tree import Node
-from ..control.controller_files import package_of
 
 _SKIDS = re.compile(r"skid[-_]steer")
 _DRIVES = re.compile(r"diff[-_]drive|skid[-_]steer")
@@ -94,13 +91,11 @@ def drives(robot: Robot) -> Iterator[Drive]:
         if _ROLLS.search(plugin.filename.rpartition("/")[2]):
             poses = poses or link_poses(robot)
             yield from _of_plugin(robot, plugin, poses)
-    if robot.source is None:
+    if robot.source is None or not (robot.ros2_controls or robot.transmissions):
         return
-    for file in package_of(robot, robot.source).controller_files:
-        for controller in file.controllers:
-            if controller.kind == "DiffDriveController":
-                poses = poses or link_poses(robot)
-                yield from _of_controller(robot, controller, poses)
+    from .controller_drives import controller_drives
+
+    yield from controller_drives(robot, robot.source, poses)
 
 
 def _of_plugin(robot: Robot, plugin: Plugin, poses: dict[str, Pose]) -> Iterator[Drive]:
@@ -139,71 +134,9 @@ def _of_plugin(robot: Robot, plugin: Plugin, poses: dict[str, Pose]) -> Iterator
 
 def _told(plugin: Plugin, names: tuple[str, ...], per_radius: int) -> Iterator[tuple[int, Told]]:
     for index, element in enumerate(_named(plugin, names)):
-        value = _number(element.text)
+        value = number(element.text)
         if value is not None:
             yield index, Told(f"<{element.tag}>", value, value, element.place, per_radius)
-
-
-def _of_controller(robot: Robot, controller: Controller, poses: dict[str, Pose]) -> Iterator[Drive]:
-    sides = [
-        [
-            (node, wheel_of(robot, poses, joint_of(node)))
-            for end in ("_names", "")
-            for node in controller.named(f"{side}_wheel{end}")
-        ]
-        for side in ("left", "right")
-    ]
-    pairs = [
-        (left, right)
-        for (_, left), (_, right) in zip(*sides, strict=False)
-        if left is not None and right is not None
-    ]
-    if not pairs:
-        return
-    yield Drive(
-        f"controller '{controller.name}'",
-        pairs[0][0].joint,
-        pairs,
-        sides[0][0][0].place,
-        len(pairs) > 1 or (_value(controller, "wheels_per_side") or 1) > 1,
-        _is_simulated(robot),
-        [
-            (told, pairs[0])
-            for told in _parameter(controller, "wheel_separation", "wheel_separation_multiplier")
-        ],
-        [
-            (told, pairs[0][0])
-            for told in _parameter(
-                controller,
-                "wheel_radius",
-                "wheel_radius_multiplier",
-                "left_wheel_radius_multiplier",
-            )
-        ],
-    )
-
-
-def _parameter(controller: Controller, name: str, *multipliers: str) -> Iterator[Told]:
-    for node in controller.named(name):
-        value = _scalar(node)
-        if value is not None:
-            meant = value * math.prod(_value(controller, word) or 1.0 for word in multipliers)
-            yield Told(name, value, meant, node.place)
-
-
-def _value(controller: Controller, name: str) -> float | None:
-    return next((_scalar(node) for node in controller.named(name)), None)
-
-
-def _scalar(node: Node) -> float | None:
-    return None if node.quoted else _number(node.text or "")
-
-
-def _is_simulated(robot: Robot) -> bool:
-    """Whether the wheels turn as their axes say, which hardware need not."""
-    return any("_ros2_control/" in (block.plugin or "") for block in robot.ros2_controls) or any(
-        "gazebo_ros_control" in plugin.filename for plugin in robot.plugins
-    )
 
 
 def _named(plugin: Plugin, names: tuple[str, ...]) -> list[Element]:
@@ -226,11 +159,3 @@ def wheel_of(robot: Robot, poses: dict[str, Pose], name: str) -> Wheel | None:
     pose = poses[joint.child]
     x, y, z = rotate(pose.rotation, axis)
     return Wheel(joint, pose, (x / length, y / length, z / length))
-
-
-def _number(text: str) -> float | None:
-    try:
-        value = float(text)
-    except ValueError:
-        return None
-    return value if math.isfinite(value) else None

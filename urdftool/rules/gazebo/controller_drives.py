@@ -1,0 +1,95 @@
+"""What a ``diff_drive_controller`` in YAML drives, and what it is told of its wheels."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ...model.controllers import Controller, joint_of
+from ...model.elements import Robot
+from ...model.kinematics import link_poses
+from ...model.pose import Pose
+from ...model.read import number
+from ...source.description import Description
+from ...source.yaml_tree import Node
+from ..control.controller_files import package_of
+from .drive_wheels import Drive, Told, wheel_of
+
+
+def controller_drives(
+    robot: Robot, description: Description, poses: dict[str, Pose]
+) -> Iterator[Drive]:
+    """The controllers whose wheels are known, in the files that are for a robot.
+
+    Args:
+        robot: The robot.
+        description: Its description.
+        poses: Of its links in the frame of the root; empty where they are not worked out yet.
+    """
+    for file in package_of(robot, description).controller_files:
+        for controller in file.controllers:
+            if controller.kind == "DiffDriveController":
+                poses = poses or link_poses(robot)
+                yield from _of_controller(robot, controller, poses)
+
+
+def _of_controller(robot: Robot, controller: Controller, poses: dict[str, Pose]) -> Iterator[Drive]:
+    sides = [
+        [
+            (node, wheel_of(robot, poses, joint_of(node)))
+            for end in ("_names", "")
+            for node in controller.named(f"{side}_wheel{end}")
+        ]
+        for side in ("left", "right")
+    ]
+    pairs = [
+        (left, right)
+        for (_, left), (_, right) in zip(*sides, strict=False)
+        if left is not None and right is not None
+    ]
+    if not pairs:
+        return
+    yield Drive(
+        f"controller '{controller.name}'",
+        pairs[0][0].joint,
+        pairs,
+        sides[0][0][0].place,
+        len(pairs) > 1 or (_value(controller, "wheels_per_side") or 1) > 1,
+        _is_simulated(robot),
+        [
+            (told, pairs[0])
+            for told in _parameter(controller, "wheel_separation", "wheel_separation_multiplier")
+        ],
+        [
+            (told, pairs[0][0])
+            for told in _parameter(
+                controller,
+                "wheel_radius",
+                "wheel_radius_multiplier",
+                "left_wheel_radius_multiplier",
+            )
+        ],
+    )
+
+
+def _parameter(controller: Controller, name: str, *multipliers: str) -> Iterator[Told]:
+    for node in controller.named(name):
+        value = _scalar(node)
+        if value is not None:
+            meant = value * math.prod(_value(controller, word) or 1.0 for word in multipliers)
+            yield Told(name, value, meant, node.place)
+
+
+def _value(controller: Controller, name: str) -> float | None:
+    return next((_scalar(node) for node in controller.named(name)), None)
+
+
+def _scalar(node: Node) -> float | None:
+    return None if node.quoted else number(node.text or "")
+
+
+def _is_simulated(robot: Robot) -> bool:
+    """Whether the wheels turn as their axes say, which hardware need not."""
+    return any("_ros2_control/" in (block.plugin or "") for block in robot.ros2_controls) or any(
+        "gazebo_ros_control" in plugin.filename for plugin in robot.plugins
+    )
