@@ -24,7 +24,7 @@ _TOUCH = 0.01  # gap of neighbours, relative to the size
 _PROBES = 300
 _BURIED = 6000
 _ENDS = 16  # corners of a piece between which half ways are looked at
-_SURE = 0.7  # part of a guess that probes of the hull hardly ever miss
+_SURE = 0.4  # part of a guess below which probes of the hull hardly ever stay
 _GUESSED, _BULGE, _WHOLE = range(3)  # what is known of a join's cost
 
 
