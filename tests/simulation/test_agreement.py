@@ -1,13 +1,16 @@
 """Two engines on one robot: they agree, or the cause that was planted is found."""
 
 import json
+import math
 from importlib.util import find_spec
+from unittest import mock
 
 import jsonschema
 import pytest
 
 from tests.conftest import FIXTURES, ROOT
 from urdftool.model.load import load
+from urdftool.simulation import agreement
 from urdftool.simulation.agreement import compare, differences
 from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
@@ -100,3 +103,19 @@ def test_the_command_compares(urdftool):
     assert "PyBullet" in result.out
     assert "MuJoCo" in result.out
     assert result.out.endswith("the engines agree\n")
+
+
+@pytest.mark.parametrize(
+    ("excess", "said"),
+    [
+        (40.0, "without that they are 20 times closer"),
+        (math.inf, "whether it comes to rest, and are 2 times as far apart as they may be"),
+    ],
+)
+def test_how_much_a_cause_explains_is_a_number(monkeypatch, excess, said):
+    apart = [agreement.Difference("when it rests", "link", "a", 0.0, excess, 1.0, "s")]
+    monkeypatch.setattr(agreement, "_sunk", lambda *_: "")
+    monkeypatch.setattr(agreement, "_tries", lambda *_: [agreement._Try("the timestep")])
+    monkeypatch.setattr(agreement, "_again", lambda *_: [2.0])
+    verdict = mock.Mock()
+    assert agreement.explained(mock.Mock(), verdict, verdict, apart).endswith(said)

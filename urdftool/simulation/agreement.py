@@ -174,6 +174,11 @@ def explained(robot: Robot, one: Verdict, other: Verdict, apart: Sequence[Differ
         if not left:
             return f"{attempt.cause}: without that both agree"
         if left[0] < worst / 5:
+            if math.isinf(worst):
+                return (
+                    f"{attempt.cause}: without that they agree on whether it comes to rest, and "
+                    f"are {left[0]:.3g} times as far apart as they may be"
+                )
             return f"{attempt.cause}: without that they are {worst / left[0]:.0f} times closer"
     return (
         "it is still there without any of these: " + "; ".join(tried)
