@@ -33,4 +33,8 @@ def convex_hull(points: Points) -> Manifold | None:
 def hull_surface(hull: Manifold) -> tuple[Points, Faces]:
     """Corners (n, 3) and triangles (m, 3) of a hull, counter-clockwise seen from outside."""
     mesh = hull.to_mesh64()
-    return np.array(mesh.vert_properties[:, :3]), np.array(mesh.tri_verts, dtype=np.int64)
+    faces = np.array(mesh.tri_verts, dtype=np.int64)
+    # the triangles of a large one come in another order each time
+    first = faces.argmin(axis=1)[:, None]
+    faces = np.take_along_axis(faces, (first + np.arange(3)) % 3, axis=1)
+    return np.array(mesh.vert_properties[:, :3]), faces[np.lexsort(faces.T[::-1])]
