@@ -4,6 +4,7 @@ One module an idea, each imported on its own (this package loads nothing by itse
 
 - ``settings``: how it is spawned and for how long;
 - ``bodies``, ``shapes``: the robot as rigid bodies, plain data that any engine can be fed with;
+- ``remembered``, ``kept``: its meshes, read once for a run and for the next ones;
 - ``prepare``, ``urdf``: what is refused, and the folder an engine reads;
 - ``child``: an engine in a process of its own; ``bullet`` is one, ``mj`` another;
 - ``control``, ``controllers``: what a file of controllers does to joints;

@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import cached_property
 
 import numpy as np
 
 from ..errors import UrdftoolError
-from ..inertia.winding import boxes_of, winding_numbers
-from ..meshes.load import load_named
+from ..inertia.winding import Boxes, boxes_of, winding_numbers
 from ..model.elements import Collision, Mesh, Robot, Visual
 from ..model.pose import Pose, pose_of
 from .recording import Array
+from .remembered import remembered, triangles_of
 from .run import Run, body_pose
 from .shapes import hull
 
@@ -41,12 +42,40 @@ def overlap(robot: Robot, run: Run, frame: int, one: str, other: str) -> float |
         return None
     try:
         mine, others = (
-            list(_surfaces(robot, shapes, _pose(run, frame, name)))
+            [
+                (_surface(robot, shape), _pose(run, frame, name) @ pose_of(shape.origin))
+                for shape in shapes
+            ]
             for shapes, name in zip(pairs, (one, other), strict=True)
         )
     except UrdftoolError:
         return None
-    return max((_deepest(a, b) for a in mine for b in others), default=0.0)
+    return max((_deepest(*a, *b) for a in mine for b in others), default=0.0)
+
+
+class Surface:
+    """Triangles of a shape, in its own frame.
+
+    Attributes:
+        triangles: Shape (n, 3, 3).
+        low: The smallest corner of the box around them, along the axes of the frame.
+        high: The largest.
+    """
+
+    def __init__(self, triangles: Array) -> None:
+        """Take the triangles."""
+        self.triangles = triangles
+        self.low, self.high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
+
+    @cached_property
+    def points(self) -> Array:
+        """Points spread over the triangles, shape (n, 3)."""
+        return _points(self.triangles)
+
+    @cached_property
+    def boxes(self) -> Boxes:
+        """The triangles as winding numbers are counted of them."""
+        return boxes_of(self.triangles)
 
 
 def _pose(run: Run, frame: int, link: str) -> Pose:
@@ -56,17 +85,16 @@ def _pose(run: Run, frame: int, link: str) -> Pose:
     return body_pose(run, number, frame) @ bodies[number].places[link]
 
 
-def _surfaces(robot: Robot, shapes: list[Collision], at: Pose) -> Iterator[Array]:
-    """Triangles of each shape in the world, shape (n, 3, 3)."""
-    for shape in shapes:
-        if isinstance(shape.geometry, Mesh):
-            assert robot.source is not None
-            mesh = load_named(robot.source, shape.geometry.filename, shape.geometry.scale)
-            corners = mesh.vertices[mesh.faces]
-        else:
-            corners = primitive_triangles(shape)
-        pose = at @ pose_of(shape.origin)
-        yield corners @ np.array(pose.rotation).T + np.array(pose.translation)
+def _surface(robot: Robot, shape: Collision) -> Surface:
+    geometry = shape.geometry
+    if not isinstance(geometry, Mesh):
+        return Surface(primitive_triangles(shape))
+
+    def make() -> Surface:
+        mesh = triangles_of(robot, geometry)
+        return Surface(mesh.vertices[mesh.faces])
+
+    return remembered(robot, ("surface", geometry.filename, geometry.scale), make)
 
 
 def primitive_triangles(shape: Collision | Visual) -> Array:
@@ -93,24 +121,21 @@ def primitive_triangles(shape: Collision | Visual) -> Array:
     return triangles
 
 
-def _deepest(one: Array, other: Array) -> float:
-    low = np.maximum(one.min(axis=(0, 1)), other.min(axis=(0, 1)))
-    high = np.minimum(one.max(axis=(0, 1)), other.max(axis=(0, 1)))
-    if (low > high).any():
-        return 0.0
-    return max(_inside(one, other, low, high), _inside(other, one, low, high))
+def _deepest(one: Surface, at: Pose, other: Surface, there: Pose) -> float:
+    """How deep two surfaces at poses in the world are in each other [m]."""
+    return max(_inside(one, other, there.inverse() @ at), _inside(other, one, at.inverse() @ there))
 
 
-def _inside(one: Array, other: Array, low: Array, high: Array) -> float:
-    """How far points of one surface get into the other, looked for in a box that both share."""
-    points = _points(one)
-    points = points[((points >= low) & (points <= high)).all(axis=1)]
+def _inside(one: Surface, other: Surface, pose: Pose) -> float:
+    """How far points of one surface get into another, in whose frame it is at a pose [m]."""
+    points = one.points @ np.array(pose.rotation).T + np.array(pose.translation)
+    points = points[((points >= other.low) & (points <= other.high)).all(axis=1)]
     if not len(points):
         return 0.0
-    points = points[winding_numbers(points, boxes_of(other)) > 0.5]
+    points = points[winding_numbers(points, other.boxes) > 0.5]
     if not len(points):
         return 0.0
-    return math.sqrt(max(_nearest_squared(points, _points(other))))
+    return math.sqrt(max(_nearest_squared(points, other.points)))
 
 
 def _nearest_squared(points: Array, others: Array) -> Iterator[float]:

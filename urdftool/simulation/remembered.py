@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator
 from contextlib import contextmanager, suppress
+from pathlib import Path
 from threading import Thread
 from typing import TypeVar, cast
 
@@ -20,6 +21,7 @@ from ..meshes.mesh import Mesh as Triangles
 from ..meshes.mesh import Points
 from ..meshes.outline import outline
 from ..model.elements import Mesh, Robot
+from .kept import Cloud, kept
 
 T = TypeVar("T")
 
@@ -48,7 +50,7 @@ def triangles_of(robot: Robot, geometry: Mesh) -> Triangles:
     assert source is not None
     return remembered(
         robot,
-        _triangles_key(geometry),
+        ("triangles", geometry.filename, geometry.scale),
         lambda: load_named(source, geometry.filename, geometry.scale),
     )
 
@@ -59,20 +61,37 @@ def mesh_points(robot: Robot, geometry: Mesh) -> Points | None:
     The box around them is that around the mesh, and their hull all but as large.
     """
 
+    def make() -> list[Cloud]:
+        assert robot.source is not None
+        found = outline(robot.source.resolve(geometry.filename), robot.source.gltf_up)
+        if found is not None:
+            points = np.array(found.points) * geometry.scale
+        else:
+            points = extreme_points(triangles_of(robot, geometry).vertices)
+        return [(points, np.zeros((0, 3), dtype=np.int64))]
+
     def read() -> Points | None:
         if robot.source is None:
             return None
         try:
-            if _is_remembered(robot, _triangles_key(geometry)):
-                return extreme_points(triangles_of(robot, geometry).vertices)
-            found = outline(robot.source.resolve(geometry.filename), robot.source.gltf_up)
-            if found is not None:
-                return np.array(found.points) * geometry.scale
-            return extreme_points(triangles_of(robot, geometry).vertices)
+            ((points, _),) = kept(*kept_by(robot, geometry, "points"), make)
         except UrdftoolError:
             return None
+        return points
 
     return remembered(robot, ("points", geometry.filename, geometry.scale), read)
+
+
+def kept_by(robot: Robot, geometry: Mesh, what: str) -> tuple[Path, tuple[object, ...]]:
+    """The file of a mesh, and what else that hangs on which is kept of it.
+
+    Raises:
+        UrdftoolError: It is not found.
+    """
+    assert robot.source is not None
+    path = Path(robot.source.resolve(geometry.filename))
+    up = robot.source.gltf_up if path.suffix.lower() == ".glb" else ""
+    return path, (what, geometry.scale, up)
 
 
 @contextmanager
@@ -96,11 +115,3 @@ def reading_looks(robot: Robot) -> Iterator[None]:
     yield
     if looks:
         thread.join()
-
-
-def _triangles_key(geometry: Mesh) -> Hashable:
-    return "triangles", geometry.filename, geometry.scale
-
-
-def _is_remembered(robot: Robot, key: Hashable) -> bool:
-    return _last is not None and _last[0] is robot and key in _last[1]

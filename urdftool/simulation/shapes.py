@@ -13,8 +13,9 @@ from ..meshes.mesh import Faces
 from ..meshes.mesh import Mesh as Triangles
 from ..model.elements import Box, Capsule, Collision, Cylinder, Link, Mesh, Robot, Sphere
 from ..model.pose import Pose, pose_of
+from .kept import kept
 from .recording import Array
-from .remembered import remembered, triangles_of
+from .remembered import kept_by, remembered, triangles_of
 
 MOST_PIECES = 32
 """A mesh file of more objects than this collides as one hull."""
@@ -114,12 +115,17 @@ def _pieces(
     try:
         if robot.source is None:
             raise ModelError("the robot was not read from a file, so its meshes are nowhere")
-        mesh = triangles_of(robot, geometry)
+        parts = remembered(
+            robot,
+            ("pieces", geometry.filename, geometry.scale),
+            lambda: kept(
+                *kept_by(robot, geometry, "pieces"),
+                lambda: list(_convex_parts(triangles_of(robot, geometry))),
+            ),
+        )
     except UrdftoolError as error:
         message = f"mesh '{geometry.filename}': {error.message}"
         raise ModelError(message, at=geometry.place, notes=error.notes, rule=error.rule) from None
-    key = ("pieces", geometry.filename, geometry.scale)
-    parts = remembered(robot, key, lambda: [*_convex_parts(mesh)])
     return tuple(points for points, _ in parts), tuple(faces for _, faces in parts)
 
 

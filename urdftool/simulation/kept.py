@@ -1,0 +1,85 @@
+"""What simulations need of mesh files, kept for the next one: the hulls, and the outermost points.
+
+Both are small beside the files, and reading these is what a simulation of a robot with meshes waits
+for. They are kept by the bytes of the file, so a changed one is read again.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from hashlib import sha256
+from pathlib import Path
+
+import numpy as np
+
+from ..meshes.mesh import Faces, Points
+from ..store import Store, cache_folder
+
+Cloud = tuple[Points, Faces]
+"""Points (n, 3) and triangles (m, 3) of them, which may be none."""
+
+_VERSION = 1
+"""To be raised whenever the same file gives something else."""
+
+_DAYS, _MOST = 30.0, 200_000_000  # how long and how many bytes
+
+
+def kept(path: Path, facts: Sequence[object], make: Callable[[], list[Cloud]]) -> list[Cloud]:
+    """What ``make`` makes of a file, or made of the same bytes before.
+
+    Args:
+        path: The mesh file; one that cannot be read is left to ``make``.
+        facts: What else the result hangs on.
+        make: Reads the file.
+    """
+    key = _key(path, facts)
+    if key is None:
+        return make()
+    store = Store(cache_folder("simulate"))
+    known = store.get(key)
+    clouds = None if known is None else _decoded(known)
+    if clouds is None:
+        clouds = make()
+        store.put(key, _encoded(clouds))
+        store.trim(days=_DAYS, most=_MOST)
+    return clouds
+
+
+def _key(path: Path, facts: Sequence[object]) -> str | None:
+    suffix = path.suffix.lower()
+    if suffix == ".gltf" or not path.is_file():
+        return None  # the buffers of glTF are other files, and a pipe never ends
+    try:
+        digest = sha256(json.dumps([_VERSION, suffix, *facts]).encode())
+        digest.update(path.read_bytes())
+    except OSError:
+        return None
+    return digest.hexdigest()
+
+
+def _encoded(clouds: list[Cloud]) -> bytes:
+    head = json.dumps([[len(points), len(faces)] for points, faces in clouds]).encode()
+    arrays = [
+        np.ascontiguousarray(a, k) for cloud in clouds for a, k in zip(cloud, _KINDS, strict=True)
+    ]
+    return b"".join([head, b"\n", *(array.tobytes() for array in arrays)])
+
+
+def _decoded(data: bytes) -> list[Cloud] | None:
+    """None of what this version did not write."""
+    head, _, body = data.partition(b"\n")
+    clouds, at = [], 0
+    try:
+        for counts in json.loads(head):
+            arrays = []
+            for count, kind in zip(counts, _KINDS, strict=True):
+                arrays.append(np.frombuffer(body, kind, 3 * count, at).reshape(count, 3).copy())
+                at += arrays[-1].nbytes
+            clouds.append((arrays[0], arrays[1]))
+    except (ValueError, TypeError):
+        return None
+    return clouds if at == len(body) else None
+
+
+_KINDS = ("<f8", "<i8")
