@@ -37,7 +37,7 @@ BELOW = {
     "graph": ("finding", "model", "source", "errors"),
     "simulation": (
         *("drawing", "formats", "finding", "meshes", "inertia", "model", "source", "workers"),
-        *("errors",),
+        *("store", "errors"),
     ),
     "report": (
         *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),
@@ -57,7 +57,8 @@ DOORS = {
     "lxml": ("formats/",),
     "trimesh": ("meshes/",),
     "collada": ("meshes/",),
-    "scipy": ("meshes/", "inertia/", "formats/", "collision/", "simulation/"),
+    "scipy": ("meshes/", "inertia/", "collision/"),
+    "manifold3d": ("meshes/hull.py", "simulation/solid.py"),
     "click": ("cli.py", "console.py", "commands/", "report/findings.py"),
     "rich": ("report/", "commands/", "formats/", "viewer/server.py"),
     "numpy": (
