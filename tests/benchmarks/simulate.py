@@ -22,7 +22,7 @@ PEERS = ("pybullet",)
 ROBOTS = FIXTURES / "robots"
 ABOUT = """\
 Whole processes; the loop loads the same URDF into PyBullet, holds the joints and takes the same
-number of steps, and looks at nothing."""
+number of steps, and looks at nothing. The hulls of meshes are kept from an earlier run."""
 
 MESHES = {
     "a1/a1.urdf": "a1, a quadruped that is seen in meshes",
