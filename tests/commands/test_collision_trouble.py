@@ -22,10 +22,10 @@ from urdftool.errors import UrdftoolError
 HULL = Settings(method="hull")
 
 
-def dies(task):
+def dies(task, cores=1):
     if task.path.name == "bad.stl":
         os.kill(os.getpid(), signal.SIGKILL)
-    return attempt(task)
+    return attempt(task, cores)
 
 
 def test_a_worker_that_is_killed_is_said_and_the_others_are_done(tmp_path, monkeypatch):
