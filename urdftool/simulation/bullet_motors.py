@@ -122,15 +122,20 @@ class Motors:
 
     def _follow(self) -> None:
         """Send each joint that mimics another where that one is."""
+        if not self.followers:
+            return
         p = self.p
-        for link, leader, joint in self.followers:
-            position = p.getJointState(self.robot, leader)[0]
-            p.setJointMotorControl2(
-                self.robot,
-                link,
-                p.POSITION_CONTROL,
-                targetPosition=min(
-                    max(joint.multiplier * position + joint.offset, joint.lower), joint.upper
-                ),
-                force=joint.effort if joint.effort is not None else UNBOUND,
-            )
+        leaders = p.getJointStates(self.robot, [leader for _, leader, _ in self.followers])
+        p.setJointMotorControlArray(
+            self.robot,
+            [link for link, _, _ in self.followers],
+            p.POSITION_CONTROL,
+            targetPositions=[
+                min(max(joint.multiplier * state[0] + joint.offset, joint.lower), joint.upper)
+                for state, (_, _, joint) in zip(leaders, self.followers, strict=True)
+            ],
+            forces=[
+                joint.effort if joint.effort is not None else UNBOUND
+                for _, _, joint in self.followers
+            ],
+        )

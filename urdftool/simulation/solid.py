@@ -35,7 +35,9 @@ class Solids:
     def moved(self, pose: Pose) -> Solids:
         """The same in the frame in which ``pose`` is that of its present one."""
         there = np.column_stack([np.array(pose.rotation), np.array(pose.translation)])
-        return Solids(part.transform(there) for part in self.parts)
+        moved = Solids(part.transform(there) for part in self.parts)
+        moved.volume = self.volume  # known before anything is moved, and measured once
+        return moved
 
     @cached_property
     def volume(self) -> float:

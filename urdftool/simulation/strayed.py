@@ -197,7 +197,10 @@ def _body_of(run: Run, link: str) -> int:
 
 
 def _union(some: Iterable[Solids]) -> Solids:
-    return Solids(part for solids in some for part in solids.parts)
+    found = [solids for solids in some if solids]
+    if len(found) == 1:
+        return found[0]
+    return Solids(part for solids in found for part in solids.parts)
 
 
 def _touching(robot: Robot, body: Body, link: str) -> Solids:
