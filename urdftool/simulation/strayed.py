@@ -217,7 +217,8 @@ def _solids(robot: Robot, shape: Shape, collision: Collision) -> Solids:
     """The convex pieces of a collision in its own frame."""
     geometry = collision.geometry
     if isinstance(geometry, Mesh):
-        key = ("solids", geometry.filename, geometry.scale)
+        counts = tuple(map(len, shape.pieces))  # what is tried on bodies may have other pieces
+        key = ("solids", geometry.filename, geometry.scale, counts)
         return remembered(robot, key, lambda: hulls(shape.pieces))
     return hulls([primitive_triangles(collision).reshape(-1, 3)])
 

@@ -40,7 +40,7 @@ def shape_points(robot: Robot, shape: Visual | Collision) -> Array | None:
 
     None where the shape has no size or its mesh cannot be read.
     """
-    points = None if shape.geometry is None else geometry_points(robot, shape.geometry)
+    points = None if shape.geometry is None else _points(robot, shape.geometry)
     return None if points is None else placed(points, shape)
 
 
@@ -51,11 +51,7 @@ def placed(points: Array, shape: Visual | Collision) -> Array:
     return moved
 
 
-def geometry_points(robot: Robot, geometry: Geometry) -> Array | None:
-    """Points [m] that reach as far as a geometry does along every axis of its own frame.
-
-    None where it has no size or its mesh cannot be read.
-    """
+def _points(robot: Robot, geometry: Geometry) -> Array | None:
     if isinstance(geometry, Box):
         return _corners([edge / 2 for edge in geometry.size])
     if isinstance(geometry, Sphere):
