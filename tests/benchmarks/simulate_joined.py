@@ -26,7 +26,8 @@ from urdftool.model.load import load
 from urdftool.model.pose import Pose
 from urdftool.simulation import bullet
 from urdftool.simulation.bodies import Body
-from urdftool.simulation.judge_contact import INTO, judge_contacts
+from urdftool.simulation.judge_contact import judge_contacts
+from urdftool.simulation.judge_inside import INTO
 from urdftool.simulation.judge_rest import rest_of
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.recording import GROUND, Array

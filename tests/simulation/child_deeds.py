@@ -17,6 +17,17 @@ def talk():
     return "said"
 
 
+def report(number, tell):
+    tell(number)
+    tell(number + 1)
+    return number + 2
+
+
+def die_telling(tell):
+    tell("on my way")
+    crash()
+
+
 def refuse():
     raise ModelError("no legs")
 

@@ -29,6 +29,28 @@ def test_what_the_engine_prints_is_swallowed(capfd):
     assert capfd.readouterr() == ("", "")
 
 
+def test_what_is_told_is_heard_before_the_answer():
+    heard = []
+    with Child("json") as child:
+        assert child.call("child_deeds", "report", 1, time_limit=20, hear=heard.append) == 3
+    assert heard == [1, 2]
+
+
+def test_a_crash_after_telling_is_one_message():
+    heard = []
+    with Child("json") as child, pytest.raises(EngineDied, match="SIGSEGV"):
+        child.call("child_deeds", "die_telling", time_limit=20, hear=heard.append)
+    assert heard == ["on my way"]
+
+
+def test_a_process_that_dies_before_its_job_is_one_message():
+    with Child("json") as child:
+        child._process.kill()
+        child._process.wait()
+        with pytest.raises(EngineDied, match="SIGKILL"):
+            child.call("child_deeds", "double", b"x" * 10_000_000, time_limit=20)
+
+
 def test_an_error_of_ours_comes_through():
     with pytest.raises(ModelError, match="no legs"):
         call("refuse")
@@ -48,3 +70,4 @@ def test_a_hang_ends_in_time_and_leaves_nobody():
     assert time.monotonic() - began < 5
     with pytest.raises(ProcessLookupError):
         os.kill(number, 0)
+    assert all(pipe.closed for pipe in (child._process.stdin, child._process.stdout))

@@ -55,18 +55,8 @@ def test_another_robot_is_read_anew(robot, tmp_path):
     assert np.ptp(points, axis=0) == pytest.approx([3, 3, 3])
 
 
-def test_what_is_seen_is_read_meanwhile(robot):
-    geometry = robot.link["a"].visuals[0].geometry
-    with remembered.reading_looks(robot):
-        pass
-    with mock.patch.object(remembered, "outline", side_effect=AssertionError):
-        assert len(remembered.mesh_points(robot, geometry)) == 8
-
-
 def test_a_missing_mesh_is_said_to_who_needs_it(robot, tmp_path):
     (tmp_path / "cube.stl").unlink()
-    with remembered.reading_looks(robot):
-        pass
     geometry = robot.link["a"].visuals[0].geometry
     assert remembered.mesh_points(robot, geometry) is None
     with pytest.raises(UrdftoolError, match=r"cube\.stl"):

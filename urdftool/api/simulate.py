@@ -31,6 +31,7 @@ def simulate(
     """
     from ..errors import ConfigError
     from ..simulation.engines import ENGINES, check_engines, default_engine
+    from ..simulation.judge_inside import look_inside
     from ..simulation.run import simulate as run
     from ..simulation.settings import Settings
     from ..simulation.verdict import judge
@@ -40,4 +41,5 @@ def simulate(
         raise ConfigError(f"there is no engine '{engine}'; there are pybullet and mujoco")
     check_engines(ENGINES[engine])
     (module,) = ENGINES[engine]
-    return [judge(robot, one) for one in run(robot, settings or Settings(), engine=module)]
+    runs = run(robot, settings or Settings(), engine=module, look=look_inside)
+    return [judge(robot, one) for one in runs]

@@ -34,12 +34,13 @@ def judged(
         UrdftoolError: The robot cannot be simulated.
     """
     from ..simulation.agreement import differences
+    from ..simulation.judge_inside import look_inside
     from ..simulation.run import simulate
     from ..simulation.verdict import judge
 
     waiting = (child, *(None for _ in engines[1:]))
     runs = [
-        simulate(robot, settings, engine=engine, progress=progress, child=process)
+        simulate(robot, settings, engine=engine, progress=progress, child=process, look=look_inside)
         for engine, process in zip(engines, waiting, strict=True)
     ]
     verdicts = [[judge(robot, run) for run in some] for some in runs]

@@ -19,7 +19,7 @@ from .bullet_contacts import Touches
 from .bullet_motors import Motors
 from .bullet_read import read_back
 from .bullet_rolling import NEARING, forget_contacts, is_lying, round_part
-from .driver import Sample, settle
+from .driver import Sample, Tell, settle
 from .recording import Array, Contact, ReadBack, Recording
 from .settings import Settings
 from .urdf import NAME, principal_frame
@@ -47,13 +47,14 @@ def bullet_module() -> Any:
     return pybullet
 
 
-def run(bodies: Bodies, settings: Settings, folder: Path) -> Recording:
+def run(bodies: Bodies, settings: Settings, folder: Path, tell: Tell = lambda _: None) -> Recording:
     """Spawn a robot and let it settle.
 
     Args:
         bodies: The robot; ``folder`` holds it as ``urdf.write_folder`` wrote it.
         settings: How, and for how long.
         folder: Where the URDF is.
+        tell: Is given the poses and the contacts of the start.
 
     Raises:
         MissingDependency: PyBullet is not installed.
@@ -64,7 +65,7 @@ def run(bodies: Bodies, settings: Settings, folder: Path) -> Recording:
             f"the robot has {len(bodies.joints)} moving joints; PyBullet takes at most "
             f"{MOST_JOINTS}"
         )
-    return settle(World(bullet_module(), bodies, settings, folder))
+    return settle(World(bullet_module(), bodies, settings, folder), tell)
 
 
 class World:

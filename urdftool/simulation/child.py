@@ -1,7 +1,8 @@
 """An engine in a process of its own: it may crash or hang, and the tool goes on.
 
-The parent writes what is to be done to the child's standard input and reads the answer from its
-standard output, both pickled; what the engine prints goes to a file that is read if it dies.
+The parent writes what is to be done to the child's standard input and reads what it tells, and the
+answer at last, from its standard output, all pickled; what the engine prints goes to a file that is
+read if it dies.
 """
 
 from __future__ import annotations
@@ -12,8 +13,12 @@ import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
+from queue import Empty, SimpleQueue
+from threading import Thread
+from time import monotonic
 from typing import Any
 
 from ..errors import UrdftoolError
@@ -21,6 +26,10 @@ from ..errors import UrdftoolError
 _PARENT_ENDED = 1  # PR_SET_PDEATHSIG of prctl(2)
 
 MODULES = __package__
+
+_DYING = 2.0  # s
+
+_TOLD, _ANSWER, _DIED = "told", "answer", "died"
 
 
 class EngineDied(UrdftoolError):  # noqa: N818 -- reads as what happened
@@ -43,6 +52,7 @@ class Child:
             stderr=self._errors,
             env={**os.environ, "OMP_NUM_THREADS": "1"},
         )
+        self._listener: Thread | None = None
 
     def __enter__(self) -> Child:
         """Itself."""
@@ -54,10 +64,22 @@ class Child:
             return
         if self._process.poll() is None:
             self._process.kill()
-        self._process.communicate()
+        self._process.wait()
+        if self._listener is not None:
+            self._listener.join()
+        for pipe in (self._process.stdin, self._process.stdout):
+            with suppress(OSError):  # what it did not read is lost
+                pipe.close()  # type: ignore[union-attr]
         self._errors.close()
 
-    def call(self, module: str, function: str, *arguments: Any, time_limit: float) -> Any:
+    def call(
+        self,
+        module: str,
+        function: str,
+        *arguments: Any,
+        time_limit: float,
+        hear: Callable[[Any], None] | None = None,
+    ) -> Any:
         """What a function of this package returns, called in the process.
 
         Args:
@@ -65,27 +87,56 @@ class Child:
             function: In it.
             arguments: Anything that pickles.
             time_limit: The longest it may take [s].
+            hear: Is given what the function tells before it returns; if so, it is given ``tell``.
 
         Raises:
             EngineDied: It took longer, or the process ended.
             UrdftoolError: As the function.
         """
-        job = pickle.dumps((f"{MODULES}.{module}", function, arguments, time_limit))
+        job = (f"{MODULES}.{module}", function, arguments, time_limit, hear is not None)
+        said: SimpleQueue[tuple[str, Any]] = SimpleQueue()
+        self._listener = Thread(target=self._talk, args=(pickle.dumps(job), said), daemon=True)
+        self._listener.start()
+        ends = monotonic() + time_limit
+        while True:
+            try:
+                kind, value = said.get(timeout=max(0.0, ends - monotonic()))
+            except Empty:
+                raise EngineDied(
+                    f"the engine was not done after {time_limit:g} s and was ended; give it more "
+                    "with --time-limit, or less to do with --duration"
+                ) from None
+            if kind == _DIED or (kind == _ANSWER and self._process.wait()):
+                raise self._death()
+            if kind == _ANSWER:
+                break
+            if hear is not None:
+                hear(value)
+        if isinstance(value, BaseException):
+            raise value
+        return value
+
+    def _talk(self, job: bytes, said: SimpleQueue[tuple[str, Any]]) -> None:
+        """Give the process its job, and pass on what it says, to its end."""
+        pipes = self._process.stdin, self._process.stdout
+        assert pipes[0] is not None
+        assert pipes[1] is not None
         try:
-            out, _ = self._process.communicate(job, timeout=time_limit)
-        except subprocess.TimeoutExpired:
-            raise EngineDied(
-                f"the engine was not done after {time_limit:g} s and was ended; give it more with "
-                "--time-limit, or less to do with --duration"
-            ) from None
-        if self._process.returncode or not out:
-            raise self._death()
-        answer = pickle.loads(out)
-        if isinstance(answer, BaseException):
-            raise answer
-        return answer
+            pipes[0].write(job)
+            pipes[0].close()
+            kind = ""
+            while kind != _ANSWER:
+                kind, value = pickle.load(pipes[1])
+                said.put((kind, value))
+        except Exception:  # whatever is not whole: it died
+            said.put((_DIED, None))
 
     def _death(self) -> EngineDied:
+        try:
+            self._process.wait(timeout=_DYING)
+        except subprocess.TimeoutExpired:  # what it said made no sense
+            self._process.kill()
+            self._process.wait()
         self._errors.seek(0)
         lines = self._errors.read().decode("utf-8", "replace").strip().splitlines()
         code = self._process.returncode
@@ -109,15 +160,20 @@ def main() -> None:
 
     with suppress(ImportError):
         import_module(sys.argv[1])
-    module, function, arguments, time_limit = pickle.load(sys.stdin.buffer)
+    module, function, arguments, time_limit, heard = pickle.load(sys.stdin.buffer)
     _limit_time(time_limit)
-    try:
-        result = getattr(import_module(module), function)(*arguments)
-    except UrdftoolError as error:
-        result = error
     with os.fdopen(answer, "wb") as out:
-        pickle.dump(result, out)
-        out.flush()
+
+        def tell(value: Any, kind: str = _TOLD) -> None:
+            pickle.dump((kind, value), out)
+            out.flush()
+
+        try:
+            more = {"tell": tell} if heard else {}
+            result = getattr(import_module(module), function)(*arguments, **more)
+        except UrdftoolError as error:
+            result = error
+        tell(result, _ANSWER)
     os._exit(0)  # an engine's own way out may crash
 
 

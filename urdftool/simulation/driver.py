@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from time import perf_counter
 from typing import Any, Protocol
 
@@ -22,6 +22,9 @@ RUNAWAY = 1e3
 
 Sample = dict[str, Any]
 """One value of each of a recording's columns, by name."""
+
+
+Tell = Callable[[tuple[Array, list[Contact]]], None]
 
 
 class Engine(Protocol):
@@ -60,14 +63,18 @@ class Engine(Protocol):
         """The deepest place of each two bodies that are in each other, whether they push or not."""
 
 
-def settle(engine: Engine) -> Recording:
-    """Step until nothing moves, the time is over, or the robot is lost."""
+def settle(engine: Engine, tell: Tell = lambda _: None) -> Recording:
+    """Step until nothing moves, the time is over, or the robot is lost.
+
+    ``tell`` is given the poses and the contacts of the start before the first step.
+    """
     bodies, settings = engine.bodies, engine.settings
     every = max(1, round(SAMPLE / settings.timestep))
     steps = max(1, round(settings.duration / settings.timestep))
     watch = Stillness(bodies.size, every * settings.timestep)
     start_contacts = engine.overlaps()
     samples = [engine.sample(0.0)]
+    tell((samples[0]["poses"], start_contacts))
     began = perf_counter()
     still: float | None = None
     ended, done = "time", 0

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from .recording import GROUND, Array
-from .run import Run, body_pose
+from .run import Run
 from .shapes import Shape, lowest
 
 EVEN = 0.001
@@ -26,7 +26,7 @@ def footprint(run: Run) -> Array:
         shapes = [shape for shape in body.shapes if shape.link in links]
         if not shapes:
             continue
-        pose = body_pose(run, number)
+        pose = run.end.pose(number)
         turn, at = np.array(pose.rotation), np.array(pose.translation)
         highest = lowest(shapes, turn, at) + EVEN * run.bodies.size
         for shape in shapes:

@@ -14,7 +14,7 @@ from .bodies import mass_of
 from .extent import Extent, extent_of
 from .fault import Fault
 from .recording import Array
-from .run import Run, body_pose
+from .run import Run
 
 REACH = 1.2
 """How far out a link's mass may sit on average, as a part of how far its shapes reach."""
@@ -108,7 +108,7 @@ def _bare(
     ):
         return
     centre = np.array(body.places[link.name].transform(tuple(own.com.tolist())))
-    at = np.array(body_pose(run, bodies.index(body), 0).transform(tuple(centre.tolist())))
+    at = np.array(run.start.pose(bodies.index(body)).transform(tuple(centre.tolist())))
     reach = float(np.linalg.norm(_frames(run) - at, axis=1).max())
     if spread > reach:  # on average, where not even the farthest corner is
         yield Fault(
@@ -127,7 +127,7 @@ def _frames(run: Run) -> Array:
     """Frames of bodies and corners of their shapes at the start, shape (n, 3)."""
     found = []
     for number, body in enumerate(run.bodies.bodies):
-        pose = body_pose(run, number, 0)
+        pose = run.start.pose(number)
         found.append(pose.translation)
         for shape in body.shapes:
             found += [

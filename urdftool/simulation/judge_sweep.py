@@ -6,14 +6,14 @@ from collections.abc import Iterable, Iterator
 
 from ..model.elements import Robot
 from .fault import Fault
-from .judge_contact import INTO
+from .judge_inside import INTO, deep
 from .run import Run
 from .sweep import Swept
 
 
 def judge_sweep(robot: Robot, run: Run, swept: Iterable[Swept]) -> Iterator[Fault]:
     """Links that run into each other on the way, by the joint that drives them there."""
-    least = max(INTO * run.bodies.size, 0.002)
+    least = deep(run.bodies, INTO)
     for joint in swept:
         hits = sorted((hit for hit in joint.hits if hit.depth > least), key=lambda hit: -hit.depth)
         if not hits:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import MissingDependency, ModelError
 from .bodies import Bodies
-from .driver import Sample, settle
+from .driver import Sample, Tell, settle
 from .mj_contacts import Touches
 from .mj_file import MOTOR, PLANE, SCENE, moving_name
 from .mj_motors import Motors
@@ -39,18 +39,19 @@ def mujoco_module() -> Any:
     return mujoco
 
 
-def run(bodies: Bodies, settings: Settings, folder: Path) -> Recording:
+def run(bodies: Bodies, settings: Settings, folder: Path, tell: Tell = lambda _: None) -> Recording:
     """Spawn a robot and let it settle.
 
     Args:
         bodies: The robot; ``folder`` holds it as ``mj_file.write_model`` wrote it.
         settings: How, and for how long.
         folder: Where the scene is.
+        tell: Is given the poses and the contacts of the start.
 
     Raises:
         ModelError: MuJoCo does not compile it.
     """
-    return settle(World(mujoco_module(), bodies, settings, folder))
+    return settle(World(mujoco_module(), bodies, settings, folder), tell)
 
 
 class World:

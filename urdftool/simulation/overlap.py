@@ -16,9 +16,9 @@ from ..errors import UrdftoolError
 from ..inertia.winding import Boxes, boxes_of, winding_numbers
 from ..model.elements import Collision, Mesh, Robot, Visual
 from ..model.pose import Pose, pose_of
+from .moment import Moment
 from .recording import Array
 from .remembered import remembered, triangles_of
-from .run import Run, body_pose
 from .shapes import hull
 
 POINTS = 1500
@@ -27,13 +27,12 @@ POINTS = 1500
 _AT_ONCE = 64  # points whose distances to all others fit in the cache
 
 
-def overlap(robot: Robot, run: Run, frame: int, one: str, other: str) -> float | None:
+def overlap(robot: Robot, moment: Moment, one: str, other: str) -> float | None:
     """How deep two links are in each other [m]; None where the engine's own answer is exact.
 
     Args:
         robot: The robot, which finds its meshes.
-        run: The run.
-        frame: Which sample of its recording.
+        moment: Where its bodies are.
         one: A link.
         other: Another, of another body.
     """
@@ -43,7 +42,7 @@ def overlap(robot: Robot, run: Run, frame: int, one: str, other: str) -> float |
     try:
         mine, others = (
             [
-                (_surface(robot, shape), _pose(run, frame, name) @ pose_of(shape.origin))
+                (_surface(robot, shape), moment.link_pose(name) @ pose_of(shape.origin))
                 for shape in shapes
             ]
             for shapes, name in zip(pairs, (one, other), strict=True)
@@ -76,13 +75,6 @@ class Surface:
     def boxes(self) -> Boxes:
         """The triangles as winding numbers are counted of them."""
         return boxes_of(self.triangles)
-
-
-def _pose(run: Run, frame: int, link: str) -> Pose:
-    """Where a link is in the world."""
-    bodies = run.bodies.bodies
-    number = next(index for index, body in enumerate(bodies) if link in body.links)
-    return body_pose(run, number, frame) @ bodies[number].places[link]
 
 
 def _surface(robot: Robot, shape: Collision) -> Surface:

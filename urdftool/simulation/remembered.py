@@ -6,10 +6,8 @@ trial; a mesh is read once for all of that, and for all links that use it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Hashable
 from pathlib import Path
-from threading import Thread
 from typing import TypeVar, cast
 
 import numpy as np
@@ -92,26 +90,3 @@ def kept_by(robot: Robot, geometry: Mesh, what: str) -> tuple[Path, tuple[object
     path = Path(robot.source.resolve(geometry.filename))
     up = robot.source.gltf_up if path.suffix.lower() == ".glb" else ""
     return path, (what, geometry.scale, up)
-
-
-@contextmanager
-def reading_looks(robot: Robot) -> Iterator[None]:
-    """Read what is seen of a robot meanwhile: an engine is waited for, and then judged by that."""
-    looks = [
-        look.geometry
-        for link in robot.links
-        for look in link.visuals
-        if isinstance(look.geometry, Mesh)
-    ]
-
-    def read() -> None:
-        with suppress(Exception):  # who asks for it meets it, too
-            for look in looks:
-                mesh_points(robot, look)
-
-    thread = Thread(target=read, daemon=True)
-    if looks:
-        thread.start()
-    yield
-    if looks:
-        thread.join()

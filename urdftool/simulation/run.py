@@ -5,24 +5,32 @@ from __future__ import annotations
 import math
 import random
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from time import perf_counter
 
 from ..model.elements import Robot
-from ..model.pose import Pose, rotation_of_quaternion
 from .bodies import Bodies
 from .child import Child
 from .engines import LIBRARIES
+from .meanwhile import meanwhile
+from .moment import Moment
 from .prepare import prepare
-from .recording import Recording
-from .remembered import reading_looks
+from .recording import Array, Contact, Recording
 from .settings import Settings
 from .sweep import Swept
 from .urdf import write_folder
 
 Progress = Callable[[int, int], None]
+
+Known = dict[Hashable, object]
+
+Look = Callable[[Robot, Moment], None]
+
+Start = tuple[Array, list[Contact]]
+"""Poses and contacts before the first step, as the engine's process tells them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,18 +42,25 @@ class Run:
         bodies: The robot as it started.
         recording: What the engine measured.
         swept: Each joint moved through its limits; empty where that was not asked for.
+        known: What was found out of its start while the engine was waited for.
     """
 
     settings: Settings
     bodies: Bodies
     recording: Recording
     swept: list[Swept] = field(default_factory=list)
+    known: Known = field(default_factory=dict)
 
+    @cached_property
+    def start(self) -> Moment:
+        """Before the first step."""
+        told = self.recording
+        return Moment(self.bodies, told.poses[0], told.start_contacts, self.known)
 
-def body_pose(run: Run, number: int, frame: int = -1) -> Pose:
-    """Where a body is in the world, at the end or at another sample."""
-    a, b, c, x, y, z, w = run.recording.poses[frame, number].tolist()
-    return Pose(rotation_of_quaternion((w, x, y, z)), (a, b, c))
+    @cached_property
+    def end(self) -> Moment:
+        """The last sample."""
+        return Moment(self.bodies, self.recording.poses[-1], self.recording.contacts)
 
 
 def simulate(
@@ -56,6 +71,7 @@ def simulate(
     progress: Progress = lambda *_: None,
     alter: Callable[[Bodies], Bodies] | None = None,
     child: Child | None = None,
+    look: Look = lambda *_: None,
 ) -> list[Run]:
     """Spawn a robot and let it settle, as often as the settings say.
 
@@ -66,6 +82,8 @@ def simulate(
         progress: Told before each trial: its number, how many.
         alter: Changes the bodies before an engine has them.
         child: A process of this engine that waits for the first trial.
+        look: Told of each start while the engine goes on from it, to find out what it will be
+            asked for.
 
     Raises:
         ModelError: The robot is one that no engine can be given.
@@ -85,14 +103,19 @@ def simulate(
                 bodies = alter(bodies)
             _write(robot, bodies, trial, engine, Path(folder))
             left = max(0.1, ends - perf_counter()) if number > 1 else settings.time_limit
-            with reading_looks(robot):
+            known: Known = {}
+
+            def see(start: Start, bodies: Bodies = bodies, known: Known = known) -> None:
+                look(robot, Moment(bodies, *start, known))
+
+            with meanwhile(robot, see) as hear:
                 recording = process.call(
-                    engine, "run", bodies, trial, Path(folder), time_limit=left
+                    engine, "run", bodies, trial, Path(folder), time_limit=left, hear=hear
                 )
             swept = []
             if settings.sweep and number == 1:
                 swept = _sweep(bodies, trial, engine, Path(folder))
-        runs.append(Run(trial, bodies, recording, swept))
+        runs.append(Run(trial, bodies, recording, swept, known))
     return runs
 
 

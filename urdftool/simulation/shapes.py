@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -65,6 +66,10 @@ class Shape:
 
     def bounds(self) -> tuple[Array, Array]:
         """Two corners of the box around it, along the axes of its body."""
+        return self._bounds
+
+    @cached_property
+    def _bounds(self) -> tuple[Array, Array]:
         axes = np.eye(3)
         high = np.array([self.reach(axis) for axis in axes])
         low = -np.array([self.reach(-axis) for axis in axes])

@@ -15,10 +15,10 @@ from ..model.elements import Collision, Link, Mesh, Robot, Visual
 from ..model.pose import Pose, pose_of
 from .bodies import Body
 from .extent import box_of, is_beside, is_off_mass, looks_of, points_of
+from .moment import Moment
 from .overlap import primitive_triangles
 from .recording import Array
 from .remembered import mesh_points, remembered
-from .run import Run, body_pose
 from .shapes import Shape
 from .solid import Solids, hulls
 
@@ -53,13 +53,12 @@ SHARE = 0.1
 """How much of the smaller of two neighbours is in both, for one to be misplaced."""
 
 
-def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | None:
+def strayed(robot: Robot, moment: Moment, link: str, other: int) -> str | None:
     """Why the collision of a link is misplaced that is in a neighbour's; None if it is not.
 
     Args:
         robot: The robot, which finds its meshes.
-        run: The run.
-        frame: Which sample of its recording.
+        moment: Where its bodies are.
         link: A link.
         other: Number of the body that a joint joins to its own.
     """
@@ -69,13 +68,12 @@ def strayed(robot: Robot, run: Run, frame: int, link: str, other: int) -> str | 
         return None
     if shown_box is not None and (moved := _copy_moved(box, shown_box)):
         return f"the collision of '{link}' is as large as what is seen of it, and {moved:.3g} m off"
-    bodies = run.bodies.bodies
-    own = _body_of(run, link)
-    around = _is_housing(box, shown_box, run, link, other)
+    bodies = moment.bodies.bodies
+    own = moment.body_of(link)
+    around = _is_housing(box, shown_box, moment, link, other)
     if around and bodies[other].parent == own:
         return None
-    back = (body_pose(run, own, frame) @ bodies[own].places[link]).inverse()
-    there = back @ body_pose(run, other, frame)
+    there = moment.link_pose(link).inverse() @ moment.pose(other)
     at = {name: there @ place for name, place in bodies[other].places.items()}
     touches = _touching(robot, bodies[own], link)
     theirs = _union(_touching(robot, bodies[other], name).moved(at[name]) for name in at)
@@ -168,19 +166,23 @@ def _is_nearer_mass(part: Link, box: tuple[Array, Array], off: Array) -> bool:
 
 
 def _is_housing(
-    box: tuple[Array, Array], shown: tuple[Array, Array] | None, run: Run, link: str, other: int
+    box: tuple[Array, Array],
+    shown: tuple[Array, Array] | None,
+    moment: Moment,
+    link: str,
+    other: int,
 ) -> bool:
     """Whether a collision is put around the joint between a link and a neighbour, as motors are.
 
     Args:
         box: Around the collision, in the link's frame.
         shown: Around what is seen of the link.
-        run: The run.
+        moment: Where the bodies are.
         link: The link.
         other: Number of the neighbour's body.
     """
-    bodies = run.bodies.bodies
-    own = _body_of(run, link)
+    bodies = moment.bodies.bodies
+    own = moment.body_of(link)
     place = bodies[own].places[link].inverse()
     centre, size = (box[0] + box[1]) / 2, float((box[1] - box[0]).max())
     if bodies[other].parent == own:  # the joint is the neighbour's
@@ -190,10 +192,6 @@ def _is_housing(
     else:  # a part as long as what is seen of it is no housing of its own joint
         return False
     return float(np.linalg.norm(centre - joint)) < HOUSING * size
-
-
-def _body_of(run: Run, link: str) -> int:
-    return next(number for number, body in enumerate(run.bodies.bodies) if link in body.links)
 
 
 def _union(some: Iterable[Solids]) -> Solids:

@@ -1,0 +1,91 @@
+"""What is found out while an engine is waited for, and that it is what would be found later."""
+
+from __future__ import annotations
+
+import threading
+from unittest import mock
+
+import pytest
+
+from tests.conftest import FIXTURES
+from urdftool.model.load import load
+from urdftool.simulation import judge_inside, remembered
+from urdftool.simulation.judge_inside import look_inside
+from urdftool.simulation.meanwhile import meanwhile
+from urdftool.simulation.run import simulate
+from urdftool.simulation.settings import Settings
+from urdftool.simulation.verdict import judge
+
+pytest.importorskip("pybullet")
+
+INSIDE = """\
+<robot name="inside">
+  <link name="base">
+    <inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+    <visual><geometry><mesh filename="package://meshes/cube.stl"/></geometry></visual>
+    <collision><geometry><mesh filename="package://meshes/cube.stl"/></geometry></collision>
+  </link>
+  <joint name="neck" type="fixed">
+    <parent link="base"/><child link="post"/><origin xyz="0 0 1"/>
+  </joint>
+  <link name="post">
+    <inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+    <collision><geometry><box size="0.1 0.1 1"/></geometry></collision>
+  </link>
+  <joint name="turn" type="revolute">
+    <parent link="post"/><child link="arm"/><origin xyz="0 0 0.5"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="10" velocity="1"/>
+  </joint>
+  <link name="arm">
+    <inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+    <visual><origin xyz="0 0 0.5"/><geometry><box size="0.2 0.2 1"/></geometry></visual>
+    <collision><origin xyz="0 0 -0.5"/><geometry><box size="0.2 0.2 1"/></geometry></collision>
+  </link>
+</robot>
+"""
+
+
+@pytest.fixture
+def robot(tmp_path):
+    path = tmp_path / "inside.urdf"
+    meshes = (FIXTURES / "meshes").as_posix()
+    path.write_text(INSIDE.replace("package://meshes", meshes))
+    return load(path)
+
+
+def test_the_verdict_is_the_same_whether_one_looked_before(robot):
+    settings = Settings(duration=0.3)
+    (looked,) = simulate(robot, settings, look=look_inside)
+    (plain,) = simulate(robot, settings)
+    assert looked.known
+    assert not plain.known
+    with mock.patch.object(judge_inside, "strayed", side_effect=AssertionError("looked again")):
+        found = judge(robot, looked).faults
+    wanted = judge(robot, plain).faults
+    assert [str(fault) for fault in found] == [str(fault) for fault in wanted]
+    assert any(fault.kind == "parts-collide" and fault.fails for fault in found)
+
+
+def test_what_is_seen_is_read(robot):
+    with meanwhile(robot, lambda _: None):
+        pass
+    with mock.patch.object(remembered, "outline", side_effect=AssertionError):
+        assert len(remembered.mesh_points(robot, robot.links[0].visuals[0].geometry)) == 8
+
+
+def test_what_fails_is_left_to_who_asks(robot):
+    def fail(_):
+        raise ValueError
+
+    with meanwhile(robot, fail) as tell:
+        tell(1)
+
+
+def test_nothing_waits_where_the_engine_dies(robot):
+    before = threading.active_count()
+    with pytest.raises(RuntimeError), meanwhile(robot, print):
+        raise RuntimeError
+    for thread in threading.enumerate():
+        if thread.daemon and thread is not threading.current_thread():
+            thread.join(5)
+    assert threading.active_count() == before

@@ -1,0 +1,149 @@
+"""Parts of a robot that are in each other, at the start and at rest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..model.elements import Robot
+from .bodies import Bodies, Body
+from .fault import Fault
+from .moment import Moment
+from .overlap import overlap
+from .recording import GROUND, Array, Contact
+from .run import Run
+from .strayed import strayed
+
+INTO = 0.005
+"""How deep parts are in each other to be worth a word, as a part of the robot's size."""
+
+THICK = 0.25
+"""How deep they are for a fault, as a part of the thinner one's smallest extent."""
+
+COMPACT = 0.5
+"""How far apart joints may be that are one compound joint, as a part of the smaller body."""
+
+_LEAST = 0.002  # m: hulls have a margin, and files are rounded
+
+
+def deep(bodies: Bodies, part: float) -> float:
+    """How deep a contact is that counts [m]: a part of a robot's size."""
+    return max(part * bodies.size, _LEAST)
+
+
+def look_inside(robot: Robot, start: Moment) -> None:
+    """Find out of a start what :func:`judge_inside` will ask of it: an engine is waited for."""
+    for contact in start.contacts:
+        if contact.other != GROUND and contact.depth >= deep(start.bodies, INTO):
+            _depth(robot, start, start, contact)
+            _misplaced(robot, start, start, contact)
+
+
+def judge_inside(robot: Robot, run: Run) -> Iterator[Fault]:
+    """What is to be said of parts that are in each other."""
+    bodies = run.bodies.bodies
+    least = deep(run.bodies, INTO)
+    at_start = {_pair(contact) for contact in run.start.contacts}
+    new = [contact for contact in run.end.contacts if _pair(contact) not in at_start]
+    contacts = [(run.start, contact) for contact in run.start.contacts]
+    contacts += [(run.end, contact) for contact in new]
+    blamed = set()
+    for moment, contact in contacts:
+        if contact.other == GROUND or contact.depth < least:
+            continue
+        depth = _depth(robot, run.start, moment, contact)
+        if depth < least:
+            continue
+        beside = _misplaced(robot, run.start, moment, contact)
+        if beside is not None:
+            if beside[0] in blamed:
+                continue  # it is in another neighbour, too, for the same reason
+            blamed.add(beside[0])
+        joined = _are_joined(run.start, contact)
+        numbers = (run.start.body_of(name) for name in (contact.one, contact.other))
+        thin = min(_extents(bodies[number]).min() for number in numbers)
+        fails = beside is not None or bool(not joined and depth > THICK * thin)
+        when = "at the start" if moment is run.start else "at rest"
+        named = beside[0] if beside else contact.one
+        yield Fault(
+            "parts-collide",
+            f"links '{contact.one}' and '{contact.other}' are {depth:.3g} m in each other {when}",
+            (robot.link[named].collisions[0] if beside else robot.link[named]).place,
+            "link",
+            named,
+            beside[1]
+            if beside
+            else "they are joined, so engines let them"
+            if joined
+            else "their collision shapes are too large or misplaced, or the pose is not free",
+            "collision-off-visual" if fails else "",
+            fails=fails,
+        )
+
+
+def _depth(robot: Robot, start: Moment, moment: Moment, contact: Contact) -> float:
+    """How deep two parts are in each other [m]: no deeper than their own triangles are."""
+    if _are_joined(start, contact):
+        return contact.depth
+    links = contact.one, contact.other
+    depth = moment.once(("overlap", *links), lambda: overlap(robot, moment, *links))
+    return contact.depth if depth is None else min(depth, contact.depth)
+
+
+def _misplaced(
+    robot: Robot, start: Moment, moment: Moment, contact: Contact
+) -> tuple[str, str] | None:
+    """Which of two joined links has a collision that is not where the link is, and why."""
+    if not _are_joined(start, contact):
+        return None
+
+    def look() -> tuple[str, str] | None:
+        for link, other in ((contact.one, contact.other), (contact.other, contact.one)):
+            why = strayed(robot, moment, link, moment.body_of(other))
+            if why is not None:
+                return link, why
+        return None
+
+    return moment.once(("misplaced", contact.one, contact.other), look)
+
+
+def _are_joined(start: Moment, contact: Contact) -> bool:
+    """Whether two bodies share a joint, or several in one place that make a universal or ball one.
+
+    Such parts overlap around their joint by design.
+    """
+    numbers = start.body_of(contact.one), start.body_of(contact.other)
+    return start.once(("joined", *numbers), lambda: _share_joint(start, numbers))
+
+
+def _share_joint(start: Moment, numbers: tuple[int, int]) -> bool:
+    bodies = start.bodies.bodies
+    above: list[list[int]] = []
+    for number in numbers:
+        chain = [number]
+        while bodies[chain[-1]].parent >= 0:
+            chain.append(bodies[chain[-1]].parent)
+        above.append(chain)
+    common = next(index for index in above[0] if index in above[1])
+    path = [index for chain in above for index in chain[: chain.index(common)]]
+    between = {*path, common} - set(numbers)
+    if not any(bodies[index].shapes for index in between):
+        return True
+    places = start.poses[path, :3]
+    apart = float(np.linalg.norm(places.max(axis=0) - places.min(axis=0)))
+    smaller = min(_extents(bodies[number]).max() for number in numbers)
+    return bool(apart < COMPACT * smaller)
+
+
+def _extents(body: Body) -> Array:
+    """Edges of the box around what of a body touches [m], shape (3,)."""
+    boxes = [shape.bounds() for shape in body.shapes]
+    low = np.min([low for low, _ in boxes], axis=0)
+    high = np.max([high for _, high in boxes], axis=0)
+    edges: Array = high - low
+    return edges
+
+
+def _pair(contact: Contact) -> frozenset[str]:
+    return frozenset((contact.one, contact.other))
