@@ -14,6 +14,7 @@ from pathlib import Path
 from urdftool.errors import UrdftoolError
 from urdftool.model.load import load
 from urdftool.report.simulate import outcome
+from urdftool.simulation.judge_inside import look_inside
 from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
@@ -44,7 +45,7 @@ def row(named: tuple[str, Path]) -> str:
     name, path = named
     try:
         robot = load(path)
-        (run,) = simulate(robot, Settings())
+        (run,) = simulate(robot, Settings(), look=look_inside)
     except UrdftoolError as error:
         said = error.message.partition("; what it names is in")[0]  # a path
         return f"| {name} | refused | {said[:110]} |"
