@@ -11,7 +11,7 @@ import pytest
 
 from tests.conftest import FIXTURES
 from urdftool.model.load import load
-from urdftool.simulation.kept import kept
+from urdftool.simulation.kept import keeping_in, kept
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
 from urdftool.store import cache_folder
@@ -34,6 +34,18 @@ class Maker:
     def __call__(self):
         self.times += 1
         return [(POINTS, FACES), (POINTS[:1], FACES[:0])]
+
+
+def write_robot(folder):
+    shutil.copy(FIXTURES / "meshes" / "cube.stl", folder)
+    path = folder / "cube.urdf"
+    path.write_text(
+        '<robot name="cube"><link name="a"><inertial><mass value="1"/>'
+        '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+        '<collision><geometry><mesh filename="cube.stl"/></geometry></collision>'
+        "</link></robot>"
+    )
+    return path
 
 
 def entries():
@@ -117,3 +129,33 @@ def test_where_nothing_can_be_kept_work_goes_on(mesh, monkeypatch, tmp_path):
     )
     bodies = prepare(load(tmp_path / "one.urdf"), Settings())
     assert len(bodies.bodies[0].shapes[0].pieces[0]) == 8
+
+
+def test_where_it_is_kept_can_be_said(mesh, tmp_path):
+    make = Maker()
+    with keeping_in(tmp_path / "here"):
+        kept(mesh, ["pieces"], make)
+        kept(mesh, ["pieces"], make)
+    assert make.times == 1
+    assert [path for path in (tmp_path / "here").rglob("*") if len(path.name) == 64]
+    assert not entries()
+    with keeping_in(None):
+        kept(mesh, ["pieces"], make)
+        kept(mesh, ["pieces"], make)
+    assert make.times == 3
+    assert not entries()
+
+
+@pytest.mark.parametrize("fleet", [(), ("--fleet",)])
+def test_the_command_keeps_where_it_is_told(urdftool, tmp_path, fleet):
+    robot = write_robot(tmp_path)
+    words = ("simulate", robot, *fleet, "--duration", "0.1")
+    here = tmp_path / "here"
+    assert urdftool(*words, "--no-cache").code in (0, 1)
+    assert not entries()
+    assert urdftool(*words, "--cache-dir", here).code in (0, 1)
+    assert not entries()
+    assert [path for path in here.rglob("*") if len(path.name) == 64]
+    done = urdftool(*words, "--cache-dir", here, "--no-cache")
+    assert done.code == 2
+    assert "exclude each other" in done.err

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ..console import Console
+from .cache_options import CACHE_OPTIONS, cache_place
 
 if TYPE_CHECKING:
     from ..collision.cache import Cache
@@ -100,8 +101,7 @@ _OPTIONS = (
         metavar="S",
         help="Processor time of CoACD for one mesh, in all [s].",
     ),
-    click.option("--cache-dir", metavar="DIR", help="Where results are kept for the next time."),
-    click.option("--no-cache", is_flag=True, help="Compute all anew, and keep nothing."),
+    *CACHE_OPTIONS,
     click.option(
         "--picture", metavar="FILE.png", help="Draw what was there beside what there is now."
     ),
@@ -135,13 +135,9 @@ def cache_of(values: dict[str, Any]) -> Cache:
     Raises:
         click.UsageError: Two options contradict each other.
     """
-    from ..collision.cache import Cache, default_folder
+    from ..collision.cache import Cache
 
-    if values["no_cache"]:
-        if values["cache_dir"]:
-            raise click.UsageError("--cache-dir and --no-cache exclude each other")
-        return Cache(None)
-    return Cache(values["cache_dir"] or default_folder())
+    return Cache(cache_place("collision", values["cache_dir"], values["no_cache"]))
 
 
 def one_thread_each() -> None:

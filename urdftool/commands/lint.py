@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from ..console import Console
+from .cache_options import cache_options, cache_place
 from .options import gltf_option, package_options, split_arguments
 
 FORMATS = ("full", "concise", "json", "sarif", "github", "junit", "html")
@@ -49,8 +50,7 @@ LEVELS = ("error", "warning", "info")
 @click.option("--baseline", metavar="FILE", help="Pass over the findings that FILE has.")
 @click.option("--write-baseline", metavar="FILE", help="Write the findings to FILE, as a baseline.")
 @click.option("-j", "--jobs", type=click.IntRange(1), metavar="N", help="Processes to use.")
-@click.option("--cache-dir", metavar="DIR", help="Where reports are kept for the next time.")
-@click.option("--no-cache", is_flag=True, help="Check all anew, and keep nothing.")
+@cache_options
 @click.option("--explain", metavar="RULE", help="Show a rule's page and stop.")
 @click.option("--list-rules", is_flag=True, help="List all rules and stop.")
 @gltf_option
@@ -119,15 +119,14 @@ def command(
     )
     if unsafe_fixes and not (fix or diff):
         raise click.UsageError("--unsafe-fixes goes with --fix or --diff")
-    if no_cache and cache_dir:
-        raise click.UsageError("--cache-dir and --no-cache exclude each other")
+    kept = cache_place("lint", cache_dir, no_cache)
     options = Options(settings, arguments, package, package_path, console.config)
     options.gltf_up = console.gltf_up
-    if not no_cache:
+    if kept is not None:
         from ..lint.cache import Cache
-        from ..store import Store, cache_folder
+        from ..store import Store
 
-        options.cache = Cache(Store(cache_dir or cache_folder("lint")))
+        options.cache = Cache(Store(kept))
     options.fixes = style in _WITH_FIXES
     wanted = Wanted(style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline)
     if fix or diff:

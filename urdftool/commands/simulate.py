@@ -52,6 +52,8 @@ def command(
     """  # noqa: D301 -- click reads the escape
     from ..simulation.child import Child
     from ..simulation.engines import ENGINES, LIBRARIES, check_engines, default_engine
+    from ..simulation.kept import keeping_in
+    from .cache_options import cache_place
     from .read_lax import read_lax
     from .simulate_control import controlled
     from .simulate_fleet import Fleet, simulate_fleet
@@ -67,16 +69,17 @@ def command(
         check_output("--junit", junit, "")
     check_engines(engines)
     settings = settings_of(values)
+    cache = cache_place("simulate", values["cache_dir"], values["no_cache"])
     paths, arguments = robot
     if values["fleet"]:
         if outputs.wanted:
             raise click.UsageError("--plot, --picture and --video are of one robot, not a --fleet")
         fleet = Fleet(
             console, arguments, package, package_path, settings, engines, controllers,
-            frozenset(paths),
+            frozenset(paths), cache,
         )  # fmt: skip
         return simulate_fleet(fleet, paths, style=style, junit=junit, jobs=values["jobs"])
-    with Child(LIBRARIES[engines[0]]) as child:  # starts while the robot is read
+    with keeping_in(cache), Child(LIBRARIES[engines[0]]) as child:  # which starts meanwhile
         model = read_lax(console, paths[0], arguments, package, package_path)
         settings = controlled(console, settings, model, controllers)
         return simulate_one(

@@ -30,6 +30,7 @@ class Fleet:
         engines: Modules of ``simulation``.
         controllers: A file of controllers.
         named: Descriptions that were named, and not found in a folder.
+        cache: Where what is needed of meshes is kept; None keeps nothing.
     """
 
     console: Console
@@ -40,6 +41,7 @@ class Fleet:
     engines: tuple[str, ...]
     controllers: str | None
     named: frozenset[str]
+    cache: str | None
 
     def __call__(self, path: str) -> Row:
         """Simulate and judge one robot.
@@ -48,6 +50,7 @@ class Fleet:
             UrdftoolError: It cannot be.
         """
         from ..simulation.fleet import Row, row_of
+        from ..simulation.kept import keeping_in
         from .read_lax import read_lax
         from .simulate_control import controlled
         from .simulate_one import judged
@@ -58,7 +61,8 @@ class Fleet:
         if not robot.links and path not in self.named:
             return Row(path, robot.name, skipped="only macros: it has no link of its own")
         settings = controlled(self.console, self.settings, robot, self.controllers)
-        verdicts, differ = judged(robot, settings, self.engines)
+        with keeping_in(self.cache):
+            verdicts, differ = judged(robot, settings, self.engines)
         return row_of(path, robot.name, [v for some in verdicts for v in some], differ)
 
 

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 import click
 
+from .cache_options import CACHE_OPTIONS
 from .options import one_robot, split_arguments
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -48,6 +49,7 @@ _OPTIONS = (
         metavar="N",
         help="Robots of a --fleet at once.  [default: one for each core]",
     ),
+    *CACHE_OPTIONS,
 )
 
 

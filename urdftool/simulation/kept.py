@@ -7,7 +7,8 @@ for. They are kept by the bytes of the file, so a changed one is read again.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from hashlib import sha256
 from pathlib import Path
 
@@ -25,6 +26,19 @@ _VERSION = 1
 _DAYS, _MOST = 30.0, 200_000_000  # how long and how many bytes
 
 
+_elsewhere: list[Store] = []
+
+
+@contextmanager
+def keeping_in(folder: str | Path | None) -> Iterator[None]:
+    """Keep it in a folder, and not in the user's cache; None keeps nothing."""
+    _elsewhere.append(Store(folder))
+    try:
+        yield
+    finally:
+        _elsewhere.pop()
+
+
 def kept(path: Path, facts: Sequence[object], make: Callable[[], list[Cloud]]) -> list[Cloud]:
     """What ``make`` makes of a file, or made of the same bytes before.
 
@@ -33,10 +47,10 @@ def kept(path: Path, facts: Sequence[object], make: Callable[[], list[Cloud]]) -
         facts: What else the result hangs on.
         make: Reads the file.
     """
-    key = _key(path, facts)
+    store = _elsewhere[-1] if _elsewhere else Store(cache_folder("simulate"))
+    key = None if store.folder is None else _key(path, facts)
     if key is None:
         return make()
-    store = Store(cache_folder("simulate"))
     known = store.get(key)
     clouds = None if known is None else _decoded(known)
     if clouds is None:
