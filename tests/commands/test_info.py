@@ -119,6 +119,17 @@ def test_broken_robots_are_told_of_too(urdftool, write, inside):
     facts(urdftool, path)
 
 
+def test_a_file_of_macros_is_said_to_be_one(urdftool, write):
+    path = write(
+        "m.xacro",
+        '<robot xmlns:xacro="http://ros.org/wiki/xacro"><xacro:macro name="m"/></robot>',
+    )
+    done = urdftool("info", path)
+    assert done.code == 0
+    assert done.err == f"{path}:1:1: the robot has no link; name a file that calls its macros\n"
+    assert urdftool("-q", "info", path).err == ""
+
+
 def test_to_a_file_and_not_over_the_input(urdftool, write, tmp_path):
     path = write("r.urdf", '<robot name="r"><link name="a"/></robot>')
     assert urdftool("info", path, "-o", "info.txt").code == 0
