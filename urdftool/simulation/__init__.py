@@ -8,8 +8,9 @@ One module an idea, each imported on its own (this package loads nothing by itse
 - ``prepare``, ``urdf``: what is refused, and the folder an engine reads;
 - ``child``: an engine in a process of its own; ``bullet`` is one, ``mj`` another;
 - ``control``, ``controllers``: what a file of controllers does to joints;
-- ``recording``: what an engine measured, whichever it was;
-- ``verdict`` and the ``judge_…`` beside it: what the recording says of the robot.
+- ``recording``: what an engine measured, whichever it was; ``moment``: one sample of that;
+- ``meanwhile``: what is found out while an engine is waited for;
+- ``verdict`` and the ``judge_…`` beside it: what the recording says of the robot;
 - ``agreement``: two engines on one robot; ``fleet``: many robots at once;
 - ``film``, ``plot``: a run to look at.
 """
