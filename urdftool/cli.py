@@ -10,6 +10,7 @@ import gc
 import os
 import sys
 import warnings
+from contextlib import suppress
 from importlib import import_module
 from typing import Any
 
@@ -18,7 +19,7 @@ import click
 from . import __version__
 from .console import Console
 from .errors import UrdftoolError
-from .terminal import guard
+from .terminal import guard, open_streams
 
 COMMANDS = (
     *("expand", "lint", "inertia", "collision", "graph", "info", "diff", "view", "simulate"),
@@ -31,8 +32,19 @@ EVERYWHERE = ("--debug", "--trust", "-q", "--quiet", "-v", "--verbose")
 REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"
 
 
+class ClosedPipe(Exception):  # noqa: N818 -- reads as what happened
+    """Whoever read the output went away."""
+
+
 class Commands(click.Group):
     """The commands, each imported when it is wanted."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """As click does it, which would leave with 1, a verdict, where a pipe is closed."""
+        try:
+            return super().invoke(ctx)
+        except BrokenPipeError:
+            raise ClosedPipe from None
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Their names, in the order a robot goes through them."""
@@ -106,6 +118,7 @@ def run(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit code."""
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # what a library would tell a programmer
+    open_streams()
     if sys.platform != "win32":  # there click translates colours for the console
         guard()
     gc.set_threshold(500_000, 50, 50)  # trees of many small objects, and then the process ends
@@ -149,8 +162,13 @@ def call(arguments: list[str] | None = None) -> int:
     except (KeyboardInterrupt, click.Abort):
         console.say("stopped")
         return 130
-    except BrokenPipeError:
+    except ClosedPipe:
         return _closed_pipe()
+    except MemoryError:
+        if debug:
+            raise
+        console.say("there is not enough memory for this")
+        return 2
     except OSError as error:
         if debug:
             raise
@@ -177,11 +195,13 @@ def _usage(error: click.ClickException) -> None:
     context = getattr(error, "ctx", None)
     command = context.command_path if context is not None else "urdftool"
     message = error.format_message().rstrip(".")
-    click.echo(f"urdftool: {message}\nTry '{command} --help'.", err=True)
+    with suppress(OSError):
+        click.echo(f"urdftool: {message}\nTry '{command} --help'.", err=True)
 
 
 def _closed_pipe() -> int:
     """Whoever read the output went away. Say so, and keep Python from saying it again."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    click.echo("urdftool: standard output was closed before all was written", err=True)
+    with suppress(OSError):
+        click.echo("urdftool: standard output was closed before all was written", err=True)
     return 2

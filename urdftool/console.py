@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -72,4 +73,5 @@ class Console:
             self._write(f"  {note}")
 
     def _write(self, line: str) -> None:
-        click.echo(visible(line), err=True)
+        with suppress(OSError):  # where nobody hears it, the exit code still tells
+            click.echo(visible(line), err=True)

@@ -8,6 +8,7 @@ results as they are. Colours, and clearing a line, are what urdftool itself says
 from __future__ import annotations
 
 import io
+import os
 import re
 import sys
 from typing import Any, BinaryIO, cast
@@ -74,3 +75,20 @@ def guard() -> None:
             way: Any = io.BufferedWriter(cast(io.RawIOBase, Shown(stream.buffer)))
             text = io.TextIOWrapper(way, stream.encoding, stream.errors, line_buffering=True)
             setattr(sys, name, text)
+
+
+def open_streams() -> None:
+    """Let standard streams that are closed lead nowhere; no file that is opened takes their place.
+
+    Who closed them wants the exit code only.
+    """
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free: this one
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+    if sys.stdin is None:
+        sys.stdin = open(os.devnull, encoding="utf-8")  # noqa: SIM115

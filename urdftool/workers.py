@@ -1,8 +1,10 @@
-"""What every command with worker processes needs: how many, and that Ctrl-C ends them quietly."""
+"""What every command with worker processes needs: how many, and that they end quietly."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 
 
 def cores() -> int:
@@ -17,3 +19,32 @@ def ignore_interrupts() -> None:
     import signal
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextmanager
+def leaving_when_told() -> Iterator[None]:
+    """Let SIGTERM and SIGHUP end by an exception, so that what is temporary is removed.
+
+    The exit code is that of a shell for a process that a signal ended. A signal that is ignored, as
+    ``nohup`` does, stays so; outside the main thread nothing is changed.
+    """
+    import signal
+
+    numbers = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+
+    def leave(number: int, _: object) -> None:
+        for other in numbers:  # a second one does not come in between
+            signal.signal(other, lambda *_: None)
+        raise SystemExit(128 + number)
+
+    before = {number: signal.getsignal(number) for number in numbers}
+    with suppress(ValueError):
+        for number, way in before.items():
+            if way != signal.SIG_IGN:
+                signal.signal(number, leave)
+    try:
+        yield
+    finally:
+        with suppress(ValueError, TypeError):
+            for number, way in before.items():
+                signal.signal(number, way)

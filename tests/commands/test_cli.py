@@ -89,6 +89,52 @@ def test_a_closed_pipe_is_one_line(tmp_path):
     assert err == "urdftool: standard output was closed before all was written\n"
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a shell")
+@pytest.mark.parametrize("words", ["lint --list-rules", "expand r.urdf"])
+def test_a_pipe_that_nobody_reads_is_no_verdict(write, words):
+    write("r.urdf", '<robot name="r"><link name="a"/></robot>')
+    ours, theirs = os.pipe()
+    os.close(ours)
+    done = subprocess.run(
+        [sys.executable, "-m", "urdftool", *words.split()], stdout=theirs, stderr=subprocess.PIPE
+    )
+    os.close(theirs)
+    assert done.returncode == 2
+    assert done.stderr == b"urdftool: standard output was closed before all was written\n"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a shell")
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize(("words", "code"), [("expand r.urdf", 0), ("lint r.urdf", 1), ("no", 2)])
+def test_closed_streams_leave_the_exit_code(write, closed, words, code):
+    write("r.urdf", '<robot name="r"><link name="a"/><link name="b"/></robot>')
+    line = f"'{sys.executable}' -m urdftool {words} {closed}"
+    done = subprocess.run(line, shell=True, capture_output=True, text=True)
+    assert done.returncode == code
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device without room")
+@pytest.mark.parametrize("words", ["expand none.urdf", "no"])
+def test_a_message_without_room_leaves_the_exit_code(tmp_path, words):
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([sys.executable, "-m", "urdftool", *words.split()], stderr=full)
+    assert done.returncode == 2
+
+
+def test_too_little_memory_is_said(urdftool, monkeypatch):
+    monkeypatch.setattr(cli.main, "main", _fail(MemoryError()))
+    result = urdftool("expand", "r.urdf")
+    assert (result.code, result.err) == (2, "urdftool: there is not enough memory for this\n")
+
+
+def _fail(error):
+    def fail(*_, **__):
+        raise error
+
+    return fail
+
+
 def test_colours_are_as_asked(urdftool, write):
     path = write("r.urdf", "<robot/>")
     assert "\x1b[" not in urdftool("lint", path).out

@@ -1,10 +1,15 @@
 """An engine that dies, hangs or talks does no harm."""
 
+import math
 import os
+import subprocess
+import sys
 import time
+from unittest import mock
 
 import pytest
 
+from tests.conftest import ROOT
 from urdftool.errors import ModelError
 from urdftool.simulation.child import Child, EngineDied
 
@@ -71,3 +76,51 @@ def test_a_hang_ends_in_time_and_leaves_nobody():
     with pytest.raises(ProcessLookupError):
         os.kill(number, 0)
     assert all(pipe.closed for pipe in (child._process.stdin, child._process.stdout))
+
+
+@pytest.mark.parametrize("name", ["pickle", "numpy", "urdftool", "json"])
+def test_no_module_is_taken_from_the_folder_one_works_in(tmp_path, monkeypatch, name):
+    monkeypatch.setattr(sys, "path", [str(ROOT), *(path for path in sys.path if path)])
+    (tmp_path / f"{name}.py").write_text("open('ran', 'w')")
+    monkeypatch.chdir(tmp_path)
+    assert call("double", 21) == 42
+    assert not (tmp_path / "ran").exists()
+
+
+def test_what_python_prints_while_it_starts_is_no_answer(tmp_path, monkeypatch):
+    (tmp_path / "sitecustomize.py").write_text("print('hello', flush=True)")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    assert call("double", 21) == 42
+
+
+def test_time_may_have_no_limit():
+    assert call("double", 21, time_limit=math.inf) == 42
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs resource limits")
+def test_a_lower_limit_of_the_system_stays():
+    line = (
+        "import resource; resource.setrlimit(resource.RLIMIT_CPU, (9, 9)); "
+        "from urdftool.simulation import child; child.MODULES = 'tests.simulation'; "
+        "process = child.Child('json'); "
+        "print(process.call('child_deeds', 'double', 21, time_limit=60)); process.__exit__()"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", line], cwd=ROOT, capture_output=True, text=True, timeout=60
+    )
+    assert done.stdout == "42\n", done.stderr
+
+
+def test_a_system_without_threads_is_one_message():
+    with Child("json") as child, mock.patch("urdftool.simulation.child.Thread.start") as start:
+        start.side_effect = RuntimeError("can't start new thread")
+        with pytest.raises(EngineDied, match="can't start new thread"):
+            child.call("child_deeds", "double", 21, time_limit=20)
+
+
+def test_it_ends_where_nobody_holds_its_input():
+    with Child("json") as child:
+        with pytest.raises(EngineDied, match="was not done"):
+            child.call("child_deeds", "hang", time_limit=1.0)
+        child._process.stdin.close()
+        assert child._process.wait(5) == 1

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -34,6 +35,13 @@ def _work(path):
         os.kill(os.getpid(), signal.SIGKILL)
     if path == "hangs":
         time.sleep(60)
+    if path == "deaf":
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        time.sleep(60)
+    if path == "no files":
+        raise OSError(24, "Too many open files")
+    if path == "no memory":
+        raise MemoryError
     return Row(path, stands=True)
 
 
@@ -49,6 +57,19 @@ def test_each_robot_has_a_row_whatever_becomes_of_the_others():
     assert rows["refused"].error.notes
     assert "exit code -9" in rows["dies"].error.message
     assert "was not done after 2 s" in rows["hangs"].error.message
+
+
+def test_what_the_system_does_not_give_is_said():
+    rows = {row.path: row for row in in_parallel(["no files", "no memory"], _work, jobs=2)}
+    assert rows["no files"].error.message == "Too many open files"
+    assert rows["no memory"].error.message == "there is not enough memory"
+
+
+def test_who_does_not_hear_that_the_time_is_over_is_killed():
+    began = time.monotonic()
+    (row,) = in_parallel(["deaf"], _work, jobs=1, limit=0.5)
+    assert "was not done" in row.error.message
+    assert time.monotonic() - began < 10
 
 
 def test_whoever_stops_early_leaves_no_process():
@@ -158,3 +179,35 @@ def test_interrupted_it_stops_and_leaves_nothing(tmp_path):
     assert process.stderr.read().endswith("urdftool: stopped\n")
     time.sleep(0.5)
     assert not list(tmp_path.glob("urdftool-*"))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs signals")
+@pytest.mark.slow
+@pytest.mark.parametrize("how", ["KILL", "TERM", "HUP"])
+@pytest.mark.parametrize("many", [["--fleet"], []], ids=["fleet", "one"])
+def test_ended_from_outside_it_leaves_nothing(tmp_path, how, many):
+    """No process, and no temporary folder unless it was killed before it could remove that."""
+    (tmp_path / "tmp").mkdir()
+    shutil.copyfile(MIRA / "mira_simple_collisions_inertias.urdf", tmp_path / "mira.urdf")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "urdftool", "simulate", "--engine", "mujoco", "--duration", "3600",
+         "--timestep", "1e-5", "--slope", "40", "--friction", "0", *many,
+         str(tmp_path / "mira.urdf")],
+        cwd=ROOT, env={**os.environ, "TMPDIR": str(tmp_path / "tmp")}, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    until = time.monotonic() + 20
+    while not list((tmp_path / "tmp").glob("urdftool-*/*")) and time.monotonic() < until:
+        time.sleep(0.05)
+    time.sleep(0.5)
+    process.send_signal(getattr(signal, f"SIG{how}"))
+    code = process.wait(20)
+    assert code == {"KILL": -9, "TERM": 143, "HUP": 129}[how]
+    time.sleep(1)
+    assert not [line for line in _processes() if str(tmp_path) in line]
+    assert how == "KILL" or not list((tmp_path / "tmp").iterdir())
+
+
+def _processes():
+    """Their command lines and environments."""
+    ps = ["ps", "axeww", "-o", "args="]
+    return subprocess.run(ps, capture_output=True, text=True).stdout.splitlines()

@@ -81,6 +81,12 @@ def test_what_fails_is_left_to_who_asks(robot):
         tell(1)
 
 
+def test_a_system_without_threads_does_it_later(robot):
+    no_more = mock.patch.object(threading.Thread, "start", side_effect=RuntimeError)
+    with no_more, meanwhile(robot, print) as tell:
+        tell(1)
+
+
 def test_nothing_waits_where_the_engine_dies(robot):
     before = threading.active_count()
     with pytest.raises(RuntimeError), meanwhile(robot, print):

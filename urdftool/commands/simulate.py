@@ -53,6 +53,7 @@ def command(
     from ..simulation.child import Child
     from ..simulation.engines import ENGINES, LIBRARIES, check_engines, default_engine
     from ..simulation.kept import keeping_in
+    from ..workers import leaving_when_told
     from .cache_options import cache_place
     from .read_lax import read_lax
     from .simulate_control import controlled
@@ -78,8 +79,13 @@ def command(
             console, arguments, package, package_path, settings, engines, controllers,
             frozenset(paths), cache,
         )  # fmt: skip
-        return simulate_fleet(fleet, paths, style=style, junit=junit, jobs=values["jobs"])
-    with keeping_in(cache), Child(LIBRARIES[engines[0]]) as child:  # which starts meanwhile
+        with leaving_when_told():
+            return simulate_fleet(fleet, paths, style=style, junit=junit, jobs=values["jobs"])
+    with (
+        leaving_when_told(),
+        keeping_in(cache),
+        Child(LIBRARIES[engines[0]]) as child,  # which starts meanwhile
+    ):
         model = read_lax(console, paths[0], arguments, package, package_path)
         settings = controlled(console, settings, model, controllers)
         return simulate_one(

@@ -17,7 +17,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
 from queue import Empty, SimpleQueue
-from threading import Thread
+from threading import TIMEOUT_MAX, Thread
 from time import monotonic
 from typing import Any
 
@@ -28,8 +28,15 @@ _PARENT_ENDED = 1  # PR_SET_PDEATHSIG of prctl(2)
 MODULES = __package__
 
 _DYING = 2.0  # s
+_AGES = 1e9  # s
 
 _TOLD, _ANSWER, _DIED = "told", "answer", "died"
+
+_READY = b"\0urdftool listens\n"
+"""Said before anything else; what comes before it was printed while Python started."""
+
+_START = f"import sys; sys.path[:] = sys.argv[2:]; from {__name__} import main; main()"
+"""Python looks for modules where the parent does, and not in the folder it is started in."""
 
 
 class EngineDied(UrdftoolError):  # noqa: N818 -- reads as what happened
@@ -45,13 +52,17 @@ class Child:
     def __init__(self, library: str) -> None:
         """Start the process, which imports an engine's library while it waits."""
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 -- closed in __exit__
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", __name__, library],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=self._errors,
-            env={**os.environ, "OMP_NUM_THREADS": "1"},
-        )
+        try:
+            self._process = subprocess.Popen(
+                [sys.executable, "-c", _START, library, *sys.path],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=self._errors,
+                env={**os.environ, "OMP_NUM_THREADS": "1"},
+            )
+        except BaseException:
+            self._errors.close()
+            raise
         self._listener: Thread | None = None
 
     def __enter__(self) -> Child:
@@ -95,9 +106,13 @@ class Child:
         """
         job = (f"{MODULES}.{module}", function, arguments, time_limit, hear is not None)
         said: SimpleQueue[tuple[str, Any]] = SimpleQueue()
-        self._listener = Thread(target=self._talk, args=(pickle.dumps(job), said), daemon=True)
-        self._listener.start()
-        ends = monotonic() + time_limit
+        listener = Thread(target=self._talk, args=(pickle.dumps(job), said), daemon=True)
+        try:
+            listener.start()
+        except RuntimeError as error:  # the system gives no more threads
+            raise EngineDied(f"the engine could not be given its work: {error}") from None
+        self._listener = listener
+        ends = monotonic() + min(time_limit, TIMEOUT_MAX)
         while True:
             try:
                 kind, value = said.get(timeout=max(0.0, ends - monotonic()))
@@ -123,7 +138,10 @@ class Child:
         assert pipes[1] is not None
         try:
             pipes[0].write(job)
-            pipes[0].close()
+            pipes[0].flush()  # and left open: that it closes tells the process that we ended
+            for line in pipes[1]:
+                if line.endswith(_READY):
+                    break
             kind = ""
             while kind != _ANSWER:
                 kind, value = pickle.load(pipes[1])
@@ -140,7 +158,10 @@ class Child:
         self._errors.seek(0)
         lines = self._errors.read().decode("utf-8", "replace").strip().splitlines()
         code = self._process.returncode
-        how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
+        how = f"exit code {code}"
+        if code < 0:
+            with suppress(ValueError):
+                how = signal.Signals(-code).name
         return EngineDied(
             f"the engine died ({how}) without an answer; 'urdftool lint' may say what it choked on",
             notes=[line[:200] for line in lines[-3:]],
@@ -156,11 +177,14 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the parent, which ends its child
     answer = os.dup(1)
     os.dup2(2, 1)
+    os.write(answer, _READY)
     import numpy  # noqa: F401 -- while the parent prepares
 
     with suppress(ImportError):
         import_module(sys.argv[1])
     module, function, arguments, time_limit, heard = pickle.load(sys.stdin.buffer)
+    with suppress(RuntimeError):  # there may be no more threads
+        Thread(target=_end_with_parent, daemon=True).start()
     _limit_time(time_limit)
     with os.fdopen(answer, "wb") as out:
 
@@ -177,6 +201,13 @@ def main() -> None:
     os._exit(0)  # an engine's own way out may crash
 
 
+def _end_with_parent() -> None:
+    """Wait until nobody holds the other end of standard input, and end."""
+    with suppress(OSError):
+        sys.stdin.buffer.read(1)
+    os._exit(1)
+
+
 def _limit_time(seconds: float) -> None:
     """End the process after so much processor time [s], should the parent be gone."""
     try:
@@ -184,8 +215,6 @@ def _limit_time(seconds: float) -> None:
     except ImportError:  # Windows: the parent's watch is all there is
         return
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_CPU, (int(seconds) + 5, int(seconds) + 6))
-
-
-if __name__ == "__main__":
-    main()
+    most = int(min(seconds, _AGES)) + 5
+    with suppress(ValueError):  # there is a lower one
+        resource.setrlimit(resource.RLIMIT_CPU, (most, most + 1))

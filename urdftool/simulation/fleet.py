@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
-from multiprocessing import connection, get_all_start_methods, get_context
+from multiprocessing import connection, get_all_start_methods, get_context, parent_process
+from threading import Thread
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from ..errors import UrdftoolError
-from ..workers import cores, ignore_interrupts
+from ..workers import cores, ignore_interrupts, leaving_when_told
 from .fault import Fault
 
 if TYPE_CHECKING:
@@ -19,6 +22,8 @@ if TYPE_CHECKING:
 
 PATIENCE = 120.0
 """What reading and judging a robot may take beside its simulation [s]."""
+
+_LEAVING = 3.0  # s: what a process may take to remove what is temporary
 
 
 @dataclass
@@ -115,14 +120,23 @@ def in_parallel(
             for receiver, (path, process, began) in list(running.items()):
                 if perf_counter() - began > limit:
                     running.pop(receiver)
-                    process.terminate()
-                    process.join()
+                    _end([process])
+                    receiver.close()
                     message = f"was not done after {limit:.0f} s and was ended"
                     yield Row(path, error=UrdftoolError(message, path=path), seconds=limit)
     finally:
-        for _, process, _ in running.values():
-            process.terminate()
-        for _, process, _ in running.values():
+        _end([process for _, process, _ in running.values()])
+
+
+def _end(processes: Sequence[Any]) -> None:
+    """End processes: they are asked to, and killed where they do not hear it."""
+    for process in processes:
+        process.terminate()
+    until = perf_counter() + _LEAVING
+    for process in processes:
+        process.join(max(0.0, until - perf_counter()))
+        if process.is_alive():
+            process.kill()
             process.join()
 
 
@@ -152,21 +166,35 @@ def _plain(error: UrdftoolError) -> UrdftoolError:
     )
 
 
-def _leave(*_: object) -> None:
-    """End by an exception, so that what is temporary is removed."""
-    raise SystemExit(1)
+def _leave_with_parent() -> None:
+    """Wait until the parent has ended, however it did, and ask this process to leave."""
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os.kill(os.getpid(), signal.SIGTERM)
 
 
 def _work(work: Callable[[str], Row], path: str, sender: Any) -> None:
     """Make one row and send it."""
     ignore_interrupts()
-    signal.signal(signal.SIGTERM, _leave)
+    with suppress(RuntimeError):  # there may be no more threads
+        Thread(target=_leave_with_parent, daemon=True).start()
+    with leaving_when_told():
+        row = _row(work, path)
+        with suppress(BrokenPipeError):  # nobody waits for it any more
+            sender.send(row)
+        sender.close()
+
+
+def _row(work: Callable[[str], Row], path: str) -> Row:
+    """What became of one robot, whatever that is."""
     try:
-        row = work(path)
+        return work(path)
     except UrdftoolError as error:
-        row = Row(path, error=_plain(error))
+        return Row(path, error=_plain(error))
+    except (OSError, MemoryError) as error:
+        what = getattr(error, "strerror", None) or str(error) or "there is not enough memory"
+        return Row(path, error=UrdftoolError(what, path=path))
     except (Exception, RecursionError) as error:
         what = f"this is a bug in urdftool, not in the robot: {type(error).__name__}: {error}"
-        row = Row(path, error=UrdftoolError(what, path=path))
-    sender.send(row)
-    sender.close()
+        return Row(path, error=UrdftoolError(what, path=path))

@@ -38,12 +38,14 @@ def meanwhile(robot: Robot, look: Callable[[T], object]) -> Iterator[Callable[[T
                 look(*first)
 
     thread = Thread(target=work, daemon=True)
-    thread.start()
+    with suppress(RuntimeError):  # the system may give no more threads
+        thread.start()
     try:
         yield lambda first: told.put((first,))
     finally:
         told.put(None)
-    thread.join()
+    if thread.ident is not None:
+        thread.join()
 
 
 def read_looks(robot: Robot) -> None:
