@@ -97,9 +97,10 @@ def _faults(faults: Sequence[Fault], paint: Painter) -> Iterator[str]:
         place = f"{clean(str(fault.place))}: " if fault.place is not None else ""
         yield ""
         yield f"{paint(place, bold=True)}{paint(label, color, bold=True)}: {clean(fault.message)}"
-        if alike:
-            shown = ", ".join(clean(other.name) for other in alike[:_MOST])
-            more = f", {len(alike) - _MOST} more" if len(alike) > _MOST else ""
+        others = list(dict.fromkeys(other.name for other in alike if other.name != fault.name))
+        if others:
+            shown = ", ".join(clean(name) for name in others[:_MOST])
+            more = f", {len(others) - _MOST} more" if len(others) > _MOST else ""
             yield f"   {paint('=', 'cyan')} the same of {shown}{more}"
         if fault.cause:
             yield f"   {paint('=', 'cyan')} {clean(fault.cause)}"
@@ -119,7 +120,8 @@ def _several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -> Itera
         yield f"  trial {number:>3}  from {tilt:4.1f}°  {settled:>8}  {kinds or 'stands'}"
         for fault in verdict.faults:
             seen.setdefault((fault.kind, fault.name), (fault, []))[1].append(number)
-    yield from _faults([fault for fault, _ in seen.values()], paint)
+    faults = [fault for fault, _ in seen.values()]
+    yield from _faults(sorted(faults, key=lambda fault: not fault.fails), paint)
 
 
 def to_json(robot: Robot, verdicts: Sequence[Verdict]) -> str:

@@ -2,7 +2,8 @@
 
 Undone are: tensors computed from shapes instead of read, a motor that holds every joint, damping of
 bodies and joints that nobody wrote, cylinders made of flat sides, a base without mass that is
-nailed down unasked (``Bodies.nailed`` says it), joints without limits taken for locked.
+nailed down unasked (``Bodies.nailed`` says it), joints without limits taken for locked, limits that
+give way to what is heavy.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ MOST_JOINTS = 120
 """Its messages have room for 128 degrees of freedom, of which the root takes seven."""
 
 _ITERATIONS = 100
+_STOP = 1e9  # N·m, N; its own is an impulse of 100 a step, which a load of 5 t breaks through
 _BREAKING = 0.005  # m; contacts kept longer lag behind what rolls, and push it on
 
 
@@ -158,6 +160,8 @@ class World:
                 options["contactStiffness"] = surface.stiffness
                 options["contactDamping"] = surface.damping or 1.0
             p.changeDynamics(self.robot, self.link_of[number], **options)
+            if number:
+                p.changeDynamics(self.robot, self.link_of[number], jointLimitForce=_STOP)
             self._check_friction(number, options["lateralFriction"])
 
     def lift(self) -> None:

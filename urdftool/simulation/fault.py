@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..source.location import Place
@@ -48,3 +49,9 @@ class Fault:
     def group(self) -> tuple[str, bool, str]:
         """Faults of one group are alike but for their part."""
         return self.kind, self.fails, self.cause + self.name * (self.kind == "blocked")
+
+
+def listed(names: Sequence[str], most: int = 4) -> str:
+    """Names in quotes, the first few of them, and how many more there are."""
+    shown = ", ".join(f"'{name}'" for name in names[:most])
+    return shown + (f" and {len(names) - most} more" if len(names) > most else "")

@@ -24,6 +24,9 @@ THICK = 0.25
 COMPACT = 0.5
 """How far apart joints may be that are one compound joint, as a part of the smaller body."""
 
+MOVED = 0.05
+"""How far a joint went since the start that takes parts into each other [rad, m]."""
+
 _LEAST = 0.002  # m: hulls have a margin, and files are rounded
 
 
@@ -61,9 +64,10 @@ def judge_inside(robot: Robot, run: Run) -> Iterator[Fault]:
                 continue  # it is in another neighbour, too, for the same reason
             blamed.add(beside[0])
         joined = _are_joined(run.start, contact)
-        numbers = (run.start.body_of(name) for name in (contact.one, contact.other))
+        numbers = run.start.body_of(contact.one), run.start.body_of(contact.other)
         thin = min(_extents(bodies[number]).min() for number in numbers)
-        fails = beside is not None or bool(not joined and depth > THICK * thin)
+        brought = "" if joined or moment is run.start else _brought(run, numbers)
+        fails = beside is not None or bool(not joined and depth > THICK * thin and not brought)
         when = "at the start" if moment is run.start else "at rest"
         named = beside[0] if beside else contact.one
         yield Fault(
@@ -76,10 +80,26 @@ def judge_inside(robot: Robot, run: Run) -> Iterator[Fault]:
             if beside
             else "they are joined, so engines let them"
             if joined
-            else "their collision shapes are too large or misplaced, or the pose is not free",
+            else brought
+            or "their collision shapes are too large or misplaced, or the pose is not free",
             "collision-off-visual" if fails else "",
             fails=fails,
         )
+
+
+def _brought(run: Run, numbers: tuple[int, int]) -> str:
+    """Which joint took two bodies into each other since the start; empty where none did."""
+    moved = run.recording.positions[-1] - run.recording.positions[0]
+    columns = [number - 1 for number in _between(run.start, numbers)]
+    far = [column for column in columns if abs(moved[column]) > MOVED]
+    if not far or run.settings.self_collision:
+        return ""
+    most = max(far, key=lambda column: abs(float(moved[column])))
+    return (
+        f"joint '{run.recording.joints[most]}' took them there: it went to "
+        f"{run.recording.positions[-1, most]:.3g}, and parts go through each other without "
+        "--self-collision"
+    )
 
 
 def _depth(robot: Robot, start: Moment, moment: Moment, contact: Contact) -> float:
@@ -117,7 +137,8 @@ def _are_joined(start: Moment, contact: Contact) -> bool:
     return start.once(("joined", *numbers), lambda: _share_joint(start, numbers))
 
 
-def _share_joint(start: Moment, numbers: tuple[int, int]) -> bool:
+def _between(start: Moment, numbers: tuple[int, int]) -> list[int]:
+    """The bodies that hang on the joints between two bodies."""
     bodies = start.bodies.bodies
     above: list[list[int]] = []
     for number in numbers:
@@ -126,8 +147,13 @@ def _share_joint(start: Moment, numbers: tuple[int, int]) -> bool:
             chain.append(bodies[chain[-1]].parent)
         above.append(chain)
     common = next(index for index in above[0] if index in above[1])
-    path = [index for chain in above for index in chain[: chain.index(common)]]
-    between = {*path, common} - set(numbers)
+    return [index for chain in above for index in chain[: chain.index(common)]]
+
+
+def _share_joint(start: Moment, numbers: tuple[int, int]) -> bool:
+    bodies = start.bodies.bodies
+    path = _between(start, numbers)
+    between = {*path, *(bodies[index].parent for index in path)} - set(numbers)
     if not any(bodies[index].shapes for index in between):
         return True
     places = start.poses[path, :3]

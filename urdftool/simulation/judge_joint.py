@@ -13,9 +13,11 @@ from .bodies import JointOf
 from .control import driven
 from .fault import Fault
 from .judge_body import is_impossible
-from .judge_rest import FAR, Rest, is_swinging
+from .judge_collapse import judge_collapse
+from .judge_rest import Rest
 from .recording import GROUND
 from .run import Run
+from .why_moving import is_swinging
 
 SAG = 0.05
 """How far a held joint may be from where it is held [rad]; a sliding one, of the robot's size."""
@@ -24,6 +26,9 @@ BEYOND = 0.02
 """How far a joint may be beyond a limit [rad]; a sliding one, of the robot's size."""
 
 _NEARLY = 0.9
+
+ON_AXIS = 0.01
+"""How far from its axis the mass of a wheel may be, as a part of the robot's size."""
 
 
 def judge_joints(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
@@ -35,8 +40,9 @@ def judge_joints(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
         sagging = list(_sag(robot, run, rest))
         yield from sagging
         yield from _beyond(robot, run)
+        yield from _misled(robot, run)
         if not sagging:
-            yield from _collapsed(robot, run)
+            yield from judge_collapse(robot, run)
             yield from _nearly(robot, run)
     yield from _unlimited(robot, run)
     yield from _unheld(robot, run)
@@ -90,8 +96,10 @@ def _sag(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
         target, now = recording.targets[joint.name], float(recording.positions[-1, column])
         if not abs(now - target) > _allowed(joint, SAG, run):
             continue
-        length, force = _units(joint)
+        if rest.settled is not None and _rolls(run, column):
+            continue  # it was set down so, or slid; whether it stands does not hang on that
         need = needed_effort(run, column)
+        length, force = _units(joint)
         allowed = joint.effort
         if allowed is None:
             why = "no effort is written, and it was held without bound: something pushes it away"
@@ -117,6 +125,23 @@ def _sag(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
             why,
             "implausible-effort",
         )
+
+
+def _rolls(run: Run, column: int) -> bool:
+    """Whether a joint is that of a wheel on a level floor, which asks no effort of it.
+
+    A wheel turns without end, touches the floor itself, and its mass is on its axis.
+    """
+    body = run.bodies.bodies[column + 1]
+    joint = body.joint
+    if joint is None or joint.kind != "continuous" or run.settings.slope:
+        return False
+    touching = {contact.one for contact in run.recording.contacts if contact.other == GROUND}
+    if body.properties is None or not touching & set(body.links):
+        return False
+    centre = np.array(body.properties.com)
+    off = centre - np.array(joint.axis) * (centre @ np.array(joint.axis))
+    return bool(np.linalg.norm(off) < ON_AXIS * run.bodies.size)
 
 
 def _why_idle(run: Run, column: int) -> str:
@@ -167,6 +192,31 @@ def _rotation(pose: np.ndarray) -> np.ndarray:
     return np.array(rotation_of_quaternion((w, x, y, z)))
 
 
+def _misled(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Joints that follow another beyond a limit of their own, where they stay."""
+    columns = {name: column for column, name in enumerate(run.recording.joints)}
+    for joint in run.bodies.joints:
+        if joint.leader not in columns:
+            continue
+        led = float(run.recording.positions[-1, columns[joint.leader]])
+        asked = joint.multiplier * led + joint.offset
+        if not max(joint.lower - asked, asked - joint.upper) > _allowed(joint, BEYOND, run):
+            continue
+        length, _ = _units(joint)
+        side, limit = ("upper", joint.upper) if asked > joint.upper else ("lower", joint.lower)
+        mimic = _joint(robot, joint.name).mimic
+        yield Fault(
+            "beyond-limit",
+            f"joint '{joint.name}' follows '{joint.leader}' to {asked:.3g} {length}, beyond its "
+            f"own {side} limit {limit:.3g}",
+            (mimic or _joint(robot, joint.name)).place,
+            "joint",
+            joint.name,
+            "the multiplier or offset of its <mimic> is wrong, or its limits are",
+            "mimic-limits-inconsistent",
+        )
+
+
 def _beyond(robot: Robot, run: Run) -> Iterator[Fault]:
     for column, joint in enumerate(run.bodies.joints):
         now = float(run.recording.positions[-1, column])
@@ -189,46 +239,6 @@ def _beyond(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _collapsed(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Joints that nothing holds and that gave way, so that the robot is lower now."""
-    recording, bodies = run.recording, run.bodies
-    weight = sum(body.mass for body in bodies.bodies[1:]) * run.settings.gravity
-    if not weight:
-        return
-    sunk = -float(recording.potential[-1]) / weight
-    moved = np.abs(recording.positions[-1] - recording.positions[0])
-    loose = [
-        (float(moved[column]) / (bodies.size if joint.kind == "prismatic" else 1.0), joint.name)
-        for column, joint in enumerate(bodies.joints)
-        if joint.name not in recording.targets and joint.leader is None
-        if joint.kind != "continuous" or moved[column] < 2 * math.pi
-    ]
-    if not loose or sunk < FAR * bodies.size:
-        return
-    far, name = max(loose)
-    if far < SAG:
-        return
-    column = recording.joints.index(name)
-    yield Fault(
-        "collapsed",
-        f"it collapsed: what its joints bear sank by {sunk:.3g} m, and joint '{name}' went from "
-        f"{recording.positions[0, column]:.3g} to {recording.positions[-1, column]:.3g}",
-        _joint(robot, name).place,
-        "joint",
-        name,
-        "nothing holds the joint: " + _why_loose(run),
-        "missing-control-plugin",
-    )
-
-
-def _why_loose(run: Run) -> str:
-    if run.settings.controls is not None:
-        return "no controller drives it"
-    if run.settings.hold == "none":
-        return "--limp was asked for"
-    return "the file actuates other joints; --hold holds every one"
-
-
 def _nearly(robot: Robot, run: Run) -> Iterator[Fault]:
     recording = run.recording
     if run.recording.still_since is None:
@@ -236,6 +246,10 @@ def _nearly(robot: Robot, run: Run) -> Iterator[Fault]:
     for column, joint in enumerate(run.bodies.joints):
         used = abs(float(recording.efforts[-1, column]))
         if joint.name in recording.targets and joint.effort and used > _NEARLY * joint.effort:
+            need = needed_effort(run, column)
+            idle = need is not None and abs(need) < _NEARLY * joint.effort
+            if idle or _rolls(run, column):
+                continue  # it is on its way back, or wheels push against each other
             _, force = _units(joint)
             yield Fault(
                 "near-effort-limit",

@@ -10,11 +10,14 @@ import numpy as np
 
 from ..model.elements import Robot
 from ..model.pose import IDENTITY, matrix_product, rotation_of_quaternion, transpose
-from .fault import Fault
+from .centre import centre_of
+from .fault import Fault, listed
 from .footprint import footprint
+from .judge_slide import judge_slide
 from .recording import GROUND, Array, Recording
 from .run import Run
 from .shapes import lowest
+from .why_moving import why_moving
 
 TIPPED = math.radians(30)
 LEANS = math.radians(10)
@@ -67,7 +70,7 @@ def rest_of(run: Run) -> Rest:
     good = np.isfinite(root).all(axis=1)
     first, last = root[0], root[good][-1]
     supports = tuple(dict.fromkeys(c.one for c in recording.contacts if c.other == GROUND))
-    centre = _centre(run)
+    centre = centre_of(run, range(len(bodies.bodies)), -1)
     gain = np.nan_to_num(recording.kinetic + recording.potential, nan=math.inf).max()
     size = max(bodies.size, 1e-3)
     lost = last[2] < first[2] - max(2 * size, 0.5) and not supports
@@ -91,21 +94,6 @@ def tilt_of(first: Array, last: Array, run: Run) -> float:
     upright = IDENTITY.rotation
     turned = matrix_product(now, transpose(upright))
     return math.acos(max(-1.0, min(1.0, turned[2][2])))
-
-
-def _centre(run: Run) -> tuple[float, float, float] | None:
-    total, moment = 0.0, np.zeros(3)
-    for body, pose in zip(run.bodies.bodies, run.recording.poses[-1], strict=True):
-        if body.properties is None:
-            continue
-        x, y, z, w = pose[3:]
-        turn = np.array(rotation_of_quaternion((w, x, y, z)))
-        moment += body.mass * (pose[:3] + turn @ body.properties.com)
-        total += body.mass
-    if not total or not np.isfinite(moment).all():
-        return None
-    a, b, c = (moment / total).tolist()
-    return a, b, c
 
 
 def _margin(run: Run, centre: tuple[float, float, float]) -> float | None:
@@ -204,7 +192,7 @@ def judge_rest(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
             robot.link[name].place,
             "link",
             name,
-            _why_moving(run),
+            why_moving(run, rest.drift),
         )
     if bodies.nailed:
         return
@@ -220,46 +208,20 @@ def judge_rest(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
             _why_tilted(run, rest),
         )
     elif rest.drift > FAR * size:
-        yield from _slid(robot, run, rest, size)
-
-
-def _slid(robot: Robot, run: Run, rest: Rest, size: float) -> Iterator[Fault]:
-    names = rest.supports or (run.bodies.bodies[0].name,)
-    slick = [
-        body.name
-        for body in run.bodies.bodies
-        if set(names) & set(body.links)
-        and body.surface.friction is not None
-        and body.surface.friction < math.tan(run.settings.slope)
-    ]
-    name = slick[0] if slick else names[0]
-    yield Fault(
-        "slid",
-        f"it moved {rest.drift:.3g} m along the floor, {rest.drift / size:.0%} of its size",
-        robot.link[name].place,
-        "link",
-        name,
-        f"the file gives '{name}' less friction than the slope needs"
-        if slick
-        else "nothing brakes its wheels"
-        if run.settings.slope
-        else "it was pushed, or rolls",
-        "implausible-friction" if slick else "",
-        fails=bool(run.settings.slope) or rest.drift > 0.5 * size,
-    )
+        yield from judge_slide(robot, run, rest.drift, rest.supports, stood_on(run))
 
 
 def _why_tilted(run: Run, rest: Rest) -> str:
     if _is_arm(run):
         return "an arm is usually bolted down: --fixed-base simulates it so"
-    names = ", ".join(f"'{name}'" for name in stood_on(run)[:4])
+    names = stood_on(run)
     if rest.margin is not None and rest.margin < 0:
         why = "its centre of mass is not above where it touches the floor"
     elif rest.supports:
-        why = "it lies on " + ", ".join(f"'{name}'" for name in rest.supports[:4])
+        why = f"it lies on {listed(rest.supports)}"
     else:
         why = "nothing under it touches the floor"
-    stood = f"it was put on {names}; " if names else ""
+    stood = f"it was put on {listed(names)}; " if names else ""
     return f"{stood}{why}; a robot that is bolted down is simulated with --fixed-base"
 
 
@@ -288,29 +250,6 @@ def _is_arm(run: Run) -> bool:
     joints = [bodies[number].joint for number in chain[1:]]
     turning = [joint for joint in joints if joint is not None and joint.kind != "prismatic"]
     return len(turning) >= ARM
-
-
-def _why_moving(run: Run) -> str:
-    loose = [j.name for j in run.bodies.joints if j.name not in run.bodies.held and not j.leader]
-    if loose:
-        return f"nothing holds {len(loose)} of its joints and they have little damping"
-    swinging = [joint for column, joint in enumerate(run.bodies.joints) if is_swinging(run, column)]
-    if swinging:
-        more = f" and {len(swinging) - 1} more" if len(swinging) > 1 else ""
-        does = "swing about where they are" if more else "swings about where it is"
-        return f"joint '{swinging[0].name}'{more} {does} held"
-    return "parts push against each other, or it rolls"
-
-
-def is_swinging(run: Run, column: int) -> bool:
-    """Whether a held joint moves to and fro with all the effort that it may use, to the end."""
-    recording, joint = run.recording, run.bodies.joints[column]
-    last = np.nan_to_num(recording.efforts[len(recording.times) // 2 :, column])
-    if joint.name not in recording.targets or not joint.effort:
-        return False
-    most = 0.99 * joint.effort
-    moves = abs(float(recording.rates[-1, column])) > 1e-3
-    return bool(moves and last.min() < -most and last.max() > most)
 
 
 def _when(recording: Recording) -> float:

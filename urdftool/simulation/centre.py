@@ -1,0 +1,34 @@
+"""Where the mass of some of a robot's bodies is, at one sample of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from ..model.pose import rotation_of_quaternion
+from .run import Run
+
+
+def centre_of(run: Run, numbers: Iterable[int], moment: int) -> tuple[float, float, float] | None:
+    """The centre of mass of some bodies in the world [m]; None where nothing of them weighs.
+
+    Args:
+        run: A run.
+        numbers: Of its bodies.
+        moment: Of its samples.
+    """
+    total, summed = 0.0, np.zeros(3)
+    for number in numbers:
+        body = run.bodies.bodies[number]
+        if body.properties is None:
+            continue
+        pose = run.recording.poses[moment, number]
+        x, y, z, w = pose[3:].tolist()
+        turn = np.array(rotation_of_quaternion((w, x, y, z)))
+        summed += body.mass * (pose[:3] + turn @ body.properties.com)
+        total += body.mass
+    if not total or not np.isfinite(summed).all():
+        return None
+    a, b, c = (summed / total).tolist()
+    return a, b, c

@@ -1,0 +1,102 @@
+"""Joints that nothing holds and that gave way: what fell with them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..model.elements import Robot
+from ..model.pose import rotation_of_quaternion
+from .centre import centre_of
+from .fault import Fault
+from .recording import Array
+from .run import Run
+
+SUNK = 0.05
+"""How far something is to sink to have fallen, as a part of the robot's size."""
+
+SHARE = 0.01
+"""How far a joint is to move what it bears, up or down, to be why the robot is lower; the same."""
+
+TURNED = 0.05
+"""How far a joint is to turn [rad], or to slide as a part of the robot's size."""
+
+
+def judge_collapse(robot: Robot, run: Run) -> Iterator[Fault]:
+    """What is to be said of joints that nothing held, at the end of a run that was not lost."""
+    recording, bodies = run.recording, run.bodies
+    moved = np.abs(recording.positions[-1] - recording.positions[0])
+    alone = {
+        column: _sunk_alone(run, column)
+        for column, joint in enumerate(bodies.joints)
+        if joint.name not in recording.targets and joint.leader is None
+        if moved[column] > TURNED * (bodies.size if joint.kind == "prismatic" else 1.0)
+    }
+    if not alone:
+        return
+    column = max(alone, key=lambda number: abs(alone[number]))
+    name = bodies.joints[column].name
+    whole = _sunk(run)
+    if whole >= SUNK * bodies.size and abs(alone[column]) >= SHARE * bodies.size:
+        what = f"what its joints bear sank by {whole:.3g} m, and joint '{name}' went"
+    elif max(alone.values()) >= SUNK * bodies.size:
+        column = max(alone, key=lambda number: alone[number])
+        name = bodies.joints[column].name
+        what = f"what joint '{name}' bears sank by {alone[column]:.3g} m; it went"
+    else:
+        return
+    yield Fault(
+        "collapsed",
+        f"it collapsed: {what} from {recording.positions[0, column]:.3g} to "
+        f"{recording.positions[-1, column]:.3g}",
+        robot.joint[name].place,
+        "joint",
+        name,
+        "nothing holds the joint: " + _why_loose(run),
+        "missing-control-plugin",
+    )
+
+
+def _sunk(run: Run) -> float:
+    """How much nearer to the plane the centre of mass of what joints bear is at the end [m].
+
+    That is all of a robot but a root that is nailed: legs bear a root that is not.
+    """
+    numbers = range(int(run.bodies.nailed), len(run.bodies.bodies))
+    first_at, last_at = (centre_of(run, numbers, moment) for moment in (0, -1))
+    return 0.0 if first_at is None or last_at is None else first_at[2] - last_at[2]
+
+
+def _sunk_alone(run: Run, column: int) -> float:
+    """How far what a joint bears sank, by the motion of this joint alone [m]."""
+    bodies, poses = run.bodies.bodies, run.recording.poses
+    child = column + 1
+    beyond = {child}
+    for number in range(child + 1, len(bodies)):
+        if bodies[number].parent in beyond:
+            beyond.add(number)
+    centre = centre_of(run, beyond, 0)
+    if centre is None:
+        return 0.0
+    own = _turn(poses[0, child]).T @ (centre - poses[0, child, :3])
+    parent = bodies[child].parent
+    first, last = (
+        _turn(poses[moment, parent]).T
+        @ (_turn(poses[moment, child]) @ own + poses[moment, child, :3] - poses[moment, parent, :3])
+        for moment in (0, -1)
+    )
+    return float((_turn(poses[-1, parent]) @ (first - last))[2])
+
+
+def _turn(pose: Array) -> Array:
+    x, y, z, w = pose[3:].tolist()
+    return np.array(rotation_of_quaternion((w, x, y, z)))
+
+
+def _why_loose(run: Run) -> str:
+    if run.settings.controls is not None:
+        return "no controller drives it"
+    if run.settings.hold == "none":
+        return "--limp was asked for"
+    return "the file actuates other joints; --hold holds every one"
