@@ -1,9 +1,14 @@
 """The outermost points of meshes: the same box as that of the triangles, and as far out."""
 
+import json
+import os
+from threading import Thread
+
 import numpy as np
 import pytest
 
 from tests.conftest import FIXTURES
+from urdftool.errors import MeshError
 from urdftool.meshes import outline as module
 from urdftool.meshes import positions
 from urdftool.meshes.load import load_mesh
@@ -54,6 +59,30 @@ def test_box_of_a_mesh_that_is_scaled_turned_and_moved(rotation, way):
 )
 def test_a_damaged_file_says_nothing(name, way):
     assert outline(FIXTURES / "meshes" / name) is None
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with a name")
+@pytest.mark.parametrize("name", ["pipe.stl", "zeros.obj", "beside.gltf"])
+def test_what_never_ends_is_no_mesh(name, tmp_path):
+    os.mkfifo(tmp_path / "pipe.stl")
+    (tmp_path / "zeros.obj").symlink_to("/dev/zero")
+    points = {"bufferView": 0, "componentType": 5126, "count": 1, "type": "VEC3"}
+    tree = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": 12, "uri": "pipe.stl"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 12}],
+        "accessors": [points],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "nodes": [{"mesh": 0}],
+    }
+    (tmp_path / "beside.gltf").write_text(json.dumps(tree))
+    found = []
+    reading = Thread(target=lambda: found.append(outline(tmp_path / name)), daemon=True)
+    reading.start()
+    reading.join(5)
+    assert found == [None]
+    with pytest.raises(MeshError, match=r"a device or a pipe|no file 'pipe.stl'"):
+        load_mesh(tmp_path / name)
 
 
 @pytest.mark.parametrize("count", [300, 5_000, 60_000])

@@ -13,6 +13,7 @@ BOX = body('<box size="0.4 0.3 0.2"/>', 2, (0.0216667, 0.0333333, 0.0416667))
 MIRA = FIXTURES / "robots" / "mira_description" / "urdf" / "mira.urdf"
 
 
+TINY = f'<mesh filename="{FIXTURES / "meshes" / "cube.stl"}" scale="1e-20 1e-20 1e-20"/>'
 JOINT_AND_END = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>'
 LIMIT = '<limit lower="-1" upper="1" effort="9" velocity="1"/>'
 
@@ -72,6 +73,7 @@ def test_a_box_that_is_dropped_stands(urdftool, write):
         (BOX.replace('value="2"', 'value="-2"'), "weighs -2 kg"),
         (BOX.replace('<box size="0.4 0.3 0.2"/>', '<mesh filename="a.glb"/>'), "no such mesh"),
         (BOX.replace('<box size="0.4 0.3 0.2"/>', '<box size="0 1 1"/>'), "size of 0 m"),
+        (BOX.replace('<box size="0.4 0.3 0.2"/>', TINY), "could touch"),
         ('<robot name="r"/>', "no link"),
     ],
 )  # fmt: skip
@@ -94,7 +96,7 @@ def test_a_robot_of_ten_thousand_links_is_refused_in_time(urdftool, write):
     )
     result = urdftool("simulate", write("r.urdf", f'<robot name="r">{links}{joints}</robot>'))
     assert result.code == 2
-    assert "at most" in result.err
+    assert "r.urdf:1:1: the robot has 9999 moving joints" in result.err
 
 
 def test_a_zero_mass_is_a_verdict(urdftool, write):

@@ -97,7 +97,10 @@ def _points(tree: Any, accessor: Any, path: Path, chunk: bytes) -> Columns:
 
         content = b64decode(uri.partition(",")[2])
     else:
-        content = (path.parent / unquote(uri)).read_bytes()
+        beside = path.parent / unquote(uri)
+        if not beside.is_file():  # a device or a pipe is read without end
+            raise ValueError(f"there is no file '{uri}' beside it")
+        content = beside.read_bytes()
     start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
     stride, count = view.get("byteStride", 12), accessor["count"]
     if min(start, count) < 0 or stride < 12 or start + (count - 1) * stride + 12 > len(content):

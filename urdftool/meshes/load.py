@@ -105,6 +105,8 @@ def _checked_format(file: Path) -> str:
         raise MeshError(
             f'"{file.suffix}" is not a mesh format that can be read; those are {known}', path=file
         )
+    if not os.path.isfile(file):
+        raise MeshError("this is a device or a pipe; a mesh file is needed", path=file)
     try:
         if file.stat().st_size == 0:
             raise MeshError("the mesh file is empty; export or fetch it again", path=file)

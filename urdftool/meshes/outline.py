@@ -93,8 +93,8 @@ def outline(path: str | Path, gltf_up: GltfUp = "y") -> Outline | None:
     """
     file = Path(path)
     try:
-        if file.stat().st_size > LARGEST:
-            return None
+        if not file.is_file() or file.stat().st_size > LARGEST:
+            return None  # a device or a pipe is read without end
         suffix = file.suffix.lower()
         columns = _gltf(file, gltf_up) if suffix in _GLTF else _READERS[suffix](file)
     # whatever a damaged file makes arithmetic raise: here it is only a file that says nothing

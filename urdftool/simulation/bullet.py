@@ -65,7 +65,7 @@ def run(bodies: Bodies, settings: Settings, folder: Path, tell: Tell = lambda _:
     if len(bodies.joints) > MOST_JOINTS:
         raise ModelError(
             f"the robot has {len(bodies.joints)} moving joints; PyBullet takes at most "
-            f"{MOST_JOINTS}"
+            f"{MOST_JOINTS}; --engine mujoco takes more"
         )
     return settle(World(bullet_module(), bodies, settings, folder), tell)
 

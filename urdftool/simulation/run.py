@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 import random
 import tempfile
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from time import perf_counter
 
+from ..errors import ModelError
 from ..model.elements import Robot
 from .bodies import Bodies
 from .child import Child
@@ -108,7 +110,7 @@ def simulate(
             def see(start: Start, bodies: Bodies = bodies, known: Known = known) -> None:
                 look(robot, Moment(bodies, *start, known))
 
-            with meanwhile(robot, see) as hear:
+            with _placed(robot), meanwhile(robot, see) as hear:
                 recording = process.call(
                     engine, "run", bodies, trial, Path(folder), time_limit=left, hear=hear
                 )
@@ -117,6 +119,17 @@ def simulate(
                 swept = _sweep(bodies, trial, engine, Path(folder))
         runs.append(Run(trial, bodies, recording, swept, known))
     return runs
+
+
+@contextmanager
+def _placed(robot: Robot) -> Iterator[None]:
+    """Say of what an engine refuses where the robot is written: it knows only the bodies."""
+    try:
+        yield
+    except ModelError as error:
+        if error.path is not None or robot.place is None:
+            raise
+        raise ModelError(error.message, at=robot.place, notes=error.notes) from None
 
 
 def _write(robot: Robot, bodies: Bodies, settings: Settings, engine: str, folder: Path) -> None:

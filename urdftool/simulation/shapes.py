@@ -24,6 +24,8 @@ MOST_PIECES = 32
 MOST_VERTICES = 400
 """Of a hull; a finer one is thinned to the corners that reach farthest."""
 
+_LEAST = 1e-9  # m: a mesh that is smaller is a point
+
 
 @dataclass(frozen=True, eq=False)
 class Shape:
@@ -87,6 +89,13 @@ def shapes_of(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shape]
         pose = at @ pose_of(collision.origin)
         if isinstance(geometry, Mesh):
             pieces, faces = _pieces(robot, collision, geometry)
+            largest = max(float(np.ptp(piece, axis=0).max()) for piece in pieces)
+            if largest < _LEAST:
+                raise ModelError(
+                    f"mesh '{geometry.filename}' of link '{link.name}' is {largest:g} m large, as "
+                    "it is scaled; nothing of it could touch",
+                    at=geometry.place,
+                )
             yield Shape(link.name, number, "mesh", (), pieces, faces, pose)
             continue
         size: tuple[float, ...]
