@@ -28,6 +28,10 @@ def die_telling(tell):
     crash()
 
 
+def fail():
+    return 1 / 0
+
+
 def refuse():
     raise ModelError("no legs")
 

@@ -61,6 +61,12 @@ def test_an_error_of_ours_comes_through():
         call("refuse")
 
 
+def test_a_bug_is_one_message_with_its_kind():
+    with pytest.raises(EngineDied, match="exit code 1") as raised:
+        call("fail")
+    assert raised.value.notes[-1] == "ZeroDivisionError: division by zero"
+
+
 def test_a_crash_is_one_message():
     with pytest.raises(EngineDied, match="SIGSEGV"):
         call("crash")

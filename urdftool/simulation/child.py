@@ -204,7 +204,7 @@ def main() -> None:
 def _end_with_parent() -> None:
     """Wait until nobody holds the other end of standard input, and end."""
     with suppress(OSError):
-        sys.stdin.buffer.read(1)
+        os.read(0, 1)  # not of sys.stdin, whose lock Python wants when it ends
     os._exit(1)
 
 
