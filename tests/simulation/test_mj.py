@@ -7,6 +7,7 @@ import pytest
 
 from tests.conftest import FIXTURES
 from tests.simulation.robots import kinds
+from urdftool.errors import ModelError
 from urdftool.model.load import load
 from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
@@ -175,3 +176,40 @@ def test_a_joint_is_swept_until_links_overlap(write):
     corner = math.atan2(0.25, 0.05) - 0.01 / 0.25  # where the bar's upper edge meets the corner
     assert turn.free_upper == pytest.approx(corner, abs=3.0 / 36)
     assert [{hit.one, hit.other} for hit in turn.hits] == [{"bar", "base"}]
+
+
+WORLD = """<robot name="r">
+ <link name="{one}">{part}</link><link name="{other}">{part}</link>
+ <joint name="j" type="{kind}"><parent link="{one}"/><child link="{other}"/>
+  <origin xyz="0.3 0 0"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="9" velocity="1"/>
+  <dynamics damping="-1" friction="-1"/></joint></robot>"""
+PART = """<inertial><mass value="1"/>
+  <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+ <collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision>"""
+
+
+@pytest.mark.parametrize("kind", ["revolute", "fixed"])
+@pytest.mark.parametrize(
+    ("one", "other"), [("world", "b"), ("a", "world"), ("world", "world_link")]
+)
+def test_a_link_that_moves_may_be_called_world(write, one, other, kind):
+    """MuJoCo calls the world so, which has no mass and stays; and damping is not below zero."""
+    robot, run = _run(write, WORLD.format(one=one, other=other, kind=kind, part=PART))
+    assert run.recording.read_back == []
+    verdict = judge(robot, run)
+    assert verdict.rest.settled is not None
+    assert verdict.faults == []
+
+
+def test_links_in_a_row_that_are_too_many_are_said(write):
+    links = "".join(f'<link name="l{i}"/>' for i in range(600))
+    joints = "".join(
+        f'<joint name="j{i}" type="fixed"><parent link="l{i}"/><child link="l{i + 1}"/></joint>'
+        for i in range(599)
+    )
+    text = f'<robot name="r">{links}{joints}</robot>'.replace(
+        '<link name="l0"/>', f'<link name="l0">{PART}</link>'
+    )
+    with pytest.raises(ModelError, match="more links in a row") as raised:
+        _run(write, text)
+    assert raised.value.line == 1

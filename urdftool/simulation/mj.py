@@ -39,6 +39,9 @@ def mujoco_module() -> Any:
     return mujoco
 
 
+_TOO_DEEP = "XML_ELEMENT_DEPTH_EXCEEDED"
+
+
 def run(bodies: Bodies, settings: Settings, folder: Path, tell: Tell = lambda _: None) -> Recording:
     """Spawn a robot and let it settle.
 
@@ -74,6 +77,11 @@ class World:
             self.model = mj.MjModel.from_xml_path(str(folder / SCENE))
         except ValueError as error:
             reason = " ".join(str(error).split())
+            if _TOO_DEEP in reason:
+                raise ModelError(
+                    "the robot has more links in a row than MuJoCo's reader of XML bears, which is "
+                    "about 500; --engine pybullet takes more where they are fixed"
+                ) from None
             raise ModelError(f"MuJoCo does not compile the robot's MJCF: {reason}") from None
         self.data = mj.MjData(self.model)
         self.number_of = {link: self._body(link) for body in bodies.bodies for link in body.links}
@@ -97,8 +105,8 @@ class World:
 
     def _body(self, link: str) -> int:
         """The body of a link; 0, the world, where it is no body of its own."""
-        number = self._id("BODY", link)
-        return number if number >= 0 else max(0, self._id("BODY", moving_name(link)))
+        number = self._id("BODY", moving_name(link))
+        return number if number >= 0 else max(0, self._id("BODY", link))
 
     def _set_options(self) -> None:
         mj, option = self.mj, self.model.opt

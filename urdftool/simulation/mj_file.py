@@ -64,10 +64,11 @@ def _scene(main: str, bodies: Bodies) -> Element:
 
 
 def _to_collide(robot: Robot, settings: Settings, *, rename: bool) -> Robot:
-    """A robot without visuals, with its payloads; a root that moves is not called world."""
+    """A robot without visuals, with its payloads; a link that moves is not called world."""
     links = [_loaded(link, settings.payloads.get(link.name, 0.0)) for link in robot.links]
-    joints = robot.joints
-    if rename and robot.tree.root is not None and robot.tree.root.name == ROOTED:
+    joints = [_braked(joint) for joint in robot.joints]
+    root = robot.tree.root
+    if rename or root is None or root.name != ROOTED:
         name = moving_name(ROOTED)
         links = [replace(link, name=name) if link.name == ROOTED else link for link in links]
         joints = [_hung(joint, name) for joint in joints]
@@ -76,11 +77,25 @@ def _to_collide(robot: Robot, settings: Settings, *, rename: bool) -> Robot:
 
 def moving_name(name: str) -> str:
     """The name of the body of a link, where MuJoCo keeps the link's to itself."""
-    return f"{name}_link"
+    return f"{name} (moving)"  # which no other link is called
+
+
+def _braked(joint: Joint) -> Joint:
+    """A joint that nothing drives on: damping and friction below zero are none."""
+    loss = joint.dynamics
+    if loss is None:
+        return joint
+    damping, friction = (
+        None if part is None else max(0.0, part) for part in (loss.damping, loss.friction)
+    )
+    return replace(joint, dynamics=replace(loss, damping=damping, friction=friction))
 
 
 def _hung(joint: Joint, name: str) -> Joint:
-    return replace(joint, parent=name) if joint.parent == ROOTED else joint
+    if ROOTED not in (joint.parent, joint.child):
+        return joint
+    parent, child = (name if end == ROOTED else end for end in (joint.parent, joint.child))
+    return replace(joint, parent=parent, child=child)
 
 
 def _loaded(link: Link, payload: float) -> Link:
