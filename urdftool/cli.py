@@ -122,13 +122,28 @@ def run(arguments: list[str] | None = None) -> None:
     if sys.platform != "win32":  # there click translates colours for the console
         guard()
     gc.set_threshold(500_000, 50, 50)  # trees of many small objects, and then the process ends
-    code = call(arguments)
+    try:
+        code = call(arguments)
+    except SystemExit as leaving:  # a signal told to leave
+        code = leaving.code if isinstance(leaving.code, int) else 1
     try:
         sys.stdout.flush()
     except OSError:
         code = _closed_pipe()
     gc.freeze()  # the process ends: nobody needs its memory back
+    if _is_at_work():
+        with suppress(OSError):
+            sys.stderr.flush()
+        os._exit(code)
     sys.exit(code)
+
+
+def _is_at_work() -> bool:
+    """Whether a thread still does what nobody waits for, and would be cut off in a library."""
+    threading = sys.modules.get("threading")
+    return threading is not None and any(
+        thread.daemon and thread.is_alive() for thread in threading.enumerate()
+    )
 
 
 def call(arguments: list[str] | None = None) -> int:

@@ -128,6 +128,19 @@ def test_too_little_memory_is_said(urdftool, monkeypatch):
     assert (result.code, result.err) == (2, "urdftool: there is not enough memory for this\n")
 
 
+def test_a_thread_at_work_is_left_without_a_word():
+    """Libraries that are cut off in the midst of a call complain, each in its own way."""
+    line = (
+        "import atexit, threading, time; atexit.register(print, 'cut off'); "
+        "threading.Thread(target=time.sleep, args=(60,), daemon=True).start(); "
+        "from urdftool import cli; cli.run(['lint', '--explain', 'mesh-not-found'])"
+    )
+    done = subprocess.run([sys.executable, "-c", line], capture_output=True, text=True, timeout=30)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout
+    assert "cut off" not in done.stdout
+
+
 def _fail(error):
     def fail(*_, **__):
         raise error

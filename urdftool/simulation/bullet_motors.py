@@ -105,16 +105,43 @@ class Motors:
         """
         if not any(joint.damping for joint in self.bodies.joints):
             return dict.fromkeys((joint.name for joint in self.bodies.joints), 0.0)
-        zeros = [self.bodies.positions[joint.name] for joint in self.bodies.joints]
-        matrix = np.array(self.p.calculateMassMatrix(self.robot, self._in_order(zeros)))
-        first = len(matrix) - len(zeros)
-        ranks = np.argsort(np.argsort(self.indices))
+        try:
+            moved = self._inertias()
+        except (self.p.error, SystemError):  # it takes rounding for a tensor that is none
+            moved = self._added_inertias()
         return {
-            joint.name: min(
-                joint.damping, 0.5 * matrix[first + rank, first + rank] / self.settings.timestep
-            )
-            for joint, rank in zip(self.bodies.joints, ranks, strict=True)
+            joint.name: min(joint.damping, 0.5 * inertia / self.settings.timestep)
+            for joint, inertia in zip(self.bodies.joints, moved, strict=True)
         }
+
+    def _inertias(self) -> list[float]:
+        """What each joint moves, at the start [kg·m², kg]: the diagonal of the mass matrix."""
+        starts = [self.bodies.positions[joint.name] for joint in self.bodies.joints]
+        matrix = np.array(self.p.calculateMassMatrix(self.robot, self._in_order(starts)))
+        first = len(matrix) - len(starts)
+        return [float(matrix[first + r, first + r]) for r in np.argsort(np.argsort(self.indices))]
+
+    def _added_inertias(self) -> list[float]:
+        """The same, added up from the bodies below each joint."""
+        p, bodies = self.p, self.bodies.bodies
+        states = [p.getLinkState(self.robot, n, computeForwardKinematics=1) for n in self.indices]
+        found = [0.0] * len(states)
+        for below, (number, state) in enumerate(zip(self.indices, states, strict=True), 1):
+            mass, _, moments = p.getDynamicsInfo(self.robot, number)[:3]
+            turn = np.reshape(p.getMatrixFromQuaternion(state[1]), (3, 3))
+            above = below
+            while above > 0:
+                joint, frame = bodies[above].joint, states[above - 1]
+                assert joint is not None
+                found[above - 1] += mass
+                if joint.kind != "prismatic":
+                    axes = np.reshape(p.getMatrixFromQuaternion(frame[5]), (3, 3))
+                    axis = axes @ np.array(joint.axis)
+                    arm = np.cross(axis, np.subtract(state[0], frame[4]))
+                    tensor = float(np.array(moments) @ (turn.T @ axis) ** 2)
+                    found[above - 1] += mass * (float(arm @ arm) - 1.0) + tensor
+                above = bodies[above].parent
+        return found
 
     def _in_order(self, values: list[float]) -> list[float]:
         """Values by joint as the engine numbers its links."""
