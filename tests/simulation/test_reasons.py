@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from tests.conftest import FIXTURES
 from tests.simulation.robots import inertial, kinds, simulated
 
 POST = '<collision><origin xyz="0 0 1"/><geometry><box size="0.4 0.4 2"/></geometry></collision>'
@@ -162,3 +163,56 @@ def test_joints_that_follow_beyond_their_limits_are_named(write, multiplier, wro
     if wrong:
         assert fault(verdict, "beyond-limit").name == "right"
         assert "follows 'left' to 0.03 m" in fault(verdict, "beyond-limit").message
+
+
+def wheel(collision, origin="0 0 0"):
+    """A wheel of 0.25 m, and what it collides with."""
+    return (
+        f'<link name="{{name}}">{inertial(8, 0.2, 0.2, 0.2)}'
+        '<visual><geometry><sphere radius="0.25"/></geometry></visual>'
+        f'<collision><origin xyz="{origin}"/><geometry>{collision}</geometry></collision></link>'
+    )
+
+
+@pytest.mark.parametrize(
+    ("written", "rule"),
+    [
+        (wheel('<sphere radius="0.00025"/>'), "collision-much-smaller-than-visual"),
+        (wheel('<sphere radius="0.25"/>', "0 0 1.57"), "collision-off-visual"),
+        (wheel('<sphere radius="0.25"/>'), None),
+    ],
+)
+def test_wheels_that_are_seen_in_the_floor_are_no_wheels(write, written, rule):
+    text = link("base", 300, '<box size="2 0.8 0.4"/>', "0 0 0.15", 50)
+    for number, (x, y) in enumerate([(0.7, 0.7), (0.7, -0.7), (-0.7, 0.7), (-0.7, -0.7)]):
+        text += written.replace("{name}", f"w{number}")
+        text += joint(f"j{number}", "continuous", "base", f"w{number}", f"{x} {y} 0", "0 1 0")
+    verdict = simulated(write("car.urdf", f'<robot name="car">{text}</robot>'))
+    if rule is None:
+        assert "no-contact-shape" not in kinds(verdict)
+        return
+    said = [fault for fault in verdict.faults if fault.kind == "no-contact-shape"]
+    assert {fault.name for fault in said} == {"w0", "w1", "w2", "w3"}
+    assert {fault.rule for fault in said} == {rule}
+
+
+CUBE = FIXTURES / "meshes" / "cube.stl"
+
+
+@pytest.mark.parametrize(
+    ("shape", "cause", "rule"),
+    [
+        ('<box size="300 200 100"/>', "it is in millimetres; sizes are in metres", ""),
+        (f'<mesh filename="{CUBE}" scale="500 500 500"/>', 'scale="0.5 0.5 0.5"', ""),
+    ],
+)
+def test_sizes_in_millimetres_are_told_by_how_they_are_written(write, shape, cause, rule):
+    """A box has no mesh, and a mesh may have been scaled the wrong way."""
+    text = link("base", 30, '<box size="0.4 0.4 0.2"/>') + link("head", 3, shape)
+    text += link("ear", 1, '<box size="0.1 0.1 0.1"/>')
+    text += joint("neck", "revolute", "base", "head", "0 0 0.5", limit='lower="0" upper="1"')
+    text += joint("lobe", "fixed", "base", "ear", "0 0.3 0")
+    path = write("m.urdf", f'<robot name="m">{text}</robot>')
+    said = fault(simulated(path, duration=0.1), "too-large")
+    assert cause in said.cause
+    assert said.rule == rule

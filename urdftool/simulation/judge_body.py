@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..model.elements import Mesh, Robot
+from ..model.elements import Geometry, Mesh, Robot
 from .bodies import Bodies, Body, mass_of
 from .extent import extent_of
 from .fault import Fault
@@ -209,8 +209,7 @@ def _giants(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
                 link.collisions[0].place,
                 "link",
                 name,
-                'its mesh is in millimetres; scale it with <mesh scale="0.001 0.001 0.001">',
-                "mesh-in-millimetres",
+                *_in_metres(link.collisions[0].geometry),
             )
 
 
@@ -236,7 +235,17 @@ def _giant_looks(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
                     mesh.place,
                     "link",
                     name,
-                    'its mesh is in millimetres; scale it with <mesh scale="0.001 0.001 0.001">',
-                    "mesh-in-millimetres",
+                    *_in_metres(mesh),
                 )
                 break
+
+
+def _in_metres(geometry: Geometry | None) -> tuple[str, str]:
+    """What would make a shape in millimetres right, and the lint rule that tells more, if any."""
+    if not isinstance(geometry, Mesh):
+        return "it is in millimetres; sizes are in metres", ""
+    right = " ".join(f"{factor / 1000:g}" for factor in geometry.scale)
+    if geometry.scale == (1.0, 1.0, 1.0):
+        why = f'its mesh is in millimetres; scale it with <mesh scale="{right}">'
+        return why, "mesh-in-millimetres"
+    return f'it is a thousand times too large by its scale; write <mesh scale="{right}">', ""

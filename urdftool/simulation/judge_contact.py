@@ -23,6 +23,9 @@ SUNK = 0.01
 NEAR = 0.002
 """How near to the floor a part is that should touch it [m]."""
 
+DROWNED = 0.4
+"""How much of what is seen of a link with a collision is in the floor, of its height."""
+
 SHOWS = 0.001
 """How far what is seen of a foot sticks out of what touches beside it [m]."""
 
@@ -34,6 +37,7 @@ def judge_contacts(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
     if not rest.fell and run.recording.ended != "lost":
         yield from _sunk(robot, run)
         told = {fault.name: fault for fault in _untouching(robot, run)}
+        told |= {fault.name: fault for fault in _sunken(robot, run) if fault.name not in told}
         yield from told.values()
         yield from (f for f in _unlike(robot, run, rest) if f.name not in told)
 
@@ -104,6 +108,43 @@ def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
                     name,
                     "a wheel or foot that carries nothing; what is beside it does",
                     "missing-collision",
+                )
+
+
+def _sunken(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Links that are seen deep in the floor, where their own collision does not reach."""
+    least = deep(run.bodies, SUNK)
+    for number, body in enumerate(run.bodies.bodies):
+        if number == 0 and run.bodies.nailed:
+            continue
+        pose = run.end.pose(number)
+        turn, at = np.array(pose.rotation), np.array(pose.translation)
+        for name in body.links:
+            shapes = [shape for shape in body.shapes if shape.link == name]
+            if not shapes or lowest(shapes, turn, at) < -least:
+                continue  # one that is as deep sank in, which is said
+            points = _seen(robot, name)
+            if not len(points):
+                continue
+            place = pose @ body.places[name]
+            heights = points @ np.array(place.rotation[2]) + place.translation[2]
+            low, high = float(heights.min()), float(heights.max())
+            if -low > least and -low > DROWNED * (high - low):
+                bounds = [shape.bounds() for shape in shapes]
+                size = max(float((upper - lower).max()) for lower, upper in bounds)
+                small = size < 0.5 * float((points.max(axis=0) - points.min(axis=0)).max())
+                yield Fault(
+                    "no-contact-shape",
+                    f"link '{name}' is seen {-low:.3g} m below the floor, and its <collision> does "
+                    "not reach it",
+                    robot.link[name].collisions[0].place,
+                    "link",
+                    name,
+                    "its <collision> is much smaller than what is seen: its size, scale or unit is "
+                    "another"
+                    if small
+                    else "its <collision> is beside what is seen, or turned: see its <origin>",
+                    "collision-much-smaller-than-visual" if small else "collision-off-visual",
                 )
 
 

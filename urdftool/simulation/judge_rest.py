@@ -17,6 +17,7 @@ from .judge_slide import judge_slide
 from .recording import GROUND, Array, Recording
 from .run import Run
 from .shapes import lowest
+from .stillness import CREEP, TURN, WINDOW
 from .why_moving import why_moving
 
 TIPPED = math.radians(30)
@@ -182,13 +183,13 @@ def judge_rest(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
         )
         return
     if rest.settled is None:
-        name = _fastest(run)
+        name, does = _fastest_way(run)
         joint = _fastest_joint(recording)
         at = f"; joint '{joint[0]}' moves at {joint[1]:.3g}" if joint else ""
         yield Fault(
             "not-settled",
-            f"it did not come to rest in {recording.times[-1]:.3g} s; link '{name}' still moves at "
-            f"{_speed(run, name):.3g} m/s{at}",
+            f"it did not come to rest in {recording.times[-1]:.3g} s; link '{name}' still {does}"
+            f"{at}",
             robot.link[name].place,
             "link",
             name,
@@ -266,8 +267,14 @@ def _fastest(run: Run) -> str:
     return run.recording.bodies[int(_speeds(run).argmax())]
 
 
-def _speed(run: Run, name: str) -> float:
-    return float(_speeds(run)[run.recording.bodies.index(name)])
+def _fastest_way(run: Run) -> tuple[str, str]:
+    """The link that moves most at the end, and how: where none goes anywhere, one turns."""
+    speeds = _speeds(run)
+    rates = np.linalg.norm(np.nan_to_num(run.recording.velocities[-1, :, 3:]), axis=1)
+    turning = int(rates.argmax())
+    if speeds.max() * WINDOW < CREEP * run.bodies.size and rates[turning] * WINDOW > TURN:
+        return run.recording.bodies[turning], f"turns at {rates[turning]:.3g} rad/s"
+    return _fastest(run), f"moves at {speeds.max():.3g} m/s"
 
 
 def _fastest_joint(recording: Recording) -> tuple[str, float] | None:

@@ -13,6 +13,12 @@ OFF = 0.05
 MOVES = 1e-3
 """How fast a joint is that moves [rad/s, m/s]."""
 
+CREEPS = 0.01
+"""How far something goes that creeps, as a part of the robot's size [1/s]."""
+
+TURNS = 0.05
+"""How fast it turns at most [rad/s]."""
+
 FULL = 0.99
 """The part of its effort that a joint uses which could use no more."""
 
@@ -25,8 +31,9 @@ def why_moving(run: Run, drift: float) -> str:
     if any(moves[recording.joints.index(joint.name)] for joint in loose):
         damped = any(joint.damping or joint.friction for joint in loose)
         which = f"joint '{loose[0].name}'" if len(loose) == 1 else f"{len(loose)} of its joints"
-        has = "its damping is" if len(loose) == 1 else "their damping is"
-        return f"nothing holds {which}, and {has} {'too little' if damped else 'zero'}"
+        it, its = ("it", "its") if len(loose) == 1 else ("them", "their")
+        brake = f"has not stopped {it} yet" if damped else "is zero"
+        return f"nothing holds {which}, and {its} damping {brake}"
     swinging = [joint.name for column, joint in enumerate(joints) if is_swinging(run, column)]
     if swinging:
         does = "swing about where they are" if len(swinging) > 1 else "swings about where it is"
@@ -37,6 +44,10 @@ def why_moving(run: Run, drift: float) -> str:
         return f"joint {listed(weak)} may use less effort than it takes to hold {them}"
     if not run.bodies.nailed and drift > run.bodies.size:
         return "it rolls or slides along the floor"
+    velocities = np.abs(np.nan_to_num(recording.velocities[-1]))
+    slow = velocities[:, :3].max() < CREEPS * run.bodies.size and velocities[:, 3:].max() < TURNS
+    if slow and not recording.engine.startswith("MuJoCo"):
+        return "it creeps, which may be the engine's contacts: --engine mujoco has others"
     return "parts push against each other, or it rolls"
 
 
