@@ -22,6 +22,32 @@ def ignore_interrupts() -> None:
 
 
 @contextmanager
+def signals_later() -> Iterator[None]:
+    """Hold back signals while a process is started, which takes them by :func:`take_signals`.
+
+    It is forked with handlers that would raise in the midst of its start.
+    """
+    _mask(hold=True)
+    try:
+        yield
+    finally:
+        _mask(hold=False)
+
+
+def take_signals() -> None:
+    """Take what was held back since before this process was started."""
+    _mask(hold=False)
+
+
+def _mask(*, hold: bool) -> None:
+    import signal
+
+    if hasattr(signal, "pthread_sigmask"):
+        how = signal.SIG_BLOCK if hold else signal.SIG_UNBLOCK
+        signal.pthread_sigmask(how, {signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
+
+
+@contextmanager
 def leaving_when_told() -> Iterator[None]:
     """Let SIGTERM and SIGHUP end by an exception, so that what is temporary is removed.
 

@@ -16,6 +16,7 @@ from tests.conftest import FIXTURES, ROOT
 from urdftool.errors import UrdftoolError
 from urdftool.formats.defects import Refused
 from urdftool.simulation.fleet import Row, in_parallel
+from urdftool.workers import leaving_when_told
 
 ROBOTS = FIXTURES / "robots"
 MIRA = ROBOTS / "mira_description" / "urdf"
@@ -38,6 +39,8 @@ def _work(path):
     if path == "deaf":
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
         time.sleep(60)
+    if path == "mask":
+        return Row(path, name=str(sorted(signal.pthread_sigmask(signal.SIG_BLOCK, []))))
     if path == "no files":
         raise OSError(24, "Too many open files")
     if path == "no memory":
@@ -63,6 +66,22 @@ def test_what_the_system_does_not_give_is_said():
     rows = {row.path: row for row in in_parallel(["no files", "no memory"], _work, jobs=2)}
     assert rows["no files"].error.message == "Too many open files"
     assert rows["no memory"].error.message == "there is not enough memory"
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="signals are not held back")
+def test_who_is_ended_as_soon_as_it_starts_ends_quietly(capfd):
+    for _ in range(20):
+        rows = in_parallel(["a", "hangs", "hangs"], _work, jobs=3)
+        with leaving_when_told():
+            next(rows)
+            rows.close()
+    assert capfd.readouterr().err == ""
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="signals are not held back")
+def test_a_worker_takes_signals_again():
+    (row,) = in_parallel(["mask"], _work, jobs=1)
+    assert row.name == "[]"
 
 
 def test_who_does_not_hear_that_the_time_is_over_is_killed():

@@ -14,7 +14,13 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from ..errors import UrdftoolError
-from ..workers import cores, ignore_interrupts, leaving_when_told
+from ..workers import (
+    cores,
+    ignore_interrupts,
+    leaving_when_told,
+    signals_later,
+    take_signals,
+)
 from .fault import Fault
 
 if TYPE_CHECKING:
@@ -109,7 +115,8 @@ def in_parallel(
                 process = context.Process(  # type: ignore[attr-defined]
                     target=_work, args=(work, path, sender), daemon=False
                 )
-                process.start()
+                with signals_later():
+                    process.start()
                 sender.close()
                 running[receiver] = (path, process, perf_counter())
             for ready in connection.wait(list(running), 0.5):
@@ -180,6 +187,7 @@ def _work(work: Callable[[str], Row], path: str, sender: Any) -> None:
     with suppress(RuntimeError):  # there may be no more threads
         Thread(target=_leave_with_parent, daemon=True).start()
     with leaving_when_told():
+        take_signals()
         row = _row(work, path)
         with suppress(BrokenPipeError):  # nobody waits for it any more
             sender.send(row)
