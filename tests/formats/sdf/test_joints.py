@@ -106,6 +106,14 @@ def test_older_versions_cannot_say_who_follows(choices):
     assert "lossy-mimic" in rules(written)
 
 
+@pytest.mark.parametrize("kind", ["spherical", "planar", "floating"])
+def test_only_an_axis_can_follow(kind):
+    inside = '<limit effort="1" velocity="1"/><mimic joint="j"/>'
+    written = export(*TWO, joint("k", "b", "c", kind, inside=inside), link("c"))
+    assert rules(written).count("lossy-mimic") == 1
+    assert not list(tree(written).iter("mimic"))
+
+
 def test_soft_limits_stay_as_a_comment():
     inside = (
         '<limit lower="0" upper="1" effort="1" velocity="1"/><safety_controller k_velocity="3"/>'

@@ -34,14 +34,18 @@ def joint(model: Node, t: Translation, part: Joint) -> None:
             f"joint '{part.name}' is floating; in SDF '{part.child}' is a free link without a joint"
         )
         t.note("floating", text, part, part)
+        _lose_mimic(t, part)
         return
     if part.type == "planar":
         planar(model, t, part)
+        _lose_mimic(t, part)
         return
     kind = _type(t, part)
     node = start(model, t, part, t.names.joint(part.name), kind)
     if kind in ("revolute", "prismatic"):
         _axis(node, t, part)
+    elif kind == "ball":
+        _lose_mimic(t, part)
     _note_unspoken(node, t, part)
     joint_sensors(node, t, part)
     joint_extensions(node, t, part)
@@ -112,6 +116,12 @@ def _most(node: Node, t: Translation, part: Joint) -> None:
             text = f"{name} limit of joint '{part.name}' is 0, so Gazebo will not move it"
             t.note("limit", text, limit, part)
         add(node, name, number_text(abs(value)))
+
+
+def _lose_mimic(t: Translation, part: Joint) -> None:
+    if part.mimic is not None:
+        text = f"joint '{part.name}' is {part.type}; only an axis can mimic in SDF, so it is free"
+        t.lose("mimic", text, part.mimic, part)
 
 
 def _mimic(axis: Node, t: Translation, part: Joint) -> None:

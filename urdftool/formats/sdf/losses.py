@@ -24,7 +24,7 @@ LOSSES = {
     "material": "a material script of Gazebo Classic that gz cannot run",
     "mesh": "a mesh is missing, and its shape left out (`--force`)",
     "mesh-format": "a mesh is in a format that the target does not read; it is named all the same",
-    "mimic": "SDF before 1.11 cannot say which joint follows; it is free",
+    "mimic": "SDF before 1.11, and without an axis, cannot say which joint follows; it is free",
     "name": "SDF does not allow a name, or it is taken; another is given",
     "planar": "a planar joint is two that slide and one that turns",
     "plugin": "a plugin of Gazebo Classic was translated, or has no successor",
