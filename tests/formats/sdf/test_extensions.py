@@ -100,6 +100,17 @@ def test_a_prefix_is_kept():
     assert b'<my:tag xmlns:my="urn:mine">1</my:tag>' in export(link("a"), said).files["model.sdf"]
 
 
+@pytest.mark.parametrize("ends", [("b", "b"), ("a", "c")])
+def test_a_joint_from_a_link_to_itself_is_left_out(ends):
+    parts = (*TWO, joint("k", "a", "c", "fixed"), link("c"))
+    said = (
+        '<gazebo><joint name="q" type="ball"><parent>{}</parent><child>{}</child></joint></gazebo>'
+    )
+    written = export(*parts, said.format(*ends), fixed_joints="lump")
+    assert "q" not in names(tree(written), "joint")
+    assert "lossy-reference" in rules(written)
+
+
 def test_the_model_is_static_and_closed_by_a_joint():
     block = (
         "<gazebo><static>true</static><self_collide>1</self_collide>"

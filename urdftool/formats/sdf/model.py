@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import count
 
 from ...model.elements import ZERO, GazeboExtension, Origin
@@ -94,10 +95,8 @@ def _parts(node: Node, t: Translation) -> None:
 
 def _closing_joint(node: Node, t: Translation, element: Element) -> None:
     """A joint of SDF in a block, which closes a loop: its links by the names they have now."""
-    wrong = [end for end in _ends(element) if not _can_join(t, *end)]
-    if wrong or len(_ends(element)) != 2:
-        end = f"its {wrong[0][0]} '{wrong[0][1]}' is no link" if wrong else "it joins nothing"
-        text = f"<joint> '{element.get('name')}' of a <gazebo> block is left out: {end}"
+    if why := _why_not(t, _ends(element)):
+        text = f"<joint> '{element.get('name')}' of a <gazebo> block is left out: {why}"
         t.lose("reference", text, element)
         return
     made = blob(node, t, element)
@@ -118,6 +117,17 @@ def _closing_joint(node: Node, t: Translation, element: Element) -> None:
             name = (tag.text or "").strip()
             if name in t.plan.owner:
                 tag.text = t.names.link(t.plan.owner[name])
+
+
+def _why_not(t: Translation, ends: Sequence[tuple[str, str]]) -> str:
+    """Why a joint cannot be, whose ends are these; empty where it can."""
+    for end, name in ends:
+        if not _can_join(t, end, name):
+            return f"its {end} '{name}' is no link"
+    if len(ends) != 2:
+        return "it joins nothing"
+    one, other = (t.plan.owner.get(name, name) for _, name in ends)
+    return f"it joins '{one}' to itself" if one == other else ""
 
 
 def _ends(element: Element) -> list[tuple[str, str]]:
