@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
 from ..formats.mjcf.extent import shape_points
-from ..model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere
+from ..model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere, Visual
 from ..model.pose import pose_of
+from .extent import points_of
 from .fault import Fault
 from .judge_inside import deep, judge_inside
 from .judge_rest import Rest
@@ -92,7 +93,7 @@ def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
                 turn, at = np.array(pose.rotation), np.array(pose.translation)
                 highest = min(NEAR, lowest(body.shapes, turn, at) - SHOWS)
         for name in seen:
-            points = _seen(robot, name)
+            points = _seen(robot, name, shape_points)
             if not len(points):
                 continue
             place = pose @ body.places[name]
@@ -123,7 +124,7 @@ def _sunken(robot: Robot, run: Run) -> Iterator[Fault]:
             shapes = [shape for shape in body.shapes if shape.link == name]
             if not shapes or lowest(shapes, turn, at) < -least:
                 continue  # one that is as deep sank in, which is said
-            points = _seen(robot, name)
+            points = _seen(robot, name, points_of)
             if not len(points):
                 continue
             place = pose @ body.places[name]
@@ -188,14 +189,17 @@ def _form(geometry: Geometry | None) -> tuple[object, ...]:
     return (id(geometry),)
 
 
-def _seen(robot: Robot, name: str) -> Array:
-    """Points of what is seen of a link, in its frame: those of round shapes lie on them."""
+def _seen(robot: Robot, name: str, read: Callable[[Robot, Visual], Array | None]) -> Array:
+    """Points of what is seen of a link, in its frame: those of round shapes lie on them.
+
+    ``read`` gives those of the others: all of a mesh take long to read, the outermost are known.
+    """
     found = [np.zeros((0, 3))]
     for shape in robot.link[name].visuals:
         if isinstance(shape.geometry, (Cylinder, Sphere, Capsule)):
             pose = pose_of(shape.origin)
             corners = primitive_triangles(shape).reshape(-1, 3)
             found.append(corners @ np.array(pose.rotation).T + np.array(pose.translation))
-        elif (points := shape_points(robot, shape)) is not None:
+        elif (points := read(robot, shape)) is not None:
             found.append(points)
     return np.concatenate(found)
