@@ -8,8 +8,8 @@ import numpy as np
 
 from ..formats.mjcf.extent import shape_points
 from ..model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere, Visual
-from ..model.pose import pose_of
-from .extent import points_of
+from ..model.pose import Pose, pose_of
+from .extent import box_of, points_of
 from .fault import Fault
 from .judge_inside import deep, judge_inside
 from .judge_rest import Rest
@@ -124,10 +124,11 @@ def _sunken(robot: Robot, run: Run) -> Iterator[Fault]:
             shapes = [shape for shape in body.shapes if shape.link == name]
             if not shapes or lowest(shapes, turn, at) < -least:
                 continue  # one that is as deep sank in, which is said
-            points = _seen(robot, name, points_of)
-            if not len(points):
-                continue
             place = pose @ body.places[name]
+            box = box_of(robot, robot.link[name].visuals)
+            if box is None or _lowest_corner(box, place) >= -least:
+                continue
+            points = _seen(robot, name, points_of)
             heights = points @ np.array(place.rotation[2]) + place.translation[2]
             low, high = float(heights.min()), float(heights.max())
             if -low > least and -low > DROWNED * (high - low):
@@ -147,6 +148,13 @@ def _sunken(robot: Robot, run: Run) -> Iterator[Fault]:
                     else "its <collision> is beside what is seen, or turned: see its <origin>",
                     "collision-much-smaller-than-visual" if small else "collision-off-visual",
                 )
+
+
+def _lowest_corner(box: tuple[Array, Array], place: Pose) -> float:
+    """How low a box along the axes of a frame reaches [m], which is at a place."""
+    up = np.array(place.rotation[2])
+    middle = float(up @ (box[0] + box[1])) / 2 + place.translation[2]
+    return middle - float(np.abs(up) @ (box[1] - box[0])) / 2
 
 
 def _unlike(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
