@@ -103,11 +103,15 @@ def _brought(run: Run, numbers: tuple[int, int]) -> str:
 
 
 def _depth(robot: Robot, start: Moment, moment: Moment, contact: Contact) -> float:
-    """How deep two parts are in each other [m]: no deeper than their own triangles are."""
+    """How deep two parts are in each other [m]: no deeper than their own triangles are.
+
+    Where those are not deep enough to count, it may be 0.
+    """
+    least = deep(start.bodies, INTO)
     if _are_joined(start, contact):
         return contact.depth
     links = contact.one, contact.other
-    depth = moment.once(("overlap", *links), lambda: overlap(robot, moment, *links))
+    depth = moment.once(("overlap", *links), lambda: overlap(robot, moment, *links, least))
     return contact.depth if depth is None else min(depth, contact.depth)
 
 

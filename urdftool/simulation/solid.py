@@ -34,9 +34,11 @@ class Solids:
 
     def moved(self, pose: Pose) -> Solids:
         """The same in the frame in which ``pose`` is that of its present one."""
+        if not self.parts:
+            return self
         there = np.column_stack([np.array(pose.rotation), np.array(pose.translation)])
-        moved = Solids(part.transform(there) for part in self.parts)
-        moved.volume = self.volume  # known before anything is moved, and measured once
+        moved = Solids([self._union.transform(there)])  # which is then made once
+        moved.volume = self.volume
         return moved
 
     @cached_property

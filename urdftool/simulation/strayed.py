@@ -13,7 +13,6 @@ import numpy as np
 
 from ..model.elements import Collision, Link, Mesh, Robot, Visual
 from ..model.pose import Pose, pose_of
-from .bodies import Body
 from .extent import box_of, is_beside, is_off_mass, looks_of, points_of
 from .moment import Moment
 from .overlap import primitive_triangles
@@ -75,28 +74,33 @@ def strayed(robot: Robot, moment: Moment, link: str, other: int) -> str | None:
         return None
     there = moment.link_pose(link).inverse() @ moment.pose(other)
     at = {name: there @ place for name, place in bodies[other].places.items()}
-    touches = _touching(robot, bodies[own], link)
-    theirs = _union(_touching(robot, bodies[other], name).moved(at[name]) for name in at)
+    touches = _touching(robot, moment, own, link)
+    theirs = _union(_touching(robot, moment, other, name).moved(at[name]) for name in at)
     smaller = min(touches.volume, theirs.volume)
     if not smaller:
         return None
-    share = touches.shared(theirs) / smaller
-    seen = _seen(robot, link)
-    shown = _union(_seen(robot, name).moved(at[name]) for name in at)
-    if share > SHARE and shown_box is not None:
+
+    def share() -> float:  # the same for both of two bodies of a link each
+        key = ("share", frozenset((link, *at)))
+        return moment.once(key, lambda: touches.shared(theirs)) / smaller
+
+    seen = _seen(robot, moment, link)
+    shown = _union(_seen(robot, moment, name).moved(at[name]) for name in at)
+    if shown_box is not None:
         off = (shown_box[0] + shown_box[1] - box[0] - box[1]) / 2
-        more = _fits_better(touches, box, off, seen, theirs)
-        if more > FIT and (
-            _is_nearer_mass(part, box, off)
-            or touches.shared(seen | shown) < (1 - FREE) * touches.volume
-        ):
-            return (
-                f"moved by {np.linalg.norm(off):.3g} m, onto the middle of what is seen of it, "
-                f"{more:.0%} more of the collision of '{link}' would be in that"
-            )
+        if _may_fit_better(touches, box, off) and share() > SHARE:
+            more = _fits_better(touches, off, seen, theirs)
+            if more > FIT and (
+                _is_nearer_mass(part, box, off)
+                or touches.shared(seen | shown) < (1 - FREE) * touches.volume
+            ):
+                return (
+                    f"moved by {np.linalg.norm(off):.3g} m, onto the middle of what is seen of it, "
+                    f"{more:.0%} more of the collision of '{link}' would be in that"
+                )
     if around:
         return None
-    if share > SHARE and is_beside(robot, link):
+    if is_beside(robot, link) and share() > SHARE:
         what = "what is seen of it" if shown_box is not None else "its mass"
         return f"the collision of '{link}' lies beside {what}"
     low, high = box
@@ -105,21 +109,27 @@ def strayed(robot: Robot, moment: Moment, link: str, other: int) -> str | None:
         if away > float((high - low).max()):
             return f"the collision of '{link}' is {away:.3g} m away from its own frame"
         return None
-    if not seen or share <= GAIN:
+    if not seen:
         return None
-    gain = share - seen.shared(theirs) / smaller
+    unlike = moment.once(("unlike", link), lambda: _are_unlike(touches, seen))
+    if not (unlike or is_off_mass(robot, link)) or share() <= GAIN:
+        return None
+    gain = share() - seen.shared(theirs) / smaller
     if gain > GAIN:
-        gain = min(gain, share - seen.shared(shown) / smaller)
+        gain = min(gain, share() - seen.shared(shown) / smaller)
     if gain <= GAIN:
         return None
-    if touches.shared(seen) < UNLIKE * min(touches.volume, seen.volume):
+    if unlike:
         return (
             f"the collision of '{link}' is moved from what is seen of it, and {gain:.0%} more of "
             "the two is in each other"
         )
-    if is_off_mass(robot, link):
-        return f"the collision of '{link}' lies beside its mass"
-    return None
+    return f"the collision of '{link}' lies beside its mass"
+
+
+def _are_unlike(touches: Solids, seen: Solids) -> bool:
+    """Whether less is in both than would be, if one were the other."""
+    return touches.shared(seen) < UNLIKE * min(touches.volume, seen.volume)
 
 
 def _copy_moved(box: tuple[Array, Array], shown: tuple[Array, Array]) -> float:
@@ -133,22 +143,22 @@ def _copy_moved(box: tuple[Array, Array], shown: tuple[Array, Array]) -> float:
     return float(np.linalg.norm(off)) if far.any() else 0.0
 
 
-def _fits_better(
-    touches: Solids, box: tuple[Array, Array], off: Array, seen: Solids, theirs: Solids
-) -> float:
+def _may_fit_better(touches: Solids, box: tuple[Array, Array], off: Array) -> bool:
+    """Whether a collision can get so much further into its visual at all, when it is moved."""
+    size = box[1] - box[0]
+    swept = float(np.abs(off) @ (np.prod(size) / np.maximum(size, 1e-12)))
+    return swept > FIT * touches.volume
+
+
+def _fits_better(touches: Solids, off: Array, seen: Solids, theirs: Solids) -> float:
     """How much more of a collision is in its visual when it is moved, as a part of it.
 
     Args:
         touches: The collision.
-        box: Around it.
         off: How it is moved [m].
         seen: The visual.
         theirs: What touches of the neighbour, of which it may share no more when it is moved.
     """
-    size = box[1] - box[0]
-    swept = float(np.abs(off) @ (np.prod(size) / np.maximum(size, 1e-12)))
-    if swept <= FIT * touches.volume:  # it cannot get so much further in
-        return 0.0
     moved = touches.moved(Pose(translation=(float(off[0]), float(off[1]), float(off[2]))))
     more = (moved.shared(seen) - touches.shared(seen)) / touches.volume
     if more <= FIT or moved.shared(theirs) > (1 + ROUGH) * touches.shared(theirs):
@@ -201,14 +211,17 @@ def _union(some: Iterable[Solids]) -> Solids:
     return Solids(part for solids in found for part in solids.parts)
 
 
-def _touching(robot: Robot, body: Body, link: str) -> Solids:
+def _touching(robot: Robot, moment: Moment, body: int, link: str) -> Solids:
     """The convex pieces of a link that touch, as engines have them, in its frame."""
-    shapes = [shape for shape in body.shapes if shape.link == link]
-    collisions = robot.link[link].collisions
-    return _union(
-        _solids(robot, shape, collision).moved(pose_of(collision.origin))
-        for shape, collision in zip(shapes, collisions, strict=True)
-    )
+
+    def make() -> Solids:
+        shapes = [shape for shape in moment.bodies.bodies[body].shapes if shape.link == link]
+        return _union(
+            _solids(robot, shape, collision).moved(pose_of(collision.origin))
+            for shape, collision in zip(shapes, robot.link[link].collisions, strict=True)
+        )
+
+    return moment.once(("touching", link), make)
 
 
 def _solids(robot: Robot, shape: Shape, collision: Collision) -> Solids:
@@ -221,9 +234,11 @@ def _solids(robot: Robot, shape: Shape, collision: Collision) -> Solids:
     return hulls([primitive_triangles(collision).reshape(-1, 3)])
 
 
-def _seen(robot: Robot, link: str) -> Solids:
+def _seen(robot: Robot, moment: Moment, link: str) -> Solids:
     """The hulls of what is seen of a link, in its frame."""
-    return _union(_look(robot, look) for look in looks_of(robot.link[link]))
+    return moment.once(
+        ("seen", link), lambda: _union(_look(robot, look) for look in looks_of(robot.link[link]))
+    )
 
 
 def _look(robot: Robot, look: Visual) -> Solids:
