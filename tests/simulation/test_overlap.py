@@ -8,9 +8,18 @@ import numpy as np
 import pytest
 
 from tests.conftest import FIXTURES
+from urdftool.model.elements import Box, Collision, Sphere
 from urdftool.model.load import load
+from urdftool.model.pose import Pose
 from urdftool.simulation.moment import Moment
-from urdftool.simulation.overlap import _distinct, _nearest_squared, overlap
+from urdftool.simulation.overlap import (
+    Surface,
+    _distinct,
+    _inside,
+    _nearest_squared,
+    overlap,
+    primitive_triangles,
+)
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
 
@@ -65,6 +74,18 @@ def test_cubes_apart(depth):
 def test_what_is_deep_enough_is_found_as_deep(depth, least):
     place = "0.8 0.8 0.8", "0 0 0.3"
     assert depth(*place, least) == depth(*place) > least
+
+
+@pytest.mark.parametrize("shift", [(0.5, 0.1, 0.2), (0.3, -0.4, 0.5)])
+def test_it_is_the_deepest_of_all_points_that_are_inside(shift):
+    """A fine ball in a box, whose inside needs no winding numbers."""
+    ball = primitive_triangles(Collision(None, None, None, Sphere(None, 0.5)))
+    box = primitive_triangles(Collision(None, None, None, Box(None, (1.0, 1.0, 1.0))))
+    one, other = Surface(ball), Surface(box)
+    points = one.points + shift
+    points = points[(np.abs(points) < 0.5).all(axis=1)]
+    wanted = math.sqrt(_nearest_squared(points, other.points).max())
+    assert _inside(one, other, Pose(translation=shift), 0.0) == pytest.approx(wanted)
 
 
 def test_what_is_not_deep_enough_is_nothing(depth):
