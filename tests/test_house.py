@@ -65,7 +65,6 @@ DOORS = {
         *("meshes/", "drawing/", "viewer/", "inertia/", "formats/", "collision/", "simulation/"),
     ),
     "coacd": ("collision/coacd_child.py",),
-    "meshoptimizer": ("collision/quadric.py",),
     "distributed": ("collision/cluster.py",),
     "mujoco": ("formats/mjcf/", "simulation/mj.py"),
     "PIL": ("drawing/", "viewer/glb.py", "formats/mjcf/texture.py"),

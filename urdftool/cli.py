@@ -17,17 +17,16 @@ from typing import Any
 import click
 
 from . import __version__
+from .commands.general_options import accept_general_options, general_options
 from .console import Console
 from .errors import UrdftoolError
+from .extras import missing, missing_library
 from .terminal import guard, open_streams
 
 COMMANDS = (
     *("expand", "lint", "inertia", "collision", "graph", "info", "diff", "view", "simulate"),
     "export",
 )
-
-EVERYWHERE = ("--debug", "--trust", "-q", "--quiet", "-v", "--verbose")
-"""Options of urdftool itself that may stand anywhere on the line."""
 
 REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"
 
@@ -55,8 +54,7 @@ class Commands(click.Group):
         if cmd_name not in COMMANDS:
             return None
         module = import_module(f".commands.{cmd_name}", __package__)
-        command: click.Command = module.command
-        return command
+        return accept_general_options(module.command)
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -73,45 +71,47 @@ class Commands(click.Group):
 
 @click.command(
     cls=Commands,
+    invoke_without_command=True,
+    no_args_is_help=True,
+    subcommand_metavar="COMMAND [ARGS]...",
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     epilog="'urdftool COMMAND --help' tells of each command.",
 )
-@click.version_option(__version__, message="urdftool %(version)s")
+@click.option(
+    "--version",
+    is_flag=True,
+    help="Print the version; with -v also Python, libraries and installed extras.",
+)
 @click.option(
     "--color",
     type=click.Choice(["auto", "always", "never"]),
     default="auto",
     help="Colours: at a terminal (the default), always or never. NO_COLOR and FORCE_COLOR count.",
 )
-@click.option("-q", "--quiet", is_flag=True, help="No progress, no summaries, no warnings.")
-@click.option("-v", "--verbose", count=True, help="Say more of what is done.")
 @click.option(
     "--config",
     metavar="FILE",
     help="The configuration, instead of the nearest pyproject.toml or urdftool.toml.",
 )
-@click.option(
-    "--trust",
-    is_flag=True,
-    help="Let xacro see the environment, and files outside packages and the project.",
-)
-@click.option("--debug", is_flag=True, help="Show the traceback of an error.")
 @click.pass_context
 def main(
     ctx: click.Context,
+    version: bool,
     color: str,
-    quiet: bool,
-    verbose: int,
     config: str | None,
-    trust: bool,
-    debug: bool,
 ) -> None:
     """Work with robot descriptions: URDF and xacro, without ROS."""
-    if trust:
-        from .source.reach import trust_descriptions
+    console = ctx.ensure_object(Console)
+    console.color, console.config = color, config
+    if version:
+        from .commands.version import print_version
 
-        trust_descriptions()
-    ctx.obj = Console(color=color, verbosity=-1 if quiet else verbose, config=config, debug=debug)
+        print_version(console)
+    elif ctx.invoked_subcommand is None:
+        ctx.fail("Missing command.")
+
+
+main.params[2:2] = general_options(hidden=False)
 
 
 def run(arguments: list[str] | None = None) -> None:
@@ -130,10 +130,12 @@ def run(arguments: list[str] | None = None) -> None:
         sys.stdout.flush()
     except OSError:
         code = _closed_pipe()
+    try:
+        sys.stderr.flush()
+    except OSError:  # Python would fail to flush it again at exit, and change the exit code
+        _discard(sys.stderr.fileno())
     gc.freeze()  # the process ends: nobody needs its memory back
     if _is_at_work():
-        with suppress(OSError):
-            sys.stderr.flush()
         os._exit(code)
     sys.exit(code)
 
@@ -153,19 +155,18 @@ def call(arguments: list[str] | None = None) -> int:
         arguments: What follows the program's name; those of the process if None.
     """
     words = sys.argv[1:] if arguments is None else arguments
-    debug = "--debug" in words
-    general = [word for word in words if word in EVERYWHERE]
-    words = [*general, *(word for word in words if word not in EVERYWHERE)]
     if "_URDFTOOL_COMPLETE" in os.environ:  # a shell asks what could follow
         from .commands.completion import prepare
 
         prepare()
     console = Console()
     try:
-        result: Any = main.main(words, prog_name="urdftool", standalone_mode=False)
+        result: Any = main.main(
+            list(words), prog_name="urdftool", standalone_mode=False, obj=console
+        )
         return result if isinstance(result, int) else 0
     except UrdftoolError as error:
-        if debug:
+        if console.debug:
             raise
         console.error(error)
         return 2
@@ -180,12 +181,12 @@ def call(arguments: list[str] | None = None) -> int:
     except ClosedPipe:
         return _closed_pipe()
     except MemoryError:
-        if debug:
+        if console.debug:
             raise
         console.say("there is not enough memory for this")
         return 2
     except OSError as error:
-        if debug:
+        if console.debug:
             raise
         where = f"{error.filename}: " if error.filename else ""
         console.say(f"{where}{error.strerror or error}")
@@ -194,8 +195,12 @@ def call(arguments: list[str] | None = None) -> int:
         if isinstance(error.__cause__, KeyboardInterrupt):  # in the midst of an import
             console.say("stopped")
             return 130
-        if debug:
+        if console.debug:
             raise
+        library = missing_library(error)
+        if library is not None:
+            console.error(missing(library, f"'urdftool {' '.join(_command_of(words))}'"))
+            return 2
         console.say(
             f"this is a bug in urdftool {__version__}, not in your robot: "
             f"{type(error).__name__}: {error}\n"
@@ -205,8 +210,18 @@ def call(arguments: list[str] | None = None) -> int:
         return 3
 
 
+def _command_of(words: list[str]) -> list[str]:
+    """Find the name of the command in the words of the command line."""
+    named = [word for word in words if word in COMMANDS]
+    return named[:1]
+
+
 def _usage(error: click.ClickException) -> None:
     """A wrong call in two lines: what is wrong, and where to read on."""
+    if isinstance(error, click.exceptions.NoArgsIsHelpError):
+        with suppress(OSError):
+            click.echo(error.format_message(), err=True)
+        return
     context = getattr(error, "ctx", None)
     command = context.command_path if context is not None else "urdftool"
     message = error.format_message().rstrip(".")
@@ -216,7 +231,12 @@ def _usage(error: click.ClickException) -> None:
 
 def _closed_pipe() -> int:
     """Whoever read the output went away. Say so, and keep Python from saying it again."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    _discard(sys.stdout.fileno())
     with suppress(OSError):
         click.echo("urdftool: standard output was closed before all was written", err=True)
     return 2
+
+
+def _discard(stream: int) -> None:
+    """Send what is still written to a stream nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream)

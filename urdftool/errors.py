@@ -114,4 +114,21 @@ class AddressError(UrdftoolError):
 
 
 class MissingDependency(UrdftoolError):  # noqa: N818
-    """A library that this command needs is not installed."""
+    """A library or program that this command requires is not installed.
+
+    Attributes:
+        library: The optional library, by the name of its import; empty for a program.
+    """
+
+    def __init__(self, message: str, *, library: str = "") -> None:
+        """Keep the message and the library."""
+        super().__init__(message)
+        self.library = library
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Make a copy in another process."""
+        return _make_missing, (self.message, self.library)
+
+
+def _make_missing(message: str, library: str) -> MissingDependency:
+    return MissingDependency(message, library=library)

@@ -15,8 +15,8 @@ from statistics import median
 import fast_simplification
 import numpy as np
 
+from urdftool.collision.decimate import decimate
 from urdftool.collision.distance import Surface, spread
-from urdftool.collision.quadric import simplify
 from urdftool.collision.surface import read_surface
 from urdftool.errors import UrdftoolError
 from urdftool.meshes.solid import edges_of
@@ -61,7 +61,7 @@ def main(words: list[str]) -> None:
         )
         faces = np.asarray(faces, dtype=np.int64)
         points = np.asarray(points, dtype=np.float64)
-        fewer, triangles = simplify(surface.vertices, surface.faces, len(faces))
+        fewer, triangles = decimate(surface.vertices, surface.faces, len(faces))
         assert len(triangles) <= len(faces)
         ours, theirs = (
             apart(surface.corners, v[f], surface.size)

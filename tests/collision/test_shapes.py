@@ -6,10 +6,10 @@ import pytest
 from tests.collision.shapes import SIZES, finer, l_profile, noisy, turned
 from urdftool.collision.choose import choose
 from urdftool.collision.convex import capped_hull, planes, signed_distance
+from urdftool.collision.decimate import decimate
 from urdftool.collision.distance import to_triangles
 from urdftool.collision.measure import Target, measure
 from urdftool.collision.piece import mesh_piece
-from urdftool.collision.quadric import simplify
 from urdftool.collision.settings import Settings
 from urdftool.collision.surface import prepare
 from urdftool.collision.tessellate import primitive
@@ -108,7 +108,7 @@ def test_a_capped_hull_keeps_to_its_vertices_and_to_its_tolerance():
 
 def test_simplified_stays_closed():
     vertices, faces = noisy("sphere", (0.1,), noise=0.0005)
-    fewer, triangles = simplify(vertices, faces, 200)
+    fewer, triangles = decimate(vertices, faces, 200)
     assert len(triangles) <= 200
     assert edges_of(triangles).cycle
     error = measure(Target(prepare(vertices, faces)), [mesh_piece(fewer, triangles, convex=False)])

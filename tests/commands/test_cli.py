@@ -51,7 +51,7 @@ def test_no_command_shows_the_help(urdftool):
 
 
 def test_a_bug_is_a_message_and_exit_code_3(urdftool, monkeypatch):
-    monkeypatch.setattr(cli.main, "main", lambda *_, **__: 1 / 0)
+    monkeypatch.setattr(cli.main, "callback", lambda **_: 1 / 0)
     result = urdftool("lint", "x")
     assert result.code == 3
     assert "bug in urdftool" in result.err
@@ -171,6 +171,43 @@ def test_options_of_urdftool_may_stand_anywhere(urdftool, write, where):
     write("r.urdf", "<robot/>")
     assert urdftool("lint", "r.urdf").err != ""
     assert urdftool(*where).err == ""
+
+
+def test_what_follows_two_dashes_is_not_an_option(urdftool, write):
+    write("-q", '<robot name="r"><link name="a"/></robot>')
+    result = urdftool("info", "--", "-q")
+    assert (result.code, result.err) == (0, "")
+    assert "r" in result.out
+    assert urdftool("info", "--", "--debug").err == "--debug: no such file\n"
+
+
+def test_the_value_of_another_option_is_not_an_option(urdftool, write):
+    path = write("r.urdf", '<robot name="r"><link name="a"/></robot>')
+    result = urdftool("expand", path, "-o", "-v")
+    assert result.code == 0
+    assert Path("-v").exists()
+
+
+@pytest.mark.parametrize("line", ["inertia box -q --mass 1 --size 1 1 1", "inertia -q sphere"])
+def test_commands_below_a_command_accept_them_too(urdftool, line):
+    words = [*line.split(), "--mass", "1", "--radius", "1"] if "sphere" in line else line.split()
+    result = urdftool(*words)
+    assert (result.code, result.err) == (0, "")
+
+
+def test_the_version_with_v_is_what_a_bug_report_needs(urdftool):
+    for words in (("--version", "-v"), ("-v", "--version")):
+        lines = urdftool(*words).out.splitlines()
+        assert lines[0] == f"urdftool {__version__}"
+        assert lines[1].startswith("Python 3.")
+        for name in ("core: click ", "[mesh]: scipy ", "[draw]: ", "[simulate]: ", "[mujoco]: "):
+            assert any(line.startswith(name) for line in lines), name
+
+
+def test_no_command_is_not_an_error_message(urdftool):
+    result = urdftool()
+    assert result.code == 2
+    assert result.err.startswith("Usage: urdftool")
 
 
 def test_an_interrupted_import_is_no_bug(urdftool, monkeypatch):

@@ -23,7 +23,7 @@ from .robots import candidates
 from .table import table, write
 
 LIBRARIES = ("numpy", "scipy.spatial", "trimesh", "collada", "lxml.etree", "rich.table", "xacro")
-LIBRARIES += ("coacd", "meshoptimizer", "mujoco", "PIL.Image")
+LIBRARIES += ("coacd", "mujoco", "PIL.Image")
 MODULES = ("expand", "lint", "inertia_robot", "graph", "info", "diff", "export_sdf")
 MODULES += ("export_mjcf", "collision_robot", "simulate_one", "view_picture")
 MODULES += ("collision_mesh", "inertia_mesh", "simulate_fleet")

@@ -50,6 +50,7 @@ def simplify_collisions(
     Raises:
         ConfigError: A link or setting is not known.
         MeshError: A mesh cannot be read or simplified; nothing was written.
+        MissingDependency: A library of the extra 'mesh' is not installed.
         OutputError: A file cannot be written; what was there is as it was.
     """
     from ..collision.cache import Cache, default_folder
@@ -58,7 +59,9 @@ def simplify_collisions(
     from ..collision.robot import Place, check_place, tasks_of, write_robot
     from ..collision.settings import Settings
     from ..errors import ModelError, UrdftoolError
+    from ..extras import require
 
+    require("simplify_collisions", "scipy", "manifold3d")
     if robot.source is None:
         raise ModelError("the robot was not read from a description; use urdftool.load")
     wishes = Wishes(

@@ -30,6 +30,7 @@ def simulate(
         MeshError: A mesh that collides cannot be read.
     """
     from ..errors import ConfigError
+    from ..extras import require
     from ..simulation.engines import ENGINES, check_engines, default_engine
     from ..simulation.judge_inside import look_inside
     from ..simulation.run import simulate as run
@@ -40,6 +41,7 @@ def simulate(
     if engine not in ("pybullet", "mujoco"):
         raise ConfigError(f"there is no engine '{engine}'; there are pybullet and mujoco")
     check_engines(ENGINES[engine])
+    require("simulate", "scipy", "manifold3d")
     (module,) = ENGINES[engine]
     runs = run(robot, settings or Settings(), engine=module, look=look_inside)
     return [judge(robot, one) for one in runs]

@@ -3,7 +3,7 @@
 One module an idea, each imported on its own (this package loads nothing by itself):
 
 - ``settings``, ``piece``: what is wanted, and what comes of it;
-- ``surface``, ``convex``, ``primitives``, ``quadric``, ``decompose``: a mesh made ready, and the
+- ``surface``, ``convex``, ``primitives``, ``decimate``, ``decompose``: a mesh made ready, and the
   ways to simplify it;
 - ``distance``, ``touchable``, ``measure``: how far two surfaces are apart;
 - ``choose``, ``compute``: the cheapest that is good enough, for one mesh;

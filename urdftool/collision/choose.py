@@ -16,12 +16,12 @@ from ..errors import MeshError
 from ..meshes.solid import body_labels, edges_of
 from .convex import capped_hull, thickened
 from .cut import Cutter
+from .decimate import decimate
 from .decompose import DecompositionError
 from .hollow import Hollow, filled_hollow
 from .measure import Measures, Target, hull_error, measure
 from .piece import PRIMITIVES, Piece, mesh_piece
 from .primitives import fit_primitives, signed_distance
-from .quadric import simplify
 from .settings import FEW_HULLS, Settings
 from .surface import Prepared, flat_labels
 
@@ -259,7 +259,7 @@ def _coacd(target: Target, settings: Settings, notes: list[str]) -> Iterator[Cho
 def _simplified(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
     """Fewer triangles."""
     surface = target.surface
-    vertices, faces = simplify(surface.vertices, surface.faces, settings.max_triangles)
+    vertices, faces = decimate(surface.vertices, surface.faces, settings.max_triangles)
     pieces = [mesh_piece(vertices, faces, convex=False)]
     felt = hull_error(target, pieces[0])
     if felt > settings.max_error:

@@ -9,7 +9,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..errors import MissingDependency, UrdftoolError
+from ..errors import UrdftoolError
+from ..extras import missing
 from .compute import Task, attempt
 
 
@@ -23,9 +24,7 @@ def on_cluster(tasks: Sequence[Task], address: str) -> Iterator[tuple[int, bytes
     try:
         import distributed
     except ImportError as error:
-        raise MissingDependency(
-            "distributed is not installed; pip install 'urdftool[dask]'"
-        ) from error
+        raise missing("distributed", "--dask") from error
     try:
         library: Any = distributed
         client: Any = library.Client(address, timeout=10)

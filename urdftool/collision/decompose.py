@@ -19,13 +19,14 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import MeshError, MissingDependency, UrdftoolError
+from ..errors import MeshError, UrdftoolError
+from ..extras import missing
 from ..meshes.mesh import Faces, Points
 from ..meshes.solid import body_labels, edges_of
 from .convex import capped_hull
+from .decimate import decimate
 from .measure import Target
 from .piece import Piece, mesh_piece
-from .quadric import simplify
 from .remesh import common, remesh
 from .settings import KILLED
 from .surface import Prepared, prepare
@@ -76,7 +77,7 @@ def solid_of(target: Target) -> Prepared:
     vertices, faces = surface.vertices, surface.faces
     if not _is_one_body(surface):
         vertices, faces = remesh(target.layer)
-    return prepare(*simplify(vertices, faces, TRIANGLES)) or surface
+    return prepare(*decimate(vertices, faces, TRIANGLES)) or surface
 
 
 def decompose(
@@ -157,7 +158,7 @@ def divided(
     part = common(solid.corners, piece.vertices, piece.faces)
     if part is None:
         return []
-    made = prepare(*simplify(*part, PART_TRIANGLES))
+    made = prepare(*decimate(*part, PART_TRIANGLES))
     if made is None:
         return []
     longest = float(np.ptp(made.vertices, axis=0).max())
@@ -243,7 +244,7 @@ def _death(code: int, err: str, *, in_time: bool) -> UrdftoolError:
     lines = [line for line in err.strip().splitlines() if line.strip()]
     last = lines[-1].strip() if lines else ""
     if "No module named 'coacd'" in last:
-        return MissingDependency("coacd is not installed; pip install 'urdftool[collision]'")
+        return missing("coacd", "convex decomposition")
     how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
     if "Assertion" in err:
         last = "an assertion of its own failed"

@@ -8,7 +8,8 @@ from typing import Any
 import click
 
 from ..console import Console
-from .collision_options import one_thread_each, settings_options
+from .collision_options import one_thread_each, require_libraries, settings_options
+from .general_options import accept_general_options
 from .options import gltf_option, package_options, split_arguments
 from .picture_file import checked_picture
 
@@ -27,7 +28,9 @@ class _OrMesh(click.Command):
         if args and args[0] == "mesh":
             from .collision_mesh import command as mesh
 
-            return mesh.make_context(f"{info_name} mesh", args[1:], parent=parent, **extra)
+            return accept_general_options(mesh).make_context(
+                f"{info_name} mesh", args[1:], parent=parent, **extra
+            )
         return super().make_context(info_name, args, parent=parent, **extra)
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
@@ -100,6 +103,7 @@ def command(ctx: click.Context, /, words: tuple[str, ...], **values: Any) -> int
     if check and values["scheduler"]:
         raise click.UsageError("--check measures here; --scheduler is for making collisions")
     checked_picture(values["picture"])
+    require_libraries(values["method"], check=check)
     one_thread_each()
     from . import collision_robot as robots
 

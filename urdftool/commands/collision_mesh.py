@@ -12,6 +12,7 @@ from ..output import check_targets
 from .collision_options import (
     cache_of,
     one_thread_each,
+    require_libraries,
     settings_of,
     settings_options,
 )
@@ -58,6 +59,7 @@ def command(
     check_targets([output, values["picture"]], inputs=[file])
     if output is not None and not output.lower().endswith(SUFFIXES):
         raise click.UsageError(f"OUT wants to end in .stl or .obj; '{output}' does not")
+    require_libraries(values["method"])
     one_thread_each()
     from ..collision.cache import key_of
     from ..collision.compute import Task, attempt, result_of

@@ -140,6 +140,19 @@ def cache_of(values: dict[str, Any]) -> Cache:
     return Cache(cache_place("collision", values["cache_dir"], values["no_cache"]))
 
 
+def require_libraries(method: str, *, check: bool = False) -> None:
+    """Check that the libraries of a method are installed, before anything is read.
+
+    Raises:
+        MissingDependency: One of them is not.
+    """
+    from ..extras import require
+
+    decomposes = method in ("auto", "coacd") and not check
+    libraries = ("scipy", "manifold3d", *(("coacd",) if decomposes else ()))
+    require("'urdftool collision'", *libraries)
+
+
 def one_thread_each() -> None:
     """Keep the numerical libraries from starting threads of their own beside our processes."""
     for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):

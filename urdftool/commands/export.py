@@ -6,6 +6,8 @@ from importlib import import_module
 
 import click
 
+from .general_options import accept_general_options
+
 FORMATS = ("sdf", "mjcf")
 
 
@@ -20,8 +22,7 @@ class Formats(click.Group):
         """One of them; None for another name."""
         if cmd_name not in FORMATS:
             return None
-        command: click.Command = import_module(f".export_{cmd_name}", __package__).command
-        return command
+        return accept_general_options(import_module(f".export_{cmd_name}", __package__).command)
 
 
 @click.command("export", cls=Formats)

@@ -61,9 +61,13 @@ def command(
     """  # noqa: D301 -- click reads the escape
     suffix = _suffix(output)
     if suffix in (None, "", *PICTURES):
+        from ..extras import is_installed, require
         from ..graph.draw import Artist
 
-        artist: AbstractContextManager[Artist | None] = Artist()
+        if suffix in PICTURES:
+            require(f"a graph as {suffix}", "pygraphviz")
+        can_draw = is_installed("pygraphviz")
+        artist: AbstractContextManager[Artist | None] = Artist() if can_draw else nullcontext()
     else:
         artist = nullcontext()
     with artist as pencil:

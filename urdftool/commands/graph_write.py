@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
+from ..extras import missing
 from ..output import check_targets, write_file, write_result
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ def write_pair(
     console: Console,
     model: Robot,
     figure: Figure,
-    path: str,
+    source: str,
     output: str | None,
     artist: Artist | None,
 ) -> None:
@@ -33,23 +34,29 @@ def write_pair(
         console: Where it is said.
         model: The robot.
         figure: How it is drawn.
-        path: The description as it was named; a nameless robot's files are called as it is.
+        source: The description as it was named; a nameless robot's files are called as it is.
         output: NAME where the user chose it; otherwise the robot's.
-        artist: Who draws.
+        artist: Who draws; None where pygraphviz is not installed, which leaves NAME.gv.
+
+    Raises:
+        MissingDependency: pygraphviz is not installed; NAME.gv is written.
     """
     from ..graph.dot import to_dot
     from ..graph.words import file_name
 
-    stem = "robot" if path == "-" else Path(path).name.partition(".")[0] or "robot"
+    stem = "robot" if source == "-" else Path(source).name.partition(".")[0] or "robot"
     name = output or file_name(model.name, stem)
     text = to_dot(figure)
-    assert artist is not None
-    picture = artist.draw(text, "pdf")
-    check_targets((f"{name}.gv", f"{name}.pdf"), inputs=_read(model))
-    for suffix, data in ((".gv", text.encode("utf-8")), (".pdf", picture)):
-        _put(data, f"{name}{suffix}", model)
+    files = {f"{name}.gv": text.encode("utf-8")}
+    if artist is not None:
+        files[f"{name}.pdf"] = artist.draw(text, "pdf")
+    check_targets(tuple(files), inputs=_read(model))
+    for path, data in files.items():
+        _put(data, path, model)
         if not console.quiet:
-            click.echo(f"Created file {name}{suffix}")
+            click.echo(f"Created file {path}")
+    if artist is None:
+        raise missing("pygraphviz", f"{name}.pdf")
 
 
 def write_one(

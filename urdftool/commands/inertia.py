@@ -8,6 +8,7 @@ import click
 
 from ..console import Console
 from ..inertia.shapes import SHAPES, find_shape
+from .general_options import accept_general_options
 
 OTHERS = ("mesh", "robot", "macros")
 
@@ -23,14 +24,13 @@ class Kinds(click.Group):
         """One of them; None for another name."""
         if cmd_name in OTHERS:
             module = import_module(f".inertia_{cmd_name}", __package__)
-            command: click.Command = module.command
-            return command
+            return accept_general_options(module.command)
         shape = find_shape(cmd_name)
         if shape is None:
             return None
         from .inertia_shape import shape_command
 
-        return shape_command(shape)
+        return accept_general_options(shape_command(shape))
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

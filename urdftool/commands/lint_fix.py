@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from ..console import Console
+from ..extras import missing
 
 if TYPE_CHECKING:
     from ..lint.fix_run import Mended
@@ -150,6 +151,9 @@ def _say_what_is_left(console: Console, reports: Sequence[Report], *, unsafe: bo
     for where, count in outside.items():
         what = "1 fix is" if count == 1 else f"{count} fixes are"
         console.note(f"{what} not made in {where}")
+    skipped = {rule: name for report in reports for rule, name in report.skipped_fixes.items()}
+    for rule, library in skipped.items():
+        console.note(str(missing(library, f"not fixed: the fix of {rule}")))
     left = {
         (f.rule, f.place.path, f.place.start)
         for report in reports

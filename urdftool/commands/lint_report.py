@@ -50,6 +50,7 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, want
     from ..output import check_targets, write_result
     from ..report.findings import summary
     from ..report.findings_formats import as_text
+    from ..report.findings_words import skipped_rules
 
     outcome = gather(reports)
     check_targets((wanted.output_file, wanted.write_baseline), inputs=_inputs(outcome))
@@ -71,6 +72,8 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, want
     broken = _say_the_rest(console, outcome.reports)
     if any(report.checked for report in outcome.reports):
         console.note(summary(outcome))
+        for line in skipped_rules(outcome):
+            console.note(line)
     if broken:
         return broken
     worst = max((f.severity for f in outcome.findings), default=None)

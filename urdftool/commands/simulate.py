@@ -50,6 +50,7 @@ def command(
     Exit 0 if it stands, 1 if it does not, 2 if it could not be tried; of a --fleet 2 if one could
     not be tried, else 1 if one does not stand.
     """  # noqa: D301 -- click reads the escape
+    from ..extras import require
     from ..simulation.child import Child
     from ..simulation.engines import ENGINES, LIBRARIES, check_engines, default_engine
     from ..simulation.kept import keeping_in
@@ -69,6 +70,7 @@ def command(
     if junit is not None:
         check_output("--junit", junit, "")
     check_engines(engines)
+    require("'urdftool simulate'", "scipy", "manifold3d")
     settings = settings_of(values)
     cache = cache_place("simulate", values["cache_dir"], values["no_cache"])
     paths, arguments = robot

@@ -20,6 +20,7 @@ from contextlib import contextmanager, suppress
 from typing import NoReturn
 
 from ..errors import MissingDependency, UrdftoolError
+from ..extras import missing
 
 FORMATS = ("pdf", "svg", "png")
 MAX_SECONDS = 45.0
@@ -170,11 +171,14 @@ def _draw_here(text: str, format: str) -> bytes:
     with _stderr_kept():
         try:
             from pygraphviz import AGraph
-        except ImportError as error:
+        except ModuleNotFoundError:
             raise MissingDependency(
-                f"a picture needs pygraphviz ({error}); pip install pygraphviz, "
-                "or write .gv, .mmd or .json, which need nothing"
+                f"{missing('pygraphviz', f'a graph as .{format}')}; .gv, .mmd, .json and the tree "
+                "at the terminal (-o -) require nothing",
+                library="pygraphviz",
             ) from None
+        except ImportError as error:
+            raise DrawError(f"pygraphviz cannot be loaded on this machine: {error}") from None
         try:
             data = AGraph(string=_labelled(text)).draw(format=format, prog="dot")
         except (ValueError, OSError) as error:

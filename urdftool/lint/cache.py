@@ -19,6 +19,7 @@ from typing import Any
 
 from .. import __version__
 from ..configuration import Configuration
+from ..extras import EXTRA_OF, is_installed
 from ..inputs import ABSENT, Asked, Question, Stamp, answer, is_settled, stamp_of, together
 from ..source.location import SourceFile
 from ..store import Store
@@ -62,6 +63,7 @@ class Cache:
             *(_folders(options.packages), [str(path) for path in options.package_paths]),
             *(configuration.path, _folders(configuration.packages), _plain(settings)),
             options.fixes,
+            [library for library in EXTRA_OF if is_installed(library)],
             options.gltf_up or configuration.gltf_up,
         ]
         return sha256(repr(facts).encode("utf-8", "surrogateescape")).hexdigest()

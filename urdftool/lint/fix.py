@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from importlib import import_module
 from typing import Any, NamedTuple
 
+from ..extras import missing_library
 from ..finding import Finding, Fix, Replacement
 from ..model.elements import Robot
 from ..rules.fix_table import FIX_FILE, FIXABLE
@@ -76,6 +77,10 @@ def add_fixes(
             report.unmended.append((group[0], str(error)))
             continue
         except Exception as error:
+            library = missing_library(error)
+            if library is not None:
+                report.skipped_fixes[name] = library
+                continue
             report.failed_rules[name] = f"its fix: {type(error).__name__}: {error}"
             continue
         if replacements or remakes:

@@ -58,6 +58,8 @@ class Report:
         skipped: Why it was not checked; empty if it was.
         error: What kept it from being read.
         failed_rules: Rules that broke, which is a bug of ours, with what they raised.
+        skipped_rules: Rules that require an optional library that is not installed, with its name.
+        skipped_fixes: Rules whose fix requires an optional library that is not installed.
         unmended: Findings whose fix cannot be made in the source, with the reason.
     """
 
@@ -69,6 +71,8 @@ class Report:
     skipped: str = ""
     error: UrdftoolError | None = None
     failed_rules: dict[str, str] = field(default_factory=dict)
+    skipped_rules: dict[str, str] = field(default_factory=dict)
+    skipped_fixes: dict[str, str] = field(default_factory=dict)
     unmended: list[tuple[Finding, str]] = field(default_factory=list)
 
     @property
@@ -97,6 +101,15 @@ class Outcome:
     findings: list[Finding]
     ignored: list[tuple[Finding, str]] = field(default_factory=list)
     known: list[Finding] = field(default_factory=list)
+
+    @property
+    def skipped_rules(self) -> dict[str, str]:
+        """Rules that require an optional library that is not installed, with its name."""
+        return {
+            rule: library
+            for report in self.reports
+            for rule, library in sorted(report.skipped_rules.items())
+        }
 
     @property
     def complete(self) -> bool:

@@ -9,6 +9,7 @@ from typing import Any
 
 from ..configuration import Configuration, find_configuration
 from ..errors import ConfigError, SourceError, UrdftoolError
+from ..extras import missing_library
 from ..finding import Finding, Severity
 from ..inputs import listen
 from ..model.elements import Robot
@@ -331,7 +332,11 @@ def _problems(
         arguments = [subjects[name] for name in rule.needs]
         found.extend(rule.check(*arguments, **settings.thresholds.get(rule.name, {})))
     except Exception as error:
-        report.failed_rules[rule.name] = f"{type(error).__name__}: {error}"
+        library = missing_library(error)
+        if library is None:
+            report.failed_rules[rule.name] = f"{type(error).__name__}: {error}"
+        else:
+            report.skipped_rules[rule.name] = library
     return found
 
 

@@ -90,6 +90,7 @@ def as_one(reports: Mapping[str, Report]) -> Report:
         ignored=[(finding, reasons[_key(finding)]) for finding in hidden],
         files=tuple(dict.fromkeys(f for report in checked.values() for f in report.files)),
         failed_rules={k: v for r in checked.values() for k, v in r.failed_rules.items()},
+        skipped_rules={k: v for r in checked.values() for k, v in r.skipped_rules.items()},
     )
 
 

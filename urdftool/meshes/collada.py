@@ -21,6 +21,7 @@ from urllib.parse import unquote, urlsplit
 import numpy as np
 
 from ..errors import MeshError
+from ..extras import missing
 from .mesh import Piece, Points, Reading
 
 MAX_DEPTH = 256
@@ -62,7 +63,10 @@ def read(path: Path) -> Reading:
 
 
 def _parse(path: Path, notes: list[str]) -> Any:
-    import collada
+    try:
+        import collada
+    except ModuleNotFoundError as error:
+        raise missing("collada", "reading a COLLADA mesh (.dae)") from error
 
     head = path.read_bytes()
     if b"<!ENTITY" in head or "<!ENTITY".encode("utf-16-le") in head:

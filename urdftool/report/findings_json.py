@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterable
 from typing import Any
 
+from ..extras import EXTRA_OF
 from ..finding import Finding, Fix, Severity
 from ..lint.outcome import Outcome
 
@@ -30,6 +31,11 @@ def to_json(outcome: Outcome) -> str:
             ],
         },
     }
+    if outcome.skipped_rules:
+        table["summary"]["skipped_rules"] = [
+            {"rule": rule, "library": library, "extra": EXTRA_OF[library]}
+            for rule, library in outcome.skipped_rules.items()
+        ]
     if outcome.known:
         table["summary"]["baselined"] = len(outcome.known)
     return json.dumps(table, indent=1, ensure_ascii=False) + "\n"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from ..extras import missing
 from ..finding import Finding, Severity
 from ..lint.outcome import Outcome, Report
 from .findings_words import call_lines, clean, remarks, sentence
@@ -77,5 +78,8 @@ def _unchecked(suite: Element, report: Report) -> None:
     if report.error is not None:
         case = _case(suite, report.path, "lint")
         SubElement(case, "error", type="unreadable", message=clean(report.error.message))
+    for rule, library in report.skipped_rules.items():
+        why = str(missing(library, f"rule {rule}"))
+        SubElement(_case(suite, report.path, rule), "skipped", message=clean(why))
     for rule, why in report.failed_rules.items():
         SubElement(_case(suite, report.path, rule), "error", type="broken rule", message=clean(why))

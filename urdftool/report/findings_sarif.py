@@ -15,7 +15,7 @@ from ..lint.fingerprint import fingerprint
 from ..lint.outcome import Outcome
 from ..rules import FAMILY_OF, get_rule
 from ..source.location import Call, Place
-from .findings_words import call_words, clean, remarks, sentence
+from .findings_words import call_words, clean, remarks, sentence, skipped_rules
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
@@ -161,4 +161,5 @@ def _invocation(outcome: Outcome) -> dict[str, Any]:
             {"level": "error", "message": {"text": text}, "locations": [where]} for text in said
         ]
     record: dict[str, Any] = {"executionSuccessful": not notes}
+    notes += [{"level": "note", "message": {"text": text}} for text in skipped_rules(outcome)]
     return record | {"toolExecutionNotifications": notes} if notes else record

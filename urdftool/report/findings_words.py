@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
+from ..extras import missing
 from ..finding import Finding
 from ..source.location import Call
+
+if TYPE_CHECKING:
+    from ..lint.outcome import Outcome
 
 _LONGEST_CALL = 90
 
@@ -44,3 +49,20 @@ def call_lines(calls: Iterable[Call]) -> Iterator[str]:
     """``FILE:LINE:COLUMN: macro 'name' argument=value`` for each call, innermost first."""
     for call in calls:
         yield f"{clean(call.file.path)}:{call.line}:{call.column}: {call_words(call)}"
+
+
+def skipped_rules(outcome: Outcome) -> list[str]:
+    """Name the rules that require a library that is not installed: a sentence for each library."""
+    rules: dict[str, list[str]] = {}
+    for rule, library in outcome.skipped_rules.items():
+        rules.setdefault(library, []).append(rule)
+    return [
+        str(
+            missing(
+                library,
+                f"not checked: {'rule' if len(names) == 1 else 'each of the rules'} "
+                f"{', '.join(names)}",
+            )
+        )
+        for library, names in rules.items()
+    ]

@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import MissingDependency, ModelError
+from ..errors import ModelError
+from ..extras import missing
 from .bodies import Bodies
 from .bullet_contacts import Touches
 from .bullet_motors import Motors
@@ -42,10 +43,7 @@ def bullet_module() -> Any:
     try:
         import pybullet
     except ImportError:
-        raise MissingDependency(
-            "PyBullet is not installed; it has wheels up to Python 3.11 only: use one of those, "
-            "or 'pip install urdftool[mujoco]' and --engine mujoco"
-        ) from None
+        raise missing("pybullet", "--engine pybullet") from None
     return pybullet
 
 

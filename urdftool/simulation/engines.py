@@ -1,11 +1,12 @@
-"""Which engines there are, by the names a user gives, and whether they are installed."""
+"""The physics engines by the names of ``--engine``, and whether they are installed."""
 
 from __future__ import annotations
 
+import platform
 import sys
-from importlib.util import find_spec
 
 from ..errors import MissingDependency
+from ..extras import install_command, is_installed, missing
 
 ENGINES = {"pybullet": ("bullet",), "mujoco": ("mj",), "both": ("bullet", "mj")}
 """What ``--engine`` may be, and the modules that are run."""
@@ -13,15 +14,28 @@ ENGINES = {"pybullet": ("bullet",), "mujoco": ("mj",), "both": ("bullet", "mj")}
 LIBRARIES = {"bullet": "pybullet", "mj": "mujoco"}
 """Modules with a function ``run(bodies, settings, folder)``, and the library each imports."""
 
-MUJOCO = "pip install 'urdftool[mujoco]'"
-
-_LAST = (3, 11)  # the last Python for which PyBullet has wheels
+_MUJOCO_MACHINES = {
+    "linux": ("x86_64", "aarch64"),
+    "darwin": ("x86_64", "arm64"),
+    "win32": ("AMD64",),
+}
+"""Where MuJoCo has wheels, for every Python that urdftool supports."""
 
 
 def default_engine() -> str:
-    """PyBullet; where there is none, and MuJoCo is, MuJoCo."""
-    none = find_spec("pybullet") is None
-    return "mujoco" if none and find_spec("mujoco") is not None else "pybullet"
+    """Choose PyBullet, or MuJoCo where PyBullet is not installed and MuJoCo is.
+
+    Raises:
+        MissingDependency: Neither is installed.
+    """
+    if is_installed("pybullet"):
+        return "pybullet"
+    if is_installed("mujoco"):
+        return "mujoco"
+    raise MissingDependency(
+        f"'urdftool simulate' requires a physics engine, and none is installed: {_advice()}",
+        library="pybullet" if _has_pybullet_wheel() else "mujoco",
+    )
 
 
 def check_engines(names: tuple[str, ...]) -> None:
@@ -31,16 +45,39 @@ def check_engines(names: tuple[str, ...]) -> None:
         names: Modules of this package.
 
     Raises:
-        MissingDependency: With what to do on this Python.
+        MissingDependency: With what to do on this Python and machine.
     """
-    there = find_spec("mujoco") is not None
-    if "bullet" in names and find_spec("pybullet") is None:
-        version = f"{sys.version_info[0]}.{sys.version_info[1]}"
-        if sys.version_info[:2] > _LAST:
-            what = f"PyBullet has wheels up to Python 3.11 only, and this is {version};"
-        else:
-            what = "PyBullet is not installed; pip install pybullet, or"
-        install = "" if there else f" after {MUJOCO}"
-        raise MissingDependency(f"{what} use --engine mujoco{install}")
-    if "mj" in names and not there:
-        raise MissingDependency(f"MuJoCo is not installed; {MUJOCO}")
+    if "bullet" in names and not is_installed("pybullet"):
+        if _has_pybullet_wheel():
+            raise missing("pybullet", "--engine pybullet")
+        raise MissingDependency(
+            "PyBullet is not installed and has wheels for Linux on x86-64 with Python 3.10 and "
+            f"3.11 only, not for {_here()}: {_advice()}",
+            library="pybullet",
+        )
+    if "mj" in names and not is_installed("mujoco"):
+        raise missing("mujoco", "--engine mujoco")
+
+
+def _advice() -> str:
+    """Say which engine can be had on this machine, and how."""
+    if _has_pybullet_wheel():
+        return install_command("simulate")
+    if is_installed("mujoco"):
+        return "use --engine mujoco"
+    if platform.machine() in _MUJOCO_MACHINES.get(sys.platform, ()):
+        return f"use --engine mujoco, after {install_command('simulate')}"
+    return (
+        f"neither PyBullet nor MuJoCo has a wheel for {_here()}; simulate on Linux, macOS or "
+        "Windows on x86-64, or on Linux or macOS on ARM"
+    )
+
+
+def _has_pybullet_wheel() -> bool:
+    is_linux = sys.platform == "linux" and platform.machine() == "x86_64"
+    return is_linux and sys.version_info[:2] < (3, 12)
+
+
+def _here() -> str:
+    version = f"{sys.version_info[0]}.{sys.version_info[1]}"
+    return f"Python {version} on {platform.system()} {platform.machine()}"

@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import MissingDependency, ModelError
+from ..errors import ModelError
+from ..extras import missing
 from .bodies import Bodies
 from .driver import Sample, Tell, settle
 from .mj_contacts import Touches
@@ -35,7 +36,7 @@ def mujoco_module() -> Any:
     try:
         import mujoco  # type: ignore[import-untyped,unused-ignore]
     except ImportError:
-        raise MissingDependency("MuJoCo is not installed; pip install 'urdftool[mujoco]'") from None
+        raise missing("mujoco", "--engine mujoco") from None
     return mujoco
 
 

@@ -19,7 +19,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote, urlsplit
 
-from ..errors import AddressError, MissingDependency
+from ..errors import AddressError
+from ..extras import missing
 
 if TYPE_CHECKING:
     import viser
@@ -120,11 +121,8 @@ def start(host: str, port: int, title: Callable[[], str]) -> viser.ViserServer:
     try:
         import rich
         import viser
-    except ImportError as error:
-        raise MissingDependency(
-            f"{error.name or 'viser'} is not installed, which the page is made with; "
-            "pip install 'urdftool[view]'"
-        ) from None
+    except ImportError:
+        raise missing("viser", "the page of 'urdftool view'") from None
 
     class Server(viser.ViserServer):
         """viser's server without its tunnel."""

@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import MissingDependency, OutputError
+from ...errors import OutputError
+from ...extras import missing
 from ..mechanics import GRAVITY, Array
-
-INSTALL = "pip install 'urdftool[mujoco]'"
 
 
 def mujoco_module() -> Any:
@@ -23,9 +22,7 @@ def mujoco_module() -> Any:
     try:
         import mujoco  # type: ignore[import-untyped,unused-ignore]
     except ImportError as error:
-        raise MissingDependency(
-            f"--verify needs MuJoCo, which is not installed; {INSTALL}"
-        ) from error
+        raise missing("mujoco", "--verify") from error
     return mujoco
 
 

@@ -6,6 +6,8 @@ import zlib
 from io import BytesIO
 from pathlib import Path
 
+from ...extras import missing
+
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
@@ -35,11 +37,15 @@ def _is_png(image: Path | bytes) -> bool:
 
 
 def _png_bytes(image: Path | bytes) -> bytes | None:
-    """An image in any format that Pillow reads as a PNG; None without Pillow or for no image."""
+    """Convert an image in any format that Pillow reads to PNG; None if it is not an image.
+
+    Raises:
+        MissingDependency: Pillow is not installed.
+    """
     try:
         from PIL import Image
-    except ImportError:
-        return None
+    except ImportError as error:
+        raise missing("PIL", "converting a texture to PNG") from error
     try:
         with Image.open(BytesIO(image) if isinstance(image, bytes) else image) as picture:
             target = BytesIO()

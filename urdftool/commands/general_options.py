@@ -1,0 +1,75 @@
+"""Options of urdftool itself, which every command accepts after its name too."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from ..console import Console
+
+
+def accept_general_options(command: click.Command) -> click.Command:
+    """Let a command accept -q, -v, --debug and --trust; they are hidden in its help.
+
+    The parser of the command finds them, so that the values of other options and what follows
+    ``--`` are never mistaken for them.
+    """
+    known = {name for parameter in command.params for name in parameter.opts}
+    if "--debug" not in known:
+        command.params.extend(general_options(hidden=True))
+    return command
+
+
+def general_options(*, hidden: bool) -> list[click.Option]:
+    """Make the options, which change the :class:`Console` of the context as they are parsed."""
+
+    def option(*names: str, **more: Any) -> click.Option:
+        return click.Option(names, expose_value=False, hidden=hidden, **more)
+
+    return [
+        option(
+            *("-q", "--quiet"),
+            is_flag=True,
+            callback=_set_quiet,
+            help="Print no progress, summaries or warnings.",
+        ),
+        option(
+            *("-v", "--verbose"),
+            count=True,
+            callback=_set_verbose,
+            help="Print more about what is done. Repeatable.",
+        ),
+        option(
+            "--debug", is_flag=True, callback=_set_debug, help="Show the traceback of an error."
+        ),
+        option(
+            "--trust",
+            is_flag=True,
+            callback=_set_trust,
+            help="Let xacro see the environment, and files outside packages and the project.",
+        ),
+    ]
+
+
+def _set_quiet(ctx: click.Context, parameter: click.Parameter, value: bool) -> None:
+    if value:
+        ctx.ensure_object(Console).verbosity = -1
+
+
+def _set_verbose(ctx: click.Context, parameter: click.Parameter, value: int) -> None:
+    console = ctx.ensure_object(Console)
+    if value and not console.quiet:
+        console.verbosity += value
+
+
+def _set_debug(ctx: click.Context, parameter: click.Parameter, value: bool) -> None:
+    if value:
+        ctx.ensure_object(Console).debug = True
+
+
+def _set_trust(ctx: click.Context, parameter: click.Parameter, value: bool) -> None:
+    if value:
+        from ..source.reach import trust_descriptions
+
+        trust_descriptions()

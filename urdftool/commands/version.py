@@ -1,0 +1,47 @@
+"""What ``urdftool --version`` prints; with -v, what a bug report needs."""
+
+from __future__ import annotations
+
+import click
+
+from .. import __version__
+from ..console import Console
+
+CORE = ("click", "lxml", "numpy", "PyYAML", "rich", "trimesh", "xacro")
+
+
+def print_version(console: Console) -> None:
+    """Print the version; for a verbose console also Python, the libraries and the extras."""
+    click.echo(f"urdftool {__version__}")
+    if console.verbosity > 0:
+        for line in environment():
+            click.echo(line)
+
+
+def environment() -> list[str]:
+    """Describe Python, the machine, and each library with its version, by extra."""
+    import platform
+    import sys
+
+    from ..extras import DISTRIBUTION_OF, EXTRA_OF, install_command
+
+    lines = [
+        f"Python {platform.python_version()} on {platform.platform()}: {sys.executable}",
+        f"core: {', '.join(f'{name} {_version(name)}' for name in CORE)}",
+    ]
+    for extra in dict.fromkeys(EXTRA_OF.values()):
+        names = [DISTRIBUTION_OF.get(n, n) for n, of in EXTRA_OF.items() if of == extra]
+        versions = {name: _version(name) for name in names}
+        said = ", ".join(f"{name} {version or 'missing'}" for name, version in versions.items())
+        advice = "" if all(versions.values()) else f" ({install_command(extra)})"
+        lines.append(f"[{extra}]: {said}{advice}")
+    return lines
+
+
+def _version(distribution: str) -> str | None:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version(distribution)
+    except PackageNotFoundError:
+        return None
