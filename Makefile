@@ -6,11 +6,11 @@ BIN    := $(VENV)/bin
 DEMO   := fixtures/robots/demo_arm/urdf/arm.urdf.xacro
 SOUND  := fixtures/robots/demo_arm/urdf/arm_sound.urdf.xacro
 
-.PHONY: demo test test-all check format docs site bench bench-peers fidelity clean
+.PHONY: demo test test-core test-programs test-all check format docs site bench bench-peers fidelity clean
 
 $(BIN)/urdftool: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[all]'
 	$(BIN)/python -m compileall -q urdftool
 	@touch $@
 
@@ -34,6 +34,23 @@ demo: $(BIN)/urdftool
 
 test: $(VENV)/.dev
 	$(BIN)/python -m pytest -m "not slow"
+
+# the command line as pip installs it without an extra, and then every extra, from wheels alone
+CORE := build/core
+CORE_TESTS := tests/commands tests/lint tests/rules tests/graph tests/info tests/test_extras.py
+test-core:
+	rm -rf $(CORE)
+	$(PYTHON) -m venv $(CORE)
+	$(CORE)/bin/python -m pip install --quiet --disable-pip-version-check --only-binary :all: .
+	$(CORE)/bin/python -m tests.installed_size
+	$(CORE)/bin/python -m pip install --quiet --disable-pip-version-check --only-binary :all: '.[test-core]'
+	$(CORE)/bin/python -m pytest -q -m "not slow" $(CORE_TESTS)
+	$(CORE)/bin/python -m pip install --quiet --disable-pip-version-check --only-binary :all: '.[all]'
+	$(CORE)/bin/urdftool collision mesh fixtures/meshes/cube.stl --method hull --no-cache
+
+# tests of other programs: Gazebo's reader, Graphviz, other shells; the default run does not see them
+test-programs: $(VENV)/.dev
+	$(BIN)/python -m pytest -m "program and not slow"
 
 test-all: $(VENV)/.dev
 	$(BIN)/python -m pytest

@@ -1,13 +1,17 @@
 """What several tests share: where things are, and the command line called in process."""
 
 import os
+import re
+import shutil
 import signal
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from generator.programs import bare_path
 
-from urdftool import cli, configuration, inputs
+from urdftool import cli, configuration, extras, inputs
 
 ROOT = Path(__file__).resolve().parents[1]
 FIXTURES = ROOT / "fixtures"
@@ -17,18 +21,65 @@ CORPUS = ROOT.parent / "shared" / "corpus"
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+MOST_SKIPPED = 40
+"""How many tests may be skipped where the corpus is present; see test_few_tests_are_skipped."""
+
+ABSENT = re.compile(
+    r"requires (\w+, which is not|a physics engine, and none is) installed(?=: pip)"
+)
+"""What a command prints where an optional library is missing; a test of it is skipped there."""
+
+_skipped = pytest.StashKey[list[str]]()
+
+
 def pytest_collection_modifyitems(items):
-    if CORPUS.exists():
-        return
     absent = pytest.mark.skip(reason=f"the corpus of real robots is not at {CORPUS}")
     for item in items:
-        if "corpus" in item.keywords:
+        if "corpus" in item.keywords and not CORPUS.exists():
             item.add_marker(absent)
+        for mark in item.iter_markers("program"):
+            if not any(map(shutil.which, mark.args)):
+                item.add_marker(pytest.mark.skip(reason=f"requires {' or '.join(mark.args)}"))
+        for mark in item.iter_markers("library"):
+            if not all(map(extras.is_installed, mark.args)):
+                item.add_marker(pytest.mark.skip(reason=f"requires {' and '.join(mark.args)}"))
+    items.sort(key=lambda item: item.name == "test_few_tests_are_skipped")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """Skip a test that failed because an optional library is not installed, as in the core."""
+    report = yield
+    if report.failed and call.excinfo is not None:
+        library = extras.missing_library(call.excinfo.value)
+        if library is not None and not extras.is_installed(library):
+            report.outcome = "skipped"
+            report.longrepr = (str(item.path), 0, f"requires {library}")
+    if report.skipped:
+        item.config.stash.setdefault(_skipped, []).append(item.nodeid)
+    return report
+
+
+@pytest.fixture
+def skipped_tests(pytestconfig):
+    """The names of the tests that were skipped until now."""
+    return pytestconfig.stash.get(_skipped, [])
+
+
+@pytest.fixture(scope="session")
+def programs(tmp_path_factory):
+    """A PATH with what every machine has, and the programs beside this Python."""
+    return bare_path(tmp_path_factory.mktemp("programs"), Path(sys.executable).parent)
 
 
 @pytest.fixture(autouse=True)
-def _fresh(monkeypatch, tmp_path_factory):
-    """Nothing that was found in one test is known in the next; no ROS of the machine is seen."""
+def _fresh(monkeypatch, tmp_path_factory, request, programs):
+    """Nothing that was found in one test is known in the next; no ROS of the machine is seen.
+
+    Programs that not every machine has are seen by tests that are marked with them.
+    """
+    if not list(request.node.iter_markers("program")):
+        monkeypatch.setenv("PATH", programs)
     for name in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "NO_COLOR", "FORCE_COLOR"):
         monkeypatch.delenv(name, raising=False)
     inputs.forget()
@@ -53,6 +104,9 @@ def urdftool(capfdbinary):
         capfdbinary.readouterr()
         code = cli.call([str(argument) for argument in arguments])
         captured = capfdbinary.readouterr()
+        absent = ABSENT.search(captured.err.decode())
+        if absent:
+            pytest.skip(absent[0])
         return Result(code, captured.out.decode(), captured.err.decode())
 
     return call

@@ -2,7 +2,6 @@
 
 import os
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -17,10 +16,6 @@ PAGE = (ROOT / "docs" / "building.md").read_text("utf-8")
 def block(language):
     (text,) = re.findall(rf"^```{language}\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
     return text
-
-
-def needs(name):
-    return pytest.mark.skipif(shutil.which(name) is None, reason=f"{name} is not there")
 
 
 def run(*words):
@@ -52,7 +47,6 @@ def later(path):
     os.utime(path, (stamp, stamp))
 
 
-@needs("make")
 def test_make_expands_again_what_changed(package, write):
     write("Makefile", block("make"))
     made = Path("build/urdf/my_robot.urdf")
@@ -87,8 +81,7 @@ endmacro()
 """
 
 
-@needs("cmake")
-@needs("make")
+@pytest.mark.program("cmake")
 def test_cmake_expands_installs_and_tests(package, write):
     write("CMakeLists.txt", block("cmake"))
     write("stub/ament_cmakeConfig.cmake", AMENT)

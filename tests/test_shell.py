@@ -91,10 +91,14 @@ def test_bash_completes_a_line(tmp_path):
     assert done.stdout.splitlines()[-1] == "warning", done.stderr
 
 
-@pytest.mark.parametrize(("name", "shell"), [("_urdftool", "zsh"), ("urdftool.fish", "fish")])
+@pytest.mark.parametrize(
+    ("name", "shell"),
+    [
+        pytest.param("_urdftool", "zsh", marks=pytest.mark.program("zsh")),
+        pytest.param("urdftool.fish", "fish", marks=pytest.mark.program("fish")),
+    ],
+)
 def test_scripts_are_as_their_shell_reads_them(name, shell):
-    if shutil.which(shell) is None:
-        pytest.skip(f"there is no {shell}")
     script = ROOT / "docs" / "completions" / name
     subprocess.run([shell, "-n", str(script)], check=True)
 
@@ -124,16 +128,15 @@ def test_a_page_for_each_command():
             assert f".SH {section}\n" in text, section
 
 
+@pytest.mark.program("groff")
 @pytest.mark.parametrize("page", MAN, ids=lambda page: page.name)
 def test_man_pages_are_sound(page):
-    if shutil.which("groff") is None:
-        pytest.skip("there is no groff")
     words = ["groff", "-man", "-Tutf8", "-ww", "-z", "-rCHECKSTYLE=3", str(page)]
     done = subprocess.run(words, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
 
 
-@pytest.mark.skipif(shutil.which("man") is None, reason="there is no man")
+@pytest.mark.program("man")
 def test_man_shows_a_command(tmp_path):
     words = ["man", "-P", "cat", "-l", str(ROOT / "docs" / "man" / "urdftool-lint.1")]
     done = subprocess.run(

@@ -3,6 +3,7 @@
 A page may say how it is run in a comment, ``<!-- run: slow, needs mujoco, numbers vary -->``: slow
 pages are run by the slow tests alone, those that need a library where there is one, and where
 numbers vary (seconds, what an engine computes on another processor) the words are compared.
+Programs that not every machine has cannot be seen by the commands.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
+
+from .programs import bare_path
 
 ROOT = Path(__file__).resolve().parents[2]
 FIXTURES = ROOT / "fixtures"
@@ -101,7 +104,7 @@ def _words(block: str) -> str:
 
 def _output(command: str, folder: str) -> str:
     """What a command prints on both streams."""
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+    path = bare_path(Path(folder) / ".programs", Path(sys.executable).parent)
     seen = {name: value for name, value in os.environ.items() if name not in UNSEEN}
     own = {"PATH": path, "NO_COLOR": "1", "COLUMNS": "100", "XDG_CACHE_HOME": f"{folder}/.cache"}
     done = subprocess.run(

@@ -41,6 +41,7 @@ def test_a_worker_that_is_killed_is_said_and_the_others_are_done(tmp_path, monke
     assert [found[task].method for task in tasks[1:]] == ["hull", "hull"]
 
 
+@pytest.mark.library("scipy")
 def test_a_full_disk_leaves_no_half_file(write):
     write("meshes/bracket.stl", stl(*l_profile()))
     write("r.urdf", robot(("a", "meshes/bracket.stl", "")))

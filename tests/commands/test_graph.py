@@ -182,6 +182,7 @@ def test_what_cannot_be_done_is_one_message(urdftool, write, tmp_path, text, wor
     assert {p.name for p in tmp_path.iterdir()} == {"x.urdf"}
 
 
+@pytest.mark.library("pygraphviz")
 def test_from_standard_input(tmp_path):
     done = subprocess.run(
         [sys.executable, "-m", "urdftool", "graph", "-", "-o", "x.svg"],

@@ -37,7 +37,7 @@ def test_the_text_is_that_of_urdf_to_graphiz(expected):
     assert dot(load(ROBOTS[expected.stem])) == expected.read_text("utf-8")
 
 
-@pytest.mark.skipif(TOOL is None, reason="needs urdf_to_graphviz, of liburdfdom-tools")
+@pytest.mark.program("urdf_to_graphviz")
 @pytest.mark.parametrize("name", sorted(path.stem for path in EXPECTED.glob("*.gv")))
 def test_the_kept_text_is_what_the_tool_writes(name, tmp_path):
     assert theirs(ROBOTS[name], tmp_path) == (EXPECTED / f"{name}.gv").read_bytes()
@@ -48,7 +48,7 @@ TURNED = """<robot name="r"><link name="a"/><link name="b"/>
 <origin xyz="0.1 -1e-7 1234567.5" rpy="{}"/></joint></robot>"""
 
 
-@pytest.mark.skipif(TOOL is None, reason="needs urdf_to_graphviz, of liburdfdom-tools")
+@pytest.mark.program("urdf_to_graphviz")
 @pytest.mark.parametrize(
     "rpy", ["0 0 0", "3.14159265 1.5707963 0.3", "1 -1.5707963267948966 2", "4 5 6", "-0 1e-9 0"]
 )
@@ -57,7 +57,7 @@ def test_angles_come_back_as_urdfdom_has_them(rpy, tmp_path, write):
     assert dot(load(path)).encode() == theirs(tmp_path / path, tmp_path)
 
 
-@pytest.mark.skipif(TOOL is None, reason="needs urdf_to_graphviz, of liburdfdom-tools")
+@pytest.mark.program("urdf_to_graphviz")
 def test_a_joint_named_as_a_link_is_one_node_as_there(tmp_path, write):
     text = '<robot name="r"><link name="a"/><link name="b"/><joint name="b" type="fixed">'
     path = write("clash.urdf", f'{text}<parent link="a"/><child link="b"/></joint></robot>')

@@ -334,6 +334,7 @@ def test_the_report_for_people_says_how_to_apply_it(write, urdftool):
     assert "[fix: safe or unsafe]" in urdftool("lint", "--list-rules").out
 
 
+@pytest.mark.library("scipy")
 def test_nothing_is_weighed_by_meshes_of_doubtful_size(tmp_path, urdftool):
     """Meshes in millimetres are scaled first; only then do they say what a link weighs."""
     package = tmp_path / "cad_arm"

@@ -1,7 +1,6 @@
 """A diff gives the new text from the old one, and shows no more than what changed."""
 
 import subprocess
-from shutil import which
 
 import pytest
 from hypothesis import given
@@ -52,7 +51,7 @@ def test_changes_among_lines_that_repeat_are_all_that_is_shown():
     assert {line[0] for line in changed} == {"-"}
 
 
-@pytest.mark.skipif(which("patch") is None, reason="patch is not installed")
+@pytest.mark.program("patch")
 def test_patch_takes_it(tmp_path):
     old = ["a\n", "b\n", "c\n", "d\n", "e\n", "f\n", "g\n", "h\n", "i\n"]
     new = ["new\n", *old[:4], *old[5:], "z\n"]

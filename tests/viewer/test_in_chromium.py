@@ -15,7 +15,7 @@ pytest.importorskip("viser")
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(chromium.find() is None, reason="no Chromium is installed"),
+    pytest.mark.program(*chromium.NAMES),
 ]
 
 READY = "document.querySelectorAll('[role=slider]').length > 0"

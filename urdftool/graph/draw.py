@@ -150,8 +150,10 @@ def _result(data: bytes, code: int) -> bytes:
     if code == 0 and data:
         return data
     if code in (_MISSING, _FAILED):
-        error = MissingDependency if code == _MISSING else DrawError
-        raise error(data.decode("utf-8", "replace").strip())
+        message = data.decode("utf-8", "replace").strip()
+        if code == _MISSING:
+            raise MissingDependency(message, library="pygraphviz")
+        raise DrawError(message)
     reason = f"signal {-code}" if code < 0 else f"code {code}"
     raise DrawError(
         f"Graphviz breaks on this graph ({reason}); --fold-fixed makes it smaller, "

@@ -1,6 +1,5 @@
 """Whole small robots, as they are to come out."""
 
-import shutil
 import subprocess
 
 import pytest
@@ -29,7 +28,7 @@ def test_it_is_the_same_robot(name, kind, tmp_path):
     assert is_faithful(checks), [c.differing for c in checks]
 
 
-@pytest.mark.skipif(shutil.which("ign") is None, reason="ign sdf is not installed")
+@pytest.mark.program("ign")
 @pytest.mark.parametrize(("name", "kind"), [key for key in GOLDENS if key[1] != "gz"])
 def test_libsdformat_takes_it(name, kind):
     done = subprocess.run(

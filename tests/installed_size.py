@@ -1,0 +1,32 @@
+"""Measure what an installation takes: ``PYTHON -m tests.installed_size`` of the Python measured."""
+
+import sys
+import sysconfig
+from pathlib import Path
+
+LARGEST = 120
+"""Megabytes (10^6 bytes) that the core may take."""
+
+TOOLS = ("pip", "setuptools", "pkg_resources", "_distutils_hack")
+"""What a new environment brings by itself."""
+
+
+def megabytes(path):
+    """The size of a file or folder."""
+    files = [path] if path.is_file() else path.rglob("*")
+    return sum(file.lstat().st_size for file in files if file.is_file()) / 1e6
+
+
+def sizes():
+    """The parts of this environment's packages, largest first; what it came with left out."""
+    packages = Path(sysconfig.get_path("purelib")).iterdir()
+    found = {p.name: megabytes(p) for p in packages if p.name.split("-")[0] not in TOOLS}
+    return dict(sorted(found.items(), key=lambda item: -item[1]))
+
+
+if __name__ == "__main__":
+    parts = sizes()
+    whole = sum(parts.values())
+    largest = ", ".join(f"{name} {size:.0f}" for name, size in list(parts.items())[:5])
+    print(f"installed: {whole:.0f} MB of at most {LARGEST} ({largest})")
+    sys.exit(whole > LARGEST)
