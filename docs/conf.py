@@ -16,7 +16,7 @@ DOCS = Path(__file__).resolve().parent
 REPOSITORY = "https://github.com/urdftool/urdftool"
 
 MENU = {
-    "First": ("start", "compare"),
+    "First": ("start", "install", "compare"),
     "Commands": (
         *(f"commands/{name}" for name in ("expand", "lint", "inertia", "collision", "graph")),
         *(f"commands/{name}" for name in ("info", "diff", "view", "simulate", "export")),

@@ -86,7 +86,8 @@ def python_blocks():
         if codes and "import urdftool" in codes[0]:
             for number, code in enumerate(codes):
                 if "import " in code:
-                    found.append(pytest.param(code, id=f"{named(page)}-{number}"))
+                    marks = [pytest.mark.slow] if "simplify_collisions" in code else []
+                    found.append(pytest.param(code, id=f"{named(page)}-{number}", marks=marks))
     return found
 
 

@@ -224,6 +224,7 @@ def test_no_more_pieces_than_are_allowed(most):
     assert (choice.measures.error < 0.01) == (most > 1)
 
 
+@pytest.mark.slow
 def test_the_pieces_do_not_hang_on_the_number_of_cores():
     surface = read_surface(FIXTURES / "meshes/open_box.stl")
     settings = Settings(method="coacd")

@@ -1,6 +1,7 @@
 """What a user of ``urdftool simulate`` sees: words, JSON, exit codes, refusals in one message."""
 
 import json
+from importlib.util import find_spec
 
 import jsonschema
 import pytest
@@ -54,6 +55,23 @@ def test_json_is_as_its_schema_says(urdftool, write):
     schema = json.loads((ROOT / "docs" / "schemas" / "simulate.json").read_text("utf-8"))
     jsonschema.validate(said, schema)
     assert len(said["trials"]) == 2
+
+
+@pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
+@pytest.mark.parametrize("more", [(), ("--fleet",)], ids=["one", "fleet"])
+def test_the_same_seed_gives_the_same_bytes(urdftool, write, engine, more):
+    if not find_spec(engine):
+        pytest.skip(f"requires {engine}")
+    path = write("r.urdf", BOX)
+    words = (
+        *("simulate", path, *more, "--engine", engine, "--seed", "7", "--trials", "3"),
+        *("--format", "json", "--duration", "0.5"),
+    )
+    first, second = urdftool(*words), urdftool(*words)
+    assert first.out
+    assert first == second
+    assert '"seconds"' not in first.out
+    assert '"seconds"' in urdftool("-v", *words).out
 
 
 def test_a_box_that_is_dropped_stands(urdftool, write):

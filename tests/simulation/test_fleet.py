@@ -91,6 +91,7 @@ def test_who_does_not_hear_that_the_time_is_over_is_killed():
     assert time.monotonic() - began < 10
 
 
+@pytest.mark.program("ps")
 def test_whoever_stops_early_leaves_no_process():
     rows = in_parallel(["hangs", "a", "hangs"], _work, jobs=3)
     assert next(rows).path == "a"

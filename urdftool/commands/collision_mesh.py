@@ -85,7 +85,11 @@ def command(
     )
     found = report.Report(file, output or "", [row])
     style = values["style"]
-    click.echo(report.as_json([found]) if style == "json" else report.table([row]), nl=False)
+    if style == "json":
+        text = report.as_json([found], timings=console.verbosity > 0)
+    else:
+        text = report.table([row])
+    click.echo(text, nl=False)
     if values["picture"]:
         _draw(task, result, values["picture"], file)
     if style == "table":

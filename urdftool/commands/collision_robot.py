@@ -250,7 +250,7 @@ def _write(console: Console, job: Job, results: dict[Task, Result]) -> report.Re
 def _tell(console: Console, reports: Sequence[report.Report], values: Values) -> None:
     to_stderr = values["output"] == "-"
     if values["style"] == "json":
-        click.echo(report.as_json(reports), nl=False, err=to_stderr)
+        click.echo(report.as_json(reports, timings=console.verbosity > 0), nl=False, err=to_stderr)
     for found in reports:
         if values["style"] == "table":
             click.echo(report.table(found.rows), nl=False, err=to_stderr)

@@ -106,7 +106,7 @@ def simulate_fleet(
     if junit is not None:
         write_file(junit, report.to_junit(ordered).encode("utf-8"), inputs=found)
     if style == "json":
-        click.echo(report.to_json(ordered), nl=False)
+        click.echo(report.to_json(ordered, timings=console.verbosity > 0), nl=False)
     elif style == "junit":
         click.echo(report.to_junit(ordered), nl=False)
     else:

@@ -91,7 +91,8 @@ def simulate_one(
     path = robot.source.path if robot.source is not None else ""
     row = row_of(path, robot.name, everything, differ)
     if style == "json":
-        click.echo(with_differences(report.to_json(robot, everything), differ), nl=False)
+        text = report.to_json(robot, everything, timings=console.verbosity > 0)
+        click.echo(with_differences(text, differ), nl=False)
     elif style == "junit":
         click.echo(rows.to_junit([row]), nl=False)
     else:

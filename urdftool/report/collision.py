@@ -73,10 +73,12 @@ class Row:
                 _piece(result, index, self.files[index] if self.files else "")
                 for index in range(len(result.pieces))
             ],
-            "seconds": round(result.seconds, 3),
-            "cached": result.cached,
             "notes": list(result.notes),
         }
+
+    def timings(self) -> dict[str, Any]:
+        """What differs from run to run: the seconds it took, and whether the cache had it."""
+        return {"seconds": round(self.result.seconds, 3), "cached": self.result.cached}
 
 
 @dataclass(frozen=True)
@@ -95,12 +97,12 @@ class Report:
     rows: Sequence[Row]
     left: Sequence[str] = field(default_factory=list)
 
-    def as_dict(self) -> dict[str, Any]:
-        """The JSON form."""
+    def as_dict(self, *, timings: bool = False) -> dict[str, Any]:
+        """Return the JSON form; with seconds and use of the cache, which differ from run to run."""
         return {
             "input": self.path,
             "output": self.output,
-            "parts": [row.as_dict() for row in self.rows],
+            "parts": [row.as_dict() | (row.timings() if timings else {}) for row in self.rows],
             "left": list(self.left),
         }
 
@@ -124,9 +126,9 @@ def rows_of(written: Written, results: Mapping[Task, Result]) -> list[Row]:
     ]
 
 
-def as_json(reports: Sequence[Report]) -> str:
-    """One object for all of it."""
-    found = [report.as_dict() for report in reports]
+def as_json(reports: Sequence[Report], *, timings: bool = False) -> str:
+    """Write all of it as one object; ``timings`` as in :meth:`Report.as_dict`."""
+    found = [report.as_dict(timings=timings) for report in reports]
     return json.dumps({"version": 1, "results": found}, indent=2) + "\n"
 
 

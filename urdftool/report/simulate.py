@@ -124,19 +124,25 @@ def _several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -> Itera
     yield from _faults(sorted(faults, key=lambda fault: not fault.fails), paint)
 
 
-def to_json(robot: Robot, verdicts: Sequence[Verdict]) -> str:
-    """Everything, with the time series; metres, radians, kilograms, seconds."""
+def to_json(robot: Robot, verdicts: Sequence[Verdict], *, timings: bool = False) -> str:
+    """Write everything, with the time series, as JSON; meters, radians, kilograms, seconds.
+
+    Args:
+        robot: The robot.
+        verdicts: One for each trial.
+        timings: Whether to add the wall-clock time of each trial, which differs from run to run.
+    """
     said: dict[str, Any] = {
         "version": 1,
         "name": robot.name,
         "path": robot.source.path if robot.source is not None else None,
         "stands": all(verdict.stands for verdict in verdicts),
-        "trials": [_trial(verdict) for verdict in verdicts],
+        "trials": [_trial(verdict, timings) for verdict in verdicts],
     }
     return json.dumps(said, ensure_ascii=False) + "\n"
 
 
-def _trial(verdict: Verdict) -> dict[str, Any]:
+def _trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
     run, rest = verdict.run, verdict.rest
     recording = run.recording
     return {
@@ -153,7 +159,7 @@ def _trial(verdict: Verdict) -> dict[str, Any]:
         "contacts": [asdict(contact) for contact in recording.contacts],
         "sweep": [asdict(joint) for joint in run.swept],
         "steps": recording.steps,
-        "seconds": recording.seconds,
+        **({"seconds": recording.seconds} if timings else {}),
         "series": {
             name: _plain(getattr(recording, name).tolist())
             for name in (
