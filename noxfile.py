@@ -2,7 +2,8 @@
 
 Wheel and sdist are built once and checked; each is installed into an empty environment, where the
 commands run, and all that README.md shows, without a network. ``nox -s lowest`` runs light tests
-with the oldest dependencies that are allowed. A Python that is not there is skipped and said so.
+with the oldest dependencies that are allowed. ``nox -s wheels`` resolves every extra for each
+Python and platform, from wheels alone. A Python that is not there is skipped and said so.
 """
 
 from __future__ import annotations
@@ -18,6 +19,10 @@ from pathlib import Path
 import nox
 
 PYTHONS = ["3.10", "3.11", "3.12", "3.13", "3.14"]
+PLATFORMS = (
+    *("x86_64-manylinux_2_28", "aarch64-manylinux_2_28"),
+    *("x86_64-apple-darwin", "aarch64-apple-darwin", "x86_64-pc-windows-msvc"),
+)
 ROOT = Path(__file__).parent
 URDF = ROOT / "fixtures/robots/demo_arm/urdf"
 ARM = "fixtures/robots/demo_arm/urdf/arm_sound.urdf.xacro"
@@ -77,7 +82,7 @@ def platforms(session: nox.Session, kind: str) -> None:
     found = sorted(dist().glob(f"*.{kind}"))
     if not found:
         session.error("there is nothing to install; run `nox -s build` first")
-    session.install(str(found[-1]))
+    session.install("--only-binary", ":all:", f"{found[-1]}[all]")
     session.chdir(ROOT)
     out = Path(session.create_tmp()).resolve()
     for words in [*COMMANDS, *([name, "--help"] for name in HELPS)]:
@@ -118,6 +123,23 @@ def readme(session: nox.Session, here: Path) -> None:
         session.run(*alone(), python, "-c", code, external=True)
 
 
+@nox.session(python=False)
+def wheels(session: nox.Session) -> None:
+    """Resolve every extra for every Python and platform that is supported, from wheels alone."""
+    folder = Path(session.create_tmp())
+    environment = folder / "uv"
+    session.run(sys.executable, "-m", "venv", str(environment))
+    uv = str(environment / ("Scripts" if os.name == "nt" else "bin") / "uv")
+    session.run(str(Path(uv).with_name("python")), "-m", "pip", "install", "--quiet", "uv")
+    for python in PYTHONS:
+        for platform in PLATFORMS:
+            session.run(
+                *(uv, "pip", "compile", "--quiet", "pyproject.toml", "--extra", "all"),
+                *("--only-binary", ":all:", "--python-version", python),
+                *("--python-platform", platform, "-o", str(folder / f"{python}-{platform}.txt")),
+            )
+
+
 @nox.session(python=["3.10"])
 def lowest(session: nox.Session) -> None:
     """Light tests with the lower bounds of the dependencies."""
@@ -125,7 +147,7 @@ def lowest(session: nox.Session) -> None:
     resolved = Path(session.create_tmp()) / "lowest.txt"
     session.run(
         *("uv", "pip", "compile", "--resolution", "lowest-direct", "pyproject.toml"),
-        *("--extra", "dask", "--extra", "mujoco", "--extra", "view"),
+        *("--extra", "dask", "--extra", "all"),
         *("--python", str(Path(session.bin) / "python"), "-o", str(resolved)),
     )
     session.install("-r", str(resolved), "pytest>=8", "hypothesis>=6.100")
