@@ -11,6 +11,7 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 # A room may import from the rooms below it, never from one above or beside.
 BELOW = {
     "errors": (),
+    "extras": ("errors",),
     "workers": (),
     "inputs": (),
     "store": (),
@@ -21,20 +22,23 @@ BELOW = {
     "terminal": (),
     "console": ("terminal", "errors"),
     "configuration": ("errors",),
-    "meshes": ("errors",),
+    "meshes": (
+        "extras",
+        "errors",
+    ),
     "drawing": ("meshes", "model", "source", "errors"),
     "inertia": ("meshes", "model", "source", "workers", "errors"),
     "collision": (
         *("store", "drawing", "meshes", "inertia", "model", "source", "workers", "errors"),
     ),
-    "viewer": ("drawing", "inertia", "meshes", "finding", "model", "source", "errors"),
+    "viewer": ("drawing", "inertia", "meshes", "finding", "model", "source", "extras", "errors"),
     "rules": ("finding", "model", "source", "meshes", "inputs", "errors"),
     "lint": (
         *("rules", "finding", "model", "source", "configuration", "workers"),
         *("inputs", "store", "errors"),
     ),
-    "formats": ("finding", "model", "source", "meshes", "inertia", "output", "errors"),
-    "graph": ("finding", "model", "source", "errors"),
+    "formats": ("finding", "model", "source", "meshes", "inertia", "output", "extras", "errors"),
+    "graph": ("finding", "model", "source", "extras", "errors"),
     "simulation": (
         *("drawing", "formats", "finding", "meshes", "inertia", "model", "source", "workers"),
         *("store", "errors"),
