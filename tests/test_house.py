@@ -24,36 +24,68 @@ BELOW = {
     "configuration": ("errors",),
     "meshes": (
         "extras",
+        "extras",
         "errors",
     ),
     "drawing": ("meshes", "model", "source", "errors"),
     "inertia": ("meshes", "model", "source", "workers", "errors"),
     "collision": (
-        *("store", "drawing", "meshes", "inertia", "model", "source", "workers", "errors"),
+        *(
+            "store",
+            "drawing",
+            "meshes",
+            "inertia",
+            "model",
+            "source",
+            "workers",
+            "extras",
+            "errors",
+        ),
     ),
-    "viewer": ("drawing", "inertia", "meshes", "finding", "model", "source", "extras", "errors"),
+    "viewer": (
+        "drawing",
+        "inertia",
+        "meshes",
+        "finding",
+        "model",
+        "source",
+        "extras",
+        "extras",
+        "errors",
+    ),
     "rules": ("finding", "model", "source", "meshes", "inputs", "errors"),
     "lint": (
         *("rules", "finding", "model", "source", "configuration", "workers"),
-        *("inputs", "store", "errors"),
+        *("inputs", "store", "extras", "errors"),
     ),
-    "formats": ("finding", "model", "source", "meshes", "inertia", "output", "extras", "errors"),
-    "graph": ("finding", "model", "source", "extras", "errors"),
+    "formats": (
+        "finding",
+        "model",
+        "source",
+        "meshes",
+        "inertia",
+        "output",
+        "extras",
+        "extras",
+        "errors",
+    ),
+    "graph": ("finding", "model", "source", "extras", "extras", "errors"),
     "simulation": (
         *("drawing", "formats", "finding", "meshes", "inertia", "model", "source", "workers"),
-        *("store", "errors"),
+        *("store", "extras", "errors"),
     ),
     "report": (
         *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),
-        *("collision", "simulation", "inertia", "errors"),
+        *("collision", "simulation", "inertia", "extras", "errors"),
     ),
     "info": ("model", "source", "meshes", "errors"),
     "compare": ("model", "source", "errors"),
     "api": (
         *("formats", "simulation", "collision", "inertia", "lint", "rules", "model", "source"),
-        *("output", "errors"),
+        *("output", "extras", "errors"),
     ),
 }
+
 
 # The only files that may import a library.
 DOORS = {
