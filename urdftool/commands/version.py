@@ -24,13 +24,17 @@ def environment() -> list[str]:
     import sys
 
     from ..extras import DISTRIBUTION_OF, EXTRA_OF, install_command
+    from ..simulation.engines import has_pybullet_wheel
 
     lines = [
         f"Python {platform.python_version()} on {platform.platform()}: {sys.executable}",
         f"core: {', '.join(f'{name} {_version(name)}' for name in CORE)}",
     ]
     for extra in dict.fromkeys(EXTRA_OF.values()):
-        names = [DISTRIBUTION_OF.get(n, n) for n, of in EXTRA_OF.items() if of == extra]
+        libraries = [library for library, of in EXTRA_OF.items() if of == extra]
+        if extra == "simulate" and not has_pybullet_wheel():
+            libraries = ["mujoco"]
+        names = [DISTRIBUTION_OF.get(library, library) for library in libraries]
         versions = {name: _version(name) for name in names}
         said = ", ".join(f"{name} {version or 'missing'}" for name, version in versions.items())
         advice = "" if all(versions.values()) else f" ({install_command(extra)})"

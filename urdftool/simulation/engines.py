@@ -34,7 +34,7 @@ def default_engine() -> str:
         return "mujoco"
     raise MissingDependency(
         f"'urdftool simulate' requires a physics engine, and none is installed: {_advice()}",
-        library="pybullet" if _has_pybullet_wheel() else "mujoco",
+        library="pybullet" if has_pybullet_wheel() else "mujoco",
     )
 
 
@@ -48,7 +48,7 @@ def check_engines(names: tuple[str, ...]) -> None:
         MissingDependency: With what to do on this Python and machine.
     """
     if "bullet" in names and not is_installed("pybullet"):
-        if _has_pybullet_wheel():
+        if has_pybullet_wheel():
             raise missing("pybullet", "--engine pybullet")
         raise MissingDependency(
             "PyBullet is not installed and has wheels for Linux on x86-64 with Python 3.10 and "
@@ -61,7 +61,7 @@ def check_engines(names: tuple[str, ...]) -> None:
 
 def _advice() -> str:
     """Say which engine can be had on this machine, and how."""
-    if _has_pybullet_wheel():
+    if has_pybullet_wheel():
         return install_command("simulate")
     if is_installed("mujoco"):
         return "use --engine mujoco"
@@ -73,7 +73,8 @@ def _advice() -> str:
     )
 
 
-def _has_pybullet_wheel() -> bool:
+def has_pybullet_wheel() -> bool:
+    """Tell whether the extra ``simulate`` installs PyBullet here, and not MuJoCo."""
     is_linux = sys.platform == "linux" and platform.machine() == "x86_64"
     return is_linux and sys.version_info[:2] < (3, 12)
 
