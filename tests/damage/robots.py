@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from pathlib import Path
@@ -60,13 +61,24 @@ class Sample:
 
 def samples() -> list[Sample]:
     """The robots of the collections that are installed."""
-    found = []
-    if (data := pybullet_data()) is not None:
-        found += [_sample(data / name, data, {"pybullet_data": data}) for name in PYBULLET]
-    if (data := example_robot_data()) is not None:
-        packages = {"example-robot-data": data}
-        found += [_sample(data / "robots" / name, data, packages) for name in EXAMPLES]
-    return found
+    return [*of_pybullet(PYBULLET), *of_examples(EXAMPLES)]
+
+
+def of_pybullet(names: Iterable[str]) -> list[Sample]:
+    """Robots of pybullet_data; none where it is not installed."""
+    data = pybullet_data()
+    if data is None:
+        return []
+    return [_sample(data / name, data, {"pybullet_data": data}) for name in names]
+
+
+def of_examples(names: Iterable[str]) -> list[Sample]:
+    """Robots of example-robot-data; none where it is not installed."""
+    data = example_robot_data()
+    if data is None:
+        return []
+    packages = {"example-robot-data": data}
+    return [_sample(data / "robots" / name, data, packages) for name in names]
 
 
 def pybullet_data() -> Path | None:
