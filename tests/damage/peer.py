@@ -1,7 +1,8 @@
 """``python -m tests.damage.peer [SEEDS [pybullet|examples]]``: simcheck's defects, found by lint.
 
 The eight robots are of pybullet_data; those of example-robot-data are for comparison. A defect
-counts as found if lint has a new error or warning that names what was damaged.
+counts as found if lint has a new finding that names what was damaged, and as loud if that is an
+error or a warning; simcheck counts new errors and warnings.
 """
 
 from __future__ import annotations
@@ -40,11 +41,13 @@ class Cell:
     """One kind of defect in one robot.
 
     Attributes:
+        loud: How many have an error or a warning, and not only an info.
         missed: The damaged names, and the rules that had something new, of each that was missed.
     """
 
     tried: int = 0
     found: int = 0
+    loud: int = 0
     missed: list[str] = field(default_factory=list)
 
     def __str__(self) -> str:
@@ -85,13 +88,12 @@ def _count(
     known: set[tuple[str, str, str]],
 ) -> None:
     new = [f for f in findings(text, sample, robot.folder) if said(f) not in known]
-    loud = [f for f in new if f.severity > Severity.INFO]
-    hit = any(not damaged or names(finding, damaged) for finding in loud)
+    hits = [f.severity for f in new if not damaged or names(f, damaged)]
     cell.tried += 1
-    cell.found += hit
-    if not hit:
-        rules = sorted({f"{f.rule} ({f.severity.label})" for f in new})
-        cell.missed.append(f"{sorted(damaged)}: {', '.join(rules)}")
+    cell.found += bool(hits)
+    cell.loud += any(severity > Severity.INFO for severity in hits)
+    if not hits:
+        cell.missed.append(f"{sorted(damaged)}: {sorted({f.rule for f in new})}")
 
 
 def _extents(path: Path, sample: Sample) -> dict[str, float]:
@@ -101,10 +103,11 @@ def _extents(path: Path, sample: Sample) -> dict[str, float]:
     return {name: max(box.size) for name, box in boxes.items() if box is not None}
 
 
-def total(rows: dict[str, dict[str, Cell]]) -> tuple[int, int]:
-    """How many were planted, and how many found."""
+def total(rows: dict[str, dict[str, Cell]]) -> Cell:
+    """All cells as one."""
     cells = [cell for row in rows.values() for cell in row.values()]
-    return sum(cell.tried for cell in cells), sum(cell.found for cell in cells)
+    tried, found, loud = (sum(getattr(c, n) for c in cells) for n in ("tried", "found", "loud"))
+    return Cell(tried, found, loud, [line for cell in cells for line in cell.missed])
 
 
 def main(seeds: int = 1, collection: str = "pybullet") -> None:
@@ -119,8 +122,9 @@ def main(seeds: int = 1, collection: str = "pybullet") -> None:
         for name, cell in row.items():
             for line in cell.missed:
                 print(f"missed: {kind}: {name} {line}")
-    tried, found = total(rows)
-    print(f"{found} of {tried} found, {100 * found / tried:.1f} %")
+    all_of = total(rows)
+    for what, count in (("found", all_of.found), ("with an error or warning", all_of.loud)):
+        print(f"{count} of {all_of.tried} {what}, {100 * count / all_of.tried:.1f} %")
 
 
 if __name__ == "__main__":

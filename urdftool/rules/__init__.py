@@ -176,7 +176,12 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         ),
     },
     "visual": {
-        "materials": ("undefined-material", "conflicting-material", "invalid-color"),
+        "materials": (
+            "undefined-material",
+            "nameless-material",
+            "conflicting-material",
+            "invalid-color",
+        ),
         "looks": (
             "missing-visual",
             "fully-transparent",
@@ -189,7 +194,9 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "files": ("mesh-not-found", "mesh-case-mismatch", "corrupt-mesh"),
         "uris": (
             "absolute-path",
+            "mesh-without-filename",
             "malformed-uri",
+            "unsupported-uri-scheme",
             "relative-uri-in-ros",
             "unsafe-file-name",
             "package-uri-unresolvable",

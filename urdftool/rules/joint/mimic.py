@@ -5,25 +5,29 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Mimic, Robot
+from ...source.document import Element
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import did_you_mean
+from ..xml.vocabulary_table import misspelt_attributes
 
 
 @rule(
     ERROR,
     effects={
-        "urdfdom": "takes it; without the attribute it rejects the robot",
+        "urdfdom, pinocchio, sdformat": "take it; without the attribute they reject the robot",
         "moveit": "cannot mimic unknown joint",
-        "mujoco": "drops the constraint silently",
+        "mujoco": "ignores the constraint; without the attribute it rejects the file",
         "ros2_control, drake": "reject it",
+        "pybullet": "does not read <mimic>",
     },
 )
 def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
     """A mimic joint follows a joint that is not there.
 
     Nothing then moves it. urdfdom does not look, MuJoCo drops it silently, ros2_control refuses to
-    start.
+    start. A ``<mimic>`` without the attribute ``joint`` is worse: urdfdom, and with it every reader
+    of ROS, Gazebo and pinocchio, rejects the robot.
     """
     stripped = {name.strip() for name in robot.joint}
     for joint, mimic in _mimics(robot):
@@ -31,7 +35,7 @@ def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
         if name in robot.joint or is_unexpanded(name):
             continue
         if not name.strip():
-            if "joint" in mimic.element.attributes or len(mimic.element.attributes) == 0:
+            if "joint" in mimic.element.attributes or not _is_misspelt(mimic.element):
                 message = f"<mimic> of joint '{joint.name}' names no joint; write joint=\"…\""
                 yield Problem(joint, message, at=mimic)
             continue
@@ -43,6 +47,11 @@ def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
             f"joint '{joint.name}' mimics '{name}', which is no joint{near}",
             at=mimic.element.attribute_place("joint"),
         )
+
+
+def _is_misspelt(element: Element) -> bool:
+    """Whether the attribute is there under another name, which is a finding of its own."""
+    return "name" in element.attributes or "joint" in misspelt_attributes(element).values()
 
 
 @rule(

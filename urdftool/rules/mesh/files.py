@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from itertools import takewhile
+from mmap import ACCESS_READ, mmap
 from pathlib import Path
+from typing import BinaryIO
 
 from ...inputs import Remembered
 from ...meshes.facts import LFS_MARK, stl_facts
@@ -151,15 +154,19 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
     ERROR,
     effects={
         "rviz, gazebo": "show nothing there",
-        "mujoco": "refuses the robot, with a message that points elsewhere",
+        "mujoco": "refuses the robot, with a message that points elsewhere; takes the hull of the "
+        "points of an OBJ without faces",
+        "pinocchio, drake": "reject the robot",
+        "pybullet": "warns; the link has nothing to touch with and falls through the ground",
     },
 )
 def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
     """A mesh file is there and holds no mesh.
 
     A pointer that git-lfs left in place of the file, an empty file, an STL file that ends before
-    its last triangle, or one without triangles. Readers say something about numbers or the format,
-    or nothing.
+    its last triangle, or a file without triangles: an OBJ with points and lines alone, a COLLADA
+    file whose geometry was left out at its export. Readers say something about numbers or the
+    format, or nothing.
     """
     told: set[Path] = set()
     for use in mesh_uses(robot, description):
@@ -182,9 +189,11 @@ def what_is_wrong(path: Path) -> str:
         if path.suffix.lower() != ".stl":
             with open(path, "rb") as file:
                 head = file.read(len(LFS_MARK))
-            if not head:
-                return "is an empty file"
-            return _LFS if head == LFS_MARK else ""
+                if not head:
+                    return "is an empty file"
+                if head == LFS_MARK:
+                    return _LFS
+                return "has no faces" if _has_no_faces(file, path.suffix.lower()) else ""
         facts = stl_facts(path)
     except OSError as error:
         return f"cannot be read: {(error.strerror or 'unknown').lower()}"
@@ -203,6 +212,24 @@ def what_is_wrong(path: Path) -> str:
             f"and it has {facts.bytes}"
         )
     return ""
+
+
+_FACES = {
+    ".obj": (b"\nf ", re.compile(rb"(?:^|[\r\n])[ \t]*fo?[ \t]")),
+    ".dae": (b"<triangles", re.compile(rb"<(?:\w+:)?(?:triangles|polylist|polygons|tri\w+s)\b")),
+}
+"""What begins a face, by the ending of a file: what it mostly is, and all that it may be."""
+
+
+def _has_no_faces(file: BinaryIO, suffix: str) -> bool:
+    """Whether a file of points says nothing of how they are joined."""
+    if suffix not in _FACES:
+        return False
+    mostly, any_of = _FACES[suffix]
+    with mmap(file.fileno(), 0, access=ACCESS_READ) as data:
+        if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+            return False  # UTF-16, in which every second byte is none of a letter
+        return data.find(mostly) < 0 and any_of.search(data) is None
 
 
 _LFS = "is a pointer of git-lfs, not the file itself; run 'git lfs pull'"

@@ -6,10 +6,12 @@ import os
 import re
 from collections.abc import Iterator
 
-from ...model.elements import Robot
+from ...model.elements import Mesh, Robot
 from ...source.description import Description
+from ...source.document import Element
 from ...source.packages import own_package
 from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..xml.vocabulary_table import misspelt_attributes
 from .uses import MeshUse, mesh_uses
 
 
@@ -53,6 +55,45 @@ def absolute_path(
 def folder_of(use: MeshUse) -> str:
     """The folder of a mesh as it is named."""
     return use.uri.replace("\\", "/").rstrip("/").rpartition("/")[0]
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, sdformat, pinocchio": "drop the shape and those of the link after it, a visual "
+        "also all collisions, and report success",
+        "drake, pybullet": "reject the robot",
+        "mujoco": "rejects the file for a collision; drops visuals",
+    },
+)
+def mesh_without_filename(robot: Robot) -> Iterator[Problem]:
+    """A ``<mesh>`` has no ``filename``.
+
+    urdfdom stops reading the link at that point and keeps what it has: a visual without a file
+    takes the collisions of the link with it, and ``check_urdf`` reports success.
+    """
+    for link, shape in robot.shapes:
+        if not isinstance(shape.geometry, Mesh):
+            continue
+        element = shape.geometry.element
+        if "filename" in element.attributes or _is_misspelt(element):
+            continue
+        yield Problem(
+            link,
+            f"a <mesh> of link '{link.name}' has no filename; name the file, "
+            f"or remove the <{shape.element.tag}>",
+            at=element,
+        )
+
+
+def _is_misspelt(element: Element) -> bool:
+    """Whether the attribute is there under another name, which is a finding of its own."""
+    if "filename" in misspelt_attributes(element).values():
+        return True
+    return any(name in element.attributes or element.child(name) for name in _MISNAMED)
+
+
+_MISNAMED = ("uri", "file", "url")
 
 
 @rule(ERROR, effects={"every reader": "may or may not find the file"})
@@ -103,6 +144,50 @@ def malformation(use: MeshUse) -> str:
     if separator and (" " in uri or "%20" in uri):
         return f"mesh '{uri}' has a blank in it, which no URI may have; rename the file"
     return ""
+
+
+@rule(
+    WARNING,
+    raised={"pybullet": ERROR},
+    effects={
+        "rviz": "downloads it (from its source: resource_retriever, curl_retriever.cpp)",
+        "gz": "downloads from Fuel servers alone (from its source: gz-sim, ServerPrivate.cc)",
+        "pinocchio, drake, pybullet": "reject the robot",
+        "mujoco": "rejects the file for a collision; drops visuals",
+    },
+)
+def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A mesh is to be downloaded, or its URI begins with an unknown scheme.
+
+    URDF knows ``package://`` and ``file://``, Gazebo ``model://`` as well. Some readers download
+    ``https://``; all others reject the robot or leave the shape out. A robot that does is not the
+    same tomorrow, and does not load without a network. Of a scheme that no reader knows the shape
+    is missing in all of them; that is an error. One finding names the files of a server.
+    """
+    found: dict[str, list[MeshUse]] = {}
+    for use in mesh_uses(robot, description):
+        scheme, separator, rest = use.uri.partition("://")
+        if separator and re.fullmatch(r"[A-Za-z][\w+.-]*", scheme) and scheme not in _LOCAL:
+            found.setdefault(f"{scheme}://{rest.partition('/')[0]}", []).append(use)
+    for server, uses in found.items():
+        first = uses[0]
+        count = len({use.uri for use in uses})
+        more = f" and {count - 1} more from there" if count > 1 else ""
+        scheme = server.partition("://")[0]
+        known = scheme.lower() in ("http", "https")
+        if known:
+            what = "most readers download nothing; put the file into the package"
+        else:
+            what = f"no reader knows the scheme '{scheme}'; write package://PACKAGE/meshes/FILE"
+        yield Problem(
+            first.link,
+            f"mesh '{first.uri}'{more}: {what}",
+            at=first.mesh.element.attribute_place("filename"),
+            severity=None if known else ERROR,
+        )
+
+
+_LOCAL = ("package", "model", "file")
 
 
 @rule(

@@ -60,18 +60,20 @@ def fully_transparent(robot: Robot) -> Iterator[Problem]:
 
 @rule(INFO, default=False, effects={"some tools": "take all materials without a name for one"})
 def empty_material_name(robot: Robot) -> Iterator[Problem]:
-    """A material has no name.
+    """The name of a material is empty.
 
     Exporters of CAD programs write ``<material name="">`` with a colour. Tools that keep materials
     by name show all of them in the first colour.
     """
     for link in robot.links:
         for visual in link.visuals:
-            if visual.material is not None and not visual.material.name:
-                element = visual.material.element
+            if visual.material is None or visual.material.name:
+                continue
+            element = visual.material.element
+            if "name" in element.attributes:
                 yield Problem(
                     link,
-                    f"a material of link '{link.name}' has no name; give it one",
+                    f"a material of link '{link.name}' has an empty name; give it one",
                     at=element.attribute_place("name"),
                 )
 

@@ -8,6 +8,7 @@ from ...model.elements import Material, Robot
 from ...model.read import numbers
 from ..rule import ERROR, WARNING, Problem, rule
 from ..words import did_you_mean
+from ..xml.vocabulary_table import misspelt_attributes
 
 _Look = tuple[tuple[float, ...] | None, str | None]
 
@@ -44,6 +45,42 @@ def undefined_material(robot: Robot) -> Iterator[Problem]:
                 + did_you_mean(name, defined),
                 at=first.element.attribute_place("name"),
             )
+
+
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, sdformat, pinocchio": "drop it with a message at the top level; in a visual they "
+        "drop all visuals and collisions of the link from there on, and report success",
+        "pybullet": "rejects the robot for a visual",
+        "drake": "rejects the robot for the top level",
+        "mujoco": "accepts it",
+    },
+)
+def nameless_material(robot: Robot) -> Iterator[Problem]:
+    """A ``<material>`` lacks the attribute ``name``.
+
+    At the top level nothing can refer to it. In a visual, urdfdom stops reading the link at that
+    point and keeps what it has: the visual and all collisions of the link are gone, while
+    ``check_urdf`` reports success. ``name=""`` is accepted.
+    """
+    for material in robot.materials:
+        if _is_nameless(material):
+            yield Problem(material.element, 'a <material> of the robot has no name; write name="…"')
+    for link in robot.links:
+        for visual in link.visuals:
+            if visual.material is not None and _is_nameless(visual.material):
+                yield Problem(
+                    link,
+                    f"a <material> of link '{link.name}' has no name, at which urdfdom drops the "
+                    'visual and the collisions of the link; write name="…"',
+                    at=visual.material.element,
+                )
+
+
+def _is_nameless(material: Material) -> bool:
+    element = material.element
+    return "name" not in element.attributes and not misspelt_attributes(element)
 
 
 @rule(
