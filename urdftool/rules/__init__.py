@@ -111,6 +111,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "mimic-dof-mismatch",
             "mimic-not-simulated",
             "gripper-finger-not-mimic",
+            "fingers-move-together",
         ),
         "safety": (
             "incomplete-safety-controller",
@@ -158,7 +159,11 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "sides": ("left-right-asymmetry",),
     },
     "collision": {
-        "presence": ("missing-collision", "massive-link-without-collision"),
+        "presence": (
+            "missing-collision",
+            "odd-link-without-collision",
+            "massive-link-without-collision",
+        ),
         "shapes": ("non-positive-dimension", "unsupported-shape"),
         "likeness": (
             "visual-mesh-as-collision",

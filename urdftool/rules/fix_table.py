@@ -122,6 +122,7 @@ FIXES: dict[str, dict[str, str]] = {
     },
     "shapes": {
         "missing-collision": UNSAFE,
+        "odd-link-without-collision": UNSAFE,
         "missing-visual": UNSAFE,
         "collision-off-visual": UNSAFE,
         "unsupported-shape": UNSAFE,

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from statistics import median
 
 from ...model.bounds import size_of
 from ...model.elements import Link, Mesh, Robot
 from ..gazebo.contact import axis_up
+from ..inertia.bodies import bodies, mass_of
 from ..rule import INFO, WARNING, Problem, rule
+from ..sides import family_of
+from ..words import some_of
 from ..xml.vocabulary_table import misspelt_children
 
 _FRAME = re.compile(r"optical|(^|_)frame$")
@@ -42,8 +46,11 @@ def missing_collision(
     seen = [link for link in robot.links if _seen_size(link) >= smallest]
     ghosts = [link for link in seen if not link.collisions]
     sizes = _sizes(robot, ghosts)
+    odd = _odd_bodies(robot)
     for link in ghosts:
-        if sizes[link.name] < smallest or "collision" in misspelt_children(link.element).values():
+        if any(link in links for links, _ in odd):
+            continue
+        if sizes[link.name] < smallest or _has_misspelt_collision(link):
             continue
         yield Problem(
             link,
@@ -51,6 +58,71 @@ def missing_collision(
             "add a <collision>, best with a primitive shape",
             severity=INFO if sizes[link.name] < small else None,
         )
+
+
+@rule(
+    WARNING,
+    effects={
+        "gazebo, pybullet": "the link passes through the ground and through other bodies",
+        "moveit": "plans straight through it",
+        "mujoco": "the body has no geom at all: visuals of a URDF are discarded",
+    },
+)
+def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:
+    """One moving link has no collision, and the others of its kind have one.
+
+    Either it is the only moving body of the robot with a visual and without a collision, or bodies
+    of the same name at other corners of the robot have one: the front hips of a quadruped have
+    none, its rear hips do. Then it was forgotten, or lost in an edit. Links that are fixed to each
+    other count as one body. A body with less than a hundredth of the mass of the others' median is
+    ignored.
+    """
+    for links, others in _odd_bodies(robot):
+        link = next(link for link in links if link.visuals)
+        yield Problem(
+            link,
+            f"link '{link.name}' moves and has a visual, but no collision; {others} one; "
+            "add a <collision>",
+        )
+
+
+_odd: tuple[Robot, list[tuple[list[Link], str]]] | None = None
+
+
+def _odd_bodies(robot: Robot) -> list[tuple[list[Link], str]]:
+    """Moving bodies without a collision whose likes have one, each with which have it."""
+    global _odd
+    if _odd is None or _odd[0] is not robot:
+        _odd = robot, list(_find_odd_bodies(robot))
+    return _odd[1]
+
+
+def _find_odd_bodies(robot: Robot) -> Iterator[tuple[list[Link], str]]:
+    moving = {
+        name: links
+        for name, links in bodies(robot).items()
+        if (joint := robot.tree.parent_joint(name)) is not None
+        and not joint.is_fixed
+        and any(link.visuals for link in links)
+    }
+    solid = [name for name, links in moving.items() if any(link.collisions for link in links)]
+    bare = [name for name in moving if name not in solid]
+    if not bare or not solid:
+        return
+    typical = median(mass_of(moving[name]) for name in solid)
+    for name in bare:
+        links = moving[name]
+        if mass_of(links) < typical / 100 or any(map(_has_misspelt_collision, links)):
+            continue
+        likes = [f"'{other}'" for other in solid if family_of(other) == family_of(name)]
+        if likes:
+            yield links, f"{some_of(likes, 'links')} {'have' if len(likes) > 1 else 'has'}"
+        elif len(bare) == 1 and len(solid) > 1:
+            yield links, f"the {len(solid)} other moving bodies of the robot have"
+
+
+def _has_misspelt_collision(link: Link) -> bool:
+    return "collision" in misspelt_children(link.element).values()
 
 
 @rule(

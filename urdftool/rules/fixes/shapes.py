@@ -56,6 +56,9 @@ def missing_collision(problem: Problem, around: Around) -> Proposal | None:
     return unsafe("collide with the shape that is seen", *changes)
 
 
+odd_link_without_collision = missing_collision
+
+
 def missing_visual(problem: Problem, around: Around) -> Proposal | None:
     """A copy of each collision."""
     link = around.link(problem)
