@@ -66,7 +66,7 @@ def table(
             extent = _extents(place / "robot.urdf", sample)
             for kind, row in rows.items():
                 cell = row[sample.name] = Cell()
-                done: set[str] = set()
+                done = {ElementTree.tostring(ElementTree.fromstring(sample.text), "unicode")}
                 for seed in range(seeds):
                     root = ElementTree.fromstring(sample.text)
                     robot = Measured(root, place, extent)

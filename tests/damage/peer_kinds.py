@@ -1,7 +1,8 @@
 """The 17 kinds of defect that simcheck 0.2.0 plants in its own benchmark, written anew.
 
 ``simcheck bench`` lists them. A kind changes one random element of a robot (the first two: all of
-its geometry), and says which names are hit; an empty set stands for the whole robot.
+its geometry), and says which names are hit; an empty set stands for the whole robot. What would
+change nothing, such as a zero in place of a zero, is not planted.
 """
 
 from __future__ import annotations

@@ -46,9 +46,9 @@ def missing_collision(
     seen = [link for link in robot.links if _seen_size(link) >= smallest]
     ghosts = [link for link in seen if not link.collisions]
     sizes = _sizes(robot, ghosts)
-    odd = _odd_bodies(robot)
+    odd = {link.name for link, _ in _odd_links(robot)}
     for link in ghosts:
-        if any(link in links for links, _ in odd):
+        if link.name in odd:
             continue
         if sizes[link.name] < smallest or _has_misspelt_collision(link):
             continue
@@ -69,56 +69,71 @@ def missing_collision(
     },
 )
 def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:
-    """One moving link has no collision, and the others of its kind have one.
+    """One link has no collision, and the others of its kind have one.
 
-    Either it is the only moving body of the robot with a visual and without a collision, or bodies
-    of the same name at other corners of the robot have one: the front hips of a quadruped have
-    none, its rear hips do. Then it was forgotten, or lost in an edit. Links that are fixed to each
-    other count as one body. A body with less than a hundredth of the mass of the others' median is
+    Either links of the same name at other corners of the robot have one: the front hips of a
+    quadruped have none, its rear hips do. Or it is the only moving body of the robot with a visual
+    and without a collision. Then it was forgotten, or lost in an edit. Links that are fixed to each
+    other count as one body. A link with less than a hundredth of the mass of the others' median is
     ignored.
     """
-    for links, others in _odd_bodies(robot):
-        link = next(link for link in links if link.visuals)
+    for link, others in _odd_links(robot):
         yield Problem(
             link,
-            f"link '{link.name}' moves and has a visual, but no collision; {others} one; "
-            "add a <collision>",
+            f"link '{link.name}' has a visual, but no collision; {others} one; add a <collision>",
         )
 
 
-_odd: tuple[Robot, list[tuple[list[Link], str]]] | None = None
+_odd: tuple[Robot, list[tuple[Link, str]]] | None = None
 
 
-def _odd_bodies(robot: Robot) -> list[tuple[list[Link], str]]:
-    """Moving bodies without a collision whose likes have one, each with which have it."""
+def _odd_links(robot: Robot) -> list[tuple[Link, str]]:
+    """Links without a collision whose likes have one, each with which have it."""
     global _odd
     if _odd is None or _odd[0] is not robot:
-        _odd = robot, list(_find_odd_bodies(robot))
+        found = {link.name: others for link, others in (*_alone(robot), *_unlike(robot))}
+        _odd = robot, [(link, found[link.name]) for link in robot.links if link.name in found]
     return _odd[1]
 
 
-def _find_odd_bodies(robot: Robot) -> Iterator[tuple[list[Link], str]]:
-    moving = {
-        name: links
+def _unlike(robot: Robot) -> Iterator[tuple[Link, str]]:
+    """Links without a collision of which most links at other corners have one."""
+    families: dict[str, list[Link]] = {}
+    for link in robot.links:
+        if link.visuals:
+            families.setdefault(family_of(link.name), []).append(link)
+    for links in families.values():
+        solid = [link for link in links if link.collisions]
+        if 2 * len(solid) < len(links):
+            continue
+        typical = median(link.mass for link in solid)
+        names = [f"'{link.name}'" for link in solid]
+        others = f"{some_of(names, 'links')} {'have' if len(names) > 1 else 'has'}"
+        for link in links:
+            if link.collisions or _has_misspelt_collision(link):
+                continue
+            if link.mass >= typical / 100:
+                yield link, others
+
+
+def _alone(robot: Robot) -> Iterator[tuple[Link, str]]:
+    """The one moving body without a collision, by its first link with a visual."""
+    moving = [
+        links
         for name, links in bodies(robot).items()
         if (joint := robot.tree.parent_joint(name)) is not None
         and not joint.is_fixed
         and any(link.visuals for link in links)
-    }
-    solid = [name for name, links in moving.items() if any(link.collisions for link in links)]
-    bare = [name for name in moving if name not in solid]
-    if not bare or not solid:
+    ]
+    solid = [links for links in moving if any(link.collisions for link in links)]
+    if len(solid) != len(moving) - 1 or len(solid) < 2:
         return
-    typical = median(mass_of(moving[name]) for name in solid)
-    for name in bare:
-        links = moving[name]
-        if mass_of(links) < typical / 100 or any(map(_has_misspelt_collision, links)):
-            continue
-        likes = [f"'{other}'" for other in solid if family_of(other) == family_of(name)]
-        if likes:
-            yield links, f"{some_of(likes, 'links')} {'have' if len(likes) > 1 else 'has'}"
-        elif len(bare) == 1 and len(solid) > 1:
-            yield links, f"the {len(solid)} other moving bodies of the robot have"
+    bare = next(links for links in moving if links not in solid)
+    if any(map(_has_misspelt_collision, bare)):
+        return
+    if mass_of(bare) >= median(map(mass_of, solid)) / 100:
+        link = next(link for link in bare if link.visuals)
+        yield link, f"the {len(solid)} other moving bodies of the robot have"
 
 
 def _has_misspelt_collision(link: Link) -> bool:

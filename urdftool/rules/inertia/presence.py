@@ -9,6 +9,7 @@ from ..rule import ERROR, GAZEBO, INFO, ROS, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_children
 from .bodies import bodies, mass_of
 
+_SIMULATED = ("gazebo-classic", "gz", "mujoco")
 _LOST = "Gazebo leaves it out, with all that hangs on it"
 
 
@@ -63,26 +64,36 @@ def _links_with_mass(robot: Robot) -> frozenset[str]:
 
 
 @rule(
-    ERROR,
-    on=("gazebo-classic", "gz", "mujoco"),
+    WARNING,
+    raised=dict.fromkeys(_SIMULATED, ERROR),
     effects={
         "gz, gazebo-classic": "leave out the link and all that hangs on it, most versions silently",
         "mujoco": "rejects the file: mass of moving bodies must be positive",
+        "pybullet": "gives it 1 kg",
+        "pinocchio": "its mass matrix is singular if nothing with mass is below it",
     },
 )
-def massless_moving_body(robot: Robot) -> Iterator[Problem]:
+def massless_moving_body(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A joint moves a frame to which nothing with a mass is fixed.
 
     A frame between two joints is fine for kinematics and impossible to simulate: a force on zero
     mass has no finite answer. Gazebo leaves out the link and the whole branch on it; controllers
-    then report joints that are not found. MuJoCo refuses the file.
+    then report joints that are not found. MuJoCo refuses the file. Where the robot is for no
+    simulator, such a body is reported if it is the only one: its ``<inertial>`` was lost.
     """
+    bare, heavy = [], 0
     for name, links in bodies(robot).items():
         joint = robot.tree.parent_joint(name)
-        if joint is None or joint.is_fixed or not _is_bare(links):
+        if joint is None or joint.is_fixed:
             continue
+        if _is_bare(links):
+            bare.append((joint, name, links[0]))
+        heavy += mass_of(links) > 0
+    if targets.isdisjoint(_SIMULATED) and (len(bare) > 1 or heavy < 3):
+        return
+    for joint, name, link in bare:
         yield Problem(
-            links[0],
+            link,
             f"joint '{joint.name}' moves link '{name}', which has no mass{_below(robot, name)}; "
             "give it a small <inertial>, or make the joint fixed",
         )
