@@ -350,6 +350,11 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "end-effector-group",
             "missing-acceleration-limits",
         ),
+        "configuration": (
+            "moveit-limit-not-a-double",
+            "moveit-controller-incomplete",
+            "moveit-controller-unknown-joint",
+        ),
         "adjacent": ("adjacent-pair-not-disabled",),
     },
     "name": {

@@ -232,6 +232,8 @@ FIXES: dict[str, dict[str, str]] = {
         "non-ascii-name": UNSAFE,
     },
     "moveit": {
+        "moveit-limit-not-a-double": SAFE,
+        "moveit-controller-incomplete": UNSAFE,
         "srdf-robot-name": SAFE,
         "srdf-unknown-link": UNSAFE,
         "srdf-unknown-joint": UNSAFE,

@@ -32,6 +32,7 @@ class Node:
         quoted: Whether the scalar is quoted, so that it is text.
         items: Of a sequence.
         fields: Of a mapping.
+        kind: Of a scalar, what YAML 1.1 takes it for: ``int``, ``float``, ``bool``, ``str`` ….
     """
 
     file: SourceFile
@@ -42,6 +43,7 @@ class Node:
     quoted: bool
     items: list[Node] | None
     fields: dict[str, Node] | None
+    kind: str = ""
 
     @property
     def place(self) -> Place:
@@ -203,6 +205,7 @@ class _Reader:
         made = Node(self.file, start, end, key, None, False, None, None)
         if isinstance(node, yaml.ScalarNode):
             made.text, made.quoted = str(node.value), node.style in ("'", '"')
+            made.kind = str(node.tag).rpartition(":")[2]
         elif isinstance(node, yaml.SequenceNode):
             made.items = [self.node(item, key, depth + 1) for item in node.value]
         else:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 
 from ...source.document import Element
+from ..moveit.configuration import action_of, as_double, not_doubles, without_action
 from ..rule import Problem
 from .proposal import (
     Around,
     Proposal,
+    Span,
     after,
     attribute_at,
     insert,
@@ -18,6 +20,32 @@ from .proposal import (
     safe,
     unsafe,
 )
+
+
+def moveit_limit_not_a_double(problem: Problem, around: Around) -> Proposal | None:
+    """The same number with a point, for each of them."""
+    nodes = [node for _, node in not_doubles(around.robot, around.description)]
+    spans = [
+        Span(node.file, node.start, node.end, text.encode())
+        for node in nodes
+        if (text := as_double(node))
+    ]
+    return safe("write doubles", *spans) if spans else None
+
+
+def moveit_controller_incomplete(problem: Problem, around: Around) -> Proposal | None:
+    """The action of its type, on a line before the others."""
+    for name, section in without_action(around.robot, around.description):
+        if name.place.start != problem.place.start or name.file.path != problem.place.path:
+            continue
+        data, at = section.file.data, section.start
+        text = f"action_ns: {action_of(section)}".encode()
+        if data[at : at + 1] == b"{":
+            at, text = at + 1, text + b", "
+        else:
+            text += b"\n" + data[data.rfind(b"\n", 0, at) + 1 : at]  # indented as it is
+        return unsafe("name the action of its type", Span(section.file, at, at, text))
+    return None
 
 
 def srdf_robot_name(problem: Problem, around: Around) -> Proposal | None:

@@ -1,0 +1,127 @@
+"""What is reported of the YAML files of a MoveIt configuration."""
+
+import pytest
+
+from urdftool import check
+
+ROBOT = """<robot name="arm">
+  <link name="base"/><link name="tip"/>
+  <joint name="elbow" type="revolute">
+    <parent link="base"/><child link="tip"/><axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+</robot>"""
+SRDF = '<robot name="arm"><group name="arm"><joint name="elbow"/></group></robot>'
+LIMITS = """joint_limits:
+  elbow:
+    has_velocity_limits: {on}
+    max_velocity: {velocity}
+    has_acceleration_limits: true
+    max_acceleration: 1.0
+    max_position: {position}
+  ghost:
+    has_velocity_limits: true
+    max_velocity: 2
+"""
+MANAGER = """moveit_simple_controller_manager:
+  controller_names: [{names}]
+  arm_controller:
+    {rest}
+"""
+WHOLE = "{type: FollowJointTrajectory, action_ns: follow_joint_trajectory, joints: [elbow]}"
+
+
+@pytest.fixture
+def lint(write, monkeypatch, tmp_path):
+    """Check an arm with a YAML file next to its SRDF; the messages."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(rule, targets=("moveit", "ros2"), **files):
+        write("arm.urdf", ROBOT)
+        write("arm.srdf", SRDF)
+        for name, text in files.items():
+            write(f"{name}.yaml", text)
+        return [f.message for f in check("arm.urdf", select=(rule,), targets=targets)]
+
+    return run
+
+
+@pytest.mark.parametrize(
+    ("velocity", "on", "position", "right"),
+    [
+        ("2", "true", "1.5", "write 2.0"),
+        ("-3", "true", "1.5", "write -3.0"),
+        ("2", "false", "1.5", None),
+        ("2.", "true", "1.5", None),
+        ("!!float 2", "true", "1.5", None),
+        ("1e3", "true", "1.5", "reads as text; write 1000.0"),
+        ("'2.0'", "true", "1.5", "reads as text; write 2.0"),
+        ("fast", "true", "1.5", "write a number with a point"),
+        ("2.0", "true", "1", "max_position of joint 'elbow' is '1'"),
+    ],
+)
+def test_numbers_that_are_no_doubles(lint, velocity, on, position, right):
+    limits = LIMITS.format(velocity=velocity, on=on, position=position)
+    found = lint("moveit-limit-not-a-double", joint_limits=limits)
+    assert [right in message for message in found] == ([True] if right else [])
+
+
+def test_several_of_a_file_are_one_finding(lint):
+    found = lint(
+        "moveit-limit-not-a-double",
+        joint_limits=LIMITS.format(velocity="2", on="true", position="1"),
+    )
+    assert len(found) == 1
+    assert "the same is true of max_position of 'elbow'" in found[0]
+
+
+def test_ros_1_converts_integers(lint):
+    limits = LIMITS.format(velocity="2", on="true", position="1")
+    rule = "moveit-limit-not-a-double"
+    assert lint(rule, targets=("moveit", "ros1"), joint_limits=limits) == []
+    assert lint(rule, targets=("moveit",), joint_limits=limits)
+
+
+@pytest.mark.parametrize(
+    ("rest", "names", "what"),
+    [
+        (WHOLE, "arm_controller", None),
+        (WHOLE.replace("action_ns: follow_joint_trajectory, ", ""), "arm_controller", "action_ns"),
+        (WHOLE.replace("follow_joint_trajectory", "''"), "arm_controller", None),
+        (WHOLE.replace("type: FollowJointTrajectory, ", ""), "arm_controller", "lacks type"),
+        (WHOLE.replace("[elbow]", "[]"), "arm_controller", "lacks joints"),
+        (WHOLE.replace("Trajectory,", "Trajectroy,"), "arm_controller", "'FollowJointTrajectory'?"),
+        (WHOLE, "arm_controler", "did you mean 'arm_controller'?"),
+    ],
+)
+def test_controllers_that_moveit_leaves_out(lint, rest, names, what):
+    found = lint(
+        "moveit-controller-incomplete", moveit_controllers=MANAGER.format(rest=rest, names=names)
+    )
+    assert [what in message for message in found] == ([True] if what else [])
+
+
+def test_a_joint_of_a_controller_is_asked_for(lint):
+    yaml = MANAGER.format(rest=WHOLE.replace("[elbow]", "[elbwo]"), names="arm_controller")
+    (message,) = lint("moveit-controller-unknown-joint", moveit_controllers=yaml)
+    assert "did you mean 'elbow'?" in message
+
+
+def test_nothing_is_reported_without_an_srdf(lint, tmp_path):
+    limits = LIMITS.format(velocity="2", on="true", position="1")
+    assert lint("moveit-limit-not-a-double", joint_limits=limits)
+    (tmp_path / "arm.srdf").unlink()
+    found = check("arm.urdf", select=("moveit-limit-not-a-double",), targets=("moveit", "ros2"))
+    assert found == []
+
+
+def test_an_action_is_written_into_braces(lint, urdftool, tmp_path):
+    rest = WHOLE.replace("action_ns: follow_joint_trajectory, ", "")
+    yaml = MANAGER.format(rest=rest, names="arm_controller")
+    whole = "{action_ns: follow_joint_trajectory, type: FollowJointTrajectory, joints: [elbow]}"
+    rule = "moveit-controller-incomplete"
+    assert lint(rule, moveit_controllers=yaml)
+    urdftool("lint", "arm.urdf", "--select", rule, "--target", "moveit", "--fix", "--unsafe-fixes")
+    text = (tmp_path / "moveit_controllers.yaml").read_text().strip()
+    assert text == MANAGER.format(rest=whole, names="arm_controller").strip()
+    assert lint(rule, moveit_controllers=text) == []

@@ -1,0 +1,211 @@
+"""The YAML files of a MoveIt configuration, next to the SRDF."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from ...errors import ConfigError
+from ...model.elements import Joint, Robot
+from ...source.description import Description
+from ...source.nearby import file_at
+from ...source.packages import shown_path
+from ...source.yaml_tree import Node, yaml_of
+from ..rule import ERROR, Problem, rule
+from ..words import did_you_mean, some_of
+from .semantic import semantics
+
+_ON = ("moveit",)
+_LIMITS = (
+    ("has_velocity_limits", ("max_velocity",)),
+    ("has_acceleration_limits", ("max_acceleration",)),
+    ("has_jerk_limits", ("max_jerk",)),
+    ("", ("max_position", "min_position")),
+)
+"""What MoveIt reads as doubles, each after the switch that it asks first."""
+_MANAGER = "moveit_simple_controller_manager"
+_TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
+
+
+@rule(
+    ERROR,
+    on=_ON,
+    effects={
+        "moveit": "move_group of ROS 2 ends with an exception: expected [double] got [integer] "
+        "(from its source: robot_model_loader.cpp; rclcpp, parameter.hpp)",
+    },
+)
+def moveit_limit_not_a_double(
+    robot: Robot, description: Description, targets: frozenset[str]
+) -> Iterator[Problem]:
+    """A limit in ``joint_limits.yaml`` is an integer, where MoveIt 2 reads a double.
+
+    A parameter of ROS 2 has one type. YAML takes ``2`` for an integer, and MoveIt's nodes stop when
+    they read it as a double. The setup assistant writes such numbers itself. ``1e3`` is text to
+    YAML, for it lacks the point; write ``1.0e+3``. ROS 1 converts integers. One finding names the
+    limits of a file.
+    """
+    if "ros1" in targets and "ros2" not in targets:
+        return
+    wrong = not_doubles(robot, description)
+    if wrong:
+        joint, node = wrong[0]
+        names = [f"{one.key} of '{other.name}'" for other, one in wrong[1:]]
+        more = f"; the same is true of {some_of(names, 'limits', 3)}" if names else ""
+        yield Problem(
+            joint,
+            f"{node.key} of joint '{joint.name}' is {node.said}, which YAML reads as "
+            f"{'an integer' if node.kind == 'int' else 'text'}; "
+            f"write {as_double(node) or 'a number with a point'}{more}",
+            at=node.place,
+        )
+
+
+def not_doubles(robot: Robot, description: Description) -> list[tuple[Joint, Node]]:
+    """The limits in ``joint_limits.yaml`` that MoveIt reads as doubles and YAML does not."""
+    root = _read_beside(robot, description, "joint_limits.yaml")
+    limits = None if root is None else root.find("joint_limits")
+    wrong = []
+    for name, said in ((limits.fields if limits is not None else None) or {}).items():
+        joint = robot.joint.get(name)
+        if joint is None or joint.is_fixed or said.fields is None:
+            continue
+        for switch, keys in _LIMITS:
+            if switch and not _is_true(said.fields.get(switch)):
+                continue
+            found = [said.fields[key] for key in keys if key in said.fields]
+            wrong += [(joint, node) for node in found if node.text and node.kind != "float"]
+    return wrong
+
+
+def as_double(node: Node) -> str:
+    """A number as YAML reads a double; empty where it is not one."""
+    text = node.text or ""
+    if node.kind == "int":
+        return f"{text}.0" if re.fullmatch(r"[+-]?\d+", text) else ""
+    try:
+        return repr(float(text))
+    except ValueError:
+        return ""
+
+
+def _is_true(node: Node | None) -> bool:
+    return node is not None and (node.text or "").lower() in ("true", "yes", "on")
+
+
+@rule(
+    ERROR,
+    on=_ON,
+    effects={
+        "moveit": "logs an error and goes on without the controller; trajectories are planned and "
+        "cannot be executed (from its source: moveit_simple_controller_manager.cpp)",
+    },
+)
+def moveit_controller_incomplete(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A controller in MoveIt's configuration lacks what MoveIt needs to use it.
+
+    Each name of ``controller_names`` needs a section with ``action_ns``, ``type`` and ``joints``.
+    MoveIt leaves out a controller without them. Planning works, and the execution fails with
+    "Unable to identify any set of controllers that can actuate the specified joints". The setup
+    assistant forgets ``action_ns`` itself.
+    """
+    for manager in _managers(robot, description):
+        fields = manager.fields or {}
+        names = fields.get("controller_names")
+        for node in (names.items if names is not None else None) or []:
+            controller = fields.get(node.text or "")
+            if controller is None:
+                known = [key for key, value in fields.items() if value.fields is not None]
+                yield Problem(
+                    robot,
+                    f"MoveIt's controller '{node.text}' has no section with its type and joints"
+                    + did_you_mean(node.text or "", known),
+                    at=node.place,
+                )
+                continue
+            wrong = _what_is_wrong(controller)
+            if wrong:
+                yield Problem(robot, f"MoveIt's controller '{node.text}' {wrong}", at=node.place)
+
+
+def action_of(controller: Node) -> str:
+    """The action that the controllers of ros2_control offer, by MoveIt's type."""
+    kind = (controller.fields or {}).get("type")
+    name = None if kind is None else kind.text
+    return "follow_joint_trajectory" if name == "FollowJointTrajectory" else "gripper_cmd"
+
+
+def without_action(robot: Robot, description: Description) -> Iterator[tuple[Node, Node]]:
+    """The controllers that lack ``action_ns`` alone: the name in the list, and the section."""
+    for manager in _managers(robot, description):
+        fields = manager.fields or {}
+        names = fields.get("controller_names")
+        for node in (names.items if names is not None else None) or []:
+            controller = fields.get(node.text or "")
+            if controller is not None and _missing(controller) == ["action_ns"]:
+                yield node, controller
+
+
+def _missing(controller: Node) -> list[str]:
+    fields = controller.fields or {}
+    missing = [key for key in ("action_ns", "type") if key not in fields]
+    joints = fields.get("joints")
+    return missing if joints is not None and joints.items else [*missing, "joints"]
+
+
+def _what_is_wrong(controller: Node) -> str:
+    kind = (controller.fields or {}).get("type")
+    name = "" if kind is None else kind.text or ""
+    if kind is not None and name not in _TYPES:
+        remedy = did_you_mean(name, _TYPES) or "; write FollowJointTrajectory or GripperCommand"
+        return f"is of type '{name}', which MoveIt does not have{remedy}"
+    missing = _missing(controller)
+    remedy = f"; write action_ns: {action_of(controller)}" if missing == ["action_ns"] else ""
+    return f"lacks {' and '.join(missing)}{remedy}" if missing else ""
+
+
+@rule(
+    ERROR,
+    on=_ON,
+    effects={"moveit": "finds no controller for the joint that is meant, and executes nothing"},
+)
+def moveit_controller_unknown_joint(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A controller in MoveIt's configuration names a joint that the robot does not have.
+
+    MoveIt looks for controllers that together have all joints of a trajectory. The joint that was
+    meant is then in none of them.
+    """
+    for manager in _managers(robot, description):
+        for name, controller in (manager.fields or {}).items():
+            joints = (controller.fields or {}).get("joints")
+            for node in (joints.items if joints is not None else None) or []:
+                if node.text and node.text not in robot.joint:
+                    yield Problem(
+                        robot,
+                        f"MoveIt's controller '{name}' names joint '{node.text}', which the robot "
+                        f"does not have{did_you_mean(node.text, robot.joint)}",
+                        at=node.place,
+                    )
+
+
+def _managers(robot: Robot, description: Description) -> Iterator[Node]:
+    """The sections for MoveIt's simple controller manager, of ROS 2's form."""
+    for name in ("moveit_controllers.yaml", "moveit_simple_controllers.yaml", "controllers.yaml"):
+        root = _read_beside(robot, description, name)
+        manager = None if root is None else root.find(_MANAGER)
+        if manager is not None:
+            yield manager
+
+
+def _read_beside(robot: Robot, description: Description, name: str) -> Node | None:
+    """A YAML file next to the description and its SRDF; None where there is none."""
+    if not semantics(robot, description):
+        return None
+    path = Path(description.path).parent / name
+    file = file_at(Path(shown_path(path))) if os.path.isfile(path) else None
+    try:
+        return None if file is None else yaml_of(file)
+    except ConfigError:
+        return None
