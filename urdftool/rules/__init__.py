@@ -328,6 +328,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "sensor-name-mismatch",
         ),
         "controllers": ("controller-unknown-joint",),
+        "parameter_types": ("controller-parameter-type",),
     },
     "simulation": {
         "stability": ("mass-ratio",),
@@ -414,6 +415,7 @@ ONLY_WITH: dict[str, tuple[str, ...]] = {
     "control.ros2_control_form": ("ros2_control",),
     "control.ros2_control_simulated": ("ros2_control", "plugin"),
     "control.controllers": ("ros2_control", "transmission"),
+    "control.parameter_types": ("ros2_control",),
 }
 
 FAMILIES = tuple(RULES)

@@ -222,6 +222,7 @@ FIXES: dict[str, dict[str, str]] = {
         "ros2-control-wrong-sim-plugin": UNSAFE,
         "ros2-control-unknown-imu-interface": UNSAFE,
         "controller-unknown-joint": UNSAFE,
+        "controller-parameter-type": SAFE,
     },
     "renames": {
         "link-joint-name-clash": UNSAFE,

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 
 from ...source.document import Element
+from ..control.controller_files import package_of
+from ..control.parameter_types import wrong_types
 from ..rule import Problem
 from .proposal import (
     Around,
@@ -268,3 +270,20 @@ def controller_unknown_joint(problem: Problem, around: Around) -> Proposal | Non
         return None
     at = start + wrong.start()
     return unsafe(f"write {name}", Span(file, at, at + len(wrong[0]), name.encode()))
+
+
+def controller_parameter_type(problem: Problem, around: Around) -> Proposal | None:
+    """The same numbers in the type that is declared; none is rounded."""
+    for file in package_of(around.robot, around.description).controller_files:
+        if file.file.path != problem.place.path:
+            continue
+        spans = []
+        for _, node, right in wrong_types(file):
+            if node.items is None and float(node.text or 0) != float(right):
+                continue
+            pairs = [(node, right)]
+            if node.items is not None:
+                pairs = [(item, f"{item.text}.0") for item in node.items]
+            spans += [Span(one.file, one.start, one.end, text.encode()) for one, text in pairs]
+        return safe("write the type that is declared", *spans) if spans else None
+    return None

@@ -1,0 +1,160 @@
+"""The types that the parameters of ros2_control's controllers must have."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ...errors import ConfigError
+from ...model.elements import Robot
+from ...source.description import Description
+from ...source.yaml_tree import Node, yaml_of
+from ..rule import ERROR, Problem, rule
+from ..words import some_of
+from .controller_files import ControllerFile, package_of
+
+_LIMITS = tuple(f"{end}_{what}" for end in ("max", "min") for what in ("velocity", "acceleration"))
+_COVARIANCE = ("pose_covariance_diagonal", "twist_covariance_diagonal")
+_STEERED = ("reference_timeout", *_COVARIANCE)
+
+_DOUBLES: dict[str, tuple[str, ...]] = {
+    "JointTrajectoryController": (
+        "action_monitor_rate",
+        "state_publish_rate",
+        "cmd_timeout",
+        *(f"gains.*.{name}" for name in ("p", "i", "d", "i_clamp", "ff_velocity_scale")),
+        "constraints.stopped_velocity_tolerance",
+        "constraints.goal_time",
+        "constraints.*.trajectory",
+        "constraints.*.goal",
+    ),
+    "DiffDriveController": (
+        "wheel_separation",
+        "wheel_radius",
+        "wheel_separation_multiplier",
+        "left_wheel_radius_multiplier",
+        "right_wheel_radius_multiplier",
+        "cmd_vel_timeout",
+        "publish_rate",
+        *_COVARIANCE,
+        *(f"linear.x.{name}" for name in _LIMITS),
+        *(f"angular.z.{name}" for name in _LIMITS),
+    ),
+    "GripperActionController": (
+        "action_monitor_rate",
+        "goal_tolerance",
+        "max_effort",
+        "stall_velocity_threshold",
+        "stall_timeout",
+    ),
+    "BicycleSteeringController": (
+        "wheelbase",
+        "front_wheel_radius",
+        "rear_wheel_radius",
+        "traction_wheel_radius",
+        *_STEERED,
+    ),
+    "TricycleSteeringController": (
+        "wheelbase",
+        "wheel_track",
+        "front_wheels_radius",
+        "rear_wheels_radius",
+        *_STEERED,
+    ),
+    "AckermannSteeringController": (
+        "wheelbase",
+        "front_wheel_track",
+        "rear_wheel_track",
+        "front_wheels_radius",
+        "rear_wheels_radius",
+        *_STEERED,
+    ),
+}
+"""By class, the parameters that ros2_controllers declares as doubles, or as arrays of them."""
+
+_INTEGERS: dict[str, tuple[str, ...]] = {
+    "DiffDriveController": ("wheels_per_side", "velocity_rolling_window_size"),
+}
+
+
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "controller_manager": "cannot load the controller: expected [double] got [integer]; for "
+        "update_rate it ends itself (from its source: rclcpp, node_parameters.cpp; "
+        "ros2_controllers, *_parameters.yaml)",
+    },
+)
+def controller_parameter_type(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A parameter of a controller is an integer where a double is declared, or the other way round.
+
+    A parameter of ROS 2 has one type and nothing is converted. YAML takes ``1`` for an integer and
+    ``1.0`` for a double, so ``wheel_radius: 1`` keeps the controller from being loaded. Looked at
+    are the controllers of ros2_controllers in the files for this robot. One finding names the
+    parameters of a file.
+    """
+    if not robot.ros2_controls:
+        return
+    for file in package_of(robot, description).controller_files:
+        wrong = list(wrong_types(file))
+        if wrong:
+            name, node, right = wrong[0]
+            what = "doubles" if node.items is not None else "a double" if _is_int(node) else ""
+            names = [f"{one}.{other.key}" for one, other, _ in wrong[1:]]
+            more = f"; the same is true of {some_of(names, 'parameters', 3)}" if names else ""
+            yield Problem(
+                robot,
+                f"{node.key} of '{name}' must be {what or 'an integer'} for ROS 2; "
+                f"write {right}{more}",
+                at=node.place,
+            )
+
+
+def wrong_types(file: ControllerFile) -> Iterator[tuple[str, Node, str]]:
+    """Parameters of another type than declared: the controller, the value, and what is right."""
+    try:
+        root = yaml_of(file.file)
+    except ConfigError:
+        return
+    for path, parameters in root.walk():
+        if path[-2:] == ("controller_manager", "ros__parameters"):
+            for node in _at(parameters, "update_rate"):
+                if node.kind == "float" and (right := _as_integer(node)):
+                    yield "controller_manager", node, right
+    for controller in file.controllers:
+        for pattern in _DOUBLES.get(controller.kind, ()):
+            for node in _at(controller.parameters, pattern):
+                scalars = [node] if node.items is None else node.items
+                if scalars and all(map(_is_int, scalars)):
+                    texts = [f"{scalar.text}.0" for scalar in scalars]
+                    right = texts[0] if node.items is None else f"[{', '.join(texts)}]"
+                    yield controller.name, node, right
+        for pattern in _INTEGERS.get(controller.kind, ()):
+            for node in _at(controller.parameters, pattern):
+                if node.kind == "float" and (right := _as_integer(node)):
+                    yield controller.name, node, right
+
+
+def _at(node: Node, pattern: str) -> Iterator[Node]:
+    """The values at a path of keys, in which a star stands for each key."""
+    before, star, after = pattern.partition(".*.")
+    found = node.find(*before.split("."))
+    if found is None or not star:
+        yield from [found] if found is not None else []
+        return
+    for inner in (found.fields or {}).values():
+        if inner.fields is not None:
+            yield from _at(inner, after)
+
+
+def _is_int(node: Node) -> bool:
+    return node.kind == "int" and re.fullmatch(r"[+-]?\d+", node.text or "") is not None
+
+
+def _as_integer(node: Node) -> str:
+    try:
+        value = float(node.text or "")
+    except ValueError:
+        return ""
+    return str(int(value)) if value.is_integer() else str(round(value))
