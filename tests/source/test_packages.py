@@ -154,12 +154,37 @@ def test_a_package_is_offered_where_a_neighbour_has_the_file(tmp_path):
         Packages(robot(home / "urdf")).resolve("package://arm_shapes/base.stl")
 
 
-def test_a_folder_beside_the_file_is_offered_that_only_pybullet_takes_for_a_package(tmp_path):
+@pytest.mark.parametrize("inside", [".", "urdf", "urdf/arms"])
+def test_a_folder_of_the_name_stands_for_a_package_that_is_not_found(tmp_path, inside):
     home = tmp_path / "panda"
     (home / "meshes" / "collision").mkdir(parents=True)
     (home / "meshes" / "collision" / "base.obj").write_text("")
-    with pytest.raises(PackageNotFound, match=f"--package meshes={home / 'meshes'} "):
-        Packages(robot(home)).resolve("package://meshes/collision/base.obj")
+    finder = Packages(robot(home / inside))
+    found = finder.resolve("package://meshes/collision/base.obj")
+    assert found == home / "meshes" / "collision" / "base.obj"
+    assert finder.assumed == {"meshes": home / "meshes"}
+    assert finder.resolve("package://meshes/lost.obj") == home / "meshes" / "lost.obj"
+    with pytest.raises(PackageNotFound):
+        finder.find("meshes")
+
+
+def test_of_two_folders_of_the_name_none_is_taken(tmp_path):
+    for home in (tmp_path / "panda", tmp_path / "panda" / "urdf"):
+        (home / "meshes").mkdir(parents=True)
+        (home / "meshes" / "base.obj").write_text("")
+    finder = Packages(robot(tmp_path / "panda" / "urdf"))
+    with pytest.raises(PackageNotFound, match="--package meshes="):
+        finder.resolve("package://meshes/base.obj")
+    assert finder.assumed == {}
+
+
+def test_a_package_of_the_name_comes_before_a_folder(tmp_path):
+    home = package(tmp_path / "ws" / "panda", "panda")
+    other = package(tmp_path / "ws" / "shapes", "meshes")
+    (home / "meshes").mkdir()
+    (home / "meshes" / "base.obj").write_text("")
+    finder = Packages(robot(home))
+    assert finder.resolve("package://meshes/base.obj") == other / "base.obj"
 
 
 def test_no_file_outside_is_offered(tmp_path):

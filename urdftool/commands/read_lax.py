@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..console import Console
-from .read_strict import read_configured, say_unknown
+from .read_strict import read_configured, say_assumed, say_unknown
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
@@ -62,6 +62,7 @@ def read_lax(
         console.note(f"{shown(error.where)}: warning: {error.message}; lax readers pass over it")
     if not many:
         say_unknown(console, description, shown=shown)
+    say_assumed(console, description, shown=shown)
     return take_world(console, robot_of(description), shown=shown)
 
 

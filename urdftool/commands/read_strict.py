@@ -34,6 +34,7 @@ def read_strict(
     path, arguments = robot
     description = read_configured(console, path, arguments, packages, package_paths)
     say_unknown(console, description)
+    say_assumed(console, description)
     return description
 
 
@@ -106,3 +107,34 @@ def say_unknown(
     path = shown(description.files[0].path)
     for line in unknown_arguments(path, description.arguments, description.expansion):
         console.note(line)
+
+
+def say_assumed(
+    console: Console, description: Description, *, shown: Callable[[str], str] = str
+) -> None:
+    """Say which packages are folders of their name, because they are not found.
+
+    Args:
+        console: Where it is said.
+        description: Any description.
+        shown: How a path is said.
+    """
+    from ..errors import UrdftoolError
+    from ..source.packages import shown_path
+
+    packages = description.packages
+    first: dict[str, str] = {}
+    for element in description.document.root.walk():
+        uri = element.get("filename") or ""
+        if element.tag == "mesh" and uri.startswith("package://"):
+            first.setdefault(uri[10:].partition("/")[0], uri)
+    for uri in first.values():
+        try:
+            packages.resolve(uri)
+        except UrdftoolError:
+            continue  # whoever needs it says so
+    for name, folder in packages.assumed.items():
+        console.note(
+            f"{shown(description.files[0].path)}: warning: package '{name}' is not found; "
+            f"its files are read from '{shown_path(folder)}'"
+        )

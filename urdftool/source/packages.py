@@ -27,6 +27,7 @@ _WORKSPACE_MARKS = (".git", ".hg", "src", ".catkin_workspace", ".catkin_tools", 
 _MAX_DEPTH = 7
 _MAX_FOLDERS = 20_000
 _MAX_CLIMB = 6
+_NEAR = 3
 
 
 def package_name(folder: Path) -> str | None:
@@ -123,6 +124,8 @@ class Packages:
     Attributes:
         file: The description; None for standard input, which stands in the current folder.
         used: Packages found so far, by name.
+        assumed: Folders that stand for a package of their name in ``package://``, because there is
+            no such package.
     """
 
     def __init__(
@@ -146,6 +149,7 @@ class Packages:
         self.paths = [Path(os.path.abspath(folder)) for folder in paths]
         self.configured = dict(configured or {})
         self.used: dict[str, Path] = {}
+        self.assumed: dict[str, Path] = {}
         self._rules: dict[str, list[InstallRule]] = {}
 
     def find(self, name: str) -> Path:
@@ -193,6 +197,23 @@ class Packages:
             if os.path.isfile(folder / inner):
                 return folder
         return None
+
+    def _folder_named(self, name: str, inner: str) -> Path | None:
+        """The one folder of a name with a certain file, near the description.
+
+        PyBullet takes ``package://meshes/arm.stl`` for the file ``meshes/arm.stl`` next to the
+        description or above it. None where no folder or several have the file.
+        """
+        if name in self.assumed:
+            return self.assumed[name]
+        if not inner or {"", ".", ".."} & {name, *inner.split("/")}:
+            return None
+        above = [folder for folder in self.file.parents if len(folder.parts) > 2][:_NEAR]
+        found = [folder / name for folder in above if os.path.isfile(folder / name / inner)]
+        if len({os.path.realpath(folder) for folder in found}) != 1:
+            return None
+        self.assumed[name] = found[0]
+        return found[0]
 
     def _candidates(self, name: str) -> Iterator[tuple[str, Path | None]]:
         """Each place in turn: what to say of it, and the folder if it has the package."""
@@ -269,6 +290,9 @@ class Packages:
     def resolve(self, uri: str, relative_to: str | Path | None = None) -> Path:
         """The file that a URI or path means. It may not exist.
 
+        A package that is not found is a folder of its name, if one alone near the description has
+        the file; ``assumed`` then has it.
+
         Args:
             uri: ``package://NAME/…``, ``model://NAME/…``, ``file://…`` or a path.
             relative_to: The file in which a relative path is written; the description if None.
@@ -282,6 +306,9 @@ class Packages:
             try:
                 folder = self.find(name)
             except PackageNotFound as error:
+                same = self._folder_named(name, inner) if scheme == "package" else None
+                if same is not None:
+                    return same / inner
                 near = self.folder_with(name, inner)
                 if near is None:
                     raise

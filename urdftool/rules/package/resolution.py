@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.packages import has_it, own_package
+from ...source.packages import has_it, own_package, shown_path
 from ..mesh.uses import MeshUse, mesh_uses
 from ..rule import WARNING, Problem, rule
 
@@ -17,6 +17,7 @@ from ..rule import WARNING, Problem, rule
     effects={
         "xacro": "stops at $(find …)",
         "rviz, gazebo": "show nothing of its meshes",
+        "pybullet": "takes a folder of that name near the file for the package",
     },
 )
 def package_not_found(robot: Robot, description: Description) -> Iterator[Problem]:
@@ -25,7 +26,9 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
     ``$(find NAME)`` and ``package://NAME/`` mean a ROS package, and none of that name is near the
     file, in the workspace around it, in the configuration, or in ``ROS_PACKAGE_PATH`` and
     ``AMENT_PREFIX_PATH``. The robot may be right and the package only not here; what is in it was
-    not checked. ``--package NAME=DIR`` or ``--package-path DIR`` says where it is.
+    not checked. ``--package NAME=DIR`` or ``--package-path DIR`` says where it is. If a folder of
+    that name is near the file and has the mesh, as in ``package://meshes/arm.stl``, its meshes are
+    read and checked; ROS does not find them.
     """
     lost: dict[str, list[MeshUse]] = {}
     for use in mesh_uses(robot, description):
@@ -43,6 +46,37 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
             at=uses[0].mesh.element.attribute_place("filename"),
             hint="; ".join(f"searched {place}" for place in _brief(uses[0].searched)),
         )
+    yield from _assumed(robot, description)
+
+
+def _assumed(robot: Robot, description: Description) -> Iterator[Problem]:
+    """Packages for which a folder of their name stands."""
+    found: dict[str, list[MeshUse]] = {}
+    for use in mesh_uses(robot, description):
+        scheme, _, rest = use.uri.partition("://")
+        name = rest.lstrip("/").partition("/")[0]
+        if scheme == "package" and name in description.packages.assumed:
+            found.setdefault(name, []).append(use)
+    for name, uses in found.items():
+        count = len({use.uri for use in uses})
+        meshes = f"{count} meshes are" if count > 1 else "a mesh is"
+        folder = description.packages.assumed[name]
+        yield Problem(
+            uses[0].link,
+            f"package '{name}' is not found, and {meshes} read from the folder "
+            f"'{shown_path(folder)}', as PyBullet does; write '{_right_uri(uses[0], description)}'",
+            at=uses[0].mesh.element.attribute_place("filename"),
+        )
+
+
+def _right_uri(use: MeshUse, description: Description) -> str:
+    """A URI that every reader finds, or the path where the file is in no package."""
+    file = description.packages.file
+    own = own_package(file)
+    path = use.path or file
+    start = file.parent if own is None else own[1]
+    inside = os.path.relpath(path, start).replace(os.sep, "/")
+    return inside if own is None or inside.startswith("..") else f"package://{own[0]}/{inside}"
 
 
 def is_in_own_package(use: MeshUse, description: Description) -> bool:
