@@ -1,5 +1,3 @@
-"""The defects that simcheck plants are found; ``python -m tests.damage.peer`` prints the table."""
-
 import pytest
 
 from .peer import EIGHT, table, total
