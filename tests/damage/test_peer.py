@@ -1,3 +1,5 @@
+"""The defects that simcheck plants are found; ``python -m tests.damage.peer`` has the table."""
+
 import pytest
 
 from .peer import EIGHT, table, total
