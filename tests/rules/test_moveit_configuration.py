@@ -55,6 +55,7 @@ def lint(write, monkeypatch, tmp_path):
         ("2.", "true", "1.5", None),
         ("!!float 2", "true", "1.5", None),
         ("1e3", "true", "1.5", "reads as text; write 1000.0"),
+        ("1e-7", "true", "1.5", "write 1.0e-07"),
         ("'2.0'", "true", "1.5", "reads as text; write 2.0"),
         ("fast", "true", "1.5", "write a number with a point"),
         ("2.0", "true", "1", "max_position of joint 'elbow' is '1'"),
@@ -62,22 +63,34 @@ def lint(write, monkeypatch, tmp_path):
 )
 def test_numbers_that_are_no_doubles(lint, velocity, on, position, right):
     limits = LIMITS.format(velocity=velocity, on=on, position=position)
-    found = lint("moveit-limit-not-a-double", joint_limits=limits)
+    found = lint("moveit-parameter-type", joint_limits=limits)
     assert [right in message for message in found] == ([True] if right else [])
 
 
 def test_several_of_a_file_are_one_finding(lint):
     found = lint(
-        "moveit-limit-not-a-double",
+        "moveit-parameter-type",
         joint_limits=LIMITS.format(velocity="2", on="true", position="1"),
     )
     assert len(found) == 1
-    assert "the same is true of max_position of 'elbow'" in found[0]
+    assert "the same is true of max_position of joint 'elbow'" in found[0]
+
+
+def test_solvers_and_cartesian_limits(lint):
+    found = lint(
+        "moveit-parameter-type",
+        kinematics="arm: {kinematics_solver_timeout: 5e-3, kinematics_solver_attempts: 3}\n",
+        pilz_cartesian_limits="cartesian_limits: {max_trans_vel: 1, max_rot_vel: 1.57}\n",
+    )
+    assert found == [
+        "kinematics_solver_timeout of group 'arm' is '5e-3', which YAML reads as text; write 0.005",
+        "max_trans_vel of cartesian_limits is '1', which YAML reads as an integer; write 1.0",
+    ]
 
 
 def test_ros_1_converts_integers(lint):
     limits = LIMITS.format(velocity="2", on="true", position="1")
-    rule = "moveit-limit-not-a-double"
+    rule = "moveit-parameter-type"
     assert lint(rule, targets=("moveit", "ros1"), joint_limits=limits) == []
     assert lint(rule, targets=("moveit",), joint_limits=limits)
 
@@ -109,9 +122,9 @@ def test_a_joint_of_a_controller_is_asked_for(lint):
 
 def test_nothing_is_reported_without_an_srdf(lint, tmp_path):
     limits = LIMITS.format(velocity="2", on="true", position="1")
-    assert lint("moveit-limit-not-a-double", joint_limits=limits)
+    assert lint("moveit-parameter-type", joint_limits=limits)
     (tmp_path / "arm.srdf").unlink()
-    found = check("arm.urdf", select=("moveit-limit-not-a-double",), targets=("moveit", "ros2"))
+    found = check("arm.urdf", select=("moveit-parameter-type",), targets=("moveit", "ros2"))
     assert found == []
 
 

@@ -352,7 +352,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "missing-acceleration-limits",
         ),
         "configuration": (
-            "moveit-limit-not-a-double",
+            "moveit-parameter-type",
             "moveit-controller-incomplete",
             "moveit-controller-unknown-joint",
         ),

@@ -233,7 +233,7 @@ FIXES: dict[str, dict[str, str]] = {
         "non-ascii-name": UNSAFE,
     },
     "moveit": {
-        "moveit-limit-not-a-double": SAFE,
+        "moveit-parameter-type": SAFE,
         "moveit-controller-incomplete": UNSAFE,
         "srdf-robot-name": SAFE,
         "srdf-unknown-link": UNSAFE,

@@ -22,12 +22,12 @@ from .proposal import (
 )
 
 
-def moveit_limit_not_a_double(problem: Problem, around: Around) -> Proposal | None:
+def moveit_parameter_type(problem: Problem, around: Around) -> Proposal | None:
     """The same number with a point, for each of them."""
-    nodes = [node for _, node in not_doubles(around.robot, around.description)]
+    name = problem.place.path.replace("\\", "/").rpartition("/")[2]
     spans = [
         Span(node.file, node.start, node.end, text.encode())
-        for node in nodes
+        for _, node in not_doubles(around.robot, around.description, name)
         if (text := as_double(node))
     ]
     return safe("write doubles", *spans) if spans else None

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ...errors import ConfigError
-from ...model.elements import Joint, Robot
+from ...model.elements import Robot
 from ...source.description import Description
 from ...source.nearby import file_at
 from ...source.packages import shown_path
@@ -34,50 +34,80 @@ _TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
     on=_ON,
     effects={
         "moveit": "move_group of ROS 2 ends with an exception: expected [double] got [integer] "
-        "(from its source: robot_model_loader.cpp; rclcpp, parameter.hpp)",
+        "(from its source: robot_model_loader.cpp, kinematics_parameters.yaml; rclcpp, "
+        "parameter.hpp)",
     },
 )
-def moveit_limit_not_a_double(
+def moveit_parameter_type(
     robot: Robot, description: Description, targets: frozenset[str]
 ) -> Iterator[Problem]:
-    """A limit in ``joint_limits.yaml`` is an integer, where MoveIt 2 reads a double.
+    """A number of a MoveIt configuration is an integer, where MoveIt 2 reads a double.
 
     A parameter of ROS 2 has one type. YAML takes ``2`` for an integer, and MoveIt's nodes stop when
-    they read it as a double. The setup assistant writes such numbers itself. ``1e3`` is text to
-    YAML, for it lacks the point; write ``1.0e+3``. ROS 1 converts integers. One finding names the
-    limits of a file.
+    they read it as a double. The setup assistant writes such numbers itself. ``5e-3`` is text to
+    YAML, for it lacks the point; write ``5.0e-3``. ROS 1 converts integers. Looked at are
+    ``joint_limits.yaml``, ``kinematics.yaml`` and ``pilz_cartesian_limits.yaml`` next to the
+    description and its SRDF. One finding names the numbers of a file.
     """
     if "ros1" in targets and "ros2" not in targets:
         return
-    wrong = not_doubles(robot, description)
-    if wrong:
-        joint, node = wrong[0]
-        names = [f"{one.key} of '{other.name}'" for other, one in wrong[1:]]
-        more = f"; the same is true of {some_of(names, 'limits', 3)}" if names else ""
-        yield Problem(
-            joint,
-            f"{node.key} of joint '{joint.name}' is {node.said}, which YAML reads as "
-            f"{'an integer' if node.kind == 'int' else 'text'}; "
-            f"write {as_double(node) or 'a number with a point'}{more}",
-            at=node.place,
-        )
+    for name in _FILES:
+        wrong = not_doubles(robot, description, name)
+        if wrong:
+            of, node = wrong[0]
+            names = [f"{one.key} of {other}" for other, one in wrong[1:]]
+            more = f"; the same is true of {some_of(names, 'numbers', 3)}" if names else ""
+            yield Problem(
+                robot,
+                f"{node.key} of {of} is {node.said}, which YAML reads as "
+                f"{'an integer' if node.kind == 'int' else 'text'}; "
+                f"write {as_double(node) or 'a number with a point'}{more}",
+                at=node.place,
+            )
 
 
-def not_doubles(robot: Robot, description: Description) -> list[tuple[Joint, Node]]:
-    """The limits in ``joint_limits.yaml`` that MoveIt reads as doubles and YAML does not."""
-    root = _read_beside(robot, description, "joint_limits.yaml")
-    limits = None if root is None else root.find("joint_limits")
-    wrong = []
+_FILES = ("joint_limits.yaml", "kinematics.yaml", "pilz_cartesian_limits.yaml")
+
+
+def not_doubles(robot: Robot, description: Description, name: str) -> list[tuple[str, Node]]:
+    """The numbers in a file that MoveIt reads as doubles and YAML does not, each with its owner."""
+    root = _read_beside(robot, description, name)
+    if root is None:
+        return []
+    read = {_FILES[0]: _limits_of, _FILES[1]: _solvers_of, _FILES[2]: _cartesian_of}[name]
+    return [(of, node) for of, node in read(robot, root) if node.text and node.kind != "float"]
+
+
+def _limits_of(robot: Robot, root: Node) -> Iterator[tuple[str, Node]]:
+    limits = root.find("joint_limits")
     for name, said in ((limits.fields if limits is not None else None) or {}).items():
         joint = robot.joint.get(name)
         if joint is None or joint.is_fixed or said.fields is None:
             continue
         for switch, keys in _LIMITS:
-            if switch and not _is_true(said.fields.get(switch)):
-                continue
-            found = [said.fields[key] for key in keys if key in said.fields]
-            wrong += [(joint, node) for node in found if node.text and node.kind != "float"]
-    return wrong
+            if not switch or _is_true(said.fields.get(switch)):
+                yield from _named(f"joint '{name}'", said, keys)
+
+
+def _solvers_of(robot: Robot, root: Node) -> Iterator[tuple[str, Node]]:
+    for name, group in (root.fields or {}).items():
+        yield from _named(
+            f"group '{name}'",
+            group,
+            ("kinematics_solver_timeout", "kinematics_solver_search_resolution"),
+        )
+
+
+def _cartesian_of(robot: Robot, root: Node) -> Iterator[tuple[str, Node]]:
+    limits = root.find("cartesian_limits")
+    if limits is not None:
+        keys = ("max_trans_vel", "max_trans_acc", "max_trans_dec", "max_rot_vel")
+        yield from _named("cartesian_limits", limits, keys)
+
+
+def _named(of: str, node: Node, keys: tuple[str, ...]) -> Iterator[tuple[str, Node]]:
+    fields = node.fields or {}
+    return ((of, fields[key]) for key in keys if key in fields)
 
 
 def as_double(node: Node) -> str:
@@ -86,9 +116,10 @@ def as_double(node: Node) -> str:
     if node.kind == "int":
         return f"{text}.0" if re.fullmatch(r"[+-]?\d+", text) else ""
     try:
-        return repr(float(text))
+        mantissa, exponent, power = repr(float(text)).partition("e")
     except ValueError:
         return ""
+    return mantissa + (".0" if "." not in mantissa else "") + exponent + power
 
 
 def _is_true(node: Node | None) -> bool:
