@@ -57,6 +57,7 @@ def lint(write, monkeypatch, tmp_path):
         ("1e3", "true", "1.5", "reads as text; write 1000.0"),
         ("1e-7", "true", "1.5", "write 1.0e-07"),
         ("'2.0'", "true", "1.5", "reads as text; write 2.0"),
+        ("inf", "true", "1.5", "write a number with a point"),
         ("fast", "true", "1.5", "write a number with a point"),
         ("2.0", "true", "1", "max_position of joint 'elbow' is '1'"),
     ],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections.abc import Iterator
@@ -116,9 +117,12 @@ def as_double(node: Node) -> str:
     if node.kind == "int":
         return f"{text}.0" if re.fullmatch(r"[+-]?\d+", text) else ""
     try:
-        mantissa, exponent, power = repr(float(text)).partition("e")
+        value = float(text)
     except ValueError:
         return ""
+    if not math.isfinite(value):
+        return ""
+    mantissa, exponent, power = repr(value).partition("e")
     return mantissa + (".0" if "." not in mantissa else "") + exponent + power
 
 
