@@ -5,7 +5,8 @@ for every command. A package is looked for, in this order: what ``--package`` an
 ``--package-path`` say; the file's own package (the nearest ``package.xml`` above it, by its
 ``<name>``); packages beside and below that workspace's root; ``[tool.urdftool.packages]`` of the
 configuration; ``ROS_PACKAGE_PATH``; ``AMENT_PREFIX_PATH``; last, a folder above the file that bears
-the package's name even without a ``package.xml``.
+the package's name even without a ``package.xml``. For ``package://`` alone, a folder of that name
+near the file stands for a package that is not found, if it is the only one with the file.
 """
 
 from __future__ import annotations
