@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 from generator.programs import bare_path
 
 from urdftool import cli, configuration, extras, inputs
@@ -16,6 +17,10 @@ from urdftool import cli, configuration, extras, inputs
 ROOT = Path(__file__).resolve().parents[1]
 FIXTURES = ROOT / "fixtures"
 CORPUS = ROOT.parent / "shared" / "corpus"
+
+# how long inputs take on a machine with other work says nothing of the program
+settings.register_profile("urdftool", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("urdftool")
 
 # a shell that starts the tests in the background has them pass over it, and what they start, too
 signal.signal(signal.SIGINT, signal.default_int_handler)
