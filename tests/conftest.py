@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, settings
 from generator.programs import bare_path
+from hypothesis import HealthCheck, settings
 
 from urdftool import cli, configuration, extras, inputs
 
