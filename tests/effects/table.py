@@ -1,0 +1,142 @@
+"""The table: what rules say of readers, and how it is known.
+
+``fixtures/effects/FAMILY.yaml`` is written by hand::
+
+    zero-axis:
+      mujoco:
+        says: "rejects the file: axis too small"
+        runs:
+          - [mujoco, bad.urdf, {outcome: rejects, messages: ~axis too small}]
+      moveit:
+        says: ...
+        sources: [moveit/moveit2 moveit_core/robot_model/src/robot_model.cpp]
+
+A robot is a file of ``fixtures/rules/RULE``, or of ``fixtures/effects/robots`` where it begins with
+``robots/``. An empty root link is given a mass for sdformat, which would load nothing of the robot
+otherwise; ``as written:`` before the name of the file leaves it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from .expected import SAME_AS, differences, unlike
+
+ROOT = Path(__file__).parents[2]
+TABLE = ROOT / "fixtures" / "effects"
+RULES = ROOT / "fixtures" / "rules"
+RUNS = TABLE / "runs"
+VERSIONS = TABLE / "readers.json"
+PACKAGED = ROOT / "urdftool" / "rules" / "effect_sources.json"
+
+AS_WRITTEN = "as written:"
+
+
+@dataclass(frozen=True)
+class Run:
+    """One reader on one robot, and what is expected of it."""
+
+    rule: str
+    reader: str
+    robot: str
+    expected: Mapping[str, Any]
+
+    @property
+    def same_as(self) -> str | None:
+        """The robot that the reader is expected to take this one for."""
+        name = self.expected.get(SAME_AS)
+        if name and self.robot.startswith(AS_WRITTEN):
+            return f"{AS_WRITTEN} {name}"
+        return name
+
+    def wrong(self, record: Mapping[str, Any]) -> list[str]:
+        """What of a record (robot, then reader, then facts) is not as expected."""
+        facts = record[self.robot][self.reader]
+        found = list(differences(facts, self.expected))
+        if self.same_as:
+            found += unlike(facts, record[self.same_as][self.reader])
+        return found
+
+
+@dataclass(frozen=True)
+class Row:
+    """One sentence of a rule about one or more readers."""
+
+    rule: str
+    key: str
+    says: str
+    runs: tuple[Run, ...]
+    sources: tuple[str, ...]
+
+
+@cache
+def rows() -> tuple[Row, ...]:
+    """All rows, as the families' files say them."""
+    return tuple(row for path in sorted(TABLE.glob("*.yaml")) for row in _rows_of(path))
+
+
+def _rows_of(path: Path) -> Iterator[Row]:
+    for rule, effects in (yaml.safe_load(path.read_text("utf-8")) or {}).items():
+        for key, row in effects.items():
+            unknown = set(row) - {"says", "runs", "sources"}
+            if unknown:
+                raise ValueError(f"{path.name}: {rule}: {key}: unknown {sorted(unknown)}")
+            runs = tuple(
+                Run(rule, reader, robot, expected)
+                for readers, robot, expected in row.get("runs", ())
+                for reader in readers.split(", ")
+            )
+            yield Row(rule, key, row["says"], runs, tuple(row.get("sources", ())))
+
+
+def file_of(rule: str, robot: str) -> Path:
+    """The file of a robot of the table."""
+    name = robot.removeprefix(AS_WRITTEN).strip()
+    return TABLE / name if name.startswith("robots/") else RULES / rule / name
+
+
+def pairs() -> dict[str, dict[str, set[str]]]:
+    """The runs that are recorded: by rule and robot, the readers."""
+    found: dict[str, dict[str, set[str]]] = {}
+    for row in rows():
+        for run in row.runs:
+            robots = found.setdefault(row.rule, {})
+            robots.setdefault(run.robot, set()).add(run.reader)
+            if run.same_as:
+                robots.setdefault(run.same_as, set()).add(run.reader)
+            elif file_of(run.rule, "good.urdf").exists() and run.robot.startswith("bad"):
+                robots.setdefault("good.urdf", set()).add(run.reader)
+    return found
+
+
+def record_of(rule: str) -> dict[str, dict[str, Any]]:
+    """What is recorded of a rule: by robot and reader, the facts."""
+    path = RUNS / f"{rule}.json"
+    return json.loads(path.read_text("utf-8")) if path.exists() else {}  # type: ignore[no-any-return]
+
+
+def versions() -> dict[str, str]:
+    """The versions of the recorded readers, with their names as pages write them."""
+    return json.loads(VERSIONS.read_text("utf-8"))  # type: ignore[no-any-return]
+
+
+def packaged() -> dict[str, dict[str, str]]:
+    """How each sentence is known, as rule pages quote it."""
+    titles = versions()
+    found: dict[str, dict[str, str]] = {}
+    for row in rows():
+        parts = []
+        if row.runs:
+            names = dict.fromkeys(titles[run.reader] for run in row.runs)
+            parts.append("run: " + ", ".join(names))
+        if row.sources:
+            parts.append("source: " + ", ".join(row.sources))
+        found.setdefault(row.rule, {})[row.key] = "; ".join(parts)
+    return found
