@@ -55,9 +55,7 @@ def record(rule: str, there: dict[str, str], only_missing: bool) -> dict[str, di
             if kept is not None and (only_missing or reader not in there):
                 new.setdefault(robot, {})[reader] = kept
             elif reader in there:
-                as_written = robot.startswith(table.AS_WRITTEN)
-                facts = read(reader, table.file_of(rule, robot), as_written=as_written)
-                new.setdefault(robot, {})[reader] = facts
+                new.setdefault(robot, {})[reader] = read(reader, table.robot_of(rule, robot))
     uses_text = any(
         path.partition(".")[0] == "sdf"
         for row in table.rows()

@@ -30,6 +30,32 @@ Facts = dict[str, Any]
 
 
 @dataclass(frozen=True)
+class Robot:
+    """A robot that readers are given: a file, and what is changed in it.
+
+    Attributes:
+        file: A URDF or xacro file; what stands in its folder is copied with it.
+        edits: Texts that occur once in it, with what stands there instead.
+        as_written: Leave an empty root link as it is for sdformat, which drops a massless root.
+    """
+
+    file: Path
+    edits: tuple[tuple[str, str], ...] = ()
+    as_written: bool = False
+
+    def written_to(self, folder: Path) -> Path:
+        """Copy it with its folder, make the edits, and give the path of the copy."""
+        shutil.copytree(self.file.parent, folder)
+        copy = folder / self.file.name
+        for old, new in self.edits:
+            data = copy.read_bytes()
+            if data.count(old.encode()) != 1:
+                raise ValueError(f"{self.file.name} has {data.count(old.encode())} times {old!r}")
+            copy.write_bytes(data.replace(old.encode(), new.encode()))
+        return copy
+
+
+@dataclass(frozen=True)
 class Reader:
     """A program or library that reads robots.
 
@@ -176,31 +202,24 @@ def installed() -> dict[str, str]:
     return {name: v for name, reader in READERS.items() if (v := reader.version()) is not None}
 
 
-def read(reader: str, robot: Path, *, as_written: bool = False) -> Facts:
+def read(reader: str, robot: Robot) -> Facts:
     """Run a reader on a copy of a robot, and give what it made of it.
 
     Args:
         reader: A key of :data:`READERS`.
-        robot: A URDF or xacro file; what stands in its folder is copied with it.
-        as_written: Leave an empty root link as it is for sdformat, which drops a massless root.
+        robot: What it is given.
     """
     with tempfile.TemporaryDirectory(prefix="urdftool-effects-") as temporary:
-        folder = Path(temporary) / "robot"
-        shutil.copytree(robot.parent, folder)
-        file = folder / robot.name
+        file = robot.written_to(Path(temporary) / "robot")
         if file.suffix == ".xacro" and reader != "xacro":
             try:
                 file = _expand(file)
             except subprocess.CalledProcessError:
                 return {"outcome": "xacro stops"}
-        if reader == "sdformat" and not as_written:
+        if reader == "sdformat" and not robot.as_written:
             _give_the_root_a_mass(file)
-        environment = {
-            **os.environ,
-            "HOME": temporary,
-            "LC_ALL": "C",
-            "ROS_PACKAGE_PATH": temporary,
-        }
+        paths = {"HOME": temporary, "ROS_PACKAGE_PATH": temporary}
+        environment = {**os.environ, **paths, "LC_ALL": "C"}
         words = [*READERS[reader].command(), str(file)]
         try:
             done = subprocess.run(

@@ -11,9 +11,10 @@
         says: ...
         sources: [moveit/moveit2 moveit_core/robot_model/src/robot_model.cpp]
 
-A robot is a file of ``fixtures/rules/RULE``, or of ``fixtures/effects/robots`` where it begins with
-``robots/``. An empty root link is given a mass for sdformat, which would load nothing of the robot
-otherwise; ``as written:`` before the name of the file leaves it.
+A robot is a file of ``fixtures/rules/RULE``, or, without an ending, of ``fixtures/effects/robots``;
+after a colon stand edits that give it the defect: ``pendulum: OLD => NEW ;; OLD => NEW``. For
+sdformat an empty root link is given a mass, because it would load nothing of the robot otherwise;
+``as written:`` before the name leaves it.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from typing import Any
 import yaml
 
 from .expected import SAME_AS, differences, unlike
+from .readers import Robot
 
 ROOT = Path(__file__).parents[2]
 TABLE = ROOT / "fixtures" / "effects"
@@ -96,10 +98,31 @@ def _rows_of(path: Path) -> Iterator[Row]:
             yield Row(rule, key, row["says"], runs, tuple(row.get("sources", ())))
 
 
-def file_of(rule: str, robot: str) -> Path:
-    """The file of a robot of the table."""
+def robot_of(rule: str, robot: str) -> Robot:
+    """A robot of the table."""
     name = robot.removeprefix(AS_WRITTEN).strip()
-    return TABLE / name if name.startswith("robots/") else RULES / rule / name
+    name, _, changes = name.partition(": ")
+    folder = RULES / rule if "." in name else TABLE / "robots"
+    file = folder / (name if "." in name else f"{name}.urdf")
+    edits = tuple(_edit(change) for change in changes.split(" ;; ")) if changes else ()
+    return Robot(file, edits, as_written=robot.startswith(AS_WRITTEN))
+
+
+def _edit(change: str) -> tuple[str, str]:
+    old, arrow, new = change.partition(" => ")
+    if not arrow:
+        raise ValueError(f"no ' => ' in {change!r}")
+    return tuple(part.replace("\\t", "\t").replace("\\n", "\n") for part in (old, new))  # type: ignore[return-value]
+
+
+def sound_one(rule: str, robot: str) -> str | None:
+    """The sound robot that stands beside one of the table."""
+    prefix = f"{AS_WRITTEN} " if robot.startswith(AS_WRITTEN) else ""
+    name = robot.removeprefix(AS_WRITTEN).strip()
+    if ": " in name:
+        return prefix + name.partition(": ")[0]
+    good = "good" + name.removeprefix(name.partition(".")[0])
+    return prefix + good if (RULES / rule / good).exists() else None
 
 
 def pairs() -> dict[str, dict[str, set[str]]]:
@@ -111,8 +134,8 @@ def pairs() -> dict[str, dict[str, set[str]]]:
             robots.setdefault(run.robot, set()).add(run.reader)
             if run.same_as:
                 robots.setdefault(run.same_as, set()).add(run.reader)
-            elif file_of(run.rule, "good.urdf").exists() and run.robot.startswith("bad"):
-                robots.setdefault("good.urdf", set()).add(run.reader)
+            elif beside := sound_one(run.rule, run.robot):
+                robots.setdefault(beside, set()).add(run.reader)
     return found
 
 

@@ -27,6 +27,7 @@ def facts(path):
         links[body.name()] = {
             "mass": float(f"{body.default_mass():.9g}"),
             "com": numbers(spatial.get_com()),
+            "moments": moments(spatial),
             "visuals": shapes(scene, plant, body, plant.GetVisualGeometriesForBody(body)),
             "collisions": shapes(scene, plant, body, plant.GetCollisionGeometriesForBody(body)),
         }
@@ -52,6 +53,12 @@ def facts(path):
     efforts = {motor.joint().name(): float(f"{motor.effort_limit():.9g}") for motor in motors}
     found = {"outcome": "loads", "links": links, "joints": joints, "constraints": couplers}
     return {**found, "actuators": efforts}
+
+
+def moments(spatial):
+    """The three moments of inertia about the center of mass."""
+    about_com = spatial.Shift(spatial.get_com()).CalcRotationalInertia()
+    return numbers(about_com.get_moments())
 
 
 def shapes(scene, plant, body, found):
