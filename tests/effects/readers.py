@@ -12,6 +12,7 @@ import os
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -52,7 +53,24 @@ class Robot:
             if data.count(old.encode()) != 1:
                 raise ValueError(f"{self.file.name} has {data.count(old.encode())} times {old!r}")
             copy.write_bytes(data.replace(old.encode(), new.encode()))
+        for count in re.findall(rb'"dense_(\d+)\.stl"', copy.read_bytes()):
+            _write_dense_stl(folder / f"dense_{count.decode()}.stl", int(count))
         return copy
+
+
+def _write_dense_stl(path: Path, count: int) -> None:
+    """Write an STL file of so many triangles: a strip around a cylinder."""
+    header = b"dense".ljust(80) + struct.pack("<I", count)
+    triangles = []
+    for i in range(count):
+        points = [
+            (0.1 * math.cos(angle), 0.1 * math.sin(angle), 0.1 * ((i + j) % 2))
+            for j in range(3)
+            for angle in [(i + j) * 2 * math.pi / count]
+        ]
+        numbers = [0.0, 0.0, 0.0, *(value for point in points for value in point)]
+        triangles.append(struct.pack("<12fH", *numbers, 0))
+    path.write_bytes(header + b"".join(triangles))
 
 
 @dataclass(frozen=True)

@@ -109,10 +109,11 @@ def robot_of(rule: str, robot: str) -> Robot:
 
 
 def _edit(change: str) -> tuple[str, str]:
-    old, arrow, new = change.partition(" => ")
+    old, arrow, new = change.partition(" =>")
     if not arrow:
         raise ValueError(f"no ' => ' in {change!r}")
-    return tuple(part.replace("\\t", "\t").replace("\\n", "\n") for part in (old, new))  # type: ignore[return-value]
+    old, new = (part.replace("\\t", "\t").replace("\\n", "\n") for part in (old, new))
+    return old, new.removeprefix(" ")
 
 
 def sound_one(rule: str, robot: str) -> str | None:
