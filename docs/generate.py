@@ -26,6 +26,7 @@ from urdftool.finding import Severity
 from urdftool.report.file_diff import file_diff
 from urdftool.report.rule_pages import facts
 from urdftool.rules import RULES, all_rules, get_rule
+from urdftool.rules.effect_sources import effect_source
 from urdftool.rules.fix_table import FIXABLE
 from urdftool.rules.rule import TARGETS, Rule
 
@@ -53,8 +54,11 @@ def rule_page(rule: Rule) -> str:
     parts = [f"# {rule.name}", _markdown(fact), _markdown(rest.strip())]
     parts.append("\n".join(f"- {label}: {value}" for label, value in facts(rule)))
     if rule.effects:
-        rows = "\n".join(f"| {target} | {effect} |" for target, effect in rule.effects.items())
-        parts.append(f"| reader | what it does |\n|---|---|\n{rows}")
+        rows = "\n".join(
+            f"| {readers} | {effect} | {effect_source(rule.name, readers)} |"
+            for readers, effect in rule.effects.items()
+        )
+        parts.append(f"| reader | what it does | how it is known |\n|---|---|---|\n{rows}")
     for title, pattern in (("Found", "bad.*"), ("Right", "good.*")):
         for path in sorted((FIXTURES / rule.name).glob(pattern)):
             if path.suffix in (".urdf", ".xacro"):

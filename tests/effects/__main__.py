@@ -1,4 +1,4 @@
-"""Run the readers of the table: ``python -m tests.effects [--write] [RULE…]``.
+"""Run the readers of the table: ``python -m tests.effects [--write | --pages] [RULE…]``.
 
 Without ``--write`` it prints what is not as expected; with it, what the readers did is recorded,
 and what rule pages quote is made of it. Further versions of readers are found in the folder that
@@ -24,7 +24,11 @@ def main() -> int:
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--missing", action="store_true", help="Run only what has no record.")
     parser.add_argument("rules", nargs="*")
+    parser.add_argument("--pages", action="store_true", help="Write only what rule pages quote.")
     arguments = parser.parse_args()
+    if arguments.pages:
+        write_packaged()
+        return 0
     there = installed()
     for name in READERS.keys() - there.keys():
         print(f"{name} is not installed; its records are kept", file=sys.stderr)
@@ -32,7 +36,8 @@ def main() -> int:
         READERS[name].command()  # compiles it once, before there are threads
     wanted = {r: p for r, p in table.pairs().items() if not arguments.rules or r in arguments.rules}
     with ThreadPoolExecutor(arguments.jobs) as pool:
-        found = dict(zip(wanted, pool.map(lambda r: record(r, there, arguments.missing), wanted)))
+        records = pool.map(lambda rule: record(rule, there, arguments.missing), wanted)
+        found = dict(zip(wanted, records, strict=True))
     wrong = 0
     for row in table.rows():
         for run in row.runs:
@@ -73,12 +78,7 @@ def write(found: dict[str, dict[str, Any]], there: dict[str, str], *, everything
     """Write records, versions, and what rule pages quote."""
     table.RUNS.mkdir(exist_ok=True)
     for rule, record_ in found.items():
-        lines = []
-        for robot, readers in record_.items():
-            runs = [f"  {json.dumps(name)}: {json.dumps(f)}" for name, f in readers.items()]
-            lines.append(f" {json.dumps(robot)}: {{\n" + ",\n".join(runs) + "\n }")
-        text = "{\n" + ",\n".join(lines) + "\n}\n"
-        (table.RUNS / f"{rule}.json").write_text(text, "utf-8")
+        (table.RUNS / f"{rule}.json").write_text(as_text(record_), "utf-8")
     if everything:
         for path in table.RUNS.glob("*.json"):
             if path.stem not in found:
@@ -87,6 +87,15 @@ def write(found: dict[str, dict[str, Any]], there: dict[str, str], *, everything
     titles = {**old, **{name: f"{READERS[name].title} {v}" for name, v in there.items()}}
     table.VERSIONS.write_text(json.dumps(titles, indent=1, sort_keys=True) + "\n", "utf-8")
     write_packaged()
+
+
+def as_text(record_: dict[str, dict[str, Any]]) -> str:
+    """A record as JSON, a line a run."""
+    lines = []
+    for robot, readers in record_.items():
+        runs = [f"  {json.dumps(name)}: {json.dumps(facts)}" for name, facts in readers.items()]
+        lines.append(f" {json.dumps(robot)}: {{\n" + ",\n".join(runs) + "\n }")
+    return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
 def write_packaged() -> None:

@@ -1,8 +1,8 @@
 """Whether what a reader did is what a row of the table expects of it.
 
 An expectation maps paths of facts, such as ``joints.swing.upper`` or ``links.arm.visuals.#`` (how
-many), to values: a number, within a millionth; a text; a list; ``"~part"``, which the text, or one
-of the lines, must contain; ``"!~part"``, which it must not; ``"> 0.1"`` and ``"< 0.1"``; ``absent``.
+many), to values: a number, within a millionth; a text; a list; ``"~part"``, which the text or one
+of the lines must contain; ``"!~part"``, which it must not; ``"> 0.1"`` and ``"< 0.1"``; ``absent``.
 ``same as: good.urdf`` expects the facts, except messages, that the reader gives of another robot.
 """
 

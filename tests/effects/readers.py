@@ -211,6 +211,12 @@ READERS = {
         _module("pinocchio", "pinocchio", "pin"),
         _module("drake", "Drake", "drake"),
         Reader("xacro", "xacro", _module("xacro", "xacro", "xacro").version, _xacro_command),
+        Reader(
+            "xacro --inorder",
+            "xacro",
+            _module("xacro", "xacro", "xacro").version,
+            lambda: [*_xacro_command(), "--inorder"],
+        ),
     )
 }
 
@@ -229,7 +235,7 @@ def read(reader: str, robot: Robot) -> Facts:
     """
     with tempfile.TemporaryDirectory(prefix="urdftool-effects-") as temporary:
         file = robot.written_to(Path(temporary) / "robot")
-        if file.suffix == ".xacro" and reader != "xacro":
+        if file.suffix == ".xacro" and not reader.startswith("xacro"):
             try:
                 file = _expand(file)
             except subprocess.CalledProcessError:
@@ -324,18 +330,21 @@ def _check_urdf_facts(out: str, code: int) -> Facts:
 
 
 def _xacro_facts(out: str, code: int) -> Facts:
-    return {"outcome": "rejects" if code else "loads", "output": _lines(out)}
+    lines = [line for line in _lines(out) if not line.startswith("<!-- ")]
+    return {"outcome": "rejects" if code else "loads", "output": lines}
 
 
 _FACTS = {
     "sdformat": _sdformat_facts,
     "check_urdf": _check_urdf_facts,
     "xacro": _xacro_facts,
+    "xacro --inorder": _xacro_facts,
 }
 
 _COLOR = re.compile(r"\x1b\[[0-9;]*m")
 _NOISE = re.compile(
-    r"^(pybullet build time|at line \d+ in |WARNING: All log messages before|I0000 |b3Printf: |ven = |argv\[)"
+    r"^(pybullet build time|at line \d+ in |WARNING: All log messages before|I0000 "
+    r"|b3Printf: |ven = |argv\[)"
 )
 _PLACE = re.compile(r"\[(?:/|[A-Za-z_.]+/)*([A-Za-z0-9_.]+\.(?:cc|cpp|hh|h)(?:[:,]\d+)?)\]")
 _TIME = re.compile(r"\[\d{4}-\d\d-\d\d [\d:.]+\] ?|\(\d{4}-\d\d-\d\d [^)]*\) ?|\[\d{10}\.\d+\]:? ?")

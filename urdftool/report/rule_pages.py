@@ -7,6 +7,7 @@ import inspect
 from ..errors import ConfigError
 from ..lint.settings import nearest_rule
 from ..rules import FAMILY_OF, all_rules, get_rule
+from ..rules.effect_sources import effect_source
 from ..rules.fix_table import FIXABLE, OPTIONS
 from ..rules.rule import Rule
 
@@ -39,8 +40,10 @@ def page(name: str) -> str:
     lines.extend(f"{label}: {value}" for label, value in facts(rule))
     if rule.effects:
         lines.append("What readers do:")
-        width = max(map(len, rule.effects))
-        lines.extend(f"  {target:<{width}}  {effect}" for target, effect in rule.effects.items())
+        for readers, effect in rule.effects.items():
+            lines.append(f"  {readers}: {effect}")
+            if known := effect_source(rule.name, readers):
+                lines.append(f"    [{known}]")
     return "\n".join(lines) + "\n"
 
 

@@ -5,7 +5,7 @@ import logging
 import sys
 
 import numpy
-from pydrake.geometry import Role, SceneGraph
+from pydrake.geometry import SceneGraph
 from pydrake.multibody.parsing import Parser
 from pydrake.multibody.plant import MultibodyPlant
 

@@ -48,6 +48,7 @@ def facts(model):
         for i in range(model.nmesh)
     }
     found = {"links": links, "joints": joints, "constraints": kinds, "meshes": meshes}
+    found["contacts"] = int(data.ncon)
     return {"outcome": "loads", **found, **motion(model)}
 
 

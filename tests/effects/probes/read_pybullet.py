@@ -81,6 +81,14 @@ def motion(path):
         number += 1
 
 
+def contacts(path):
+    """How many pairs of links of the robot touch where all joints are at zero."""
+    pybullet.resetSimulation()
+    body = pybullet.loadURDF(path, flags=pybullet.URDF_USE_SELF_COLLISION)
+    pybullet.performCollisionDetection()
+    return len({(point[3], point[4]) for point in pybullet.getContactPoints(body, body)})
+
+
 def is_fixed(path):
     """Whether a second of gravity leaves the root where it is."""
     pybullet.resetSimulation()
@@ -103,6 +111,7 @@ try:
         for name, values in from_file["links"].items()
     }
     result["pushed"], result["reached"] = motion(sys.argv[1])
+    result["contacts"] = contacts(sys.argv[1])
     result["root fixed"] = is_fixed(sys.argv[1])
 except pybullet.error as error:
     result = {"outcome": "rejects", "error": str(error)}

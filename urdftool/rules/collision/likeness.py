@@ -40,8 +40,8 @@ def faces_of(path: Path | None) -> int:
 @rule(
     INFO,
     effects={
-        "moveit, pybullet": "check each triangle; planning is slow",
-        "mujoco": "takes the convex hull",
+        "moveit": "builds the collision shape from all triangles of the mesh",
+        "mujoco, pybullet": "take the convex hull",
     },
 )
 def visual_mesh_as_collision(
@@ -93,8 +93,7 @@ def visual_mesh_as_collision(
 @rule(
     WARNING,
     effects={
-        "mujoco": "refuses more than 200 000 triangles",
-        "moveit, gazebo": "spend their time on contacts",
+        "mujoco": "rejects an STL file of more than 200 000 triangles",
     },
 )
 def collision_mesh_too_dense(
@@ -126,7 +125,12 @@ def collision_mesh_too_dense(
             )
 
 
-@rule(WARNING, effects={"moveit": "finds the arm in collision, or goals out of reach"})
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic, mujoco, pybullet": "collide with the shape as written",
+    },
+)
 def collision_much_larger_than_visual(
     robot: Robot, *, ratio: float = 2.0, least: float = 0.1
 ) -> Iterator[Problem]:
@@ -152,7 +156,14 @@ def collision_much_larger_than_visual(
                 break
 
 
-@rule(INFO, effects={"every reader": "lets things pass through what is seen"})
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic, mujoco, pybullet": (
+            "collide with the shape as written: things pass through what is shown"
+        ),
+    },
+)
 def collision_much_smaller_than_visual(robot: Robot, *, ratio: float = 4.0) -> Iterator[Problem]:
     """A link collides with far less than what is seen of it.
 
@@ -175,7 +186,12 @@ def collision_much_smaller_than_visual(robot: Robot, *, ratio: float = 4.0) -> I
             )
 
 
-@rule(WARNING, effects={"every reader": "touches where nothing is seen"})
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic, mujoco": "collide with the shape where it is written",
+    },
+)
 def collision_off_visual(
     robot: Robot, description: Description, *, apart: float = 0.5
 ) -> Iterator[Problem]:

@@ -31,7 +31,7 @@ PAIRS = 150_000
     raised={"moveit": WARNING},
     effects={
         "moveit": "the start state is in collision, and nothing is planned",
-        "mujoco, pybullet": "push the two apart as soon as they collide with each other",
+        "mujoco": "pushes the two apart from the first step",
     },
 )
 def self_collision_at_zero(
@@ -94,7 +94,11 @@ def resting_in_part(robot: Robot) -> bool:
 @rule(
     WARNING,
     on=GAZEBO,
-    effects={"gz, gazebo-classic": "throw the links apart in the first step"},
+    effects={
+        "gz, gazebo-classic": (
+            "get contacts between the two links from the first step (self_collide is passed on)"
+        ),
+    },
 )
 def self_collide_at_spawn(robot: Robot, *, together: float = 4) -> Iterator[Problem]:
     """Links that overlap at rest are told to collide with each other.
@@ -129,7 +133,12 @@ def _says(value: str | None) -> bool:
     return (value or "").strip().lower() in ("1", "true", "yes")
 
 
-@rule(INFO, effects={"every simulator": "two links are in one place"})
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco": "place both links there",
+    },
+)
 def link_inside_parent(
     robot: Robot, *, core: float = 0.5, together: float = 4
 ) -> Iterator[Problem]:
@@ -204,7 +213,12 @@ def _depth(around: Convex, at: tuple[float, float, float]) -> float:
     return least
 
 
-@rule(INFO, effects={"moveit, mujoco": "the joint cannot go where its limits let it"})
+@rule(
+    INFO,
+    effects={
+        "mujoco": "the contact stops the joint before its limit",
+    },
+)
 def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[Problem]:
     """A joint moves a link into another within its limits, all others being at rest.
 

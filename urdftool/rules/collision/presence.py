@@ -24,9 +24,11 @@ _MARKER = 0.1  # [m] a marker of a frame is no larger
     INFO,
     raised=dict.fromkeys(("gazebo-classic", "gz", "mujoco", "pybullet", "moveit"), WARNING),
     effects={
-        "gazebo, pybullet": "it falls through the floor and is passed through",
-        "moveit": "plans straight through it",
-        "mujoco": "the body has no geom at all: visuals of a URDF are discarded",
+        "gz, gazebo-classic, pybullet, pinocchio, drake": (
+            "load the link without a collision: it touches nothing"
+        ),
+        "moveit": "plans straight through it; MoveIt 2 warns",
+        "mujoco": "loads the body without a geom: visuals of a URDF are discarded",
     },
 )
 def missing_collision(
@@ -143,7 +145,11 @@ def _has_misspelt_collision(link: Link) -> bool:
 @rule(
     WARNING,
     on=("gazebo-classic", "gz", "pybullet"),
-    effects={"gazebo, pybullet": "it sinks through the ground and takes the robot with it"},
+    effects={
+        "gz, gazebo-classic, mujoco, pybullet": (
+            "load the link without a shape: it sinks through the ground"
+        ),
+    },
 )
 def massive_link_without_collision(robot: Robot, *, lightest: float = 0.1) -> Iterator[Problem]:
     """A heavy wheel or foot has neither visual nor collision.

@@ -20,8 +20,9 @@ _SIZES = {
 @rule(
     ERROR,
     effects={
-        "mujoco": "rejects the file: size must be positive",
-        "urdfdom, sdformat, pybullet": "accept it silently",
+        "mujoco": "rejects the file for a collision: size must be positive; ignores a visual",
+        "drake": "aborts for a cylinder",
+        "urdfdom, gz, gazebo-classic, pybullet, pinocchio": "accept it without a message",
     },
 )
 def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
@@ -63,9 +64,12 @@ _INSTEAD = {
 @rule(
     ERROR,
     effects={
-        "urdfdom": "the link loses all its geometry, also what is right",
-        "pybullet": "rejects the file",
-        "mujoco": "does not look at it in a visual",
+        "urdfdom, gz, gazebo-classic, pinocchio": (
+            "load the link without its visuals and collisions, also the right ones, with an "
+            "error in the log"
+        ),
+        "pybullet, drake": "reject the file",
+        "mujoco": "rejects the file for a collision; ignores a visual",
     },
 )
 def unsupported_shape(robot: Robot) -> Iterator[Problem]:

@@ -17,7 +17,14 @@ if TYPE_CHECKING:
 _WHEEL = re.compile(r"wheel|tire|caster", re.IGNORECASE)
 
 
-@rule(WARNING, effects={"every simulator": "the wheel tumbles over its edge"})
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic, mujoco, pybullet": (
+            "collide with the cylinder as written, across the axle: the wheel turns over its edge"
+        ),
+    },
+)
 def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Problem]:
     """The cylinder of a wheel does not lie along its axle.
 
@@ -51,7 +58,11 @@ def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Pro
 
 @rule(
     WARNING,
-    effects={"every simulator": "the wheels spin in the air, or the robot and its sensors lean"},
+    effects={
+        "gz, gazebo-classic, mujoco": (
+            "collide with the caster as written: the wheels spin in the air, or the robot leans"
+        ),
+    },
 )
 def caster_height_mismatch(
     robot: Robot, *, deepest: float = 0.001, steepest: float = 3.0
@@ -106,7 +117,15 @@ def _length(value: float) -> str:
     return f"{round(value, 5) + 0.0:g}"
 
 
-@rule(INFO, default=False, effects={"every simulator": "fast things pass through it in one step"})
+@rule(
+    INFO,
+    default=False,
+    effects={
+        "gz, gazebo-classic, mujoco": (
+            "collide with the shape as written: fast things can pass through it in one step"
+        ),
+    },
+)
 def paper_thin_collision(robot: Robot, *, thinnest: float = 0.001) -> Iterator[Problem]:
     """A collision is thinner than things move in a step.
 

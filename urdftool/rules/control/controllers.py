@@ -20,7 +20,9 @@ _WORDS = re.compile(r"[a-z]+|\d+")
 @rule(
     WARNING,
     on=ROS,
-    effects={"controller_manager": "the controller does not start: its joint is not there"},
+    effects={
+        "ros2_control": "has no interface of that joint for the controller",
+    },
 )
 def controller_unknown_joint(robot: Robot, description: Description) -> Iterator[Problem]:
     """A controller names a joint that the robot does not have, or that cannot move.

@@ -11,10 +11,14 @@ from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import did_you_mean, quoted
 
-DIES = {"controller_manager": "stops with an exception at start"}
 
-
-@rule(ERROR, on=("ros2",), effects=DIES)
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "controller_manager": "stops with an exception: joint not found in URDF",
+    },
+)
 def ros2_control_unknown_joint(robot: Robot) -> Iterator[Problem]:
     """A joint in ``<ros2_control>`` is not in the robot.
 
@@ -32,7 +36,15 @@ def ros2_control_unknown_joint(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(ERROR, on=("ros2",), effects=DIES)
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "controller_manager": (
+            "stops with an exception: fixed joints do not make sense in ros2_control"
+        ),
+    },
+)
 def ros2_control_fixed_joint(robot: Robot) -> Iterator[Problem]:
     """A joint in ``<ros2_control>`` is fixed.
 
@@ -49,7 +61,13 @@ def ros2_control_fixed_joint(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(ERROR, on=("ros2",), effects=DIES)
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "controller_manager": "stops with an exception",
+    },
+)
 def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
     """A joint that mimics another does not fit its ``<ros2_control>``.
 
@@ -87,7 +105,13 @@ def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(WARNING, on=("ros2",), effects={"ros2_control": "does not look at it since Jazzy"})
+@rule(
+    WARNING,
+    on=("ros2",),
+    effects={
+        "ros2_control": "takes the mimic joint from the URDF, not from the parameter, since Jazzy",
+    },
+)
 def ros2_control_legacy_mimic_param(robot: Robot) -> Iterator[Problem]:
     """Mimicry is written as a parameter.
 
@@ -106,7 +130,13 @@ def ros2_control_legacy_mimic_param(robot: Robot) -> Iterator[Problem]:
                     )
 
 
-@rule(ERROR, on=("ros2",), effects={"controller_manager": "rejects the second"})
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "controller_manager": "refuses to register the interface twice",
+    },
+)
 def ros2_control_duplicate_interface(robot: Robot) -> Iterator[Problem]:
     """An interface of a joint is there twice.
 
@@ -139,7 +169,13 @@ def ros2_control_duplicate_interface(robot: Robot) -> Iterator[Problem]:
 _STANDARD = ("position", "velocity", "acceleration", "effort")
 
 
-@rule(INFO, on=("ros2",), effects={"controllers": "find no interface of the name they want"})
+@rule(
+    INFO,
+    on=("ros2",),
+    effects={
+        "gz_ros2_control": "ignores an interface other than position, velocity and effort",
+    },
+)
 def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
     """An interface of a joint is nearly called as usual.
 
@@ -158,7 +194,15 @@ def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
                     )
 
 
-@rule(INFO, on=("ros2",), effects={"joint_trajectory_controller": "does not configure"})
+@rule(
+    INFO,
+    on=("ros2",),
+    effects={
+        "joint_trajectory_controller": (
+            "does not activate where it needs a state interface that is not there"
+        ),
+    },
+)
 def command_without_state(robot: Robot) -> Iterator[Problem]:
     """A joint is commanded and does not say where it is.
 
@@ -182,7 +226,13 @@ def command_without_state(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(WARNING, on=("ros2",), effects={"joint_state_broadcaster": "never reports it"})
+@rule(
+    WARNING,
+    on=("ros2",),
+    effects={
+        "ros2_control": "has no interface for the joint, so no broadcaster reports it",
+    },
+)
 def joint_outside_ros2_control(robot: Robot) -> Iterator[Problem]:
     """A joint moves and is in no ``<ros2_control>`` block, though others are.
 
@@ -207,7 +257,13 @@ def _reports_otherwise(robot: Robot) -> bool:
     return any(word in plugin.filename for plugin in robot.plugins for word in words)
 
 
-@rule(ERROR, on=("ros2",), effects={"gz_ros2_control": "stops with an exception"})
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "gz_ros2_control": "stops with an exception where the value is not a number",
+    },
+)
 def bad_initial_value(robot: Robot) -> Iterator[Problem]:
     """The ``initial_value`` of an interface is no number, or outside the joint's limits.
 

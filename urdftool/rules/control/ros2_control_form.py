@@ -8,13 +8,18 @@ from ...model.elements import Robot
 from ...model.read import number
 from ..rule import ERROR, Problem, rule
 from ..words import did_you_mean
-from .ros2_control import DIES
 
 _TYPES = ("system", "sensor", "actuator")
 _CHILDREN = ("hardware", "properties", "joint", "sensor", "gpio", "transmission")
 
 
-@rule(ERROR, on=("ros2",), effects=DIES)
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "controller_manager": "stops with an exception",
+    },
+)
 def ros2_control_missing_attribute(robot: Robot) -> Iterator[Problem]:
     """A ``<ros2_control>`` lacks its name or type, or is of a type that there is not.
 
@@ -33,7 +38,13 @@ def ros2_control_missing_attribute(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(ERROR, on=("ros2",), effects=DIES)
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "controller_manager": "stops with an exception",
+    },
+)
 def ros2_control_missing_plugin(robot: Robot) -> Iterator[Problem]:
     """The hardware or a transmission of a ``<ros2_control>`` names no plugin.
 
@@ -58,7 +69,13 @@ def ros2_control_missing_plugin(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(ERROR, on=("ros2",), effects=DIES)
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "controller_manager": "stops with an exception: invalid tag name",
+    },
+)
 def ros2_control_invalid_tag(robot: Robot) -> Iterator[Problem]:
     """A ``<ros2_control>`` holds an element that it does not know.
 
@@ -75,7 +92,13 @@ def ros2_control_invalid_tag(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(ERROR, on=("ros2",), effects={"controller_manager": "finds no ros2_control in the robot"})
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "controller_manager": "stops with an exception: no ros2_control tag",
+    },
+)
 def ros2_control_nested(robot: Robot) -> Iterator[Problem]:
     """A ``<ros2_control>`` does not stand directly in the robot.
 
@@ -93,7 +116,13 @@ def ros2_control_nested(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(ERROR, on=("ros2",), effects=DIES)
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "controller_manager": "stops with an exception",
+    },
+)
 def ros2_control_bad_param(robot: Robot) -> Iterator[Problem]:
     """A ``<param>`` has no name, or an interface a size that is none.
 

@@ -17,7 +17,13 @@ _GZ_PLUGINS = ("gz_ros2_control", "ign_ros2_control")
 _ANY_PLUGINS = ("gazebo_ros2_control", *_GZ_PLUGINS)
 
 
-@rule(ERROR, on=GAZEBO, effects={"gazebo": "waits for a controller_manager that never comes"})
+@rule(
+    ERROR,
+    on=GAZEBO,
+    effects={
+        "gz_ros2_control": "waits for its hardware and loads none",
+    },
+)
 def ros2_control_wrong_sim_plugin(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """The simulated hardware is that of the other Gazebo.
 
@@ -53,7 +59,16 @@ def _of_plugins(robot: Robot) -> frozenset[str]:
     return frozenset(found)
 
 
-@rule(ERROR, on=GAZEBO, effects={"gazebo": "no controller_manager starts, or one without hardware"})
+@rule(
+    ERROR,
+    on=GAZEBO,
+    effects={
+        "gz_ros2_control": (
+            "starts no controller_manager without the plugin, and waits for hardware without "
+            "the hardware"
+        ),
+    },
+)
 def ros2_control_sim_plugin_pair(robot: Robot) -> Iterator[Problem]:
     """Of simulated hardware and the plugin that runs it, one is missing.
 
@@ -86,7 +101,13 @@ def ros2_control_sim_plugin_pair(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@rule(ERROR, on=GAZEBO, effects={"gz_ros2_control": "fails to initialise"})
+@rule(
+    ERROR,
+    on=GAZEBO,
+    effects={
+        "gz_ros2_control": "fails to initialize: found an empty parameters file",
+    },
+)
 def ros2_control_empty_parameters(robot: Robot, description: Description) -> Iterator[Problem]:
     """The plugin that runs ros2_control names no file of controllers, or one that is not there.
 
@@ -129,7 +150,13 @@ _IMU = tuple(
 )
 
 
-@rule(ERROR, on=("gz",), effects={"gz_ros2_control": "ends the simulator with an exception"})
+@rule(
+    ERROR,
+    on=("gz",),
+    effects={
+        "gz_ros2_control": "stops with an exception (std::out_of_range)",
+    },
+)
 def ros2_control_unknown_imu_interface(robot: Robot) -> Iterator[Problem]:
     """A state interface of an IMU is none that there is.
 
@@ -152,7 +179,13 @@ def ros2_control_unknown_imu_interface(robot: Robot) -> Iterator[Problem]:
                     )
 
 
-@rule(WARNING, on=("gz",), effects={"gz_ros2_control": "the sensor reports nothing"})
+@rule(
+    WARNING,
+    on=("gz",),
+    effects={
+        "gz_ros2_control": "gives the sensor no interfaces",
+    },
+)
 def sensor_name_mismatch(robot: Robot) -> Iterator[Problem]:
     """A sensor of ``<ros2_control>`` is no sensor in Gazebo.
 

@@ -41,7 +41,9 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
 @rule(
     WARNING,
     on=("ros1",),
-    effects={"gazebo_ros_control": "takes it and calls it deprecated syntax at every start"},
+    effects={
+        "gazebo_ros_control": "accepts it, and warns of deprecated syntax at every start",
+    },
 )
 def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
     """A hardware interface lacks its ``hardware_interface/``.
@@ -63,7 +65,13 @@ def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
                     )
 
 
-@rule(ERROR, on=("ros1",), effects={"gazebo_ros_control": "passes over the transmission"})
+@rule(
+    ERROR,
+    on=("ros1",),
+    effects={
+        "gazebo_ros_control": "skips the transmission, with an error in the log",
+    },
+)
 def incomplete_transmission(robot: Robot) -> Iterator[Problem]:
     """A transmission lacks its type, joint or actuator.
 
@@ -89,7 +97,13 @@ def incomplete_transmission(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(ERROR, on=("ros1",), effects={"gazebo_ros_control": "passes over the transmission"})
+@rule(
+    ERROR,
+    on=("ros1",),
+    effects={
+        "gazebo_ros_control": "skips the transmission, with an error in the log",
+    },
+)
 def missing_hardware_interface(robot: Robot) -> Iterator[Problem]:
     """The joint of a transmission has no hardware interface.
 
@@ -148,7 +162,13 @@ def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(INFO, on=("ros1",), effects={"gazebo_ros_control": "takes the first"})
+@rule(
+    INFO,
+    on=("ros1",),
+    effects={
+        "gazebo_ros_control": "takes the first, with a warning",
+    },
+)
 def several_hardware_interfaces(robot: Robot) -> Iterator[Problem]:
     """A joint of a transmission has several hardware interfaces.
 
@@ -173,7 +193,12 @@ def several_hardware_interfaces(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@rule(WARNING, effects={"ros_control": "takes two resources for one"})
+@rule(
+    WARNING,
+    effects={
+        "gazebo_ros_control": "replaces the handle of the joint by the second, with a warning",
+    },
+)
 def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
     """Two transmissions have one name, or drive one joint.
 
@@ -204,7 +229,13 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(ERROR, effects={"gazebo_ros_control": "finds no such joint in the simulated robot"})
+@rule(
+    ERROR,
+    effects={
+        "gazebo_ros_control": "fails to start: the merged joint is not in the simulated robot",
+        "gz, gazebo-classic": "merge the fixed joint",
+    },
+)
 def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
     """A transmission drives a fixed joint.
 
@@ -262,7 +293,13 @@ def _in_loops(robot: Robot) -> Iterator[str]:
                     yield above.name
 
 
-@rule(INFO, on=("ros2",), effects={"ros2_control": "does not look at it"})
+@rule(
+    INFO,
+    on=("ros2",),
+    effects={
+        "ros2_control": "reads only what is in <ros2_control>",
+    },
+)
 def ros1_transmission_in_ros2(robot: Robot) -> Iterator[Problem]:
     """A transmission of ROS 1 stands in a robot for ROS 2.
 

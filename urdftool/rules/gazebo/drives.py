@@ -22,8 +22,10 @@ _SLIP = 2.5  # a base that skids is often told of a wider track, since it turns 
     WARNING,
     on=(*ROS, *GAZEBO),
     effects={
-        "gazebo, diff_drive_controller": "drives and turns by other amounts than told, and its "
-        "odometry is off"
+        "gz, gazebo-classic": (
+            "pass the sizes on as written: the robot drives and turns by other amounts than "
+            "commanded"
+        ),
     },
 )
 def drive_size_mismatch(
@@ -48,7 +50,9 @@ def drive_size_mismatch(
 @rule(
     WARNING,
     on=GAZEBO,
-    effects={"gazebo": "turns on the spot when it is told to go ahead, or the wrong way"},
+    effects={
+        "gz, gazebo-classic": "keep the axis as written: the wheels turn against each other",
+    },
 )
 def drive_direction_mismatch(robot: Robot) -> Iterator[Problem]:
     """The wheels of a drive do not turn the way that its plugin takes for ahead.

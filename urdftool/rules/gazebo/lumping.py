@@ -50,7 +50,11 @@ def _blocks_of_links(robot: Robot) -> Iterator[tuple[str, GazeboExtension]]:
 @rule(
     ERROR,
     on=GAZEBO,
-    effects={"gazebo": "lumps the joint and drops what the block holds, silently"},
+    effects={
+        "gz, gazebo-classic": (
+            "merge the joint and drop what the block holds, without a message (sdformat 12.3)"
+        ),
+    },
 )
 def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
     """A fixed joint has something in Gazebo and is not kept.
@@ -81,7 +85,9 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
 @rule(
     WARNING,
     on=GAZEBO,
-    effects={"gazebo": "the flag holds for the whole body"},
+    effects={
+        "gz, gazebo-classic": "apply the flag to the whole merged body",
+    },
 )
 def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
     """A flag of a link that is joined to another holds for both.
@@ -117,7 +123,9 @@ def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     on=GAZEBO,
-    effects={"gazebo": "lumps the joint all the same, or drops the link"},
+    effects={
+        "gz, gazebo-classic": "leave out the link and all below it (sdformat 12.3)",
+    },
 )
 def preserved_joint_massless(robot: Robot) -> Iterator[Problem]:
     """A fixed joint is kept, and on one side of it nothing has mass.
@@ -145,7 +153,11 @@ def preserved_joint_massless(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     on=GAZEBO,
-    effects={"gazebo": "renames the shape and applies none of the settings, silently"},
+    effects={
+        "gz, gazebo-classic": (
+            "rename the shape and apply none of the settings, without a message (sdformat 12.3)"
+        ),
+    },
 )
 def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
     """A named collision or visual loses what Gazebo is told of its link.
@@ -179,7 +191,11 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
 @rule(
     WARNING,
     on=GAZEBO,
-    effects={"gazebo": "the sensor never reports a contact, and nothing is said"},
+    effects={
+        "gz, gazebo-classic": (
+            "give the collision another name: the sensor reports no contact (sdformat 12.3)"
+        ),
+    },
 )
 def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
     """A contact sensor names a collision that will have another name.
@@ -208,7 +224,12 @@ def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
         del name
 
 
-@rule(INFO, effects={"gazebo": "drops it"})
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic": "drop it",
+    },
+)
 def surface_without_collision(robot: Robot) -> Iterator[Problem]:
     """A link is told how it grips and has nothing to grip with.
 

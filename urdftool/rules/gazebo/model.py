@@ -11,7 +11,13 @@ from ..words import quoted
 from .keywords import is_true
 
 
-@rule(INFO, on=GAZEBO, effects={"gazebo": "no joint moves"})
+@rule(
+    INFO,
+    on=GAZEBO,
+    effects={
+        "gz, gazebo-classic": "make the model static: no joint moves",
+    },
+)
 def robot_level_static(robot: Robot) -> Iterator[Problem]:
     """A robot with joints is static.
 
@@ -30,7 +36,13 @@ def robot_level_static(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(INFO, on=GAZEBO, effects={"gazebo": "the robot floats"})
+@rule(
+    INFO,
+    on=GAZEBO,
+    effects={
+        "gz, gazebo-classic": "turn gravity off for each link: the robot floats",
+    },
+)
 def gravity_off_everywhere(robot: Robot) -> Iterator[Problem]:
     """No link with mass feels gravity.
 
@@ -52,7 +64,16 @@ def gravity_off_everywhere(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@rule(ERROR, on=GAZEBO, effects={"gazebo": "rejects the model (reserved name)"})
+@rule(
+    ERROR,
+    on=GAZEBO,
+    effects={
+        "gz, gazebo-classic": (
+            "reject the model (Error 3: reserved), unless the link is merged into another "
+            "(sdformat 12.3)"
+        ),
+    },
+)
 def reserved_name(robot: Robot) -> Iterator[Problem]:
     """A link or joint has a name that SDF keeps for itself.
 
@@ -83,7 +104,15 @@ _DRIVES = re.compile(
 )
 
 
-@rule(WARNING, on=GAZEBO, effects={"gazebo": "the joints hang limp; /joint_states is silent"})
+@rule(
+    WARNING,
+    on=GAZEBO,
+    effects={
+        "gz, gazebo-classic": (
+            "load the robot without a plugin: nothing drives or reports the joints"
+        ),
+    },
+)
 def missing_control_plugin(robot: Robot) -> Iterator[Problem]:
     """Joints move, and no plugin drives or reports them.
 
@@ -110,7 +139,13 @@ def missing_control_plugin(robot: Robot) -> Iterator[Problem]:
     )
 
 
-@rule(INFO, on=GAZEBO, effects={"gazebo": "the arm topples when it is spawned"})
+@rule(
+    INFO,
+    on=GAZEBO,
+    effects={
+        "gz, gazebo-classic": "load the robot as a free body",
+    },
+)
 def root_not_anchored(robot: Robot) -> Iterator[Problem]:
     """An arm is not fixed to the world.
 

@@ -15,7 +15,12 @@ from .systems import CLASSIC, REPLACEMENTS, SYSTEMS
 _GZ = ("gz-sim-", "libgz-sim-", "ignition-gazebo-", "libignition-gazebo-", "gz_ros2_control")
 
 
-@rule(ERROR, effects={"gazebo": "loads nothing"})
+@rule(
+    ERROR,
+    effects={
+        "gz, gazebo-classic": "reject the model: a required attribute is missing (sdformat 12.3)",
+    },
+)
 def plugin_without_filename(robot: Robot) -> Iterator[Problem]:
     """A plugin lacks its name or its library.
 
@@ -32,7 +37,9 @@ def plugin_without_filename(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     on=("gz",),
-    effects={"gz": "could not find the shared library", "gazebo-classic": "loads it"},
+    effects={
+        "gz": "reports that it could not find the shared library",
+    },
 )
 def classic_plugin_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A plugin of Gazebo Classic is in a robot for new Gazebo.
@@ -61,7 +68,9 @@ def classic_plugin_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
 @rule(
     ERROR,
     on=("gazebo-classic",),
-    effects={"gazebo-classic": "cannot load the library", "gz": "loads it"},
+    effects={
+        "gz": "loads it",
+    },
 )
 def gz_plugin_in_classic(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A plugin of new Gazebo is in a robot for Gazebo Classic.
@@ -79,7 +88,13 @@ def gz_plugin_in_classic(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
             )
 
 
-@rule(WARNING, on=("gz",), effects={"gz": "rewrites the name, with a warning that it will cease"})
+@rule(
+    WARNING,
+    on=("gz",),
+    effects={
+        "gz": "replaces a file name of the old form, with a warning",
+    },
+)
 def ignition_name(robot: Robot) -> Iterator[Problem]:
     """A plugin bears the old name, Ignition.
 
@@ -99,7 +114,13 @@ def ignition_name(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(ERROR, on=("gz",), effects={"gz": "finds the library and starts nothing of it"})
+@rule(
+    ERROR,
+    on=("gz",),
+    effects={
+        "gz": "finds the library and starts nothing of it: could not instantiate",
+    },
+)
 def plugin_class_mismatch(robot: Robot) -> Iterator[Problem]:
     """The name of a plugin of gz sim is not the class in its library.
 
@@ -143,7 +164,12 @@ _JOINTS = [
 _LINKS = ["link_name", "linkName", "body_name", "bodyName", "child_link"]
 
 
-@rule(ERROR, effects={"gazebo": "the plugin says that it finds no such joint, and stays idle"})
+@rule(
+    ERROR,
+    effects={
+        "gz, gazebo-classic": "pass the name on as it is",
+    },
+)
 def plugin_unknown_entity(robot: Robot) -> Iterator[Problem]:
     """A plugin names a joint or link that is not there.
 
@@ -178,7 +204,12 @@ def _unknown(
     )
 
 
-@rule(ERROR, effects={"gazebo": "rejects the model, or loads the first"})
+@rule(
+    ERROR,
+    effects={
+        "gz, gazebo-classic": "load both (sdformat 12.3)",
+    },
+)
 def duplicate_plugin_name(robot: Robot) -> Iterator[Problem]:
     """Two plugins of the model have one name.
 

@@ -12,7 +12,12 @@ from ..words import did_you_mean, quoted
 from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS
 
 
-@rule(ERROR, effects={"gazebo": "passes over the whole block silently"})
+@rule(
+    ERROR,
+    effects={
+        "gz, gazebo-classic": "ignore the whole block, without a message (sdformat 12.3)",
+    },
+)
 def dangling_reference(robot: Robot) -> Iterator[Problem]:
     """A ``<gazebo reference>`` names neither a link nor a joint.
 
@@ -59,7 +64,12 @@ def _loops(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(ERROR, effects={"gazebo": "drops it silently"})
+@rule(
+    ERROR,
+    effects={
+        "gz, gazebo-classic": "drop it, without a message (sdformat 12.3)",
+    },
+)
 def misplaced_extension(robot: Robot) -> Iterator[Problem]:
     """A word of Gazebo's stands at a link and belongs to a joint, or the other way round.
 
@@ -105,7 +115,12 @@ def _misplaced(
     )
 
 
-@rule(WARNING, effects={"gazebo": "warns; the last one holds"})
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic": "warn, and take the last one",
+    },
+)
 def conflicting_references(robot: Robot) -> Iterator[Problem]:
     """Two blocks of one link or joint say different things.
 

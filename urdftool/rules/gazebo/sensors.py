@@ -29,7 +29,14 @@ def _sensors(robot: Robot) -> Iterator[tuple[GazeboExtension, Sensor]]:
             yield block, sensor
 
 
-@rule(ERROR, effects={"gazebo": "rejects the sensor"})
+@rule(
+    ERROR,
+    effects={
+        "gz, gazebo-classic": (
+            "report Error 5: the sensor type is missing or invalid (sdformat 12.3)"
+        ),
+    },
+)
 def unknown_sensor_type(robot: Robot) -> Iterator[Problem]:
     """A sensor is of a type that SDF does not have.
 
@@ -50,7 +57,9 @@ def unknown_sensor_type(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     on=("gz",),
-    effects={"gz": "does not support it and makes no sensor", "gazebo-classic": "takes it"},
+    effects={
+        "gz": "makes no sensor: type LIDAR is not supported, use a GPU LIDAR",
+    },
 )
 def cpu_ray_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A laser scans with the processor, which new Gazebo cannot.
@@ -73,7 +82,9 @@ def cpu_ray_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
 @rule(
     ERROR,
     on=("gz",),
-    effects={"gz": "cannot load it; the sensor says nothing to ROS"},
+    effects={
+        "gz": "cannot load it: the shared library is not found",
+    },
 )
 def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A sensor carries a ROS plugin of Gazebo Classic.
@@ -97,7 +108,9 @@ def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[
 @rule(
     WARNING,
     on=("gz",),
-    effects={"gz": "stamps the data with model/link/sensor, which TF does not know"},
+    effects={
+        "gz": "stamps the data with the scoped name of the sensor, which TF does not know",
+    },
 )
 def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Problem]:
     """A sensor does not say in which frame it measures.
@@ -127,7 +140,13 @@ def without_frame(robot: Robot) -> Iterator[tuple[GazeboExtension, Sensor]]:
                 yield block, sensor
 
 
-@rule(ERROR, on=GAZEBO, effects={"gazebo": "rejects the model: names are not unique"})
+@rule(
+    ERROR,
+    on=GAZEBO,
+    effects={
+        "gz, gazebo-classic": "report Error 2: the sensor already exists (sdformat 12.3)",
+    },
+)
 def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
     """Two sensors of one body have one name.
 
@@ -154,7 +173,14 @@ def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
 _SENSOR_LINK = re.compile(r"camera|lidar|laser|(^|_)(scan|imu|gps)(_|$)", re.IGNORECASE)
 
 
-@rule(INFO, on=GAZEBO, default=False, effects={"gazebo": "simulates no data there"})
+@rule(
+    INFO,
+    on=GAZEBO,
+    default=False,
+    effects={
+        "gz, gazebo-classic": "simulate no data there",
+    },
+)
 def missing_sensor_tag(robot: Robot) -> Iterator[Problem]:
     """A link is called like a sensor, and there is none at it.
 
@@ -194,7 +220,14 @@ _SYSTEM_OF = {
 """The system that makes the data of a type of sensor; ``gz-sim-WORD-system``."""
 
 
-@rule(INFO, on=("gz",), default=False, effects={"gz": "makes no data without it, and says nothing"})
+@rule(
+    INFO,
+    on=("gz",),
+    default=False,
+    effects={
+        "gz": "passes the sensor on, and no system",
+    },
+)
 def sensor_needs_world_system(robot: Robot) -> Iterator[Problem]:
     """A sensor makes data only in a world that has its system.
 

@@ -12,7 +12,13 @@ from .contact import contact_role
 from .keywords import NOT_IN_GZ
 
 
-@rule(WARNING, on=GAZEBO, effects={"gazebo": "warns, and takes it for implicitSpringDamper"})
+@rule(
+    WARNING,
+    on=GAZEBO,
+    effects={
+        "gz, gazebo-classic": "warn, and take it for implicitSpringDamper",
+    },
+)
 def deprecated_cfm_damping(robot: Robot) -> Iterator[Problem]:
     """``cfmDamping`` is the old name of ``implicitSpringDamper``.
 
@@ -28,7 +34,9 @@ def deprecated_cfm_damping(robot: Robot) -> Iterator[Problem]:
 @rule(
     WARNING,
     on=("gz",),
-    effects={"gz": "reads nothing of it", "gazebo-classic": "takes it"},
+    effects={
+        "gz": "passes it on to SDF, where gz-physics does not read it for DART",
+    },
 )
 def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A setting of Gazebo Classic does nothing in new Gazebo.
@@ -56,7 +64,9 @@ def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
 @rule(
     WARNING,
     on=("gz",),
-    effects={"gz": "has no Ogre scripts; the link gets the default colour"},
+    effects={
+        "gz": "does not read Ogre scripts, and warns",
+    },
 )
 def ogre_material_script(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A material of Gazebo Classic's is not known to new Gazebo.
@@ -94,7 +104,9 @@ def ogre_material_script(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
     INFO,
     on=("gazebo-classic",),
     default=False,
-    effects={"gazebo-classic": "contacts are as hard as can be, and jitter"},
+    effects={
+        "gazebo-classic": "takes the defaults of SDF: no <kp> and <kd> are passed on",
+    },
 )
 def missing_contact_parameters(robot: Robot) -> Iterator[Problem]:
     """A foot, finger or wheel has no contact parameters.
@@ -121,7 +133,9 @@ def missing_contact_parameters(robot: Robot) -> Iterator[Problem]:
     INFO,
     on=("gz",),
     default=False,
-    effects={"gz": "with the engines bullet-featherstone or mujoco, passes over the friction"},
+    effects={
+        "gz": "passes on <ode> friction alone, and no <bullet> friction",
+    },
 )
 def engine_ignores_ode_friction(robot: Robot) -> Iterator[Problem]:
     """The friction is written for one engine, and another does not read it.

@@ -22,8 +22,9 @@ _GREY = 0.06  # colours whose parts differ less than this look like Gazebo Class
 @rule(
     WARNING,
     effects={
-        "gazebo-classic": "shows all in grey, with a friction of 1",
-        "gz": "shows URDF's colours, with a friction of 1",
+        "gz, gazebo-classic": (
+            "take a friction of 1, the default of SDF (sdformat 12.3 passes URDF's colors on)"
+        ),
     },
 )
 def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
@@ -84,7 +85,9 @@ def _without_any(robot: Robot) -> str:
 @rule(
     WARNING,
     on=("gazebo-classic",),
-    effects={"gazebo-classic": "shows it in grey", "gz": "takes URDF's colour"},
+    effects={
+        "gz": "takes URDF's color (sdformat 12.3)",
+    },
 )
 def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
     """A link with a colour has a ``<gazebo>`` block without a material.
@@ -111,7 +114,9 @@ def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
 @rule(
     INFO,
     on=("gazebo-classic", "gz"),
-    effects={"gazebo": "takes a friction of 1, in both directions"},
+    effects={
+        "gz, gazebo-classic": "take a friction of 1, the default of SDF, in both directions",
+    },
 )
 def missing_friction(robot: Robot) -> Iterator[Problem]:
     """A wheel, caster, foot or finger has a ``<gazebo>`` block without friction.

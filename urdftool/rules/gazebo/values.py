@@ -17,8 +17,11 @@ _LEADING = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?(?:inf|na
 @rule(
     ERROR,
     effects={
-        "gazebo": "ends at once, with an uncaught 'stod', where there is no number at all",
-        "others": "do not look",
+        "gz, gazebo-classic": (
+            "end at once with an uncaught 'stod' where there is no number at all; read as far "
+            "as they can otherwise (sdformat 12.3)"
+        ),
+        "urdfdom, mujoco, pybullet, pinocchio, drake": "ignore <gazebo>",
     },
 )
 def bad_extension_number(robot: Robot) -> Iterator[Problem]:
@@ -53,7 +56,12 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(INFO, effects={"gazebo": "takes 1 for the other"})
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic": "take 1, the default of SDF, for the other",
+    },
+)
 def half_friction(robot: Robot) -> Iterator[Problem]:
     """One of ``mu1`` and ``mu2`` is written.
 
@@ -79,7 +87,12 @@ def half_friction(robot: Robot) -> Iterator[Problem]:
 _MU = ("mu1", "mu2")
 
 
-@rule(INFO, effects={"gazebo": "takes it as it is"})
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic": "take it as written",
+    },
+)
 def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Problem]:
     """A friction or a stiffness is not of this world.
 

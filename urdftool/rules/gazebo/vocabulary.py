@@ -28,7 +28,7 @@ _INSTEAD = {
 @rule(
     WARNING,
     effects={
-        "gazebo": "copies it as it is and reads nothing of it; the default holds",
+        "gz, gazebo-classic": "copy it into the SDF as it is; the default holds",
     },
 )
 def unknown_extension(robot: Robot) -> Iterator[Problem]:

@@ -20,10 +20,12 @@ _SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic": "silently drop all visuals and collisions of the link",
+        "urdfdom, gz, gazebo-classic, pinocchio": (
+            "load the link without its visuals and collisions, with an error in the log"
+        ),
         "check_urdf": "reports success nevertheless",
-        "mujoco": "rejects the file",
-        "pybullet": "takes 0",
+        "mujoco": "rejects the file: required attribute missing",
+        "pybullet, drake": "take 0 for a missing product of inertia",
     },
 )
 def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
@@ -70,8 +72,11 @@ def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
 @rule(
     WARNING,
     effects={
-        "gz, gazebo-classic": "leave out the link and all that hangs on it",
-        "mujoco": "rejects a moving body",
+        "gz, gazebo-classic": (
+            "leave out the link and all below it; a link fixed to one with mass is merged into "
+            "it (sdformat 12.3)"
+        ),
+        "mujoco": "rejects a moving body; merges a fixed one",
         "pybullet": "fixes a base to the world",
     },
 )
@@ -116,10 +121,10 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": "reject the model (Error 18)",
+        "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
         "mujoco": "rejects the file",
-        "pybullet": "simulates it",
-        "urdfdom": "takes it silently",
+        "pybullet, urdfdom, pinocchio": "accept it without a message",
+        "drake": "warns, and takes another inertia",
     },
 )
 def negative_mass(robot: Robot) -> Iterator[Problem]:
@@ -136,7 +141,12 @@ def negative_mass(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(INFO, effects={"every simulator": "takes it as written"})
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take it as written",
+    },
+)
 def implausible_mass(
     robot: Robot, *, heaviest: float = 1000.0, lightest: float = 1e-5
 ) -> Iterator[Problem]:
@@ -161,7 +171,12 @@ def implausible_mass(
         )
 
 
-@rule(INFO, effects={"every simulator": "takes it as written"})
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take it as written",
+    },
+)
 def implausible_density(
     robot: Robot,
     *,

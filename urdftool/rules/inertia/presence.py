@@ -17,11 +17,13 @@ _LOST = "Gazebo leaves it out, with all that hangs on it"
     WARNING,
     raised=dict.fromkeys(("gazebo-classic", "gz", "mujoco", "pybullet"), ERROR),
     effects={
-        "gz, gazebo-classic": "leave out the link and all that hangs on it, without a word; "
-        "a link fixed to one with mass is merged into it",
-        "pybullet": "invents 1 kg and 1 kg·m² about each axis",
-        "mujoco": "invents the mass of water in the shape of its collisions",
-        "KDL, pinocchio": "take 0 kg",
+        "gz, gazebo-classic": (
+            "leave out the link and all below it, without a message; a link fixed to one with "
+            "mass is merged into it"
+        ),
+        "pybullet": "assumes 1 kg, and with URDF_USE_INERTIA_FROM_FILE 1 kg·m² about each axis",
+        "mujoco": "assumes the mass of water in the shape of its collisions",
+        "pinocchio, KDL, drake": "take 0 kg",
     },
 )
 def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
@@ -67,7 +69,9 @@ def _links_with_mass(robot: Robot) -> frozenset[str]:
     WARNING,
     raised=dict.fromkeys(_SIMULATED, ERROR),
     effects={
-        "gz, gazebo-classic": "leave out the link and all that hangs on it, most versions silently",
+        "gz, gazebo-classic": (
+            "leave out the link and all below it, without a message (sdformat 12.3)"
+        ),
         "mujoco": "rejects the file: mass of moving bodies must be positive",
         "pybullet": "gives it 1 kg",
         "pinocchio": "its mass matrix is singular if nothing with mass is below it",
@@ -117,7 +121,9 @@ def _is_bare(links: list[Link]) -> bool:
 @rule(
     ERROR,
     on=GAZEBO,
-    effects={"gz, gazebo-classic": "a model must have at least one link: nothing is loaded"},
+    effects={
+        "gz, gazebo-classic": "load nothing: a model must have at least one link",
+    },
 )
 def massless_root_body(robot: Robot) -> Iterator[Problem]:
     """The root and all that is fixed to it have no mass, and joints move other links on it.
@@ -148,7 +154,8 @@ def _moves_something(robot: Robot, links: list[Link]) -> bool:
     INFO,
     on=ROS,
     effects={
-        "KDL, robot_state_publisher": "warn at every start; KDL's dynamics leave that mass out",
+        "KDL": "warns at every start, and leaves that mass out of its dynamics",
+        "robot_state_publisher": "prints the warning of kdl_parser",
         "mujoco": "welds the root to the world",
     },
 )
@@ -168,7 +175,15 @@ def root_link_has_inertia(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@rule(INFO, effects={"every reader": "moves the mass, and nothing is seen of it"}, default=False)
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+            "move the mass, and show nothing of it"
+        ),
+    },
+    default=False,
+)
 def mass_without_geometry(robot: Robot) -> Iterator[Problem]:
     """A link has a mass and no shape.
 

@@ -10,7 +10,12 @@ from ..rule import INFO, Problem, rule
 from ..sides import twin_of
 
 
-@rule(INFO, effects={"every simulator": "the robot leans to one side"})
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take the two as written",
+    },
+)
 def left_right_asymmetry(
     robot: Robot,
     *,

@@ -16,7 +16,11 @@ from .tensors import is_positive, is_zero, moments_of, six_of, tensors
 
 @rule(
     INFO,
-    effects={"every simulator": "takes it: a light arm swings like a flywheel"},
+    effects={
+        "gz, gazebo-classic, mujoco, pinocchio, drake": (
+            "take it as written: the link swings like a flywheel"
+        ),
+    },
 )
 def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
     """An inertia is the same power of ten about every axis, such as 1 or 1e-3.
@@ -53,7 +57,12 @@ def _is_placeholder(link: Link, six: Six) -> bool:
     return solid is None or not all(0.5 <= moment / xx <= 2 for moment in solid)
 
 
-@rule(WARNING, effects={"every simulator": "takes it: the link turns more sluggishly than it can"})
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
+    },
+)
 def inertia_exceeds_geometry(
     robot: Robot, *, allowed: float = 1.1, rounding: float = 0.01, certain: float = 10.0
 ) -> Iterator[Problem]:
@@ -90,7 +99,14 @@ def _has_mesh(link: Link) -> bool:
     return any(isinstance(shape.geometry, Mesh) for shape in shapes)
 
 
-@rule(INFO, effects={"every simulator": "takes it: the link spins up too easily"})
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic, mujoco, pinocchio, drake": (
+            "take it as written: the same force turns the link faster"
+        ),
+    },
+)
 def inertia_below_geometry(robot: Robot, *, least: float = 0.12) -> Iterator[Problem]:
     """An inertia is far smaller than that of a body of the link's size.
 
@@ -122,7 +138,12 @@ def inertia_below_geometry(robot: Robot, *, least: float = 0.12) -> Iterator[Pro
             )
 
 
-@rule(WARNING, effects={"every simulator": "takes it; the link tips over or turns off centre"})
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
+    },
+)
 def com_outside_geometry(
     robot: Robot, *, margin: float = 0.02, together: float = 6
 ) -> Iterator[Problem]:
@@ -172,7 +193,14 @@ def com_outside_geometry(
     yield from (problem for problem, _ in remarks)
 
 
-@rule(INFO, effects={"every simulator": "hangs the mass on the joint's axis"})
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic, mujoco, pinocchio, drake": (
+            "put the center of mass at the link's origin, on the joint"
+        ),
+    },
+)
 def inertial_not_at_com_suspect(robot: Robot, *, far: float = 0.2) -> Iterator[Problem]:
     """An ``<inertial>`` has no origin though the link's shapes lie to one side.
 
@@ -209,7 +237,12 @@ def inertial_not_at_com_suspect(robot: Robot, *, far: float = 0.2) -> Iterator[P
             )
 
 
-@rule(WARNING, effects={"every simulator": "takes it"})
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
+    },
+)
 def radius_of_gyration(
     robot: Robot, *, largest: float = 1.0, smallest: float = 1e-3, heavy: float = 0.01
 ) -> Iterator[Problem]:

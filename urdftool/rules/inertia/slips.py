@@ -15,7 +15,7 @@ from .tensors import SIX, is_zero, tensors
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": "reject the model (Error 18)",
+        "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
         "mujoco": "rejects the file",
     },
 )
@@ -40,8 +40,10 @@ def inertia_component_slip(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": "reject the model (Error 18)",
-        "mujoco": "rejects the file",
+        "gz, gazebo-classic": (
+            "reject the model where the triangle inequality is broken (sdformat 12.3: Error 18)"
+        ),
+        "mujoco": "rejects the file where the triangle inequality is broken",
     },
 )
 def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
@@ -74,7 +76,11 @@ def slip_of(link: Link, inertial: Inertial, six: Six) -> Proposal | None:
 
 @rule(
     WARNING,
-    effects={"every reader": "passes over them and takes ixy, ixz, iyz"},
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+            "ignore them and take ixy, ixz, iyz"
+        ),
+    },
 )
 def redundant_inertia_attributes(robot: Robot) -> Iterator[Problem]:
     """An ``<inertia>`` has ``iyx``, ``izx`` or ``izy``.

@@ -22,7 +22,16 @@ _REJECTED = {
 }
 
 
-@rule(ERROR, effects=_REJECTED)
+@rule(
+    ERROR,
+    effects={
+        "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
+        "mujoco": "rejects the file",
+        "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
+        "urdfdom, KDL, pinocchio": "accept it without a message",
+        "drake": "warns, and takes another inertia",
+    },
+)
 def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Problem]:
     """An inertia tensor has a negative principal moment.
 
@@ -43,7 +52,16 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
         )
 
 
-@rule(ERROR, effects={**_REJECTED, "mujoco": "rejects the file: inertia must satisfy A + B >= C"})
+@rule(
+    ERROR,
+    effects={
+        "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
+        "mujoco": "rejects the file: inertia must satisfy A + B >= C",
+        "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
+        "urdfdom, KDL, pinocchio": "accept it without a message",
+        "drake": "warns, and takes another inertia",
+    },
+)
 def inertia_triangle_inequality(
     robot: Robot, *, tolerance: float = 1e-6, rounding: float = 0.01
 ) -> Iterator[Problem]:
@@ -71,9 +89,11 @@ def inertia_triangle_inequality(
     INFO,
     raised={"mujoco": ERROR, "gz": ERROR},
     effects={
-        "mujoco": "rejects the file, however small the excess",
-        "gz": "rejects the model",
-        "other readers": "do not mind",
+        "mujoco": "rejects the file",
+        "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
+        "pybullet": "takes zero with URDF_USE_INERTIA_FROM_FILE",
+        "drake": "warns, and takes another inertia",
+        "urdfdom, pinocchio": "accept it without a message",
     },
 )
 def inertia_triangle_inequality_rounding(
@@ -100,9 +120,11 @@ def inertia_triangle_inequality_rounding(
     WARNING,
     raised={"mujoco": ERROR},
     effects={
-        "gz, gazebo-classic": "call it valid; the link spins up without limit",
+        "gz, gazebo-classic": "accept it (sdformat 12.3)",
         "mujoco": "rejects a moving body",
-        "pinocchio": "has a singular mass matrix",
+        "pinocchio": (
+            "keeps the zeros: the mass matrix is singular where the center of mass is on the axis"
+        ),
     },
 )
 def zero_inertia(robot: Robot) -> Iterator[Problem]:
@@ -122,7 +144,15 @@ def zero_inertia(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(WARNING, effects={"every simulator": "turns it about that axis without any resistance"})
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic, pybullet, pinocchio, drake": (
+            "accept it: nothing resists a turn about that axis"
+        ),
+        "mujoco": "rejects the file: inertia must have positive eigenvalues",
+    },
+)
 def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Problem]:
     """An inertia tensor is zero about one axis.
 
@@ -151,7 +181,9 @@ def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Proble
 @rule(
     WARNING,
     on=("gazebo-classic", "gz", "mujoco", "pybullet"),
-    effects={"gz, gazebo-classic, pybullet": "diverge at their usual step of a millisecond"},
+    effects={
+        "pybullet": "a force of 1 N·m makes the joint's state invalid at a step of a millisecond",
+    },
 )
 def tiny_moving_inertia(
     robot: Robot, *, smallest: float = 1e-7, lightest: float = 1e-3

@@ -12,17 +12,18 @@ from ..rule import ERROR, INFO, WARNING, Problem, rule
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": "the model is not loaded (Error 9)",
-        "mujoco": "rejects the file: axis too small",
-        "pybullet": "loads it; the joint does nothing",
-        "urdfdom": "accepts it silently",
+        "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 9)",
+        "mujoco, drake": "reject the file",
+        "pybullet": "loads it; a force on the joint makes its position NaN",
+        "urdfdom, pinocchio": "accept it without a message; the mass matrix is singular",
     },
 )
 def zero_axis(robot: Robot, *, shortest: float = 1e-6) -> Iterator[Problem]:
     """A moving joint's axis is the zero vector.
 
-    An axis is a direction, and readers divide by its length. MuJoCo, sdformat and Drake refuse the
-    robot; others load it, and the joint neither turns nor slides. On a fixed joint it does no harm.
+    An axis is a direction, and readers divide by its length. MuJoCo, sdformat and Drake reject the
+    robot; PyBullet loads it, and the joint's position is NaN as soon as a force acts. On a fixed
+    joint it does no harm.
     """
     for joint in robot.joints:
         if joint.has_axis and joint.axis is not None and norm(joint.axis.xyz) < shortest:
@@ -36,15 +37,18 @@ def zero_axis(robot: Robot, *, shortest: float = 1e-6) -> Iterator[Problem]:
 @rule(
     WARNING,
     effects={
-        "mujoco, pybullet": "normalise it",
-        "urdfdom": "passes it on as it is",
+        "mujoco, drake, KDL": "normalize it",
+        "urdfdom, gz, gazebo-classic, pybullet": (
+            "pass it on as it is; a joint in PyBullet then moves by another amount"
+        ),
     },
 )
 def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]:
     """A moving joint's axis is not of unit length.
 
-    The specification asks for a unit vector and urdfdom passes on what is written. Most engines
-    normalise it; code that multiplies the joint's position with the axis turns by a wrong angle.
+    The specification asks for a unit vector and urdfdom passes on what is written. MuJoCo, Drake
+    and KDL normalize it; PyBullet, and code that multiplies the joint's position with the axis,
+    moves the joint by a wrong amount.
     """
     for joint in robot.joints:
         if not joint.has_axis or joint.axis is None:
@@ -58,7 +62,12 @@ def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]
             )
 
 
-@rule(INFO, effects={"every reader": "takes 1 0 0"})
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take 1 0 0",
+    },
+)
 def axis_omitted(robot: Robot) -> Iterator[Problem]:
     """A moving joint has no ``<axis>``.
 
@@ -72,7 +81,12 @@ def axis_omitted(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(INFO, effects={"analytic inverse kinematics": "does not recognise the axis as x, y or z"})
+@rule(
+    INFO,
+    effects={
+        "pinocchio": "builds a joint with a free axis instead of one along x, y or z",
+    },
+)
 def axis_nearly_canonical(
     robot: Robot, *, smallest: float = 1e-6, largest: float = 1e-2
 ) -> Iterator[Problem]:

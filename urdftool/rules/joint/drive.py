@@ -17,8 +17,8 @@ _UNITS = {"prismatic": ("N", "m/s")}
     WARNING,
     raised={"gz": ERROR},
     effects={
-        "gz": "the joint cannot be driven",
-        "mujoco": "takes it as unlimited",
+        "gz": "passes a limit of 0 on to the engine: the joint cannot be driven",
+        "mujoco": "loads it without the limit",
     },
 )
 def zero_effort_limit(robot: Robot) -> Iterator[Problem]:
@@ -42,8 +42,8 @@ def zero_effort_limit(robot: Robot) -> Iterator[Problem]:
     WARNING,
     raised={"moveit": ERROR},
     effects={
-        "moveit": "does not plan: no velocity limit was defined",
-        "gz": "the joint stands still",
+        "moveit": "does not time a trajectory: no velocity limit was defined",
+        "gz": "passes a limit of 0 on to the engine",
     },
 )
 def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
@@ -76,10 +76,11 @@ def _units(joint: Joint) -> tuple[str, str]:
 @rule(
     ERROR,
     effects={
-        "gz": "takes it as unlimited",
-        "moveit, mujoco": "take the absolute value",
-        "drake": "aborts",
-        "pinocchio": "rejects a negative velocity",
+        "gz": "treats it as unlimited",
+        "mujoco": "takes the absolute value of an effort",
+        "moveit": "takes the absolute value of a velocity",
+        "drake": "aborts for a velocity",
+        "pinocchio": "rejects the robot",
     },
 )
 def negative_limit(robot: Robot) -> Iterator[Problem]:
@@ -100,7 +101,12 @@ def negative_limit(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(INFO, effects={"moveit, ros2_control": "the limit limits nothing"})
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic, pybullet, pinocchio, drake": "take it as written",
+    },
+)
 def implausible_velocity(
     robot: Robot, *, fastest_turn: float = 100.0, fastest_slide: float = 20.0, together: float = 4
 ) -> Iterator[Problem]:
@@ -126,7 +132,12 @@ def implausible_velocity(
         )
 
 
-@rule(INFO, effects={"gz, ros2_control": "clamp no command"})
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic, mujoco, pybullet, pinocchio": "take it as written",
+    },
+)
 def implausible_effort(
     robot: Robot, *, largest: float = 1e4, together: float = 4
 ) -> Iterator[Problem]:
@@ -167,7 +178,7 @@ def _alike(
     ERROR,
     effects={
         "drake": "rejects the file",
-        "mujoco": "simulates it as it is",
+        "mujoco, pybullet": "simulate it as it is: the joint gains energy",
     },
 )
 def negative_dynamics(robot: Robot) -> Iterator[Problem]:
@@ -192,7 +203,7 @@ def negative_dynamics(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic, pybullet": "reject the robot",
+        "urdfdom, gz, gazebo-classic, pybullet, pinocchio": "reject the robot",
         "mujoco, drake": "take 0",
     },
 )
@@ -218,7 +229,12 @@ def empty_dynamics(robot: Robot) -> Iterator[Problem]:
 
 @rule(
     WARNING,
-    effects={"urdfdom": "rejects the robot: no damping and no friction", "drake": "ignores them"},
+    effects={
+        "urdfdom, gz, gazebo-classic, pybullet, pinocchio": (
+            "reject the robot: no damping and no friction"
+        ),
+        "mujoco, drake": "ignore them",
+    },
 )
 def dynamics_as_child_elements(robot: Robot) -> Iterator[Problem]:
     """Damping or friction is written as an element inside ``<dynamics>``.
@@ -243,7 +259,10 @@ def dynamics_as_child_elements(robot: Robot) -> Iterator[Problem]:
 @rule(
     INFO,
     on=("gazebo-classic", "gz", "mujoco", "pybullet"),
-    effects={"every simulator": "takes 0: nothing stops a swing"},
+    effects={
+        "mujoco, pybullet, drake": "take 0: nothing stops a swing",
+        "gz, gazebo-classic": "take 0",
+    },
 )
 def missing_dynamics(robot: Robot) -> Iterator[Problem]:
     """Moving joints have neither damping nor friction.

@@ -27,8 +27,8 @@ _ELSEWHERE = {
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic": "reject the robot: joint has no known type",
-        "mujoco, pybullet": "reject it as well",
+        "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot: joint has no known type",
+        "mujoco, pybullet, drake": "reject it, except that MuJoCo and PyBullet know 'spherical'",
     },
 )
 def unknown_joint_type(robot: Robot) -> Iterator[Problem]:
@@ -59,10 +59,13 @@ def unknown_joint_type(robot: Robot) -> Iterator[Problem]:
     INFO,
     raised=dict.fromkeys(GAZEBO, ERROR),
     effects={
-        "gz, gazebo-classic": "do not load the model (Error 25)",
+        "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 25)",
         "robot_state_publisher": "publishes no transform for floating, a fixed one for planar",
-        "KDL, pybullet": "take floating for fixed",
-        "mujoco": "has both, floating at the root only",
+        "KDL": "treats both as fixed",
+        "pybullet": (
+            "treats floating as fixed; the planar joint has two prismatic axes and a revolute one"
+        ),
+        "mujoco": "has both; a floating joint must be at the root",
     },
 )
 def planar_or_floating(robot: Robot) -> Iterator[Problem]:
@@ -81,7 +84,15 @@ def planar_or_floating(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(INFO, effects={"every reader": "takes them and does nothing with them"}, default=False)
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+            "ignore them: the joint is fixed"
+        ),
+    },
+    default=False,
+)
 def redundant_on_fixed(robot: Robot) -> Iterator[Problem]:
     """A fixed joint has an axis, a limit or dynamics.
 

@@ -12,8 +12,8 @@ from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic, pybullet": "reject the robot",
-        "mujoco": "takes the joint as unlimited",
+        "urdfdom, gz, gazebo-classic, pybullet, pinocchio": "reject the robot",
+        "mujoco, drake": "load the joint without limits",
     },
 )
 def missing_limit(robot: Robot) -> Iterator[Problem]:
@@ -38,9 +38,9 @@ def missing_limit(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "urdfdom 5 and earlier (every released ROS), gz, gazebo-classic": "reject the robot",
+        "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot (urdfdom 3, 4 and 6)",
         "pybullet": "takes 0",
-        "mujoco": "takes it as unlimited",
+        "mujoco, drake": "load it without the limit",
     },
 )
 def limit_without_effort_or_velocity(robot: Robot) -> Iterator[Problem]:
@@ -77,7 +77,10 @@ def _version(robot: Robot) -> float:
 
 @rule(
     WARNING,
-    effects={"urdfdom, gz, gazebo-classic": "take 0 for a bound that is not written"},
+    effects={
+        "urdfdom, gz, gazebo-classic, pinocchio": "take 0 for a bound that is not written",
+        "mujoco, pybullet, drake": "load the joint without limits where both are missing",
+    },
 )
 def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
     """A revolute or prismatic joint's ``<limit>`` lacks lower, upper or both.
@@ -113,8 +116,9 @@ def _is_empty(limit: Limit) -> bool:
 @rule(
     WARNING,
     effects={
-        "urdfdom, pybullet, gz, gazebo-classic": "ignore the bounds",
-        "mujoco": "3.3 keeps to them, 4.0 ignores them",
+        "gz, gazebo-classic, pybullet, pinocchio": "ignore the bounds",
+        "urdfdom, drake": "pass them on",
+        "mujoco": "3.3 enforces them, 4.0 ignores them",
     },
 )
 def continuous_with_bounds(robot: Robot) -> Iterator[Problem]:

@@ -13,7 +13,12 @@ from ..xml.vocabulary_table import census
 _DEGREES = frozenset(map(float, (*range(30, 361, 30), *range(45, 361, 45))))
 
 
-@rule(WARNING, effects={"every reader": "takes radians: 90 is 116.6° after fourteen turns"})
+@rule(
+    WARNING,
+    effects={
+        "urdfdom, gz, gazebo-classic": "take radians: 90 is 116.6° after fourteen turns",
+    },
+)
 def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iterator[Problem]:
     """A rotation is more than a full turn.
 

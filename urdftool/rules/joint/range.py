@@ -12,10 +12,10 @@ from ..rule import ERROR, INFO, WARNING, Problem, rule
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": "swap them with a warning",
-        "mujoco": "takes the joint as unlimited",
-        "pybullet, pinocchio": "keep the empty range",
-        "moveit": "finds no state in bounds",
+        "gz, gazebo-classic": "swap them with a warning (sdformat 12.3)",
+        "mujoco, pybullet": "load the joint without limits",
+        "pinocchio": "keeps the empty range",
+        "moveit": "keeps the empty range: no state is within bounds",
         "drake": "aborts",
     },
 )
@@ -40,7 +40,8 @@ def lower_above_upper(robot: Robot) -> Iterator[Problem]:
     raised={"mujoco": ERROR},
     effects={
         "mujoco": "ignores the limit: the joint turns freely",
-        "pybullet, gz": "hold it in place",
+        "pybullet": "holds it in place",
+        "gz, gazebo-classic, pinocchio, drake": "keep the two equal limits",
     },
 )
 def locked_by_limits(robot: Robot) -> Iterator[Problem]:
@@ -59,7 +60,14 @@ def locked_by_limits(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(WARNING, effects={"every reader": "takes radians: 90 is more than fourteen turns"})
+@rule(
+    WARNING,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+            "take radians: 90 is more than fourteen turns"
+        ),
+    },
+)
 def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[Problem]:
     """A revolute joint's limit is larger than two turns.
 
@@ -103,7 +111,12 @@ def _looks_like_degrees(value: float) -> bool:
     return abs(value) <= 720 and (value * 2).is_integer()
 
 
-@rule(INFO, effects={"every reader": "takes metres"})
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take meters",
+    },
+)
 def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator[Problem]:
     """A prismatic joint's limit, or the place of a joint, is more than ten metres.
 
@@ -191,7 +204,7 @@ def range_above_full_turn(robot: Robot) -> Iterator[Problem]:
     raised=dict.fromkeys(("gz", "gazebo-classic", "moveit"), WARNING),
     effects={
         "gz, gazebo-classic": "spawn the joint at 0, outside its limits",
-        "moveit": "has no start state within bounds",
+        "moveit": "reports that the start state is outside its bounds",
     },
 )
 def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Problem]:

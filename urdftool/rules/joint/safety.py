@@ -11,7 +11,10 @@ from ..xml.vocabulary_table import misspelt_attributes
 
 @rule(
     ERROR,
-    effects={"urdfdom, gz, gazebo-classic": "reject the robot: no k_velocity", "pybullet": "ok"},
+    effects={
+        "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot: no k_velocity",
+        "mujoco, pybullet, drake": "ignore it",
+    },
 )
 def incomplete_safety_controller(robot: Robot) -> Iterator[Problem]:
     """A ``<safety_controller>`` has no ``k_velocity``.
@@ -33,7 +36,10 @@ def incomplete_safety_controller(robot: Robot) -> Iterator[Problem]:
 @rule(
     WARNING,
     raised={"moveit": ERROR},
-    effects={"moveit": "takes the soft limits for the joint's range", "others": "ignore them"},
+    effects={
+        "moveit": "takes the soft limits, within the hard ones, for the joint's range",
+        "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "ignore them",
+    },
 )
 def soft_limits_lock_joint(robot: Robot) -> Iterator[Problem]:
     """A joint's soft limits leave it no range.
@@ -59,7 +65,13 @@ def soft_limits_lock_joint(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(INFO, effects={"every reader": "never reaches them"})
+@rule(
+    INFO,
+    effects={
+        "moveit": "takes the hard limit",
+        "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "ignore the soft limits",
+    },
+)
 def soft_limits_outside_hard(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Problem]:
     """A joint's soft limits lie beyond its hard ones.
 

@@ -9,7 +9,12 @@ from ..rule import INFO, Problem, rule
 from ..sides import Pair, Sides, family_of, sides
 
 
-@rule(INFO, effects={"every reader": "takes it: the robot is crooked"})
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco": "place the joint as written: the robot is crooked",
+    },
+)
 def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
     """A joint is not where the mirror image of its twin is.
 
@@ -27,7 +32,14 @@ def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@rule(INFO, effects={"every reader": "moves the two sides differently"})
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+            "keep the two ranges as written"
+        ),
+    },
+)
 def limits_not_mirrored(
     robot: Robot, *, tolerance: float = 0.03, together: float = 3
 ) -> Iterator[Problem]:
@@ -73,7 +85,14 @@ def _unlike(found: Sides, tolerance: float) -> Iterator[Problem]:
         )
 
 
-@rule(INFO, effects={"every reader": "turns one of them the other way"})
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, drake": (
+            "keep the axis: the same command turns one of them the other way"
+        ),
+    },
+)
 def axis_against_others(robot: Robot) -> Iterator[Problem]:
     """A joint's axis points the other way than those of its likes.
 

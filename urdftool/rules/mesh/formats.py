@@ -29,7 +29,13 @@ def _ending(use: MeshUse) -> str:
     return use.uri.rpartition("/")[2].rpartition(".")[2].lower() if "." in use.uri else ""
 
 
-@rule(ERROR, effects={"the reader named": "refuses the file, or shows nothing"})
+@rule(
+    ERROR,
+    effects={
+        "mujoco, pybullet, drake": "reject a collision in PLY",
+        "pinocchio": "reads what assimp reads, PLY too",
+    },
+)
 def unsupported_mesh_format(
     robot: Robot, description: Description, targets: frozenset[str]
 ) -> Iterator[Problem]:
@@ -78,11 +84,22 @@ def _stl(use: MeshUse) -> StlFacts | None:
     return _facts[key]
 
 
-@rule(INFO, raised={"mujoco": ERROR}, effects={"mujoco": "rejects the file", "others": "read it"})
+@rule(
+    INFO,
+    raised={"mujoco": ERROR},
+    effects={
+        "mujoco": "rejects the file for a collision",
+        "pybullet": "loads the link without the shape",
+        "rviz": "does not load it: rviz reads binary STL only",
+        "gz": "reads it",
+        "pinocchio": "reads it",
+    },
+)
 def ascii_stl(robot: Robot, description: Description) -> Iterator[Problem]:
     """An STL file is written as text.
 
-    It is five times as large as the binary form and slow to read, and MuJoCo does not take it.
+    It is five times as large as the binary form and slow to read; MuJoCo rejects it, PyBullet and
+    RViz show nothing of it.
     """
     for use in _first_uses(robot, description):
         facts = _stl(use)
@@ -94,7 +111,13 @@ def ascii_stl(robot: Robot, description: Description) -> Iterator[Problem]:
             )
 
 
-@rule(WARNING, effects={"some loaders": "take it for text, and fail"})
+@rule(
+    WARNING,
+    effects={
+        "rviz": "reads it as binary, with a warning, unless 'endsolid' is in it too",
+        "mujoco, pybullet, pinocchio": "read it as binary",
+    },
+)
 def binary_stl_starts_with_solid(robot: Robot, description: Description) -> Iterator[Problem]:
     """A binary STL file begins with the word ``solid``.
 
@@ -126,9 +149,8 @@ _UP = re.compile(rb"<up_axis\s*>\s*(\w+)\s*<")
 @rule(
     WARNING,
     effects={
-        "gazebo": "heeds both",
-        "rviz": "heeds the unit and not the axis",
-        "moveit": "heeds neither",
+        "rviz": "applies the unit and not the axis",
+        "moveit": "applies neither",
     },
 )
 def dae_unit_or_axis(
@@ -182,7 +204,14 @@ def _is_one(text: bytes) -> bool:
         return True
 
 
-@rule(INFO, raised={"mujoco": ERROR}, effects={"mujoco": "rejects it", "others": "read it"})
+@rule(
+    INFO,
+    raised={"mujoco": ERROR},
+    effects={
+        "mujoco, drake": "reject it",
+        "pybullet, pinocchio": "read it",
+    },
+)
 def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem]:
     """A collision is a COLLADA file.
 

@@ -21,7 +21,12 @@ _GLTF = re.compile(rb'"uri"\s*:\s*"([^"]+)"')
 _MOST = 4_000_000  # bytes that are looked at
 
 
-@rule(WARNING, effects={"rviz, gazebo": "show it in grey; glTF without its buffer is not loaded"})
+@rule(
+    WARNING,
+    effects={
+        "mujoco, pybullet, drake": "load the robot all the same",
+    },
+)
 def missing_mesh_dependency(
     robot: Robot, description: Description, *, together: float = 3
 ) -> Iterator[Problem]:

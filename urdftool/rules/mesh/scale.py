@@ -101,7 +101,12 @@ def _largest(use: MeshUse, whole: bool = False) -> float | None:
     return max(abs(s) * length for s, length in zip(use.mesh.scale, extent, strict=True))
 
 
-@rule(ERROR, effects={"every reader": "shows a link as large as a house"})
+@rule(
+    ERROR,
+    effects={
+        "mujoco, pybullet, pinocchio": "take the numbers of the file as meters",
+    },
+)
 def mesh_in_millimetres(
     robot: Robot, description: Description, *, largest: float = 10.0
 ) -> Iterator[Problem]:
@@ -127,7 +132,12 @@ def mesh_in_millimetres(
             )
 
 
-@rule(WARNING, effects={"every reader": "shows a grain of sand"})
+@rule(
+    WARNING,
+    effects={
+        "mujoco, pybullet": "scale a mesh in meters to a grain of sand",
+    },
+)
 def mesh_scaled_twice(
     robot: Robot, description: Description, *, smallest: float = 0.001
 ) -> Iterator[Problem]:
@@ -157,7 +167,10 @@ def mesh_scaled_twice(
 @rule(
     WARNING,
     raised={"gz": ERROR},
-    effects={"gz": "collides wrongly with it", "rviz": "lights it from the inside"},
+    effects={
+        "mujoco": "mirrors the mesh",
+        "urdfdom, gz, gazebo-classic, pybullet": "take the scale as written",
+    },
 )
 def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
     """A mesh is mirrored by its scale.
@@ -182,7 +195,12 @@ def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
         )
 
 
-@rule(WARNING, effects={"every reader": "takes it: one of the two is not of the robot's size"})
+@rule(
+    WARNING,
+    effects={
+        "urdfdom, gz, gazebo-classic, pybullet": "take each scale as written",
+    },
+)
 def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Problem]:
     """One mesh file is used with two scales.
 
@@ -213,7 +231,12 @@ def _words(scale: tuple[float, ...]) -> str:
     return " ".join(f"{factor:g}" for factor in scale)
 
 
-@rule(INFO, effects={"every reader": "takes it"})
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, pybullet": "take the scale as written",
+    },
+)
 def mesh_scale_out_of_line(
     robot: Robot, description: Description, *, several: float = 4
 ) -> Iterator[Problem]:
@@ -243,7 +266,14 @@ def mesh_scale_out_of_line(
             )
 
 
-@rule(ERROR, effects={"urdfdom, mujoco": "reject it, or drop the shape"})
+@rule(
+    ERROR,
+    effects={
+        "drake": "rejects it",
+        "mujoco": "rejects it for a collision",
+        "urdfdom, gz, gazebo-classic, pybullet": "accept it: the shape is flat",
+    },
+)
 def bad_scale(robot: Robot) -> Iterator[Problem]:
     """A mesh is scaled by zero.
 
@@ -263,7 +293,13 @@ def bad_scale(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(INFO, default=False, effects={"some renderers": "light it wrongly"})
+@rule(
+    INFO,
+    default=False,
+    effects={
+        "urdfdom, gz, gazebo-classic, pybullet": "take the factors as written",
+    },
+)
 def non_uniform_scale(robot: Robot, description: Description) -> Iterator[Problem]:
     """A mesh is scaled by different factors.
 
@@ -280,7 +316,13 @@ def non_uniform_scale(robot: Robot, description: Description) -> Iterator[Proble
             )
 
 
-@rule(INFO, default=False, effects={"rviz": "is slow"})
+@rule(
+    INFO,
+    default=False,
+    effects={
+        "rviz": "loads and draws every triangle",
+    },
+)
 def heavy_visual(
     robot: Robot, description: Description, *, most: float = 100000, megabytes: float = 10
 ) -> Iterator[Problem]:

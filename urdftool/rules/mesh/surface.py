@@ -58,7 +58,12 @@ def _together(found: list[tuple[MeshUse, str]], message: Callable[[MeshUse], str
     return [Problem(use.link, text, at=use.mesh.element.attribute_place("filename"))]
 
 
-@rule(INFO, effects={"every tool": "cannot tell its volume, mass or inertia"})
+@rule(
+    INFO,
+    effects={
+        "mujoco": "loads it, with a center and size that the hole moves",
+    },
+)
 def not_watertight(robot: Robot, description: Description) -> Iterator[Problem]:
     """The surface of a collision mesh has a hole.
 
@@ -82,15 +87,15 @@ def not_watertight(robot: Robot, description: Description) -> Iterator[Problem]:
     WARNING,
     raised={"mujoco": ERROR},
     effects={
-        "mujoco": "refuses it: mesh volume is negative",
-        "gazebo, rviz": "light it from the inside",
+        "mujoco": "3.3 and 4.0 load it",
+        "rviz": "lights it by the normals of the file",
     },
 )
 def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
     """The triangles of a collision mesh look inwards.
 
-    The surface is closed and its volume is negative: every normal points into the body. MuJoCo
-    refuses it, renderers show the far side. Turn the winding of the triangles.
+    The surface is closed and its volume is negative: every normal points into the body, and mass
+    properties that are computed of it are negative. Turn the winding of the triangles.
     """
     for use, _, surface in _surfaces(robot, description):
         if surface.inside_out:
@@ -102,7 +107,13 @@ def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
             )
 
 
-@rule(INFO, effects={"gazebo, moveit": "divide by the length of their normals"})
+@rule(
+    INFO,
+    effects={
+        "mujoco, pybullet, pinocchio": "load it",
+        "rviz": "normalizes a normal of length 0",
+    },
+)
 def degenerate_triangles(
     robot: Robot, description: Description, *, most: float = 0.01
 ) -> Iterator[Problem]:
@@ -139,8 +150,7 @@ def with_slivers(
     INFO,
     on=("mujoco", "pybullet"),
     effects={
-        "mujoco": "collides with its convex hull",
-        "pybullet": "collides with its convex hull, unless told otherwise",
+        "mujoco, pybullet": "collide with its convex hull: a ball between two prongs touches them",
     },
 )
 def nonconvex_collision_mesh(

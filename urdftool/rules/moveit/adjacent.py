@@ -11,7 +11,13 @@ from ..rule import WARNING, Problem, rule
 from .semantic import semantics
 
 
-@rule(WARNING, on=("moveit",), effects={"moveit": "the start state is in collision"})
+@rule(
+    WARNING,
+    on=("moveit",),
+    effects={
+        "moveit": "reports the start state in collision",
+    },
+)
 def adjacent_pair_not_disabled(robot: Robot, description: Description) -> Iterator[Problem]:
     """Two neighbours touch, and the SRDF does not say that they may.
 

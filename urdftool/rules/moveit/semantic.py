@@ -72,7 +72,13 @@ def references(root: Element, kind: str) -> Iterator[tuple[Element, str, bool]]:
             yield element, "name", True
 
 
-@rule(ERROR, on=_ON, effects={"moveit": "says so, and leaves that part out"})
+@rule(
+    ERROR,
+    on=_ON,
+    effects={
+        "moveit": "logs it, and leaves that part out",
+    },
+)
 def srdf_unknown_link(robot: Robot, description: Description) -> Iterator[Problem]:
     """The SRDF names a link that the robot does not have.
 
@@ -94,7 +100,13 @@ def srdf_unknown_link(robot: Robot, description: Description) -> Iterator[Proble
                 )
 
 
-@rule(ERROR, on=_ON, effects={"moveit": "says so, and leaves that part out"})
+@rule(
+    ERROR,
+    on=_ON,
+    effects={
+        "moveit": "logs it, and leaves that part out",
+    },
+)
 def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Problem]:
     """The SRDF names a joint that the robot does not have.
 
@@ -113,7 +125,13 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
                 )
 
 
-@rule(ERROR, on=_ON, effects={"moveit": "rejects the SRDF"})
+@rule(
+    ERROR,
+    on=_ON,
+    effects={
+        "moveit": "logs that the SRDF is for another robot, and goes on",
+    },
+)
 def srdf_robot_name(robot: Robot, description: Description) -> Iterator[Problem]:
     """The SRDF is for a robot of another name.
 
@@ -130,7 +148,13 @@ def srdf_robot_name(robot: Robot, description: Description) -> Iterator[Problem]
             )
 
 
-@rule(ERROR, on=_ON, effects={"moveit": "says that they form no chain; the group is empty"})
+@rule(
+    ERROR,
+    on=_ON,
+    effects={
+        "moveit": "logs that the two links do not form a chain; the group is empty",
+    },
+)
 def chain_not_connected(robot: Robot, description: Description) -> Iterator[Problem]:
     """The tip of a chain does not hang on its base.
 
@@ -148,7 +172,13 @@ def chain_not_connected(robot: Robot, description: Description) -> Iterator[Prob
                 )
 
 
-@rule(WARNING, on=_ON, effects={"moveit": "warns; planning to the pose fails"})
+@rule(
+    WARNING,
+    on=_ON,
+    effects={
+        "moveit": "keeps the pose as written; planning to it fails",
+    },
+)
 def group_state_out_of_bounds(robot: Robot, description: Description) -> Iterator[Problem]:
     """A named pose puts a joint outside its limits.
 
@@ -192,7 +222,13 @@ def missing_virtual_joint(robot: Robot, description: Description) -> Iterator[Pr
             )
 
 
-@rule(ERROR, on=_ON, effects={"moveit": "drops the end effector"})
+@rule(
+    ERROR,
+    on=_ON,
+    effects={
+        "moveit": "drops an end effector of an unknown group; logs a group that is its own parent",
+    },
+)
 def end_effector_group(robot: Robot, description: Description) -> Iterator[Problem]:
     """An end effector is of a group that there is not, or is its own parent.
 
@@ -219,7 +255,13 @@ def end_effector_group(robot: Robot, description: Description) -> Iterator[Probl
                 )
 
 
-@rule(WARNING, on=_ON, effects={"moveit": "cannot time a trajectory"})
+@rule(
+    WARNING,
+    on=_ON,
+    effects={
+        "moveit": "cannot time a trajectory: no acceleration limit was defined",
+    },
+)
 def missing_acceleration_limits(robot: Robot, description: Description) -> Iterator[Problem]:
     """A joint has no limit of acceleration.
 

@@ -14,7 +14,7 @@ _CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "multicamera", "wi
 _FRAME_TAGS = ("frameName", "frame_name", "gz_frame_id", "ignition_frame_id", "optical_frame_id")
 
 
-@rule(INFO, effects={"navigation, mobile base drivers": "look for base_link"}, default=False)
+@rule(INFO, default=False)
 def missing_base_link(robot: Robot) -> Iterator[Problem]:
     """No link is called ``base_link``.
 
@@ -28,7 +28,12 @@ def missing_base_link(robot: Robot) -> Iterator[Problem]:
 
 @rule(
     WARNING,
-    effects={"rviz, image_geometry": "show the point cloud turned by a quarter"},
+    effects={
+        "image_geometry": (
+            "takes z of the frame as the way the camera looks: points and rays are turned "
+            "against the robot"
+        ),
+    },
 )
 def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Iterator[Problem]:
     """An optical frame is not turned against its camera's frame as it has to be.
@@ -67,7 +72,9 @@ def _is_optical_of(joint: Joint) -> bool:
 @rule(
     INFO,
     on=GAZEBO,
-    effects={"gz, gazebo-classic": "publish images in a frame that looks along x"},
+    effects={
+        "gz, gazebo-classic": "publish images in the frame that is named, which looks along x",
+    },
 )
 def camera_sensor_not_optical(robot: Robot) -> Iterator[Problem]:
     """A camera publishes in its own frame though it has an optical one.
@@ -97,9 +104,7 @@ def _frames_of(sensor: Sensor) -> list[str]:
     ]
 
 
-@rule(
-    INFO, effects={"gz, gazebo-classic": "look along x of the link with the sensor"}, default=False
-)
+@rule(INFO, default=False)
 def optical_frame_has_sensor_body(robot: Robot) -> Iterator[Problem]:
     """An optical frame carries a shape or a sensor.
 
@@ -121,7 +126,7 @@ def optical_frame_has_sensor_body(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@rule(INFO, effects={"navigation": "takes the floor to be elsewhere"}, default=False)
+@rule(INFO, default=False)
 def base_footprint_placement(robot: Robot) -> Iterator[Problem]:
     """``base_footprint`` is not straight below ``base_link``.
 

@@ -14,7 +14,13 @@ _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _SNAKE = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 
 
-@rule(ERROR, on=ROS, effects={"tf2": "refuses the frame; nothing can be transformed to it"})
+@rule(
+    ERROR,
+    on=ROS,
+    effects={
+        "tf2": "rejects a frame that begins with a slash",
+    },
+)
 def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem]:
     """A link's name begins with a slash or has a blank in it.
 
@@ -48,7 +54,13 @@ def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem
         )
 
 
-@rule(INFO, effects={"USD importers, code generators": "rename it"}, default=False)
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "accept it",
+    },
+    default=False,
+)
 def not_portable_identifier(robot: Robot) -> Iterator[Problem]:
     """A link's or joint's name is not made of letters, digits and underscores alone.
 
@@ -65,7 +77,13 @@ def not_portable_identifier(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(INFO, effects={"every reader": "takes it"}, default=False)
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "accept it",
+    },
+    default=False,
+)
 def name_style(robot: Robot) -> Iterator[Problem]:
     """A link's or joint's name is not in lower case with underscores.
 
@@ -80,7 +98,12 @@ def name_style(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(INFO, effects={"tf, topics": "must be ASCII", "CSV and USD tools": "garble it"})
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "accept it",
+    },
+)
 def non_ascii_name(robot: Robot) -> Iterator[Problem]:
     """A name has a letter outside ASCII.
 
@@ -99,7 +122,13 @@ def non_ascii_name(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(INFO, effects={"Windows, USD importers": "take the two for one"}, default=False)
+@rule(
+    INFO,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take the two for two",
+    },
+    default=False,
+)
 def confusable_names(robot: Robot) -> Iterator[Problem]:
     """Two links or two joints differ only in case, ``_`` or ``-``.
 
@@ -120,7 +149,10 @@ def confusable_names(robot: Robot) -> Iterator[Problem]:
 
 @rule(
     WARNING,
-    effects={"mujoco": "drops the second name", "drake": "renames it"},
+    effects={
+        "mujoco": "warns, and drops the second name",
+        "drake": "warns, and renames it",
+    },
 )
 def duplicate_geometry_name(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """Two visuals or two collisions of a link have one name.

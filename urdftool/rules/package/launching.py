@@ -24,7 +24,13 @@ _MOST_FILES = 60
 _MOST_BYTES = 200_000
 
 
-@rule(INFO, on=ROS, effects={"xacro": "passes over the option, or is not found by that name"})
+@rule(
+    INFO,
+    on=ROS,
+    effects={
+        "xacro": "accepts --inorder, and says that it can be dropped",
+    },
+)
 def obsolete_cli_option(robot: Robot, description: Description) -> Iterator[Problem]:
     """A launch file or the build calls xacro as it was called long ago.
 

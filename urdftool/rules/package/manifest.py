@@ -46,7 +46,9 @@ def _text_of(path: Path) -> str:
 @rule(
     WARNING,
     on=ROS,
-    effects={"rosdep, the build farm": "do not install it: the meshes are missing"},
+    effects={
+        "drake, pybullet": "reject a robot whose meshes are in a package that is not installed",
+    },
 )
 def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterator[Problem]:
     """A package that is used is not a dependency of this one.
@@ -94,7 +96,9 @@ _INSTALL = re.compile(r"\binstall\s*\(([^)]*)\)", re.IGNORECASE | re.DOTALL)
 @rule(
     ERROR,
     on=ROS,
-    effects={"the installed package": "has no such folder: the meshes are missing"},
+    effects={
+        "rviz": "shows nothing of the meshes, and reports 'Could not load mesh resource'",
+    },
 )
 def directory_not_installed(robot: Robot, description: Description) -> Iterator[Problem]:
     """A folder that the description uses is not installed.
@@ -137,7 +141,9 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
 @rule(
     INFO,
     on=("gazebo-classic", "gz"),
-    effects={"gazebo": "looks for model://NAME/… and does not know where"},
+    effects={
+        "gz, gazebo-classic": "look for model://NAME/…, which only an exported path resolves",
+    },
 )
 def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator[Problem]:
     """Gazebo is not told where the package is.
@@ -175,7 +181,12 @@ def _launch_sets_path(package: Path) -> bool:
     return False
 
 
-@rule(ERROR, effects={"every reader": "finds the meshes of another package, or none"})
+@rule(
+    ERROR,
+    effects={
+        "pybullet, drake": "reject the robot where the other package is not there",
+    },
+)
 def wrong_package_in_uri(robot: Robot, description: Description) -> Iterator[Problem]:
     """A mesh is looked for in another package, and is in this one.
 

@@ -9,7 +9,13 @@ from ..gazebo.contact import contact_role
 from ..rule import INFO, Problem, rule
 
 
-@rule(INFO, on=("pybullet",), effects={"pybullet": "computes it from the collisions instead"})
+@rule(
+    INFO,
+    on=("pybullet",),
+    effects={
+        "pybullet": "computes it from the collisions instead; URDF_USE_INERTIA_FROM_FILE takes it",
+    },
+)
 def pybullet_ignores_inertia(robot: Robot) -> Iterator[Problem]:
     """PyBullet does not read the inertia of a URDF unless it is told to.
 
@@ -50,7 +56,13 @@ def mujoco_welds_root(robot: Robot) -> Iterator[Problem]:
     )
 
 
-@rule(INFO, on=("mujoco",), effects={"mujoco": "drops visuals, and joins fixed links"})
+@rule(
+    INFO,
+    on=("mujoco",),
+    effects={
+        "mujoco": "drops visuals, and merges fixed links",
+    },
+)
 def mujoco_missing_compiler(robot: Robot) -> Iterator[Problem]:
     """A robot for MuJoCo does not say how it is to be compiled.
 
@@ -68,7 +80,7 @@ def mujoco_missing_compiler(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@rule(INFO, default=False, effects={"isaac sim": "makes it a rigid body without mass"})
+@rule(INFO, default=False)
 def isaac_empty_root(robot: Robot) -> Iterator[Problem]:
     """The root is a frame without mass and shape, which Isaac Sim makes a body.
 

@@ -17,7 +17,10 @@ from ..rule import INFO, Problem, rule
 @rule(
     INFO,
     default=False,
-    effects={"explicit integrators": "the joint shakes itself to pieces"},
+    effects={
+        "pybullet": "the joint moves against the force, and not as damped",
+        "mujoco": "integrates damping implicitly: the joint is slow",
+    },
 )
 def stiff_joint_damping(robot: Robot, *, step: float = 0.001) -> Iterator[Problem]:
     """A joint's damping is too strong for the inertia it brakes.
@@ -81,7 +84,11 @@ def _minus(one: Vector, other: Vector) -> Vector:
 @rule(
     INFO,
     default=False,
-    effects={"gz, gazebo-classic, pybullet": "throw it out of the ground in the first step"},
+    effects={
+        "gz, gazebo-classic, mujoco": (
+            "place the root as written: what is below it starts below the ground"
+        ),
+    },
 )
 def below_ground_at_spawn(robot: Robot, *, deep: float = 0.01) -> Iterator[Problem]:
     """The robot reaches below the frame of its root.

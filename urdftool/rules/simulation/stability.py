@@ -11,7 +11,12 @@ from ..rule import INFO, WARNING, Problem, rule
 @rule(
     INFO,
     on=("gazebo-classic", "gz", "mujoco", "pybullet"),
-    effects={"physics engines": "converge slowly: the heavy body pulls the joint apart"},
+    effects={
+        "mujoco, pybullet": (
+            "load it; a heavy body on a light one is the case in which iterative solvers "
+            "converge slowly"
+        ),
+    },
 )
 def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) -> Iterator[Problem]:
     """A joint carries a body that is very much heavier than what carries it.

@@ -12,12 +12,18 @@ from ..words import did_you_mean
 from ..xml.vocabulary_table import misspelt_children
 
 
-@rule(ERROR, effects={"urdfdom": "rejects the robot", "every other reader": "the same"})
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic, pybullet, pinocchio": "reject the robot",
+        "mujoco, drake": "load a model without a body",
+    },
+)
 def no_links(robot: Robot) -> Iterator[Problem]:
     """The robot has no link.
 
-    Links are the bodies; without one there is nothing to show or to move, and every reader refuses
-    the file.
+    Links are the bodies; without one there is nothing to show or to move. urdfdom, and with it ROS
+    and Gazebo, rejects the robot.
     """
     if not robot.links and "link" not in misspelt_children(robot.element).values():
         yield Problem(robot, f"robot '{robot.name}' has no link; write <link name=\"…\"/>")
@@ -26,8 +32,8 @@ def no_links(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic": "reject the robot: link is not unique",
-        "mujoco": "rejects the file: repeated name",
+        "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot: link is not unique",
+        "mujoco, pybullet, drake": "reject the file",
     },
 )
 def duplicate_link_name(robot: Robot) -> Iterator[Problem]:
@@ -50,8 +56,8 @@ def duplicate_link_name(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic": "reject the robot: joint is not unique",
-        "mujoco": "3.3 rejects the file, 4.0 takes it",
+        "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot: joint is not unique",
+        "mujoco": "loads it",
         "pybullet": "crashes",
     },
 )
@@ -75,8 +81,11 @@ def duplicate_joint_name(robot: Robot) -> Iterator[Problem]:
     INFO,
     raised=dict.fromkeys(GAZEBO, ERROR),
     effects={
-        "gz, gazebo-classic": "reject the model: a name in it is not unique",
-        "urdfdom, tf, mujoco, pybullet": "do not mind",
+        "gz, gazebo-classic": (
+            "reject the model where the joint moves: a name is not unique (sdformat 12.3); a "
+            "fixed joint is merged, and its name with it"
+        ),
+        "urdfdom, mujoco, pybullet, pinocchio, drake": "accept it",
     },
 )
 def link_joint_name_clash(robot: Robot) -> Iterator[Problem]:
@@ -97,7 +106,9 @@ def link_joint_name_clash(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic, mujoco, pybullet": "reject the robot: parent link not found",
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+            "reject the robot: parent link not found"
+        ),
     },
 )
 def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
@@ -119,7 +130,14 @@ def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(ERROR, effects={"every reader": "rejects the robot: child link not found"})
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+            "reject the robot: child link not found"
+        ),
+    },
+)
 def unknown_child_link(robot: Robot) -> Iterator[Problem]:
     """A joint's child is no link of the robot.
 
@@ -147,8 +165,7 @@ def _remedy(name: str, robot: Robot) -> str:
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic": "reject the robot",
-        "pybullet": "rejects it: parent link or child link is empty",
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "reject the robot",
     },
 )
 def missing_parent_or_child(robot: Robot) -> Iterator[Problem]:
@@ -190,7 +207,15 @@ def _missing_ends(joint: Joint) -> Iterator[tuple[str, Element | None]]:
             yield tag, element
 
 
-@rule(ERROR, effects={"every reader": "rejects the robot, or loses the link and all below it"})
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic, pybullet, pinocchio": (
+            "load the robot without the link and all below it; check_urdf reports success"
+        ),
+        "mujoco, drake": "reject the file",
+    },
+)
 def joint_to_itself(robot: Robot) -> Iterator[Problem]:
     """A joint joins a link to itself.
 

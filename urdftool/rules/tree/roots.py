@@ -15,9 +15,10 @@ _SHOWN = 6
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic": "reject the robot: two root links found",
+        "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot: two root links found",
         "mujoco": "welds every root to the world",
         "pybullet": "crashes",
+        "drake": "loads each root as a free body",
     },
 )
 def multiple_roots(robot: Robot) -> Iterator[Problem]:
@@ -48,7 +49,12 @@ def _main(robot: Robot) -> Link:
     return max(robot.tree.roots, key=lambda link: sum(1 for _ in robot.tree.descendants(link.name)))
 
 
-@rule(ERROR, effects={"urdfdom": "rejects the robot: no root link found", "others": "the same"})
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "reject the robot",
+    },
+)
 def no_root(robot: Robot) -> Iterator[Problem]:
     """Every link is some joint's child.
 
@@ -72,8 +78,8 @@ def no_root(robot: Robot) -> Iterator[Problem]:
     ERROR,
     effects={
         "check_urdf": "reports success",
-        "gz, gazebo-classic, pybullet": "load the robot without those links",
-        "mujoco": "rejects the file",
+        "gz, gazebo-classic, pybullet, pinocchio": "load the robot without those links",
+        "mujoco, drake": "reject the file",
     },
 )
 def detached_cycle(robot: Robot) -> Iterator[Problem]:
@@ -127,16 +133,19 @@ def _round(cycle: list[Link]) -> str:
     ERROR,
     effects={
         "check_urdf": "reports success",
-        "gz, gazebo-classic, mujoco": "reject the robot",
+        "gz, gazebo-classic": (
+            "reject the model: the link is there twice; a link that is fixed to both is merged "
+            "(sdformat 12.3)"
+        ),
+        "mujoco, pinocchio, drake": "reject the robot",
         "pybullet": "crashes",
-        "robot_state_publisher": "publishes two poses for one frame",
     },
 )
 def multiple_parents(robot: Robot) -> Iterator[Problem]:
     """A link is the child of two joints.
 
-    URDF is a tree, it cannot close a chain. urdfdom passes it on without a word; tf then hears two
-    poses for one frame, Gazebo and MuJoCo refuse the model, and PyBullet crashes.
+    URDF is a tree, it cannot close a chain. urdfdom accepts it without a message, Gazebo rejects it
+    where the link is not merged into its parent, MuJoCo rejects it, and PyBullet crashes.
     """
     roots = robot.tree.roots
     main = _main(robot) if roots else None

@@ -16,7 +16,15 @@ from ..unexpanded import is_unexpanded
 _ON_PURPOSE = re.compile(r"transparent|invisible|virtual|dummy|hidden|none", re.IGNORECASE)
 
 
-@rule(INFO, default=False, effects={"rviz": "shows nothing"})
+@rule(
+    INFO,
+    default=False,
+    effects={
+        "rviz": "shows nothing of the link",
+        "gz, gazebo-classic, drake, pinocchio": "load the link without a visual",
+        "pybullet": "shows the collision",
+    },
+)
 def missing_visual(robot: Robot) -> Iterator[Problem]:
     """A link collides and is not seen.
 
@@ -27,7 +35,13 @@ def missing_visual(robot: Robot) -> Iterator[Problem]:
             yield Problem(link, f"link '{link.name}' has a collision and no visual")
 
 
-@rule(WARNING, effects={"rviz, gazebo": "show nothing of the link"})
+@rule(
+    WARNING,
+    effects={
+        "rviz": "shows nothing of the link",
+        "gz, gazebo-classic, pybullet": "take the alpha of 0",
+    },
+)
 def fully_transparent(robot: Robot) -> Iterator[Problem]:
     """All that is seen of a link is transparent.
 
@@ -58,7 +72,13 @@ def fully_transparent(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(INFO, default=False, effects={"some tools": "take all materials without a name for one"})
+@rule(
+    INFO,
+    default=False,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "accept it at a visual",
+    },
+)
 def empty_material_name(robot: Robot) -> Iterator[Problem]:
     """The name of a material is empty.
 
@@ -78,7 +98,15 @@ def empty_material_name(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(INFO, default=False, effects={"every reader": "keeps it for nothing"})
+@rule(
+    INFO,
+    default=False,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+            "load the same robot without it"
+        ),
+    },
+)
 def unused_material(robot: Robot) -> Iterator[Problem]:
     """A material at the top level is used by no visual.
 
@@ -95,7 +123,13 @@ def unused_material(robot: Robot) -> Iterator[Problem]:
             yield Problem(material.element, f"material '{material.name}' is used nowhere")
 
 
-@rule(WARNING, effects={"rviz": "shows the model in grey or white"})
+@rule(
+    WARNING,
+    effects={
+        "rviz": "shows the link without the picture",
+        "drake": "rejects the file",
+    },
+)
 def missing_texture(robot: Robot, description: Description) -> Iterator[Problem]:
     """The picture of a texture is not there.
 

@@ -8,11 +8,15 @@ from __future__ import annotations
 
 from ..rule import ERROR, Problem, rule
 
-_STOPS = {"xacro": "stops; there is no robot"}
 _NOTHING: tuple[Problem, ...] = ()
 
 
-@rule(ERROR, effects=_STOPS)
+@rule(
+    ERROR,
+    effects={
+        "xacro": "stops: the file is not well-formed",
+    },
+)
 def missing_xmlns() -> tuple[Problem, ...]:
     """A file uses ``xacro:`` tags and does not declare the prefix.
 
@@ -22,7 +26,12 @@ def missing_xmlns() -> tuple[Problem, ...]:
     return _NOTHING
 
 
-@rule(ERROR, effects=_STOPS)
+@rule(
+    ERROR,
+    effects={
+        "xacro": "stops: unknown macro name",
+    },
+)
 def unknown_macro() -> tuple[Problem, ...]:
     """A macro is called that is not defined.
 
@@ -32,7 +41,12 @@ def unknown_macro() -> tuple[Problem, ...]:
     return _NOTHING
 
 
-@rule(ERROR, effects=_STOPS)
+@rule(
+    ERROR,
+    effects={
+        "xacro": "stops: name is not defined",
+    },
+)
 def undefined_name() -> tuple[Problem, ...]:
     """An expression names something that is not defined.
 
@@ -42,7 +56,12 @@ def undefined_name() -> tuple[Problem, ...]:
     return _NOTHING
 
 
-@rule(ERROR, effects=_STOPS)
+@rule(
+    ERROR,
+    effects={
+        "xacro": "stops: undefined substitution argument",
+    },
+)
 def undeclared_arg() -> tuple[Problem, ...]:
     """An argument is used that has no value.
 
@@ -52,7 +71,12 @@ def undeclared_arg() -> tuple[Problem, ...]:
     return _NOTHING
 
 
-@rule(ERROR, effects=_STOPS)
+@rule(
+    ERROR,
+    effects={
+        "xacro": "stops: no such file",
+    },
+)
 def include_not_found() -> tuple[Problem, ...]:
     """An included file is not there.
 
@@ -62,7 +86,12 @@ def include_not_found() -> tuple[Problem, ...]:
     return _NOTHING
 
 
-@rule(ERROR, effects=_STOPS)
+@rule(
+    ERROR,
+    effects={
+        "xacro": "stops: invalid or undefined parameters",
+    },
+)
 def macro_arguments_mismatch() -> tuple[Problem, ...]:
     """A macro is called with other arguments than it takes.
 
@@ -72,7 +101,12 @@ def macro_arguments_mismatch() -> tuple[Problem, ...]:
     return _NOTHING
 
 
-@rule(ERROR, effects=_STOPS)
+@rule(
+    ERROR,
+    effects={
+        "xacro": "stops: circular variable definition",
+    },
+)
 def circular_property() -> tuple[Problem, ...]:
     """Properties are defined by one another in a circle.
 
@@ -83,7 +117,12 @@ def circular_property() -> tuple[Problem, ...]:
     return _NOTHING
 
 
-@rule(ERROR, effects=_STOPS)
+@rule(
+    ERROR,
+    effects={
+        "xacro": "stops at Python's limit of nested calls, or does not end",
+    },
+)
 def endless_expansion() -> tuple[Problem, ...]:
     """The expansion has no end.
 
@@ -94,7 +133,12 @@ def endless_expansion() -> tuple[Problem, ...]:
     return _NOTHING
 
 
-@rule(ERROR, effects=_STOPS)
+@rule(
+    ERROR,
+    effects={
+        "xacro": "stops: conditional evaluated to something that is not a boolean expression",
+    },
+)
 def non_boolean_conditional() -> tuple[Problem, ...]:
     """A condition is neither true nor false.
 
@@ -105,7 +149,12 @@ def non_boolean_conditional() -> tuple[Problem, ...]:
     return _NOTHING
 
 
-@rule(ERROR, effects=_STOPS)
+@rule(
+    ERROR,
+    effects={
+        "xacro": "stops",
+    },
+)
 def expansion_failed() -> tuple[Problem, ...]:
     """The expansion stopped for another reason.
 

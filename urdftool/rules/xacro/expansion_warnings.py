@@ -68,7 +68,12 @@ def _parameter(description: Description, name: str, call: Place) -> Place | None
     return None
 
 
-@rule(WARNING, effects={"xacro": "warns, and passes over it"})
+@rule(
+    WARNING,
+    effects={
+        "xacro": "warns, and ignores it",
+    },
+)
 def unknown_xacro_attribute(description: Description) -> Iterator[Problem]:
     """A tag of xacro has an attribute that it does not know.
 

@@ -18,8 +18,10 @@ _BRACED = re.compile(r"(?<!\$)\{(\w+)\}")
 @rule(
     ERROR,
     effects={
-        "urdfdom": "takes it for a name; where a number is wanted, the link loses its shapes",
-        "gazebo": "passes over a reference with it; a number ends the process",
+        "urdfdom": "takes it as a name; where a number is required, the link loses its shapes",
+        "gz, gazebo-classic": (
+            "ignore a reference with it; a friction with it ends the process (sdformat 12.3)"
+        ),
     },
 )
 def unexpanded_expression(description: Description) -> Iterator[Problem]:

@@ -21,7 +21,12 @@ _URDF = words(
 )
 
 
-@rule(INFO, effects={"xacro": "looks at the prefix alone", "other XML tools": "see other tags"})
+@rule(
+    INFO,
+    effects={
+        "xacro": "looks at the prefix only",
+    },
+)
 def nonstandard_xmlns(document: Document) -> Iterator[Problem]:
     """The xacro namespace is spelled in a way of its own.
 
@@ -45,7 +50,7 @@ def nonstandard_xmlns(document: Document) -> Iterator[Problem]:
     ERROR,
     effects={
         "xacro": "copies the tag to its output",
-        "urdfdom": "passes over it: that part of the robot is missing",
+        "urdfdom": "ignores it: that part of the robot is missing",
     },
 )
 def unprefixed_xacro_tag(document: Document, description: Description) -> Iterator[Problem]:

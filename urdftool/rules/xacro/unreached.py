@@ -43,7 +43,12 @@ def _matches(
             yield element, match, element
 
 
-@rule(ERROR, effects=_LATER)
+@rule(
+    ERROR,
+    effects={
+        "xacro": "stops as soon as it comes there: unknown substitution command",
+    },
+)
 def bad_substitution_command(document: Document, description: Description) -> Iterator[Problem]:
     """A substitution is none that xacro has.
 
@@ -59,7 +64,12 @@ def bad_substitution_command(document: Document, description: Description) -> It
         yield Problem(element, f"xacro has no $({name} …){right}", at=at)
 
 
-@rule(ERROR, effects=_LATER)
+@rule(
+    ERROR,
+    effects={
+        "xacro": "stops as soon as it comes there",
+    },
+)
 def unclosed_expression(document: Document, description: Description) -> Iterator[Problem]:
     """An expression is not closed.
 

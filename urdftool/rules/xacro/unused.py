@@ -39,7 +39,12 @@ def _text(description: Description) -> str:
     return re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
 
 
-@rule(WARNING, effects={"xacro": "takes the argument and does nothing with it"})
+@rule(
+    WARNING,
+    effects={
+        "xacro": "accepts the argument and does nothing with it",
+    },
+)
 def unused_arg(description: Description) -> Iterator[Problem]:
     """An argument is declared and never read.
 
@@ -73,7 +78,13 @@ def _is_read(name: str, text: str) -> bool:
     return re.search(pattern, text) is not None
 
 
-@rule(INFO, default=False, effects={"xacro": "keeps it for nothing"})
+@rule(
+    INFO,
+    default=False,
+    effects={
+        "xacro": "accepts it without a message",
+    },
+)
 def unused_property(description: Description) -> Iterator[Problem]:
     """A property is defined and never used.
 
@@ -95,7 +106,13 @@ def unused_property(description: Description) -> Iterator[Problem]:
             )
 
 
-@rule(INFO, default=False, effects={"xacro": "keeps it for nothing"})
+@rule(
+    INFO,
+    default=False,
+    effects={
+        "xacro": "accepts it without a message",
+    },
+)
 def unused_macro(description: Description) -> Iterator[Problem]:
     """A macro is defined beside the robot and never called.
 
@@ -118,7 +135,12 @@ def unused_macro(description: Description) -> Iterator[Problem]:
             )
 
 
-@rule(WARNING, effects={"xacro": "takes the last one silently"})
+@rule(
+    WARNING,
+    effects={
+        "xacro": "takes the last one, without a message",
+    },
+)
 def macro_redefined(description: Description) -> Iterator[Problem]:
     """Two macros have one name.
 
@@ -164,7 +186,13 @@ def _same(a: Element, b: Element) -> bool:
     )
 
 
-@rule(INFO, default=False, effects={"xacro": "makes two links of one name at the second call"})
+@rule(
+    INFO,
+    default=False,
+    effects={
+        "xacro": "writes the same name at each call",
+    },
+)
 def hard_coded_name_in_macro(description: Description) -> Iterator[Problem]:
     """A macro with a prefix makes a link or joint without it.
 

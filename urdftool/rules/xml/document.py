@@ -8,7 +8,15 @@ from ...source.description import Description
 from ..rule import ERROR, WARNING, Problem, rule
 
 
-@rule(ERROR, effects={"xacro and every Python tool": "refuse it", "urdfdom, MuJoCo": "may take it"})
+@rule(
+    ERROR,
+    effects={
+        "xacro": "rejects the file, as every parser of Python's does",
+        "urdfdom, mujoco, pybullet, drake": (
+            "accept '--' in a comment; reject an element that is not closed"
+        ),
+    },
+)
 def not_well_formed() -> tuple[Problem, ...]:
     """The file is not well-formed XML.
 
@@ -22,9 +30,8 @@ def not_well_formed() -> tuple[Problem, ...]:
 @rule(
     ERROR,
     effects={
-        "urdfdom 3 (ROS 1)": "takes it",
-        "urdfdom 4 and later, MuJoCo": "refuse it",
-        "xacro": "refuses it",
+        "urdfdom": "3 (ROS 1, ROS 2 up to Iron) accepts it; 4 and later reject it",
+        "gz, gazebo-classic, mujoco, pybullet, drake": "reject the file",
     },
 )
 def content_before_declaration() -> tuple[Problem, ...]:
@@ -45,7 +52,12 @@ _BELONGS = {
 }
 
 
-@rule(ERROR, effects={"urdfdom": "finds no robot in it"})
+@rule(
+    ERROR,
+    effects={
+        "urdfdom": "rejects the file: no 'robot' element",
+    },
+)
 def wrong_root(description: Description) -> Iterator[Problem]:
     """The root element is not ``<robot>``.
 
@@ -61,8 +73,10 @@ def wrong_root(description: Description) -> Iterator[Problem]:
 @rule(
     WARNING,
     effects={
-        "urdfdom": "refuses a robot, link or joint without a name",
-        "mujoco": "takes an empty name",
+        "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake": (
+            "reject a robot, link or joint without a name"
+        ),
+        "mujoco": "accepts a robot without a name; rejects a joint without one",
     },
 )
 def missing_name(description: Description) -> Iterator[Problem]:

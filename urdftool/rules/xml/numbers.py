@@ -29,7 +29,17 @@ _LOST = {
 }
 
 
-@rule(ERROR, effects={**_LOST, "pybullet": "takes 0 0 0", "mujoco": "rejects it, or does not look"})
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic, pinocchio": (
+            "reject the robot for a joint; for a link, drop its shapes (the collisions alone "
+            "where a collision is wrong)"
+        ),
+        "pybullet": "rejects the robot for a joint; takes 0 0 0 for a link",
+        "mujoco, drake": "reject the file: not enough values",
+    },
+)
 def wrong_arity(robot: Robot) -> Iterator[Problem]:
     """A vector has too few or too many numbers.
 
@@ -63,10 +73,13 @@ def _counted(count: int) -> str:
 @rule(
     ERROR,
     effects={
-        **_LOST,
+        "urdfdom, gz, gazebo-classic, pinocchio": (
+            "reject the robot for a joint; for a link, drop its shapes (the collisions alone "
+            "where a collision is wrong)"
+        ),
         "gz, gazebo-classic": "delete the link and all below it where the mass is unreadable",
         "pybullet": "reads as far as it can: 0,1 is 0 and -1rad is -1",
-        "mujoco": "rejects it",
+        "mujoco": "rejects the file",
     },
 )
 def not_a_number(robot: Robot) -> Iterator[Problem]:
@@ -153,9 +166,12 @@ _UNREADABLE = re.compile(rb"[^\s][\t\r\n]|[\t\r\n](?: |$)")
 @rule(
     ERROR,
     effects={
-        **_LOST,
-        "pybullet": "takes 0 0 0",
-        "mujoco, xacro and every Python tool": "read it as meant",
+        "urdfdom, gz, gazebo-classic, pinocchio": (
+            "reject the robot for a joint; for a link, drop its shapes (the collisions alone "
+            "where a collision is wrong)"
+        ),
+        "pybullet": "rejects the robot for a joint; takes 0 0 0 for a link",
+        "mujoco, drake": "read it as meant",
     },
 )
 def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator[Problem]:

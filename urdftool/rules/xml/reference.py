@@ -12,7 +12,9 @@ from ..rule import ERROR, Problem, rule
 @rule(
     ERROR,
     effects={
-        "urdfdom": "rejects the robot: link not found",
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+            "reject the robot: link not found"
+        ),
         "gz, gazebo-classic": "drop a <gazebo> block whose reference is not found",
     },
 )

@@ -14,7 +14,7 @@ from .vocabulary_table import VOCABULARY, census, misspelt_children
     WARNING,
     raised={"mujoco": ERROR},
     effects={
-        "urdfdom": "takes the first",
+        "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake": "take the first",
         "mujoco": "rejects the file: repeated element",
     },
 )
@@ -43,7 +43,14 @@ def repeated_element(robot: Robot) -> Iterator[Problem]:
                     seen.add(child.tag)
 
 
-@rule(ERROR, effects={"every reader": "takes the first shape and drops the others"})
+@rule(
+    ERROR,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+            "take the first shape and drop the others"
+        ),
+    },
+)
 def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
     """A ``<geometry>`` holds more than one shape.
 
@@ -66,8 +73,11 @@ def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic": "the link silently loses all its visuals and collisions",
+        "urdfdom, gz, gazebo-classic, pinocchio": (
+            "load the link without its visuals and collisions, with an error in the log"
+        ),
         "check_urdf": "reports success nevertheless",
+        "mujoco, pybullet, drake": "reject the file",
     },
 )
 def empty_geometry(robot: Robot) -> Iterator[Problem]:

@@ -19,10 +19,11 @@ _LATER = ("acceleration", "deceleration", "jerk")
 @rule(
     ERROR,
     effects={
-        "urdfdom 5.0 and earlier (every released ROS)": "rejects every version but 1.0",
-        "urdfdom 5.1": "takes 1.1 as well",
-        "urdfdom 6": "takes 1.2 as well",
-        "pybullet, mujoco": "do not look",
+        "urdfdom, gz, gazebo-classic, pinocchio": (
+            "reject the robot: urdfdom 3 and 4 know version 1.0 only, urdfdom 6 knows 1.0, 1.1 "
+            "and 1.2"
+        ),
+        "mujoco, pybullet, drake": "ignore the version",
     },
 )
 def unsupported_urdf_version(robot: Robot) -> Iterator[Problem]:
@@ -50,8 +51,10 @@ def unsupported_urdf_version(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic": "the link loses its shapes for a capsule; "
-        "a quaternion is no rotation",
+        "urdfdom": (
+            "ignores a quaternion: the rotation is none; drops the shapes of a link with a capsule"
+        ),
+        "gz, gazebo-classic": "the same",
     },
 )
 def feature_needs_newer_version(robot: Robot) -> Iterator[Problem]:
@@ -94,7 +97,12 @@ def _newer(robot: Robot, version: float) -> Iterator[Problem]:
                     )
 
 
-@rule(ERROR, effects={"urdfdom 6": "rejects it", "urdfdom 5.0 and earlier": "takes rpy"})
+@rule(
+    ERROR,
+    effects={
+        "urdfdom": "6 rejects the robot where it says version 1.1 or later; 3 and 4 take rpy",
+    },
+)
 def rpy_and_quat(robot: Robot) -> Iterator[Problem]:
     """An ``<origin>`` has a rotation twice: as ``rpy`` and as ``quat_xyzw``.
 

@@ -129,7 +129,11 @@ _REDUNDANT = ("iyx", "izx", "izy")
 
 @rule(
     WARNING,
-    effects={"every reader": "looks up the elements it knows and passes over the rest silently"},
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+            "ignore it, without a message"
+        ),
+    },
 )
 def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]:
     """URDF has no such element there.
@@ -162,7 +166,14 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
         yield Problem(elements[0], f"{what}; {why}", severity=WARNING if lost else INFO)
 
 
-@rule(WARNING, effects={"every reader": "passes over it and takes the default"})
+@rule(
+    WARNING,
+    effects={
+        "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake": (
+            "ignore it, and take the default of the attribute that was meant"
+        ),
+    },
+)
 def unknown_attribute(robot: Robot) -> Iterator[Problem]:
     """URDF has no such attribute on that element.
 
@@ -226,8 +237,9 @@ def _misspelt_attributes(element: Element, known: set[str]) -> Iterator[Problem]
 @rule(
     ERROR,
     effects={
-        "urdfdom": "rejects a robot with a joint type it does not know; passes over the rest",
-        "every other reader": "the same",
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+            "reject a joint type in capitals; ignore an element"
+        ),
     },
 )
 def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
