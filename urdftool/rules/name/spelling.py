@@ -57,7 +57,7 @@ def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem
 @rule(
     INFO,
     effects={
-        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "accept it",
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, drake": "accept it",
     },
     default=False,
 )
@@ -80,7 +80,7 @@ def not_portable_identifier(robot: Robot) -> Iterator[Problem]:
 @rule(
     INFO,
     effects={
-        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "accept it",
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, drake": "accept it",
     },
     default=False,
 )
@@ -101,7 +101,7 @@ def name_style(robot: Robot) -> Iterator[Problem]:
 @rule(
     INFO,
     effects={
-        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "accept it",
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, drake": "accept it",
     },
 )
 def non_ascii_name(robot: Robot) -> Iterator[Problem]:
@@ -125,7 +125,7 @@ def non_ascii_name(robot: Robot) -> Iterator[Problem]:
 @rule(
     INFO,
     effects={
-        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take the two for two",
+        "urdfdom, pybullet, drake": "take the two for two",
     },
     default=False,
 )

@@ -24,7 +24,7 @@ _URDF = words(
 @rule(
     INFO,
     effects={
-        "xacro": "looks at the prefix only",
+        "xacro": "looks at the prefix only, and writes the same robot",
     },
 )
 def nonstandard_xmlns(document: Document) -> Iterator[Problem]:

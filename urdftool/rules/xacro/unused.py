@@ -190,7 +190,7 @@ def _same(a: Element, b: Element) -> bool:
     INFO,
     default=False,
     effects={
-        "xacro": "writes the same name at each call",
+        "xacro": "writes the name as it is, at each call",
     },
 )
 def hard_coded_name_in_macro(description: Description) -> Iterator[Problem]:
