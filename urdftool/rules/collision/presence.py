@@ -65,9 +65,12 @@ def missing_collision(
 @rule(
     WARNING,
     effects={
-        "gazebo, pybullet": "the link passes through the ground and through other bodies",
-        "moveit": "plans straight through it",
-        "mujoco": "the body has no geom at all: visuals of a URDF are discarded",
+        "gz, gazebo-classic, pybullet": (
+            "load the link without a collision: it passes through the ground and through other "
+            "bodies"
+        ),
+        "moveit": "plans straight through it; MoveIt 2 warns",
+        "mujoco": "loads the body without a geom: visuals of a URDF are discarded",
     },
 )
 def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:

@@ -81,9 +81,10 @@ _INTEGERS: dict[str, tuple[str, ...]] = {
     ERROR,
     on=("ros2",),
     effects={
-        "controller_manager": "cannot load the controller: expected [double] got [integer]; for "
-        "update_rate it ends itself (from its source: rclcpp, node_parameters.cpp; "
-        "ros2_controllers, *_parameters.yaml)",
+        "controller_manager": (
+            "cannot load the controller: expected [double] got [integer]; for update_rate it "
+            "ends itself"
+        ),
     },
 )
 def controller_parameter_type(robot: Robot, description: Description) -> Iterator[Problem]:

@@ -18,10 +18,16 @@ from ..xml.vocabulary_table import misspelt_attributes
 @rule(
     ERROR,
     effects={
-        "urdfdom, pinocchio, sdformat": "take it; without the attribute they reject the robot",
-        "moveit": "cannot mimic unknown joint",
-        "mujoco": "ignores the constraint; without the attribute it rejects the file",
-        "ros2_control, drake": "reject it",
+        "urdfdom, gz, gazebo-classic, pinocchio": (
+            "accept it; reject the robot where the attribute is missing"
+        ),
+        "moveit": "logs 'cannot mimic unknown joint', and moves the joint on its own",
+        "mujoco": (
+            "drops the constraint, 4.0 with a warning; 4.0 rejects the file where the "
+            "attribute is missing"
+        ),
+        "drake": "rejects the file",
+        "ros2_control": "stops with an exception where the joint is in <ros2_control>",
         "pybullet": "does not read <mimic>",
     },
 )
@@ -61,8 +67,8 @@ def _is_misspelt(element: Element) -> bool:
     ERROR,
     effects={
         "moveit": "ignores every mimic joint of the robot",
-        "mujoco": "3.3 ignores it, 4.0 rejects the file",
-        "drake": "rejects it",
+        "mujoco": "3.3 ignores it; 4.0 couples the two joints twice",
+        "drake": "couples the two joints twice; rejects a joint that mimics itself",
     },
 )
 def mimic_cycle(robot: Robot) -> Iterator[Problem]:
@@ -125,7 +131,12 @@ def mimic_chain(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@rule(WARNING, effects={"every simulator": "the two constraints fight, and the joint stops early"})
+@rule(
+    WARNING,
+    effects={
+        "mujoco": "4.0: the two constraints fight, and the leader stops early too",
+    },
+)
 def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]:
     """A mimic joint's own limits stop it before its leader is at its limit.
 
@@ -156,8 +167,8 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
 @rule(
     ERROR,
     effects={
-        "moveit": "ignores it: different number of degrees of freedom",
-        "ros2_control": "rejects a fixed joint",
+        "moveit": "ignores it where the degrees of freedom differ",
+        "ros2_control": "stops with an exception for a fixed joint",
     },
 )
 def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
@@ -197,8 +208,8 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
     INFO,
     on=("gazebo-classic", "mujoco", "pybullet"),
     effects={
-        "gazebo-classic, pybullet": "ignore <mimic>: the joint hangs free",
-        "gz": "has it from Harmonic on",
+        "pybullet": "ignores <mimic>: the joint moves on its own",
+        "gz, gazebo-classic": "drop it where sdformat 12.3 reads the robot",
         "mujoco": "3.3 ignores it, 4.0 makes it a constraint",
     },
 )
@@ -221,7 +232,13 @@ def mimic_not_simulated(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@rule(INFO, effects={"every simulator": "moves the fingers each on its own"}, default=False)
+@rule(
+    INFO,
+    effects={
+        "mujoco, pybullet": "move the fingers each on its own",
+    },
+    default=False,
+)
 def gripper_finger_not_mimic(robot: Robot) -> Iterator[Problem]:
     """A left and a right finger move on their own.
 
@@ -242,7 +259,14 @@ def gripper_finger_not_mimic(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@rule(WARNING, effects={"every reader": "moves both fingers the same way: the gripper cannot grip"})
+@rule(
+    WARNING,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, drake": (
+            "move both fingers the same way: the gripper cannot grip"
+        ),
+    },
+)
 def fingers_move_together(robot: Robot) -> Iterator[Problem]:
     """The two sliding fingers of a gripper move in the same direction.
 

@@ -27,9 +27,11 @@ _MAX_FILES = 5000
 @rule(
     ERROR,
     effects={
-        "rviz, gazebo": "show nothing there",
-        "mujoco, pybullet": "refuse the robot",
-        "sdformat, urdfdom": "do not look",
+        "rviz": "shows nothing there, and reports 'Could not load mesh resource'",
+        "gz": "shows nothing there",
+        "pybullet, drake": "reject the robot",
+        "mujoco": "rejects the robot for a collision; ignores a visual",
+        "urdfdom, gz, gazebo-classic": "load the robot without opening the file (sdformat 12.3)",
     },
 )
 def mesh_not_found(
@@ -123,8 +125,11 @@ def _files(folder: str) -> Iterator[tuple[str, str]]:
 @rule(
     ERROR,
     effects={
-        "Linux": "does not find the file",
-        "macOS, Windows": "find it",
+        "pybullet, drake": (
+            "reject the robot on Linux, which tells capitals apart; macOS and Windows do not "
+            "by default"
+        ),
+        "mujoco": "rejects the robot for a collision on Linux",
     },
 )
 def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Problem]:
@@ -153,11 +158,14 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
 @rule(
     ERROR,
     effects={
-        "rviz, gazebo": "show nothing there",
-        "mujoco": "refuses the robot, with a message that points elsewhere; takes the hull of the "
-        "points of an OBJ without faces",
-        "pinocchio, drake": "reject the robot",
-        "pybullet": "warns; the link has nothing to touch with and falls through the ground",
+        "rviz": "shows nothing there",
+        "mujoco": (
+            "rejects the robot: 'perhaps this is an ASCII file?'; takes the hull of the points "
+            "of an OBJ without faces"
+        ),
+        "pybullet": "loads the link without the shape, with a warning",
+        "pinocchio": "rejects the shapes of the robot",
+        "drake": "rejects the robot for a collision",
     },
 )
 def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:

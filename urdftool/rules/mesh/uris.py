@@ -15,7 +15,12 @@ from ..xml.vocabulary_table import misspelt_attributes
 from .uses import MeshUse, mesh_uses
 
 
-@rule(WARNING, effects={"every reader": "finds the file on one machine only"})
+@rule(
+    WARNING,
+    effects={
+        "pybullet, drake": "reject the robot on any other machine",
+    },
+)
 def absolute_path(
     robot: Robot, description: Description, *, together: float = 3
 ) -> Iterator[Problem]:
@@ -60,10 +65,12 @@ def folder_of(use: MeshUse) -> str:
 @rule(
     ERROR,
     effects={
-        "urdfdom, sdformat, pinocchio": "drop the shape and those of the link after it, a visual "
-        "also all collisions, and report success",
-        "drake, pybullet": "reject the robot",
-        "mujoco": "rejects the file for a collision; drops visuals",
+        "urdfdom, gz, gazebo-classic, pinocchio": (
+            "load the link without its visuals and collisions (the collisions alone where it "
+            "is in one), with an error in the log"
+        ),
+        "pybullet, drake": "reject the robot",
+        "mujoco": "rejects the file for a collision; ignores a visual",
     },
 )
 def mesh_without_filename(robot: Robot) -> Iterator[Problem]:
@@ -96,7 +103,13 @@ def _is_misspelt(element: Element) -> bool:
 _MISNAMED = ("uri", "file", "url")
 
 
-@rule(ERROR, effects={"every reader": "may or may not find the file"})
+@rule(
+    ERROR,
+    effects={
+        "pybullet, drake": "reject the robot: the file is not found",
+        "mujoco": "rejects the robot for a collision: the file is not found",
+    },
+)
 def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
     r"""The name of a mesh file is no proper URI or path.
 
@@ -150,10 +163,11 @@ def malformation(use: MeshUse) -> str:
     WARNING,
     raised={"pybullet": ERROR},
     effects={
-        "rviz": "downloads it (from its source: resource_retriever, curl_retriever.cpp)",
-        "gz": "downloads from Fuel servers alone (from its source: gz-sim, ServerPrivate.cc)",
-        "pinocchio, drake, pybullet": "reject the robot",
-        "mujoco": "rejects the file for a collision; drops visuals",
+        "rviz": "downloads it",
+        "gz": "downloads from Fuel servers alone",
+        "pybullet, drake": "reject the robot",
+        "pinocchio": "rejects the shapes of the robot",
+        "mujoco": "4.0 rejects the file for a collision; ignores a visual",
     },
 )
 def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[Problem]:
@@ -230,7 +244,12 @@ def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Prob
         )
 
 
-@rule(WARNING, effects={"some loaders": "stop at it, or do not know the ending"})
+@rule(
+    WARNING,
+    effects={
+        "mujoco, pybullet, pinocchio": "open a file with a blank in its name",
+    },
+)
 def unsafe_file_name(robot: Robot, description: Description) -> Iterator[Problem]:
     """The name of a mesh file has a character that is special somewhere.
 
@@ -283,7 +302,9 @@ def package_uri_unresolvable(robot: Robot, description: Description) -> Iterator
     WARNING,
     raised={"mujoco": ERROR},
     on=("mujoco",),
-    effects={"mujoco": "takes one file for both"},
+    effects={
+        "mujoco": "3.3 takes one file for both; 4.0 loads the two",
+    },
 )
 def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Problem]:
     """Two mesh files have one name, but for their folders or endings.

@@ -34,9 +34,7 @@ _TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
     ERROR,
     on=_ON,
     effects={
-        "moveit": "move_group of ROS 2 ends with an exception: expected [double] got [integer] "
-        "(from its source: robot_model_loader.cpp, kinematics_parameters.yaml; rclcpp, "
-        "parameter.hpp)",
+        "moveit": "move_group of ROS 2 ends with an exception: expected [double] got [integer]",
     },
 )
 def moveit_parameter_type(
@@ -134,8 +132,10 @@ def _is_true(node: Node | None) -> bool:
     ERROR,
     on=_ON,
     effects={
-        "moveit": "logs an error and goes on without the controller; trajectories are planned and "
-        "cannot be executed (from its source: moveit_simple_controller_manager.cpp)",
+        "moveit": (
+            "logs an error and goes on without the controller; trajectories are planned and "
+            "cannot be executed"
+        ),
     },
 )
 def moveit_controller_incomplete(robot: Robot, description: Description) -> Iterator[Problem]:

@@ -16,8 +16,12 @@ from ..rule import WARNING, Problem, rule
     WARNING,
     effects={
         "xacro": "stops at $(find …)",
-        "rviz, gazebo": "show nothing of its meshes",
-        "pybullet": "takes a folder of that name near the file for the package",
+        "rviz": "shows nothing of its meshes, and reports 'Could not load mesh resource'",
+        "drake": "rejects the robot",
+        "pybullet": (
+            "takes a folder of that name near the file for the package; rejects the robot "
+            "where there is none"
+        ),
     },
 )
 def package_not_found(robot: Robot, description: Description) -> Iterator[Problem]:

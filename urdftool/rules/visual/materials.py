@@ -15,7 +15,12 @@ _Look = tuple[tuple[float, ...] | None, str | None]
 
 @rule(
     WARNING,
-    effects={"urdfdom": "warns; the visual has no colour", "mujoco, pybullet": "take a default"},
+    effects={
+        "urdfdom": "warns; the visual has no color",
+        "rviz": "shows the link in red",
+        "mujoco, pybullet": "take a default color",
+        "drake": "rejects the file",
+    },
 )
 def undefined_material(robot: Robot) -> Iterator[Problem]:
     """A material is named and defined nowhere.
@@ -50,8 +55,10 @@ def undefined_material(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "urdfdom, sdformat, pinocchio": "drop it with a message at the top level; in a visual they "
-        "drop all visuals and collisions of the link from there on, and report success",
+        "urdfdom, gz, gazebo-classic, pinocchio": (
+            "drop it at the top level, with an error in the log; for a visual, load the link "
+            "without its visuals and collisions"
+        ),
         "pybullet": "rejects the robot for a visual",
         "drake": "rejects the robot for the top level",
         "mujoco": "accepts it",
@@ -86,7 +93,11 @@ def _is_nameless(material: Material) -> bool:
 @rule(
     ERROR,
     effects={
-        "urdfdom": "rejects the robot if both are at the top level; the first wins otherwise",
+        "urdfdom, gz, gazebo-classic, pinocchio": (
+            "reject the robot if both are at the top level; the one at the top level wins otherwise"
+        ),
+        "drake": "rejects the file",
+        "pybullet": "accepts it; a color at the visual wins",
     },
 )
 def conflicting_material(robot: Robot) -> Iterator[Problem]:
@@ -144,8 +155,10 @@ def _look(material: Material) -> _Look:
 @rule(
     ERROR,
     effects={
-        "urdfdom": "drops the material",
+        "urdfdom": "drops the color, with an error in the log",
+        "gz, gazebo-classic": "show the link in black (sdformat 12.3)",
         "mujoco, pybullet": "take it as it is",
+        "drake": "rejects the file",
     },
 )
 def invalid_color(robot: Robot) -> Iterator[Problem]:
