@@ -256,7 +256,7 @@ def read(reader: str, robot: Robot) -> Facts:
         said = [*facts.pop("messages", ()), *_lines(err), *facts.pop("said", ())]
         if said := _cleaned(said, temporary):
             facts["messages"] = said
-        return facts
+        return {key: _plain(value, temporary) for key, value in facts.items()}
 
 
 def _expand(file: Path) -> Path:
@@ -298,21 +298,10 @@ def _lines(text: str) -> list[str]:
 def _json_facts(out: str, code: int) -> Facts:
     lines = _lines(out)
     if lines and lines[-1].startswith('{"outcome"'):
-        return {**_plain(json.loads(lines[-1])), "said": lines[:-1]}
+        return {**json.loads(lines[-1]), "said": lines[:-1]}
     if code < 0:
         return {"outcome": "crashes", "signal": signal.Signals(-code).name, "said": lines}
     return {"outcome": "crashes", "code": code, "said": lines}
-
-
-def _plain(value: Any) -> Any:
-    """Facts that JSON can write: infinities and NaN as words."""
-    if isinstance(value, dict):
-        return {key: _plain(each) for key, each in value.items()}
-    if isinstance(value, list):
-        return [_plain(each) for each in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return str(value)
-    return value
 
 
 def _sdformat_facts(out: str, code: int) -> Facts:
@@ -352,12 +341,28 @@ _TEMPORARY = re.compile(r"(?:file://)?/[^\s'\"]*urdftool-(?:effects|readers)-[^/
 _INSTALLED = re.compile(r"/[^\s'\"]*/site-packages/")
 
 
+def _plain(value: Any, temporary: str) -> Any:
+    """Facts that JSON can write, infinities and NaN as words, and that name no folder."""
+    if isinstance(value, dict):
+        return {key: _plain(each, temporary) for key, each in value.items()}
+    if isinstance(value, list):
+        return [_plain(each, temporary) for each in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    return _without_folders(value, temporary) if isinstance(value, str) else value
+
+
+def _without_folders(text: str, temporary: str) -> str:
+    text = _TEMPORARY.sub("", text.replace(temporary + "/", ""))
+    return _INSTALLED.sub("", text)
+
+
 def _cleaned(lines: list[str], temporary: str) -> list[str]:
     """Messages without colors, times and what names this machine; a repeated one once."""
     found: list[str] = []
     for line in lines:
-        text = _TIME.sub("", _COLOR.sub("", line)).replace(temporary + "/", "")
-        text = _PLACE.sub(r"[\1]", _INSTALLED.sub("", _TEMPORARY.sub("", text))).strip()
+        text = _without_folders(_TIME.sub("", _COLOR.sub("", line)), temporary)
+        text = _PLACE.sub(r"[\1]", text).strip()
         if text and not _NOISE.match(text) and text not in found:
             found.append(text)
     return found[:40]

@@ -34,8 +34,8 @@ from ..xml.vocabulary_table import misspelt_attributes
 def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
     """A mimic joint follows a joint that is not there.
 
-    Nothing then moves it. urdfdom does not look, MuJoCo drops it silently, ros2_control refuses to
-    start. A ``<mimic>`` without the attribute ``joint`` is worse: urdfdom, and with it every reader
+    Nothing then moves it. urdfdom does not look, MuJoCo drops the constraint, Drake rejects the
+    file, ros2_control does not start. A ``<mimic>`` without the attribute ``joint`` is worse: urdfdom, and with it every reader
     of ROS, Gazebo and pinocchio, rejects the robot.
     """
     stripped = {name.strip() for name in robot.joint}

@@ -309,8 +309,9 @@ def package_uri_unresolvable(robot: Robot, description: Description) -> Iterator
 def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Problem]:
     """Two mesh files have one name, but for their folders or endings.
 
-    MuJoCo calls a mesh by the name of its file alone: ``visual/arm.stl`` and ``collision/arm.stl``
-    are both ``arm``. Visuals count where the robot's ``<compiler>`` keeps them.
+    MuJoCo before 4.0 calls a mesh by the name of its file alone: ``visual/arm.stl`` and
+    ``collision/arm.stl`` are both ``arm``. Visuals count where the robot's ``<compiler>`` keeps
+    them.
     """
     compilers = [m.child("compiler") for m in robot.element.all("mujoco")]
     all_of_them = any(c is not None and c.get("discardvisual") == "false" for c in compilers)
