@@ -151,7 +151,9 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
 @rule(
     INFO,
     raised={"moveit": WARNING},
-    effects={"moveit": "plans to positions that the drive refuses"},
+    effects={
+        "moveit": "takes the limit as written for the bound of the joint",
+    },
 )
 def limit_rounded_outward(
     robot: Robot, *, smallest: float = 1e-7, largest: float = 1e-3
@@ -181,7 +183,9 @@ def limit_rounded_outward(
 @rule(
     INFO,
     on=("moveit",),
-    effects={"moveit": "has several joint values for one pose and may take the long way"},
+    effects={
+        "moveit": "takes the whole range: several values of the joint give one pose",
+    },
 )
 def range_above_full_turn(robot: Robot) -> Iterator[Problem]:
     """A revolute joint's range is more than a full turn.

@@ -12,10 +12,7 @@ from ..rule import INFO, WARNING, Problem, rule
     INFO,
     on=("gazebo-classic", "gz", "mujoco", "pybullet"),
     effects={
-        "mujoco, pybullet": (
-            "load it; a heavy body on a light one is the case in which iterative solvers "
-            "converge slowly"
-        ),
+        "mujoco, pybullet": "take the two masses as written",
     },
 )
 def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) -> Iterator[Problem]:
