@@ -7,11 +7,9 @@ The data beside this module is made by ``python -m tests.effects --write`` of th
 from __future__ import annotations
 
 import json
-from functools import cache
 from pathlib import Path
 
 
-@cache
 def _sources() -> dict[str, dict[str, str]]:
     text = Path(__file__).with_suffix(".json").read_text("utf-8")
     return json.loads(text)  # type: ignore[no-any-return]

@@ -35,8 +35,8 @@ def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
     """A mimic joint follows a joint that is not there.
 
     Nothing then moves it. urdfdom does not look, MuJoCo drops the constraint, Drake rejects the
-    file, ros2_control does not start. A ``<mimic>`` without the attribute ``joint`` is worse: urdfdom, and with it every reader
-    of ROS, Gazebo and pinocchio, rejects the robot.
+    file, ros2_control does not start. A ``<mimic>`` without the attribute ``joint`` is worse:
+    urdfdom, and with it every reader of ROS, Gazebo and pinocchio, rejects the robot.
     """
     stripped = {name.strip() for name in robot.joint}
     for joint, mimic in _mimics(robot):
