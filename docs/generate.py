@@ -133,6 +133,12 @@ def rule_index() -> str:
     """All rules by family, and by target."""
     lines = ["# Rules", ""]
     lines.append(f"{len(list(all_rules()))} rules. `urdftool lint --explain RULE` shows a page.")
+    lines.append("")
+    lines.append(
+        "What a page says of a reader was run in it on a minimal robot, with the version that is "
+        "named, or is from its source, with the file in which it was read. Gazebo reads URDF with "
+        "sdformat, so `gz` and `gazebo-classic` stand for the sdformat that was run."
+    )
     for family in RULES:
         names = [name for group in RULES[family].values() for name in group]
         if not names:
