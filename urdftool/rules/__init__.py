@@ -172,6 +172,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "collision-much-smaller-than-visual",
             "collision-off-visual",
         ),
+        "displaced": ("collision-mesh-displaced",),
         "wheels": ("wheel-cylinder-axis", "caster-height-mismatch", "paper-thin-collision"),
         "overlap": (
             "self-collision-at-zero",
@@ -400,6 +401,7 @@ ONLY_WITH: dict[str, tuple[str, ...]] = {
     "mesh.surface": ("mesh",),
     "visual.looks": ("visual", "collision"),
     "collision.likeness": ("collision",),
+    "collision.displaced": ("mesh",),
     "collision.wheels": ("collision",),
     "collision.overlap": ("collision",),
     "inertia.slips": ("inertia",),

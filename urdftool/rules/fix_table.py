@@ -125,6 +125,7 @@ FIXES: dict[str, dict[str, str]] = {
         "odd-link-without-collision": UNSAFE,
         "missing-visual": UNSAFE,
         "collision-off-visual": UNSAFE,
+        "collision-mesh-displaced": UNSAFE,
         "unsupported-shape": UNSAFE,
         "wheel-cylinder-axis": UNSAFE,
         "caster-height-mismatch": UNSAFE,

@@ -13,6 +13,7 @@ from ...source.description import Description
 from ..mesh.outlines import reaches
 from ..mesh.uses import Stamp, mesh_uses, stamp
 from ..rule import ERROR, INFO, WARNING, Problem, rule
+from .displaced import displaced
 
 _SIMPLER = "'urdftool collision' makes simpler shapes, and measures how far off they are"
 
@@ -146,7 +147,7 @@ def collision_much_larger_than_visual(
         if seen is None or touches is None:
             continue
         for axis, a, b in zip("xyz", touches.size, seen.size, strict=True):
-            if a > ratio * b and a - b > least:
+            if a > ratio * b and a - b > least and not displaced(robot, link):
                 yield Problem(
                     link,
                     f"link '{link.name}' collides over {a:.3g} m along {axis} and is seen over "
@@ -215,6 +216,7 @@ def collision_off_visual(
             diagonal > 0.05
             and not larger
             and (not seen.meets(touches) or distance > apart * diagonal)
+            and not displaced(robot, link)
         ):
             yield Problem(
                 link,

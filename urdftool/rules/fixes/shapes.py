@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 import re
 
-from ...model.elements import Box, Cylinder, Mesh, Sphere
+from ...model.elements import Box, Collision, Cylinder, Mesh, Sphere, Visual
 from ...model.pose import norm
 from ...model.read import numbers
+from ..collision.displaced import displaced
+from ..mesh.outlines import reaches
 from ..rule import INFO, Problem
 from .proposal import (
     Around,
@@ -85,15 +87,44 @@ def collision_off_visual(problem: Problem, around: Around) -> Proposal | None:
     link = around.link(problem)
     if len(link.visuals) != 1 or len(link.collisions) != 1:
         return None
-    seen, touches = link.visuals[0], link.collisions[0]
-    lines = tuple(line for origin in seen.element.all("origin") for line in lines_of(origin))
-    if touches.origin is None:
-        change = Change("first", touches.element, blocks=(lines,))
-    elif lines:
-        change = replace(touches.origin.element, lines)
-    else:
-        change = remove(touches.origin.element)
-    return unsafe("give it the <origin> of the visual", change)
+    return unsafe("give it the <origin> of the visual", _moved(link.collisions[0], link.visuals[0]))
+
+
+def collision_mesh_displaced(problem: Problem, around: Around) -> Proposal | None:
+    """The origin of the other one, where the center of mass says which of the two is right."""
+    link, robot = around.link(problem), around.robot
+    found = next(
+        (
+            pair
+            for pair in displaced(robot, link)
+            if (pair.collision.origin or pair.collision).place == problem.place
+        ),
+        None,
+    )
+    com = link.inertial.origin.xyz if link.inertial and link.inertial.origin else None
+    if found is None or com is None or not any(com):
+        return None  # a center of mass at the frame may be missing as well
+    boxes = [reaches(robot).shape(shape) for shape in (found.visual, found.collision)]
+    if boxes[0] is None or boxes[1] is None:
+        return None
+    visual, collision = (math.dist(com, box.centre) for box in boxes if box is not None)
+    if 2 * visual < collision:
+        return unsafe("give it the <origin> of the visual", _moved(found.collision, found.visual))
+    if 2 * collision < visual:
+        return unsafe(
+            "give the visual the <origin> of the collision", _moved(found.visual, found.collision)
+        )
+    return None
+
+
+def _moved(shape: Visual | Collision, model: Visual | Collision) -> Change:
+    """Give a shape the origin of another."""
+    lines = tuple(line for origin in model.element.all("origin") for line in lines_of(origin))
+    if shape.origin is None:
+        return Change("first", shape.element, blocks=(lines,))
+    if lines:
+        return replace(shape.origin.element, lines)
+    return remove(shape.origin.element)
 
 
 def unsupported_shape(problem: Problem, around: Around) -> Proposal | None:
