@@ -156,7 +156,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "inertial-not-at-com-suspect",
             "radius-of-gyration",
         ),
-        "sides": ("left-right-asymmetry",),
+        "sides": ("left-right-asymmetry", "com-not-mirrored"),
     },
     "collision": {
         "presence": (

@@ -349,3 +349,12 @@ def root_link_has_inertia(problem: Problem, around: Around) -> Proposal | None:
         ),
     )
     return unsafe(f"put a link '{name}' without mass above it, on a fixed joint", *changes)
+
+
+def com_not_mirrored(problem: Problem, around: Around) -> Proposal | None:
+    """The mirror image of the center of mass of the other side."""
+    inertial = around.link(problem).inertial
+    found = re.search(r'write xyz="([^"]*)"', problem.message)
+    if inertial is None or inertial.origin is None or found is None:
+        return None
+    return unsafe(f'write xyz="{found[1]}"', put(inertial.origin.element, "xyz", found[1]))

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ...model.elements import Link, Robot
-from ..rule import INFO, Problem, rule
-from ..sides import twin_of
+from ...model.elements import Link, Robot, Vector
+from ...model.pose import rotate, transpose
+from ..mesh.outlines import reaches
+from ..rule import INFO, WARNING, Problem, rule
+from ..sides import Pair, Sides, family_of, sides, twin_of
 
 
 @rule(
@@ -78,3 +80,152 @@ def _spread(link: Link) -> float:
     """The sum of the moments [kg·m²], which is the same in every frame."""
     inertia = link.inertial.inertia if link.inertial is not None else None
     return sum(inertia.moments) if inertia is not None else 0.0
+
+
+@rule(WARNING, effects={"every simulator": "the center of mass of the robot is to one side"})
+def com_not_mirrored(
+    robot: Robot, *, least: float = 0.002, similar: float = 0.1, clear: float = 0.05
+) -> Iterator[Problem]:
+    """A link's center of mass has the wrong sign, compared with the link of the other side.
+
+    Left and right are recognized by the names of the links, of robots of which most such pairs
+    mirror each other. The ``<inertial>`` of one side was copied to the other, or a sign was lost:
+    the coordinate is the same on both sides where it must be opposite, or opposite where it must be
+    the same. It is reported only where the robot shows which sign is right: the geometry of the two
+    links lies on mirrored sides of their frames, or the joints of their children do, or the same
+    links at the other end of the robot do mirror. Identical parts, of which one is turned around,
+    are not reported. The coordinate is named along the axes of the root, where left and right
+    mirror each other; the ``xyz`` to write is in the frame of the link. Where the center of mass was
+    copied, so were the products of inertia, which need the opposite signs too.
+
+    ``least`` [m] is the smallest coordinate that is compared, ``similar`` the relative difference
+    of two equal ones, and ``clear`` the part of the size of a link by which its geometry must lie
+    to one side.
+    """
+    found = sides(robot)
+    if found.normal is None:
+        return
+    off = {id(pair.left) for pair, _ in found.off}
+    pairs = [(pair, *coms) for pair in found.pairs if (coms := _coms(found, pair))]
+    for pair, left, right in pairs:
+        if id(pair.left) in off:
+            continue
+        signs = [-1 if axis == found.normal else 1 for axis in range(3)]
+        wrong = [
+            axis
+            for axis, sign in enumerate(signs)
+            if min(abs(left[axis]), abs(right[axis])) >= least
+            and _is_near(right[axis], -sign * left[axis], similar)
+        ]
+        mirrored = [
+            axis
+            for axis, sign in enumerate(signs)
+            if axis not in wrong
+            and (
+                abs(right[axis] - sign * left[axis]) <= least
+                or _is_near(right[axis], sign * left[axis], similar)
+            )
+        ]
+        if len(wrong) != 1 or len(mirrored) != 2:
+            continue
+        axis, sign = wrong[0], signs[wrong[0]]
+        others = [(one, a, b) for one, a, b in pairs if one is not pair]
+        shown = _shown_by_shapes(robot, found, pair, axis, sign, similar, clear)
+        shown = shown or _shown_by_joints(robot, found, pair, axis, sign, similar, 5 * least)
+        shown = shown or _shown_by_likes(pair, left[axis], axis, sign, others, similar)
+        if shown is None:
+            continue
+        side, why = shown
+        odd_left = (left[axis] > 0) != (side > 0)
+        link, twin = (pair.left, pair.right) if odd_left else (pair.right, pair.left)
+        right_one, wrong_one = (right, left) if odd_left else (left, right)
+        image = mirror_image(found, link, right_one)
+        where = "on the same side as" if sign < 0 else "on the other side than"
+        assert link.inertial is not None
+        yield Problem(
+            link,
+            f"center of mass of link '{link.name}' is at {'xyz'[axis]} = {wrong_one[axis]:.3g} m, "
+            f"{where} that of '{twin.name}', but {why}; write xyz=\"{image}\"",
+            at=link.inertial.origin or link.inertial,
+        )
+
+
+def mirror_image(found: Sides, link: Link, com: Vector) -> str:
+    """Mirror a center of mass of one side, as ``xyz`` [m] in the frame of the link of the other."""
+    x, y, z = (-value if axis == found.normal else value for axis, value in enumerate(com))
+    back = transpose(found.poses[link.name].rotation)
+    return " ".join(f"{round(value, 9) + 0.0:.6g}" for value in rotate(back, (x, y, z)))
+
+
+def _coms(found: Sides, pair: Pair) -> tuple[Vector, Vector] | None:
+    """From the frame of each link of a pair to its center of mass, along the axes of the root."""
+    vectors = []
+    for link in (pair.left, pair.right):
+        origin = link.inertial.origin if link.inertial is not None else None
+        if origin is None or link.mass <= 0 or link.name not in found.poses:
+            return None
+        vectors.append(rotate(found.poses[link.name].rotation, origin.xyz))
+    return vectors[0], vectors[1]
+
+
+def _is_near(one: float, other: float, part: float) -> bool:
+    return abs(one - other) <= part * abs(other)
+
+
+def _shown_by_shapes(
+    robot: Robot, found: Sides, pair: Pair, axis: int, sign: int, similar: float, clear: float
+) -> tuple[float, str] | None:
+    """On which side of the left frame the geometry of a pair is, if the two mirror each other."""
+    sides_of: list[float] = []
+    for link in (pair.left, pair.right):
+        box = reaches(robot).link(link)
+        if box is None:
+            return None
+        side = rotate(found.poses[link.name].rotation, box.centre)[axis]
+        if abs(side) < clear * max(box.size):
+            return None
+        sides_of.append(side)
+    left, right = sides_of
+    if not _is_near(right, sign * left, similar):
+        return None
+    return left, "the geometry of the two is mirrored"
+
+
+def _shown_by_joints(
+    robot: Robot, found: Sides, pair: Pair, axis: int, sign: int, similar: float, least: float
+) -> tuple[float, str] | None:
+    """On which side of the left frame the next joints of a pair are, if they mirror each other."""
+    means = []
+    for link in (pair.left, pair.right):
+        offsets = [
+            rotate(found.poses[link.name].rotation, joint.origin.xyz)[axis]
+            for joint in robot.tree.child_joints(link.name)
+            if joint.origin is not None and not joint.is_fixed
+        ]
+        if len(offsets) != 1:
+            return None
+        means.append(offsets[0])
+    left, right = means
+    if abs(left) < least or not _is_near(right, sign * left, similar):
+        return None
+    return left, "the joints of their children are mirrored"
+
+
+def _shown_by_likes(
+    pair: Pair,
+    left: float,
+    axis: int,
+    sign: int,
+    others: list[tuple[Pair, Vector, Vector]],
+    similar: float,
+) -> tuple[float, str] | None:
+    """On which side the center of mass of the left link is at the other end of the robot."""
+    family = family_of(pair.left.name)
+    for other, one, two in others:
+        if family_of(other.left.name) != family or family_of(other.right.name) != family:
+            continue
+        if _is_near(two[axis], sign * one[axis], similar) and _is_near(
+            abs(one[axis]), abs(left), similar
+        ):
+            return one[axis], f"those of '{other.left.name}' and '{other.right.name}' are mirrored"
+    return None
