@@ -29,7 +29,7 @@ class Displaced(NamedTuple):
 
 @rule(
     WARNING,
-    effects={"pybullet, mujoco": "make contact at the place of the collision, away from the visual"},
+    effects={"pybullet, mujoco": "make contact where the collision is, away from the visual"},
 )
 def collision_mesh_displaced(
     robot: Robot, *, distance: float = 1e-4, angle: float = 1e-3

@@ -95,7 +95,7 @@ def com_not_mirrored(
     links lies on mirrored sides of their frames, or the joints of their children do, or the same
     links at the other end of the robot do mirror. Identical parts, of which one is turned around,
     are not reported. The coordinate is named along the axes of the root, where left and right
-    mirror each other; the ``xyz`` to write is in the frame of the link. Where the center of mass was
+    mirror each other; the ``xyz`` to write is in the frame of the link. Where a center of mass was
     copied, so were the products of inertia, which need the opposite signs too.
 
     ``least`` [m] is the smallest coordinate that is compared, ``similar`` the relative difference
