@@ -130,6 +130,8 @@ class Sides:
 def _pairs(robot: Robot) -> Iterator[Pair]:
     links = robot.link
     twins = {name: other for name in links if (other := twin_of(name, links))}
+    rights = set(twins.values())  # R_rf is that of L_rf; R_lf, a finger, is not its left one
+    twins = {name: other for name, other in twins.items() if name not in rights}
     for name, other in twins.items():
         left, right = robot.tree.parent_joint(name), robot.tree.parent_joint(other)
         if left is None or right is None or left.type != right.type:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
+from typing import NamedTuple
 
-from ...model.elements import Joint, Robot
+from ...model.elements import Joint, Robot, Vector
 from ..rule import INFO, Problem, rule
 from ..sides import Pair, Sides, family_of, sides
+from ..words import quoted
 
 
 @rule(
@@ -98,14 +101,23 @@ def axis_against_others(robot: Robot) -> Iterator[Problem]:
 
     Four legs, or wheels, have joints of one kind, told by their names. Where three of four axes
     point one way, or one of two sides is turned and the other is not, one was flipped.
+
+    A pair that is alone of its kind is compared with the others of its limb, or of the robot where
+    the limb has fewer than two: in some robots the axes of left and right have one direction, in
+    others they are mirror images, and a single pair that is neither as all others are was flipped.
+    Only axes of one kind are compared, such as those across the robot, and wheels only with
+    wheels. Limits that are not symmetric show how a pair is meant, and it is not reported.
     """
     found = sides(robot)
     if found.normal is None:
         return
-    families: dict[str, list[Pair]] = {}
+    families: dict[tuple[str, str, bool], list[Pair]] = {}
     for pair in found.pairs:
         if pair.left_joint.has_axis and found.turns_alike(pair) is not None:
-            families.setdefault(family_of(pair.left_joint.name), []).append(pair)
+            axis = found.axis(pair.left, pair.left_joint) or (0.0, 0.0, 0.0)
+            across = abs(axis[found.normal]) > 0.5  # a wheel, and not what steers it
+            kind = family_of(pair.left_joint.name), pair.left_joint.type, across
+            families.setdefault(kind, []).append(pair)
     for pairs in families.values():
         alike = [pair for pair in pairs if found.turns_alike(pair)]
         unlike = [pair for pair in pairs if not found.turns_alike(pair)]
@@ -123,6 +135,128 @@ def axis_against_others(robot: Robot) -> Iterator[Problem]:
                 "are to each other; one of them is flipped",
                 at=joint.axis or joint,
             )
+    yield from _lone(robot, found)
+
+
+class _Turn(NamedTuple):
+    """The axes of a pair of joints, of unit length, in the frame of the root."""
+
+    pair: Pair
+    left: Vector
+    right: Vector
+    wheel: bool
+    """Whether the joints turn without limit and move nothing further."""
+
+    @property
+    def same(self) -> bool:
+        """Whether the two point the same way, as far as they do."""
+        return _dot(self.left, self.right) > 0
+
+
+def _dot(one: Vector, other: Vector) -> float:
+    return sum(a * b for a, b in zip(one, other, strict=True))
+
+
+def _lone(robot: Robot, found: Sides) -> Iterator[Problem]:
+    """Axes of a pair alone of its kind that are to each other as those of no other pair are."""
+    turns = [turn for pair in found.pairs if (turn := _turn(robot, found, pair))]
+    kinds = Counter(family_of(turn.pair.left_joint.name) for turn in turns)
+    for turn in turns:
+        pair = turn.pair
+        if kinds[family_of(pair.left_joint.name)] > 1 or _limits_tell(pair):
+            continue
+        votes = [
+            (other, agrees)
+            for other in turns
+            if other is not turn
+            and other.wheel == turn.wheel
+            and (agrees := _agree(turn, other, found.normal or 0)) is not None
+        ]
+        limb = _limb(robot, found, pair)
+        near = [vote for vote in votes if id(vote[0].pair) in limb]
+        votes = near if len(near) > 1 else votes
+        if len(votes) < 2 or any(agrees for _, agrees in votes):
+            continue
+        joint = _odd_of(turn, [other for other, _ in votes], found.normal or 0)
+        twin = pair.left_joint if joint is pair.right_joint else pair.right_joint
+        names = quoted(other.pair.left_joint.name for other, _ in votes)
+        yield Problem(
+            joint,
+            f"axis of joint '{joint.name}' is to that of '{twin.name}' not as those of {names} "
+            "are to those of their twins; one of the two is flipped",
+            at=joint.axis or joint,
+        )
+
+
+def _turn(robot: Robot, found: Sides, pair: Pair) -> _Turn | None:
+    if found.turns_alike(pair) is None or pair.left_joint.type not in ("revolute", "continuous"):
+        return None
+    left = found.axis(pair.left, pair.left_joint)
+    right = found.axis(pair.right, pair.right_joint)
+    if left is None or right is None:
+        return None
+    below = robot.tree.descendants(pair.left.name)
+    ends = all(j.is_fixed for n in (pair.left.name, *below) for j in robot.tree.child_joints(n))
+    return _Turn(pair, left, right, pair.left_joint.type == "continuous" and ends)
+
+
+def _agree(one: _Turn, other: _Turn, normal: int) -> bool | None:
+    """Whether the axes of two pairs are to each other alike; None where they are not comparable.
+
+    Axes across the robot are compared with each other, those at right angles to that with each
+    other, and oblique ones with parallel ones.
+    """
+    kinds = [_straight(turn, normal) for turn in (one, other)]
+    if kinds[0] is not None:
+        return one.same == other.same if kinds[0] == kinds[1] else None
+    left, right = _dot(one.left, other.left), _dot(one.right, other.right)
+    return left * right > 0 if min(abs(left), abs(right)) > 0.95 else None
+
+
+def _straight(turn: _Turn, normal: int) -> bool | None:
+    """Whether axes are across the robot rather than at right angles to that; None if oblique."""
+    if abs(_dot(turn.left, turn.right)) < 0.95:
+        return None
+    part = abs(turn.left[normal])
+    return None if 0.3 < part < 0.95 else part >= 0.95
+
+
+def _limits_tell(pair: Pair) -> bool:
+    """Whether the limits of a pair differ from what they are with the axis turned around."""
+    ranges = [_range(joint) for joint in (pair.left_joint, pair.right_joint)]
+    return any(one is not None and not _near(one, (-one[1], -one[0]), 0.03) for one in ranges)
+
+
+def _limb(robot: Robot, found: Sides, pair: Pair) -> set[int]:
+    """The pairs above and below one, as far as one carries one other."""
+    by_link = {other.left.name: other for other in found.pairs if not other.left_joint.is_fixed}
+    carrier: dict[str, str] = {}
+    for name in by_link:
+        joint = robot.tree.parent_joint(name)
+        while joint is not None and joint.parent not in by_link:
+            joint = robot.tree.parent_joint(joint.parent)
+        if joint is not None:
+            carrier[name] = joint.parent
+    counts = Counter(carrier.values())
+    carried = {above: name for name, above in carrier.items() if counts[above] == 1}
+    limb, name = set(), pair.left.name
+    while name in carried and id(by_link[carried[name]]) not in limb:
+        name = carried[name]
+        limb.add(id(by_link[name]))
+    name = pair.left.name
+    while name in carrier and counts[carrier[name]] == 1:
+        name = carrier[name]
+        limb.add(id(by_link[name]))
+    return limb
+
+
+def _odd_of(turn: _Turn, others: list[_Turn], normal: int) -> Joint:
+    """The joint of a pair whose axis the others do not have, if they have one; else the right."""
+    pair = turn.pair
+    across = _straight(turn, normal)
+    if across and all(_dot(turn.right, other.right) > 0 for other in others):
+        return pair.left_joint
+    return pair.right_joint
 
 
 def _odd(found: Sides, pair: Pair, pairs: list[Pair]) -> Joint:

@@ -1,0 +1,69 @@
+"""Left and right: which links are a pair, and what their pairs say."""
+
+import pytest
+
+from urdftool import check, load
+from urdftool.rules.sides import sides
+
+LINK = '<link name="{0}"/>\n'
+JOINT = (
+    '<joint name="{0}_joint" type="{3}"><parent link="{1}"/><child link="{0}"/>'
+    '<origin xyz="{2}"/><axis xyz="{4}"/></joint>\n'
+)
+
+
+def robot(*parts):
+    """A robot of links with parent, place, type and axis."""
+    body = LINK.format("base")
+    for name, parent, place, kind, axis in parts:
+        body += LINK.format(name) + JOINT.format(name, parent, place, kind, axis)
+    return f"<robot name='r'>\n{body}</robot>"
+
+
+def test_a_finger_whose_name_is_like_a_side_is_no_left_one(write):
+    fingers = [
+        (f"{side}_{finger}", "base", f"0.1 {sign}0.{n}1 0", "continuous", "0 0 1")
+        for side, sign in (("L", ""), ("R", "-"))
+        for n, finger in enumerate(("ff", "rf", "lf"))
+    ]
+    found = sides(load(write("hands.urdf", robot(*fingers))))
+    assert {(pair.left.name, pair.right.name) for pair in found.pairs} == {
+        (f"L_{finger}", f"R_{finger}") for finger in ("ff", "rf", "lf")
+    }
+
+
+@pytest.mark.parametrize(("axis", "count"), [("0 1 0", 0), ("0 -1 0", 1)])
+def test_steering_is_not_compared_with_rolling(write, axis, count):
+    parts = [
+        ("front_left_wheel", "base", "0.3 0.2 0", "continuous", "0 0 1"),
+        ("front_right_wheel", "base", "0.3 -0.2 0", "continuous", "0 0 1"),
+        ("rear_left_wheel", "base", "-0.3 0.2 0", "continuous", "0 1 0"),
+        ("rear_right_wheel", "base", "-0.3 -0.2 0", "continuous", "0 1 0"),
+        ("middle_left_wheel", "base", "0 0.2 0", "continuous", "0 1 0"),
+        ("middle_right_wheel", "base", "0 -0.2 0", "continuous", axis),
+    ]
+    path = write("cart.urdf", robot(*parts))
+    assert len(check(path, select=("axis-against-others",))) == count
+
+
+@pytest.mark.parametrize(
+    ("flipped", "others", "named"),
+    [
+        ("0 -1 0", 3, "right_leg_3_joint"),  # the one that no other is like
+        ("0 -1 0", 1, None),  # either may be right
+        ("0 1 0", 3, None),
+    ],
+)
+def test_a_pair_alone_of_its_kind_is_compared_with_its_limb(write, flipped, others, named):
+    parts = []
+    for side, sign in (("left", ""), ("right", "-")):
+        above, place = "base", f"0 {sign}0.2 0"
+        for number in range(others + 1):
+            axis = flipped if (side, number) == ("right", others) else "0 1 0"
+            kind = "revolute" if number < others else "continuous"
+            name = f"{side}_leg_{number}"
+            parts.append((name, above, place, kind, axis))
+            above, place = name, "0 0 -0.3"
+        parts.append((f"{side}_foot", above, place, "continuous", "1 0 0"))
+    found = check(write("legs.urdf", robot(*parts)), select=("axis-against-others",))
+    assert [finding.name for finding in found] == ([named] if named else [])
