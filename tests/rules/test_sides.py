@@ -22,13 +22,13 @@ def robot(*parts):
 
 def test_a_finger_whose_name_is_like_a_side_is_no_left_one(write):
     fingers = [
-        (f"{side}_{finger}", "base", f"0.1 {sign}0.{n}1 0", "continuous", "0 0 1")
+        (f"{side}_{finger}_l1", "base", f"0.1 {sign}0.{n}1 0", "continuous", "0 0 1")
         for side, sign in (("L", ""), ("R", "-"))
         for n, finger in enumerate(("ff", "rf", "lf"))
     ]
     found = sides(load(write("hands.urdf", robot(*fingers))))
     assert {(pair.left.name, pair.right.name) for pair in found.pairs} == {
-        (f"L_{finger}", f"R_{finger}") for finger in ("ff", "rf", "lf")
+        (f"L_{finger}_l1", f"R_{finger}_l1") for finger in ("ff", "rf", "lf")
     }
 
 
