@@ -49,9 +49,18 @@ def test_square_millimetres(tmp_path):
 
 def test_about_the_origin(tmp_path):
     found = of_link(tmp_path, 2.0333, 0, 0, 2.0283, 0, 0.00833, xyz="0 0 1")
-    text = found["inertia-exceeds-geometry"]
-    assert "about the link's origin" in text
+    text = found["inertia-about-link-frame"]
+    assert "only if it is about the link frame" in text
     assert 'ixx="0.0333" ' in text
+    assert "inertia-exceeds-geometry" not in found
+
+
+def test_a_center_of_mass_elsewhere_is_not_another_origin(tmp_path):
+    path = tmp_path / "r.urdf"
+    six = (0.0333, 0, 0, 0.0283, 0, 0.00833)
+    text = LINK.format(*six, xyz="0 0 0.15", rpy="0 0 0", shape=BOX)
+    path.write_text(text.replace('<collision><origin xyz="0 0 0.15"/>', "<collision>"))
+    assert "inertia-about-link-frame" not in messages(path)
 
 
 def test_an_inertial_on_its_side(tmp_path):

@@ -269,7 +269,7 @@ def _candidates(
         scaled = tuple([_moved(value, power) for value in tensor])
         yield _Candidate("unit", scaled, _unit(power))  # type: ignore[arg-type]
     if any(com):
-        yield _Candidate("origin", _shifted(tensor, mass, com))
+        yield _Candidate("origin", shifted_to_com(tensor, mass, com))
     if rotation is not None:
         yield _Candidate("frame", turned(tensor, transpose(rotation)), "written")
         yield _Candidate("frame", turned(tensor, rotation), "turned")
@@ -280,8 +280,14 @@ def _moved(value: float, power: int) -> float:
     return float(value * 10**power if power > 0 else value / 10**-power)
 
 
-def _shifted(tensor: Six, mass: float, com: Vector) -> Six:
-    """The tensor about the centre of mass of one that is about the origin (Huygens–Steiner)."""
+def shifted_to_com(tensor: Six, mass: float, com: Vector) -> Six:
+    """Shift a tensor about the origin to the center of mass (Huygens–Steiner).
+
+    Args:
+        tensor: About the origin [kg·m²].
+        mass: Of the body [kg].
+        com: Its center of mass [m], along the axes of the tensor.
+    """
     xx, xy, xz, yy, yz, zz = tensor
     x, y, z = com
     return (

@@ -156,6 +156,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "inertial-not-at-com-suspect",
             "radius-of-gyration",
         ),
+        "frame": ("inertia-about-link-frame",),
         "sides": ("left-right-asymmetry", "com-not-mirrored"),
     },
     "collision": {

@@ -118,6 +118,7 @@ FIXES: dict[str, dict[str, str]] = {
         "placeholder-inertia": UNSAFE,
         "inertia-exceeds-geometry": UNSAFE,
         "inertial-not-at-com-suspect": UNSAFE,
+        "inertia-about-link-frame": UNSAFE,
         "com-not-mirrored": UNSAFE,
         "radius-of-gyration": UNSAFE,
     },

@@ -8,10 +8,12 @@ from ...model.elements import Inertial, Link
 from ...model.inertia_slips import is_possible
 from ...model.pose import pose_of, transpose
 from ...model.tensor3 import Six, eigenvalues, turned
+from ..inertia.frame import about_com
 from ..inertia.proposals import proposal_of
 from ..inertia.slips import slip_of
 from ..inertia.solids import _only_shape, box_of, solid_tensor, solid_volume
 from ..inertia.tensors import SIX, is_zero, six_of
+from ..mesh.outlines import reaches
 from ..rule import Problem
 from .proposal import (
     Around,
@@ -358,3 +360,14 @@ def com_not_mirrored(problem: Problem, around: Around) -> Proposal | None:
     if inertial is None or inertial.origin is None or found is None:
         return None
     return unsafe(f'write xyz="{found[1]}"', put(inertial.origin.element, "xyz", found[1]))
+
+
+def inertia_about_link_frame(problem: Problem, around: Around) -> Proposal | None:
+    """The tensor about the center of mass."""
+    link = around.link(problem)
+    inertial = link.inertial
+    if inertial is None or inertial.inertia is None:
+        return None
+    box = reaches(around.robot).link(link)
+    right = about_com(link, inertial, six_of(inertial.inertia), box)
+    return None if right is None else _rewritten(link, right, f"write {_six_text(right)}")

@@ -9,6 +9,7 @@ from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...model.tensor3 import Six
 from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
+from .frame import about_com
 from .proposals import remedy_text
 from .solids import centre_of_solids, solid_moments, solid_text, spread_ratio
 from .tensors import is_positive, is_zero, moments_of, six_of, tensors
@@ -82,7 +83,7 @@ def inertia_exceeds_geometry(
         if low + middle < high * 0.99:
             continue
         ratio, axis = spread_ratio(reach.link(link), inertial, rounding)
-        if ratio <= allowed:
+        if ratio <= allowed or about_com(link, inertial, six, reach.link(link)) is not None:
             continue
         remark = ratio <= certain and _has_mesh(link)
         yield Problem(

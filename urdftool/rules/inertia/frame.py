@@ -1,0 +1,120 @@
+"""Inertia tensors about the wrong point."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ...model.bounds import Bounds
+from ...model.elements import Collision, Inertial, Link, Mesh, Robot, Visual
+from ...model.inertia_slips import is_possible, shifted_to_com
+from ...model.pose import pose_of, transpose
+from ...model.tensor3 import Six, turned
+from ..mesh.outlines import reaches
+from ..rule import WARNING, Problem, rule
+from .proposals import attributes_text, proposal_of
+from .solids import solid_tensor, spread_ratio
+from .tensors import is_zero, tensors
+
+HOLLOW = 1.7
+"""Second moment of a body, relative to that of a solid box of its size, above which it is not
+plausible: a hollow box, with all mass in its walls, has 5/3."""
+
+PLAUSIBLE = (0.3, 1.3)
+"""The same for a tensor that is accepted as the right one: a solid ball has 0.6, a hollow one 1."""
+
+BEYOND = 1.1
+"""Factor by which mass must be spread wider than the bounding box allows."""
+
+UNIFORM = 0.1
+"""Distance of a tensor from that of a solid primitive, relative to it, at which the two agree."""
+
+
+@rule(
+    WARNING,
+    effects={
+        "mujoco, pybullet, pinocchio": "take it as the tensor about the center of mass: a joint "
+        "then moves mass × distance² twice",
+    },
+)
+def inertia_about_link_frame(robot: Robot) -> Iterator[Problem]:
+    """An inertia is given about the frame of the link instead of the center of mass.
+
+    URDF expects the tensor about the center of mass, along the axes of the ``<inertial>``. CAD
+    programs also print it about the output coordinate system, which is larger by mass × distance²
+    (the parallel axis theorem). The link then resists its joint as if it were much heavier.
+
+    It is reported only where the tensor as written does not fit the geometry, and the one about the
+    center of mass does: where it equals that of a solid primitive, or where the written one is far
+    above that of a solid box of the link's size and either needs mass outside of the geometry, or
+    has products of inertia that the parallel axis theorem explains.
+    """
+    for link, inertial, six in tensors(robot):
+        right = about_com(link, inertial, six, reaches(robot).link(link))
+        if right is not None:
+            yield Problem(
+                link,
+                f"inertia of link '{link.name}' fits its geometry only if it is about the link "
+                f"frame; readers take it about the center of mass: write {attributes_text(right)}",
+                at=inertial.inertia,
+            )
+
+
+def about_com(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> Six | None:
+    """Compute the tensor about the center of mass, if the written one is about the link frame.
+
+    Args:
+        link: A link with mass.
+        inertial: Its inertial.
+        six: The tensor as written [kg·m²].
+        box: The box around its geometry in its frame [m].
+
+    Returns:
+        The tensor [kg·m²] along the axes of the inertial; None where the written one may be right,
+        or is wrong in another way.
+    """
+    mass, pose = link.mass, pose_of(inertial.origin)
+    if box is None or mass <= 0 or not any(pose.translation) or is_zero(six, mass):
+        return None
+    tensor = turned(six, pose.rotation)
+    shifted = shifted_to_com(tensor, mass, pose.translation)
+    right = turned(shifted, transpose(pose.rotation))
+    if not is_possible(shifted):
+        return None
+    other = proposal_of(link, inertial, six)
+    if other is not None and other.kind != "origin":
+        return None
+    solid = solid_tensor(link)
+    if solid is not None and not _has_mesh(link):
+        size = _norm(solid)
+        if _distance(right, solid) <= UNIFORM * size and _distance(six, solid) >= 0.3 * size:
+            return right
+    whole = mass / 12 * sum(length * length for length in box.size)
+    written, meant = (sum(one[i] for i in (0, 3, 5)) / 2 / whole for one in (tensor, shifted))
+    if written < max(HOLLOW, 2 * meant) or not PLAUSIBLE[0] <= meant <= PLAUSIBLE[1]:
+        return None
+    if spread_ratio(box, inertial, 0.01)[0] > BEYOND or _explains_products(tensor, shifted):
+        return right
+    return None
+
+
+def _explains_products(tensor: Six, shifted: Six) -> bool:
+    """Whether products of inertia that are not small are much smaller about the other point."""
+    before, after = (abs(one[1]) + abs(one[2]) + abs(one[4]) for one in (tensor, shifted))
+    return before > 0.05 * max(tensor[0], tensor[3], tensor[5]) and after < 0.5 * before
+
+
+def _has_mesh(link: Link) -> bool:
+    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+    return any(isinstance(shape.geometry, Mesh) for shape in shapes)
+
+
+def _distance(one: Six, other: Six) -> float:
+    a, b, c, d, e, f = (x - y for x, y in zip(one, other, strict=True))
+    return _norm((a, b, c, d, e, f))
+
+
+def _norm(six: Six) -> float:
+    """The Frobenius norm of a symmetric matrix."""
+    xx, xy, xz, yy, yz, zz = six
+    return math.sqrt(xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz))
