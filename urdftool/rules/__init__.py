@@ -117,6 +117,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "incomplete-safety-controller",
             "soft-limits-lock-joint",
             "soft-limits-outside-hard",
+            "soft-limits-far-inside",
         ),
         "sides": ("joint-not-mirrored", "limits-not-mirrored", "axis-against-others"),
     },

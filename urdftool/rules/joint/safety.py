@@ -94,3 +94,36 @@ def soft_limits_outside_hard(robot: Robot, *, tolerance: float = 1e-6) -> Iterat
                 f"{limit.lower:g} to {limit.upper:g}, so they do nothing",
                 at=safety.element.attribute_place(name),
             )
+
+
+@rule(
+    INFO,
+    effects={
+        "moveit": "plans within the soft limits (from its source, robot_model.cpp)",
+        "mujoco, pybullet, pinocchio, drake": "ignore them",
+    },
+)
+def soft_limits_far_inside(robot: Robot, *, part: float = 0.5) -> Iterator[Problem]:
+    """A joint's soft limits leave less than half of its range.
+
+    They should begin shortly before the hard limits: those of 395 joints in 40 public descriptions
+    leave at least 78 % of the range. Otherwise a sign, a decimal point or a unit is wrong, or only
+    the hard limits were changed. Planners then refuse positions that the robot can take. ``part`` is
+    the part of the range that the soft limits must leave.
+    """
+    for joint in robot.joints:
+        safety, limit = joint.safety_controller, joint.limit
+        if safety is None or limit is None or not joint.is_limited:
+            continue
+        if limit.lower is None or limit.upper is None or limit.lower >= limit.upper:
+            continue
+        low = max(limit.lower, safety.soft_lower_limit)
+        high = min(limit.upper, safety.soft_upper_limit)
+        left = (high - low) / (limit.upper - limit.lower)
+        if 0 < left < part:
+            yield Problem(
+                joint,
+                f"soft limits {low:g} to {high:g} of joint '{joint.name}' leave {left:.0%} of its "
+                f"range {limit.lower:g} to {limit.upper:g}; MoveIt plans within them alone",
+                at=safety,
+            )
