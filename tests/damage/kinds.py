@@ -8,6 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement
 
+from urdftool.model.pose import Pose, rotate, rotation_of_rpy, rpy_of_rotation
+
 Damage = Callable[["Robot", random.Random], "set[str] | None"]
 KINDS: dict[str, Damage] = {}
 SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
@@ -123,6 +125,8 @@ for label, path, name, factor in (
     ("inertia in kg·mm²", "inertial/inertia", "six", 1e6),
     ("inertia zero", "inertial/inertia", "six", 0),
     ("one moment times ten", "inertial/inertia", "izz", 10),
+    ("one moment times thousand", "inertial/inertia", "izz", 1000),
+    ("one moment a thousandth", "inertial/inertia", "ixx", 0.001),
     ("one moment negative", "inertial/inertia", "iyy", -1),
 ):
     KINDS[label] = factor_of(path, name, factor)
@@ -152,6 +156,32 @@ def inertia_about_the_joint(robot, rng):
     for key in SIX:
         inertia.set(key, f"{float(inertia.get(key, 0)) + mass * more[key]:.9g}")
     return {link.get("name")}
+
+
+@damage
+def center_of_mass_with_another_sign(robot, rng):
+    """One coordinate of the centre of mass of one side was copied, or lost its sign."""
+    bodies = robot.bodies()
+    found = []
+    for one, other in twins(robot.links):
+        com, twin = one.find("inertial/origin"), other.find("inertial/origin")
+        if one not in bodies or com is None or twin is None:
+            continue
+        far = [math.dist([0, 0, 0], numbers(place.get("xyz"))) for place in (com, twin)]
+        if abs(far[0] - far[1]) > 0.05 * max(far):
+            continue  # they are no twins even now
+        found += [
+            (one, other, com, axis)
+            for axis, value in enumerate(numbers(com.get("xyz")))
+            if abs(value) >= 0.005
+        ]
+    if not found:
+        return None
+    one, other, com, axis = rng.choice(found)
+    xyz = numbers(com.get("xyz"))
+    xyz[axis] *= -1
+    com.set("xyz", words(xyz))
+    return {one.get("name"), other.get("name")}
 
 
 @damage
@@ -295,6 +325,76 @@ def one_side_limited(robot, rng):
     return both(pair, robot)
 
 
+def poses(robot: Robot) -> dict[str, Pose]:
+    """Where links are in the frame of the root."""
+    parents = {robot.child(joint): joint for joint in robot.joints.values()}
+    found: dict[str, Pose] = {}
+
+    def pose(name: str) -> Pose:
+        if name not in found:
+            joint = parents.get(name)
+            found[name] = Pose() if joint is None else pose(robot.parent(joint)) @ place_of(joint)
+        return found[name]
+
+    for name in robot.links:
+        pose(name)
+    return found
+
+
+def place_of(element: Element) -> Pose:
+    place = element.find("origin")
+    if place is None:
+        return Pose()
+    rotation = rotation_of_rpy(tuple(numbers(place.get("rpy"))))
+    return Pose(rotation, tuple(numbers(place.get("xyz"))))
+
+
+def put(element: Element, pose: Pose) -> None:
+    place = origin(element)
+    place.set("xyz", words(pose.translation))
+    place.set("rpy", words(rpy_of_rotation(pose.rotation)))
+
+
+def turned_about_the_origin(robot: Robot, joints: list[Element]) -> None:
+    """Put the frames of the children of joints into the root's; the robot looks as it did."""
+    where = poses(robot)
+    moved = {robot.child(joint) for joint in joints}
+    for joint in robot.joints.values():
+        parent, child = robot.parent(joint), robot.child(joint)
+        if child in moved and joint.find("axis") is not None:
+            axis = joint.find("axis")
+            axis.set("xyz", words(rotate(where[child].rotation, numbers(axis.get("xyz")))))
+        base = Pose() if parent in moved else where[parent]
+        put(joint, base.inverse() @ (Pose() if child in moved else where[child]))
+    for name in moved:
+        link = robot.links[name]
+        for part in (*link.iter("inertial"), *link.iter("visual"), *link.iter("collision")):
+            put(part, where[name] @ place_of(part))
+
+
+@damage
+def frames_at_the_origin(robot, rng):
+    """As of a CAD export without coordinate systems of the links."""
+    turning = [j for j in robot.moving() if j.get("type") != "prismatic"]
+    if len(turning) < 3:
+        return None
+    turned_about_the_origin(robot, list(robot.joints.values()))
+    return set(robot.joints) | set(robot.links)
+
+
+@damage
+def meshes_placed_twice(robot, rng):
+    """As of a CAD export whose meshes are in the frame of the assembly."""
+    turning = [j for j in robot.moving() if j.get("type") != "prismatic"]
+    if len(turning) < 3:
+        return None
+    where = poses(robot)
+    for name, link in robot.links.items():
+        for part in (*link.iter("visual"), *link.iter("collision")):
+            put(part, where[name] @ place_of(part))
+    return set(robot.joints) | set(robot.links)
+
+
 @damage
 def joint_inside_its_parent(robot, rng):
     """The origin was lost: the child sits where its parent does."""
@@ -329,6 +429,40 @@ def collision_shifted(robot, rng):
     xyz[rng.randrange(3)] += 0.5
     place.set("xyz", words(xyz))
     return {link.get("name")}
+
+
+def same_mesh_elsewhere(change: Callable[[Element, random.Random], None]) -> Damage:
+    def apply(robot, rng):
+        found = []
+        for link in robot.links.values():
+            seen, touches = link.findall("visual"), link.findall("collision")
+            meshes = [shape.find("geometry/mesh") for shape in (*seen, *touches)]
+            if len(seen) == len(touches) == 1 and all(mesh is not None for mesh in meshes):
+                if meshes[0].attrib == meshes[1].attrib:
+                    found.append((link, touches[0]))
+        if not found:
+            return None
+        link, collision = rng.choice(found)
+        change(origin(collision), rng)
+        return {link.get("name")}
+
+    return apply
+
+
+def _move(place, rng):
+    xyz = numbers(place.get("xyz"))
+    xyz[rng.randrange(3)] += 0.005
+    place.set("xyz", words(xyz))
+
+
+def _turn(place, rng):
+    rpy = numbers(place.get("rpy"))
+    rpy[rng.randrange(3)] += math.pi / 2
+    place.set("rpy", words(rpy))
+
+
+KINDS["collision mesh 5 mm off"] = same_mesh_elsewhere(_move)
+KINDS["collision mesh turned"] = same_mesh_elsewhere(_turn)
 
 
 def mesh_scaled(factor: float) -> Damage:
@@ -433,6 +567,20 @@ def mesh_is_an_lfs_pointer(robot, rng):
     file.write_text(PRINTS_LFS.format("4d7a" * 16))
     mesh.set("filename", file.name)
     return {link.get("name"), file.name}
+
+
+@damage
+def soft_limits_of_a_tenth(robot, rng):
+    limited = [joint for joint in robot.limited() if joint.find("safety_controller") is None]
+    if not limited:
+        return None
+    joint = rng.choice(limited)
+    limit = joint.find("limit")
+    low, high = (float(limit.get(name, 0)) for name in ("lower", "upper"))
+    middle, half = (low + high) / 2, (high - low) / 20
+    soft = {"soft_lower_limit": f"{middle - half:.6g}", "soft_upper_limit": f"{middle + half:.6g}"}
+    SubElement(joint, "safety_controller", soft, k_velocity="10", k_position="20")
+    return around(joint, robot)
 
 
 @damage

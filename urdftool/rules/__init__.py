@@ -77,6 +77,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "kind": ("unknown-joint-type", "planar-or-floating", "redundant-on-fixed"),
         "axis": ("zero-axis", "axis-not-unit", "axis-omitted", "axis-nearly-canonical"),
         "origin": ("rpy-in-degrees",),
+        "place": ("axis-misses-links",),
         "limits": (
             "missing-limit",
             "limit-without-effort-or-velocity",

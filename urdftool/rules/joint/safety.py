@@ -108,8 +108,8 @@ def soft_limits_far_inside(robot: Robot, *, part: float = 0.5) -> Iterator[Probl
 
     They should begin shortly before the hard limits: those of 395 joints in 40 public descriptions
     leave at least 78 % of the range. Otherwise a sign, a decimal point or a unit is wrong, or only
-    the hard limits were changed. Planners then refuse positions that the robot can take. ``part`` is
-    the part of the range that the soft limits must leave.
+    the hard limits were changed. Planners then refuse positions that the robot can take. ``part``
+    is the part of the range that the soft limits must leave.
     """
     for joint in robot.joints:
         safety, limit = joint.safety_controller, joint.limit

@@ -1,0 +1,195 @@
+"""Where joints are, compared with the geometry of the links that they join."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from ...model.bounds import Bounds
+from ...model.elements import Joint, Robot, Vector
+from ...model.kinematics import link_poses
+from ...model.pose import Pose, rotate
+from ..mesh.outlines import Reaches, reaches
+from ..rule import WARNING, Problem, rule
+from ..words import quoted
+
+_TURNING = ("revolute", "continuous")
+
+
+class _Miss(NamedTuple):
+    """How far the axis of a joint passes from the geometry of its two bodies [m]."""
+
+    joint: Joint
+    place: Vector
+    """The joint, in the frame of the root."""
+    child: float
+    child_size: float
+    parent: float
+    parent_size: float
+
+    def is_off_child(self, part: float, least: float) -> bool:
+        """Whether the axis misses the child by a part of its size, and by a distance."""
+        return self.child > max(part * self.child_size, least)
+
+    def is_off(self, part: float, least: float) -> bool:
+        """Whether the axis misses both."""
+        off_parent = self.parent > max(part * self.parent_size, least)
+        return off_parent and self.is_off_child(part, least)
+
+
+@rule(
+    WARNING,
+    effects={
+        "mujoco, pybullet, pinocchio": "turn the child about that axis, away from its parent",
+    },
+)
+def axis_misses_links(
+    robot: Robot,
+    *,
+    part: float = 0.1,
+    least: float = 0.01,
+    certain: float = 1.0,
+    together: float = 1e-3,
+) -> Iterator[Problem]:
+    """A joint's axis passes through the geometry of neither of its links.
+
+    A link turns about the frame of its joint. CAD exporters leave frames at the origin of the
+    assembly, or place the meshes twice: the robot may look right where all joints are at zero, and
+    comes apart as soon as one moves. Export each link with its own coordinate system at its joint.
+
+    It is reported where one axis misses both links by more than ``certain`` times their size; where
+    most axes of the robot, and at least two, miss both by ``part`` of their size; or where three or
+    more joints are in one place, within ``together`` [m], and the axes of all miss the link they
+    move. What is fixed to a link counts as the link, ``least`` [m] is the least distance, and of
+    geometry the bounding box counts. One finding names the joints.
+    """
+    misses = list(_misses(robot))
+    off = [miss for miss in misses if miss.is_off(part, least)]
+    if len(off) < 2 or 2 * len(off) < len(misses):
+        off = [miss for miss in off if miss.is_off(certain, least)]
+    in_one_place = _in_one_place(misses, part, least, together)
+    more = [miss for miss in in_one_place if miss not in off]
+    found = off or more
+    if not found:
+        return
+    first = found[0]
+    joint = first.joint
+    where = f"passes {first.child:.2g} m from link '{joint.child}'"
+    if off:
+        where += f" and {first.parent:.2g} m from '{joint.parent}'"
+    others = [miss.joint.name for miss in (*off, *more) if miss is not first]
+    also = f"; so do those of {quoted(others, 6)} from theirs" if others else ""
+    why = (
+        f"the frames of {len(in_one_place)} links are in one place"
+        if in_one_place
+        else "its frame is not where the two meet"
+    )
+    yield Problem(
+        joint,
+        f"axis of joint '{joint.name}' {where}{also}; {why}",
+        at=joint.origin or joint,
+        hint="export each link with its own frame, at the joint that moves it",
+    )
+
+
+def _in_one_place(misses: list[_Miss], part: float, least: float, together: float) -> list[_Miss]:
+    """Three or more joints in one place, whose axes all miss the link that they move."""
+    for miss in misses:
+        group = [other for other in misses if math.dist(miss.place, other.place) <= together]
+        if len(group) >= 3 and all(other.is_off_child(part, least) for other in group):
+            return group
+    return []
+
+
+def _misses(robot: Robot) -> Iterator[_Miss]:
+    """Measure the joints that turn, and both of whose bodies have geometry that is known."""
+    turning = [joint for joint in robot.joints if joint.type in _TURNING]
+    if not turning:
+        return
+    poses, body_of, reach = link_poses(robot), robot.tree.bodies, reaches(robot)
+    members: dict[str, list[str]] = {}
+    for name, body in body_of.items():
+        members.setdefault(body, []).append(name)
+    for joint in turning:
+        axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+        length = math.hypot(*axis)
+        if joint.child not in poses or joint.parent not in poses or not length:
+            continue
+        pose = poses[joint.child]
+        x, y, z = rotate(pose.rotation, axis)
+        line = pose.translation, (x / length, y / length, z / length)
+        gaps = []
+        for link in (joint.child, joint.parent):
+            body = body_of.get(link, link)
+            names = [link, *(name for name in members.get(body, ()) if name != link)]
+            gap = _gap(robot, reach, poses, names, *line)
+            if gap is None:
+                break
+            gaps.append(gap)
+        if len(gaps) == 2:
+            yield _Miss(joint, pose.translation, *gaps[0], *gaps[1])
+
+
+def _gap(
+    robot: Robot,
+    reach: Reaches,
+    poses: dict[str, Pose],
+    names: list[str],
+    place: Vector,
+    way: Vector,
+) -> tuple[float, float] | None:
+    """Measure how far a line passes from the geometry of rigidly connected links, and their size.
+
+    Returns:
+        The distance and the largest length of a link [m]; None where they have no geometry, or one
+        that is not known.
+    """
+    best, size = math.inf, 0.0
+    for name in names:
+        link = robot.link[name]
+        if not link.visuals and not link.collisions:
+            continue
+        box = reach.link(link)
+        if box is None or name not in poses:
+            return None
+        size = max(size, *box.size)
+        if best > 0:
+            back = poses[name].inverse()
+            best = min(
+                best, _distance(back.transform(place), rotate(back.rotation, way), box, best)
+            )
+    return (best, size) if size else None
+
+
+def _distance(place: Vector, way: Vector, box: Bounds, enough: float) -> float:
+    """Measure the distance of a line from a box [m]; ``enough`` where it is not less.
+
+    The distance along the line is convex, so its minimum is found by a golden section search.
+    """
+    middle = box.centre
+    at = sum((m - p) * w for m, p, w in zip(middle, place, way, strict=True))
+    radius = math.dist(box.low, box.high) / 2
+    nearest = math.dist(middle, tuple(p + at * w for p, w in zip(place, way, strict=True)))
+    if nearest - radius >= enough:
+        return enough
+
+    def apart(t: float) -> float:
+        return math.hypot(
+            *(
+                max(low - (p + t * w), 0.0, p + t * w - high)
+                for p, w, low, high in zip(place, way, *box, strict=True)
+            )
+        )
+
+    low, high = at - radius, at + radius
+    best = apart(at)
+    while best > 0 and high - low > 1e-6 * radius:
+        one, other = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+        first, second = apart(one), apart(other)
+        best = min(best, first, second)
+        low, high = (low, other) if first <= second else (one, high)
+    return best
+
+
+_GOLDEN = (math.sqrt(5) - 1) / 2
