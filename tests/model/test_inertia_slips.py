@@ -5,7 +5,7 @@ import math
 import pytest
 
 from urdftool.model.bounds import Bounds
-from urdftool.model.inertia_slips import is_possible, propose
+from urdftool.model.inertia_slips import NAMES, is_possible, propose, propose_moment
 from urdftool.model.pose import rotation_of_rpy
 from urdftool.model.tensor3 import turned
 
@@ -101,3 +101,30 @@ def test_what_is_possible():
     assert not is_possible((1.0, 0.0, 0.0, 1.0, 0.0, 2.1))
     assert not is_possible((1.0, 1.5, 0.0, 1.0, 0.0, 1.0))
     assert not is_possible((0.0,) * 6)
+
+
+ROD = (0.1, 0.1, 0.4)
+"""Sides [m] of a box whose moments, of 1 kg, are 0.01417, 0.01417 and 0.001667."""
+
+
+@pytest.mark.parametrize("power", [-6, -3, -2, 2, 3, 6])
+@pytest.mark.parametrize("entry", [0, 3])
+def test_the_other_moments_tell_a_decimal_point(entry, power):
+    right = (0.01417, 0.0, 0.0, 0.0152, 0.0, 0.001667)  # not quite uniform
+    wrong = tuple(v * 10.0**power if i == entry else v for i, v in enumerate(right))
+    found = propose_moment(1.0, wrong, ROD)
+    assert found is not None
+    assert found.tensor == pytest.approx(right)
+    assert found.name == NAMES[entry]
+
+
+@pytest.mark.parametrize(
+    "tensor",
+    [
+        (14.17, 0.0, 0.0, 14.17, 0.0, 0.001667e-3),  # two are wrong
+        (0.01417, 0.05, 0.0, 0.01417, 0.0, 0.001667),  # a product is too large
+        (1.0, 0.0, 0.0, 0.1, 0.0, 0.1),  # a placeholder, far from the size of the body
+    ],
+)
+def test_what_more_than_one_number_explains_has_no_decimal_point(tensor):
+    assert propose_moment(1.0, tensor, ROD) is None

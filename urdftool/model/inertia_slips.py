@@ -48,6 +48,12 @@ BOX_MARGIN = 0.02
 ROUNDING = 0.01
 """By how much, relatively, written numbers may break the triangle inequality by rounding."""
 
+SIMILAR = 2.5
+"""Factor within which a moment goes with the other two, in the proportions of the box."""
+
+FILLED = (0.3, 3.0)
+"""Moments of real bodies, relative to those of a solid box of their size."""
+
 _LARGEST = 1e60
 
 _UNITS = {-9: "g·mm²", -7: "g·cm²", -6: "kg·mm²", -4: "kg·cm²", -3: "g·m²"}
@@ -158,6 +164,50 @@ def propose(
         if second <= 9 * first:
             return None
     return _told(found[0][1], tensor, solid is not None or box is not None)
+
+
+def propose_moment(mass: float, tensor: Six, size: Vector) -> Proposal | None:
+    """Move the decimal point of the one moment that makes a tensor impossible.
+
+    The other two tell how the body fills its bounding box, and so what the third must be, well
+    within a power of ten.
+
+    Args:
+        mass: Mass [kg].
+        tensor: Tensor [kg·m²] that no body can have.
+        size: Of the box around the geometry [m], along the axes of the tensor.
+
+    Returns:
+        None if no moment, or more than one, can be the wrong one, or if a product of inertia can.
+    """
+    x, y, z = (length * length for length in size)
+    solid = tuple(mass / 12 * part for part in (y + z, x + z, x + y))
+    if not (mass > 0 and min(solid) > 0 and max(map(abs, tensor)) < _LARGEST):
+        return None
+    found = []
+    for entry, value in enumerate(tensor):
+        if not value:
+            continue
+        before, after = tensor[:entry], tensor[entry + 1 :]
+        for power in SLIPS:
+            meant: Six = (*before, _moved(value, power), *after)  # type: ignore[assignment]
+            if not is_possible(meant):
+                continue
+            if entry not in DIAGONAL:
+                return None
+            if _is_in_proportion(meant, solid, DIAGONAL.index(entry)):
+                found.append(_Candidate("decimal", meant, str(abs(power)), entry))
+    return _told(found[0], tensor, True) if len(found) == 1 else None
+
+
+def _is_in_proportion(tensor: Six, solid: tuple[float, ...], axis: int) -> bool:
+    """Whether a moment goes with the other two, and those with a body of the size of the box."""
+    filled = [tensor[i] / moment for i, moment in zip(DIAGONAL, solid, strict=True)]
+    own = filled.pop(axis)
+    if not all(FILLED[0] <= part <= FILLED[1] for part in filled):
+        return False
+    usual = math.sqrt(filled[0] * filled[1])
+    return usual / SIMILAR <= own <= usual * SIMILAR
 
 
 def is_possible(tensor: Six) -> bool:

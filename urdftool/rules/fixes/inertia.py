@@ -282,7 +282,7 @@ def _of_slip(problem: Problem, around: Around) -> Proposal | None:
     inertial = link.inertial
     if inertial is None or inertial.inertia is None:
         return None
-    slip = slip_of(link, inertial, six_of(inertial.inertia))
+    slip = slip_of(link, inertial, six_of(inertial.inertia), around.robot)
     if slip is None:
         return None
     return _rewritten(link, slip.tensor, f"write {_six_text(slip.tensor)}")

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
-from ...model.inertia_slips import Proposal, is_possible
+from ...model.inertia_slips import Proposal, is_possible, propose_moment
+from ...model.pose import pose_of
 from ...model.tensor3 import Six
+from ..mesh.outlines import reaches
 from ..rule import ERROR, WARNING, Problem, rule
 from .proposals import attributes_text, proposal_of
 from .tensors import SIX, is_zero, tensors
@@ -27,7 +30,7 @@ def inertia_component_slip(robot: Robot) -> Iterator[Problem]:
     they are fine.
     """
     for link, inertial, six in tensors(robot):
-        slip = slip_of(link, inertial, six)
+        slip = slip_of(link, inertial, six, robot)
         if slip is not None and slip.kind == "order":
             yield Problem(
                 link,
@@ -50,10 +53,11 @@ def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
     """One number of an inertia is off by a power of ten.
 
     As written no rigid body has the six; with the decimal point of just one of them moved, and in
-    one way only, a body of the link's size does.
+    one way only, a body of the link's size does. Where the link has a mesh or several shapes, a
+    moment is compared with those about the other two axes, in the proportions of the bounding box.
     """
     for link, inertial, six in tensors(robot):
-        slip = slip_of(link, inertial, six)
+        slip = slip_of(link, inertial, six, robot)
         if slip is not None and slip.kind == "decimal" and inertial.inertia is not None:
             value = slip.tensor[SIX.index(slip.name)]
             yield Problem(
@@ -64,14 +68,31 @@ def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
             )
 
 
-def slip_of(link: Link, inertial: Inertial, six: Six) -> Proposal | None:
+def slip_of(link: Link, inertial: Inertial, six: Six, robot: Robot) -> Proposal | None:
     """The slip that explains a tensor no body has, if it is one of these."""
     if is_zero(six, link.mass) or is_possible(six):
         return None
     proposal = proposal_of(link, inertial, six)
+    if proposal is None:
+        proposal = _moment_of_box(link, inertial, six, reaches(robot).link(link))
     if proposal is None or proposal.kind not in ("order", "decimal"):
         return None
     return proposal
+
+
+def _moment_of_box(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> Proposal | None:
+    """The one moment that is off by a power of ten, by the other two and the bounding box.
+
+    None where the axes of the inertial are oblique to those of the link.
+    """
+    rotation = pose_of(inertial.origin).rotation
+    if box is None or any(0.1 < abs(entry) < 0.9 for row in rotation for entry in row):
+        return None
+    x, y, z = (
+        sum(abs(part) * length for part, length in zip(column, box.size, strict=True))
+        for column in zip(*rotation, strict=True)
+    )
+    return propose_moment(link.mass, six, (x, y, z))
 
 
 @rule(

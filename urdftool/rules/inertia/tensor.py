@@ -42,7 +42,7 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
         moments = moments_of(six)
         if is_zero(six, link.mass) or is_positive(moments, tolerance):
             continue
-        if slip_of(link, inertial, six) is not None:
+        if slip_of(link, inertial, six, robot) is not None:
             continue
         yield Problem(
             link,
@@ -75,7 +75,7 @@ def inertia_triangle_inequality(
         moments = low, middle, high = moments_of(six)
         if low + middle >= high * (1 - rounding) or not is_positive(moments, tolerance):
             continue
-        if is_zero(six, link.mass) or slip_of(link, inertial, six) is not None:
+        if is_zero(six, link.mass) or slip_of(link, inertial, six, robot) is not None:
             continue
         yield Problem(
             link,
