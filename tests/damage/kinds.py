@@ -114,6 +114,7 @@ def factor_of(path: str, name: str, factor: float) -> Damage:
 
 for label, path, name, factor in (
     ("mass times ten", "inertial/mass", "value", 10),
+    ("mass times five", "inertial/mass", "value", 5),
     ("mass a tenth", "inertial/mass", "value", 0.1),
     ("mass in grams", "inertial/mass", "value", 1000),
     ("mass negative", "inertial/mass", "value", -1),

@@ -137,6 +137,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "implausible-mass",
             "implausible-density",
         ),
+        "density": ("mass-out-of-line",),
         "tensor": (
             "inertia-not-positive-definite",
             "inertia-triangle-inequality",

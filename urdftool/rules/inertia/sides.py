@@ -82,7 +82,10 @@ def _spread(link: Link) -> float:
     return sum(inertia.moments) if inertia is not None else 0.0
 
 
-@rule(WARNING, effects={"every simulator": "the center of mass of the robot is to one side"})
+@rule(
+    WARNING,
+    effects={"mujoco, pybullet, pinocchio": "the center of mass of the robot is to one side"},
+)
 def com_not_mirrored(
     robot: Robot, *, least: float = 0.002, similar: float = 0.1, clear: float = 0.05
 ) -> Iterator[Problem]:

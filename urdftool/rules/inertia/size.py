@@ -9,6 +9,7 @@ from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...model.tensor3 import Six
 from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
+from .density import outlier
 from .frame import about_com
 from .proposals import remedy_text
 from .solids import centre_of_solids, solid_moments, solid_text, spread_ratio
@@ -117,10 +118,13 @@ def inertia_below_geometry(robot: Robot, *, least: float = 0.12) -> Iterator[Pro
     box's that is let pass.
     """
     reach = reaches(robot)
+    heavy = outlier(robot)
     for link, inertial, six in tensors(robot):
         mass = link.mass
         if mass <= 0 or is_zero(six, mass) or not is_positive(moments_of(six)):
             continue
+        if heavy is not None and link is heavy.link:
+            continue  # the mass is reported
         box = reach.link(link)
         if box is None:
             continue
