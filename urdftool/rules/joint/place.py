@@ -16,6 +16,11 @@ from ..words import quoted
 
 _TURNING = ("revolute", "continuous")
 
+_TOUCHES = 1e-6
+"""Distance [m] at which an axis touches a link."""
+
+_GOLDEN = (math.sqrt(5) - 1) / 2
+
 
 class _Miss(NamedTuple):
     """How far the axis of a joint passes from the geometry of its two bodies [m]."""
@@ -95,7 +100,8 @@ def axis_misses_links(
 
 def _in_one_place(misses: list[_Miss], part: float, least: float, together: float) -> list[_Miss]:
     """Three or more joints in one place, whose axes all miss the link that they move."""
-    for miss in misses:
+    off = [miss for miss in misses if miss.is_off_child(part, least)]
+    for miss in off if len(off) >= 3 else ():
         group = [other for other in misses if math.dist(miss.place, other.place) <= together]
         if len(group) >= 3 and all(other.is_off_child(part, least) for other in group):
             return group
@@ -154,7 +160,7 @@ def _gap(
         if box is None or name not in poses:
             return None
         size = max(size, *box.size)
-        if best > 0:
+        if best > _TOUCHES:
             back = poses[name].inverse()
             best = min(
                 best, _distance(back.transform(place), rotate(back.rotation, way), box, best)
@@ -184,12 +190,9 @@ def _distance(place: Vector, way: Vector, box: Bounds, enough: float) -> float:
 
     low, high = at - radius, at + radius
     best = apart(at)
-    while best > 0 and high - low > 1e-6 * radius:
+    while best > _TOUCHES and high - low > 1e-4 * radius:
         one, other = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
         first, second = apart(one), apart(other)
         best = min(best, first, second)
         low, high = (low, other) if first <= second else (one, high)
     return best
-
-
-_GOLDEN = (math.sqrt(5) - 1) / 2
