@@ -16,7 +16,8 @@ PART = (
 SHAPE = '<collision><origin xyz="{}"/><geometry><box size="0.1 0.1 0.1"/></geometry></collision>'
 
 
-def found(write, *parts, base=SHAPE.format("0 0 0")):
+def found(write, *parts):
+    base = SHAPE.format("0 0 0")
     body = "".join(PART.format(*part) for part in parts)
     path = write("r.urdf", f"<robot name='r'><link name='base'>{base}</link>{body}</robot>")
     return check(path, select=("axis-misses-links",))
