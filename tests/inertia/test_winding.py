@@ -58,4 +58,5 @@ def test_sampled_sphere():
 
 
 def test_nothing_inside():
-    assert sampled_moments(np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0.1]]]), 2000) is None
+    one = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0.1]]])
+    assert sampled_moments(one, 2000, caps=one[:, ::-1]) is None

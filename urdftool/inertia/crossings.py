@@ -15,7 +15,7 @@ import numpy.typing as npt
 from .tensor import Array
 
 STRIPS = 160
-"""Into which the points are sorted, seen from above."""
+"""The most into which the points are sorted, seen from above."""
 
 _AT_ONCE = 500_000
 
@@ -33,16 +33,20 @@ def crossing_numbers(points: Array, corners: Array) -> Array:
         corners: The triangles [m], shape (m, 3, 3), counterclockwise seen from outside.
     """
     low, high = points.min(axis=0), points.max(axis=0)
-    height = max(float(high[1] - low[1]) / STRIPS, 1e-300)
+    least, most = corners.min(axis=1), corners.max(axis=1)
+    near = ((most >= low) & (least[:, :2] <= high[:2]).all(axis=1)[:, None]).all(axis=1)
+    corners = corners[near]
+    strips = min(STRIPS, max(1, int(1.3 * len(points) ** 0.5)))
+    height = max(float(high[1] - low[1]) / strips, 1e-300)
     width = 1.001 * max(float(high[0] - low[0]), 1e-300)
-    strip = np.minimum((points[:, 1] - low[1]) / height, STRIPS - 1).astype(np.int64)
+    strip = np.minimum((points[:, 1] - low[1]) / height, strips - 1).astype(np.int64)
     key = strip * width + (points[:, 0] - low[0])
     order = np.argsort(key, kind="stable")
     key, points = key[order], points[order]
     numbers = np.zeros(len(points))
     x = corners[:, :, 0] - low[0]
     y = (corners[:, :, 1] - low[1]) / height
-    for triangle, row in _strips_of(y):
+    for triangle, row in _strips_of(y, strips):
         left, right = _span(x[triangle], y[triangle], row)
         slack = 1e-9 * width
         meets = (left <= width) & (right >= -slack)
@@ -57,12 +61,12 @@ def crossing_numbers(points: Array, corners: Array) -> Array:
     return result
 
 
-def _strips_of(y: Array) -> Iterator[tuple[_Numbers, _Numbers]]:
+def _strips_of(y: Array, strips: int) -> Iterator[tuple[_Numbers, _Numbers]]:
     """Each triangle with each strip that it reaches into, many at a time."""
     lowest, highest = y.min(axis=1), y.max(axis=1)
-    first = np.clip(np.floor(lowest), 0, STRIPS - 1).astype(np.int64)
-    last = np.clip(np.floor(highest), 0, STRIPS - 1).astype(np.int64)
-    counts = np.where((highest < 0) | (lowest > STRIPS), 0, last - first + 1)
+    first = np.clip(np.floor(lowest), 0, strips - 1).astype(np.int64)
+    last = np.clip(np.floor(highest), 0, strips - 1).astype(np.int64)
+    counts = np.where((highest < 0) | (lowest > strips), 0, last - first + 1)
     yield from _ranges(first, counts)
 
 

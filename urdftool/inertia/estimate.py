@@ -218,7 +218,7 @@ def _nesting_notes(nesting: Nesting) -> list[str]:
 
 def _without_overlap(corners: Array, summed: Moments, notes: list[str]) -> _Solid:
     """The union of bodies that reach into each other, or their sum where it hardly differs."""
-    halves = sampled_moments(corners, closed=True)
+    halves = sampled_moments(corners)
     if halves is None:
         return _Solid(summed, "exact", 1.0, False, (*notes, "Bodies overlap by an unknown amount."))
     union, noise = _average(*halves)
@@ -273,13 +273,20 @@ def _mended(points: Points, faces: Faces) -> _Solid:
         if error <= ACCEPTED_ERROR:
             method = "repaired" if filled.method == "exact" else filled.method
             return _Solid(filled.moments, method, error, filled.reliable, (*notes, *filled.notes))
-    return _sampled(points[wound], filled, filling, opening, notes) or _hull(points, notes)
+    caps = filling.vertices[filling.faces[len(wound) :]]
+    found = _sampled(points[wound], caps, filled, filling, opening, notes)
+    return found or _hull(points, notes)
 
 
 def _sampled(
-    corners: Array, filled: _Solid | None, filling: Filling, opening: float, notes: list[str]
+    corners: Array,
+    caps: Array,
+    filled: _Solid | None,
+    filling: Filling,
+    opening: float,
+    notes: list[str],
 ) -> _Solid | None:
-    halves = sampled_moments(corners)
+    halves = sampled_moments(corners, caps=caps)
     if halves is None:
         return None
     moments, noise = _average(*halves)

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from .crossings import crossing_numbers
 from .sampling import spread_points
 from .tensor import Array
 from .winding import Boxes, boxes_of, winding_numbers
@@ -95,9 +96,8 @@ def _relation(
     outer: int, inner: int, corners: list[Array], low: Array, high: Array, boxes: dict[int, Boxes]
 ) -> str:
     """``"within"``, ``"overlap"`` or ``"apart"``, of two bodies whose bounding boxes meet."""
-    for body in (outer, inner):
-        if body not in boxes:
-            boxes[body] = boxes_of(corners[body])
+    if outer not in boxes:
+        boxes[outer] = boxes_of(corners[outer])
     points = corners[inner].reshape(-1, 3)
     probes = points[:: max(1, len(points) // PROBES)]
     number = np.abs(winding_numbers(probes, boxes[outer]))
@@ -110,7 +110,6 @@ def _relation(
     shared_low = np.maximum(low[outer], low[inner])
     shared_high = np.minimum(high[outer], high[inner])
     points = spread_points(256, shared_low, shared_high)
-    both = np.minimum(
-        np.abs(winding_numbers(points, boxes[outer])), np.abs(winding_numbers(points, boxes[inner]))
-    )
-    return "overlap" if np.count_nonzero(both > 0.9) > 1 else "apart"
+    for body in (inner, outer):
+        points = points[crossing_numbers(points, corners[body]) != 0] if len(points) else points
+    return "overlap" if len(points) > 1 else "apart"

@@ -38,7 +38,7 @@ def review(
     check_masses(masses, [link.name for link in robot.links])
     found = [LinkReview(link) for link in robot.links]
     meshes = Meshes(read_meshes)
-    _find_bodies(found, meshes, source)
+    find_bodies(found, meshes, source)
     for item in found:
         read_written(item)
     plan = weigh(
@@ -55,8 +55,14 @@ def review(
     return [item for item in found if not only or item.link.name in only]
 
 
-def _find_bodies(found: list[LinkReview], meshes: Meshes, source: str | None) -> None:
-    """The body of each link from the source that is wanted; the meshes of all read in one go."""
+def find_bodies(found: list[LinkReview], meshes: Meshes, source: str | None = None) -> None:
+    """Set the body of each link, from one source; the meshes of all are read in one go.
+
+    Args:
+        found: The links.
+        meshes: The meshes that are known, to which the others are added.
+        source: As for :func:`review`.
+    """
     for name in (source,) if source else SOURCES:
         todo = [
             item

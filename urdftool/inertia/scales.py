@@ -7,14 +7,16 @@ from typing import Any
 
 from ..errors import UrdftoolError
 from ..model.elements import Robot
-from .masses import Masses
-from .mesh_files import read_meshes
-from .review import review
+from ..source.description import Description
+from .bodies import weighed
+from .link_review import LinkReview
+from .mesh_files import Meshes, read_meshes
+from .review import find_bodies
 from .tensor import six_numbers
 
 
 class Scales:
-    """Weighs links at one density; a mesh is read once, however often it is asked for."""
+    """Weighs links at one density; a mesh file is read once, whichever robots name it."""
 
     def __init__(self, density: float) -> None:
         """Weigh at a density [kg/m³]."""
@@ -22,29 +24,45 @@ class Scales:
         self.known: dict[tuple[str, str], Any] = {}
 
     def __call__(self, robot: Robot, names: Sequence[str]) -> dict[str, tuple[float, Any, Any]]:
-        """Mass, centre and tensor of links, in the link frame."""
+        """Compute mass [kg], center of mass [m] and tensor [kg·m²] of links, in the link frame.
+
+        Args:
+            robot: The robot, read from a description.
+            names: The links; one whose shapes do not say what it encloses is not in the result.
+        """
         description = robot.source
         assert description is not None
 
         def read(wanted: Sequence[str]) -> dict[str, Any]:
-            new = [name for name in wanted if (description.path, name) not in self.known]
+            keys = {name: _key(description, name) for name in wanted}
+            new = [name for name in wanted if keys[name] not in self.known]
             for name, body in read_meshes(description, new, jobs=1).items():
-                self.known[description.path, name] = body
-            return {name: self.known[description.path, name] for name in wanted}
+                self.known[keys[name]] = body
+            return {name: self.known[keys[name]] for name in wanted}
 
-        links = [robot.link[name] for name in names]
-        return _weighed(Robot(robot.element, robot.name, links=links), read, self.density)
+        found = [LinkReview(robot.link[name]) for name in names]
+        weights: dict[str, tuple[float, Any, Any]] = {}
+        try:
+            find_bodies(found, Meshes(read))
+            for item in found:
+                body = item.body
+                if body is None or not body.complete or not body.volume > 0:
+                    continue
+                whole = weighed(body.unit, "link", density=self.density)
+                center = tuple(float(part) for part in whole.com)
+                weights[item.link.name] = (
+                    whole.mass,
+                    center,
+                    tuple(six_numbers(whole.inertia).values()),
+                )
+        except UrdftoolError:
+            return {}
+        return weights
 
 
-def _weighed(robot: Robot, read: Any, density: float) -> dict[str, tuple[float, Any, Any]]:
+def _key(description: Description, name: str) -> tuple[str, str]:
+    """The file that a name means with how it is read; where there is none, the name itself."""
     try:
-        found = review(robot, read, masses=Masses(density=density, anew=True))
+        return str(description.resolve(name)), description.gltf_up
     except UrdftoolError:
-        return {}
-    weighed = {}
-    for item in found:
-        body = item.implied
-        if body is not None and item.body is not None and item.body.complete and body.mass > 0:
-            centre = tuple(float(part) for part in body.com)
-            weighed[item.link.name] = body.mass, centre, tuple(six_numbers(body.inertia).values())
-    return weighed
+        return description.path, name
