@@ -241,6 +241,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "resolution": ("package-not-found",),
         "manifest": (
             "undeclared-mesh-dependency",
+            "dependency-circle",
             "directory-not-installed",
             "gazebo-path-not-exported",
             "wrong-package-in-uri",

@@ -8,6 +8,7 @@ from ...errors import PackageNotFound
 from ...source.document import Document, Element
 from ...source.nearby import document_at, file_at
 from ...source.packages import own_package
+from ..package.dependencies import way_between
 from ..rule import Problem
 from .proposal import Around, Change, Proposal, Span, after, first, insert, safe, unsafe
 
@@ -15,34 +16,48 @@ _MODEL_PATH = '<gazebo_ros gazebo_model_path="${prefix}/.."/>'
 
 
 def undeclared_mesh_dependency(problem: Problem, around: Around) -> Proposal | None:
-    """A dependency, behind those that are there; a package that is not found is not declared."""
+    """Declare the dependency, behind those that are there.
+
+    A package that is not found is not declared, and neither is one that depends on this one: that
+    would close a circle.
+    """
     match = re.match(r"package '([\w-]+)'", problem.message)
     manifest = _manifest(around)
-    if match is None or manifest is None:
+    own, packages = own_package(around.description.packages.file), around.description.packages
+    if match is None or manifest is None or own is None:
         return None
     try:
-        around.description.packages.find(match[1])
+        packages.find(match[1])
     except PackageNotFound:
+        return None
+    if way_between(match[1], own[0], packages, conditional=True):
         return None
     tag = _run_tag(manifest.root)
     return safe(f"add <{tag}>{match[1]}</{tag}> to package.xml", _depends(manifest.root, match[1]))
 
 
 def gazebo_path_not_exported(problem: Problem, around: Around) -> Proposal | None:
-    """An export; with catkin also the dependency without which it is not looked at."""
+    """Export the path.
+
+    With catkin the export is looked at only in a package that depends on gazebo_ros, and a
+    description does not become one that needs Gazebo to be built and installed unasked.
+    """
     manifest = _manifest(around)
     if manifest is None:
         return None
-    root, changes = manifest.root, list[Change]()
-    words = {child.text.strip() for child in root.children if child.tag.endswith("depend")}
-    if "catkin" in words and "gazebo_ros" not in words:
-        changes.append(_depends(root, "gazebo_ros"))
-    export = root.child("export")
+    root, export = manifest.root, manifest.root.child("export")
     if export is not None:
-        changes.append(insert(export, _MODEL_PATH))
+        change = insert(export, _MODEL_PATH)
     else:
-        changes.append(insert(root, "<export>", f"\t{_MODEL_PATH}", "</export>"))
-    return safe("export the path in package.xml", *changes)
+        change = insert(root, "<export>", f"\t{_MODEL_PATH}", "</export>")
+    words = {child.text.strip() for child in root.children if child.tag.endswith("depend")}
+    if "catkin" not in words or "gazebo_ros" in words:
+        return safe("export the path in package.xml", change)
+    return unsafe(
+        "export the path in package.xml, and depend on gazebo_ros",
+        _depends(root, "gazebo_ros"),
+        change,
+    )
 
 
 def _manifest(around: Around) -> Document | None:

@@ -7,7 +7,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from ...model.elements import Robot
+from ...errors import PackageNotFound
+from ...model.elements import Link, Robot
 from ...source.description import Description
 from ...source.document import Element, copy_of
 from ...source.location import Place
@@ -15,6 +16,7 @@ from ...source.packages import own_package
 from ..mesh.uses import MeshUse, Stamp, mesh_uses, stamp
 from ..rule import ERROR, INFO, ROS, WARNING, Problem, rule
 from ..words import quoted
+from .dependencies import way_between
 from .resolution import is_in_own_package
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
@@ -54,23 +56,80 @@ def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterat
     """A package that is used is not a dependency of this one.
 
     ``package://NAME/`` and ``$(find NAME)`` want that package to be installed, and ``package.xml``
-    does not say so. It works where the package happens to be.
+    does not say so. It works where the package happens to be. Where that package depends on this
+    one, ``dependency-circle`` says so instead.
     """
     own = own_package(description.packages.file)
     if own is None:
         return
-    declared = set(_DEPEND.findall(_manifest(own[1])))
-    told = {own[0], *declared}
+    declared = _declared(own[1])
+    for name, subject, at in _used_packages(robot, description, own):
+        if name not in declared and not way_between(name, own[0], description.packages):
+            yield Problem(
+                subject,
+                f"package '{name}' is used and is not a dependency of '{own[0]}'; "
+                f"write <exec_depend>{name}</exec_depend> into its package.xml",
+                at=at,
+            )
+
+
+@rule(
+    WARNING,
+    on=ROS,
+    effects={"colcon": "builds nothing: unable to order packages topologically"},
+)
+def dependency_circle(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A package that is used depends on this one.
+
+    colcon builds each package after those it depends on, whether for the build, the run or a test.
+    In a circle there is no such order, and colcon stops before it builds anything. As long as
+    ``package.xml`` does not name the package that is used, it builds, and the files are there only
+    where that package happens to be. Files that two packages use belong in the one that the other
+    depends on, or in a third.
+    """
+    own = own_package(description.packages.file)
+    if own is None:
+        return
+    declared = _declared(own[1])
+    for name, subject, at in _used_packages(robot, description, own):
+        way = way_between(name, own[0], description.packages)
+        if not way:
+            continue
+        chain = ", which depends on ".join(f"'{step}'" for step in way[1:])
+        fact = f"package '{name}' is used and depends on {chain}"
+        if name in declared:
+            yield Problem(
+                subject,
+                f"{fact}, and '{own[0]}' depends on it; colcon cannot order the packages. "
+                "Move the files that are used",
+                at=at,
+                severity=ERROR,
+            )
+        else:
+            yield Problem(
+                subject,
+                f"{fact}; as a dependency of '{own[0]}' it would close a circle. "
+                "Move the files that are used",
+                at=at,
+            )
+
+
+def _declared(folder: Path) -> set[str]:
+    """The dependencies in a package's manifest."""
+    return set(_DEPEND.findall(_manifest(folder)))
+
+
+def _used_packages(
+    robot: Robot, description: Description, own: tuple[str, Path]
+) -> Iterator[tuple[str, Robot | Link, Place]]:
+    """Find the other packages that a description uses, each where it is named first."""
+    told = {own[0]}
     for use in mesh_uses(robot, description):
         name = _package_of(use)
         if name and name not in told and not is_in_own_package(use, description):
             told.add(name)
-            yield Problem(
-                use.link,
-                f"package '{name}' is used and is no dependency of '{own[0]}'; "
-                f"write <exec_depend>{name}</exec_depend> into its package.xml",
-                at=use.mesh.element.attribute_place("filename"),
-            )
+            if not _is_itself(name, own[1], description):
+                yield name, use.link, use.mesh.element.attribute_place("filename")
     first = description.files[0]
     for match in _FIND.finditer(first.data):
         name = match[1].decode("ascii")
@@ -78,12 +137,18 @@ def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterat
         if name in told or (b"-->" not in line and b"<!--" in first.data[: match.start()]):
             continue
         told.add(name)
-        yield Problem(
-            robot,
-            f"package '{name}' is used and is no dependency of '{own[0]}'; "
-            f"write <exec_depend>{name}</exec_depend> into its package.xml",
-            at=Place(first, match.start(), match.end()),
-        )
+        if not _is_itself(name, own[1], description):
+            yield name, robot, Place(first, match.start(), match.end())
+
+
+def _is_itself(name: str, folder: Path, description: Description) -> bool:
+    """Tell whether a name means the description's own package, whose folder is called so."""
+    if name != folder.name:
+        return False
+    try:
+        return os.path.samefile(description.packages.find(name), folder)
+    except (PackageNotFound, OSError):
+        return False
 
 
 def _package_of(use: MeshUse) -> str:

@@ -1,0 +1,54 @@
+"""How packages depend on each other, by their manifests."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...errors import PackageNotFound
+from ...source.document import Element
+from ...source.nearby import document_at
+from ...source.packages import Packages
+
+_MOST_PACKAGES = 2000
+
+
+def way_between(
+    start: str, goal: str, packages: Packages, *, conditional: bool = False
+) -> tuple[str, ...]:
+    """Find how one package depends on another, over as few others as possible.
+
+    Args:
+        start: The package that depends.
+        goal: The package that it may depend on.
+        packages: Finds packages; one that is not found depends on nothing.
+        conditional: Whether dependencies with a ``condition`` count as well.
+
+    Returns:
+        The packages from ``start`` to ``goal``; none where there is no way.
+    """
+    ways = {start: (start,)}
+    todo = [start]
+    while todo and len(ways) < _MOST_PACKAGES:
+        name = todo.pop(0)
+        try:
+            folder = packages.find(name)
+        except PackageNotFound:
+            continue
+        for element in _depend_elements(folder):
+            other = element.text.strip()
+            if other in ways or (element.get("condition") is not None and not conditional):
+                continue
+            ways[other] = (*ways[name], other)
+            if other == goal:
+                return ways[other]
+            todo.append(other)
+    return ()
+
+
+def _depend_elements(folder: Path) -> list[Element]:
+    """List the dependencies in a package's manifest."""
+    document = document_at(folder / "package.xml")
+    if document is None or document.root.tag != "package":
+        return []
+    children = document.root.children
+    return [one for one in children if one.tag.endswith("depend") and one.text.strip()]
