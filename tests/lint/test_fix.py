@@ -25,7 +25,8 @@ ROBOT = """<?xml version="1.0"?>
 """
 LONG = ROBOT.format(axis="0 0 2", dynamics="")
 UNIT = ROBOT.format(axis="0 0 1", dynamics="")
-ONLY = ("--select", "axis-not-unit", "--no-cache")
+SHOWN = ("--select", "axis-not-unit", "--no-cache")
+ONLY = (*SHOWN, "--unsafe-fixes")
 
 WHEEL = """<xacro:macro name="wheel" params="name axis">
   <link name="${name}"/>
@@ -47,7 +48,9 @@ def wheels(axis, second="2"):
 
 def test_what_is_fixed_is_said_and_the_rest_reported(write, urdftool):
     path = write("r.urdf", LONG)
-    result = urdftool("lint", path, "--fix", "--select", "axis-not-unit,missing-base-link")
+    result = urdftool(
+        "lint", path, "--fix", "--unsafe-fixes", "--select", "axis-not-unit,missing-base-link"
+    )
     assert Path(path).read_text() == UNIT
     assert result.err.startswith("Fixed 1 in 1 file: axis-not-unit × 1\n")
     assert "[missing-base-link]" in result.out
@@ -83,7 +86,9 @@ def test_standard_input_is_fixed_to_standard_output(monkeypatch, urdftool):
     import sys
 
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(LONG.encode())))
-    result = urdftool("lint", "-", "--fix", "--select", "axis-not-unit,missing-base-link")
+    result = urdftool(
+        "lint", "-", "--fix", "--unsafe-fixes", "--select", "axis-not-unit,missing-base-link"
+    )
     assert result.out == UNIT
     assert "[missing-base-link]" in result.err
 
@@ -302,7 +307,7 @@ def test_a_fix_that_breaks_is_a_bug_of_ours(write, urdftool, monkeypatch):
 def test_what_cannot_be_read_is_mended_until_it_can(write, urdftool):
     text = "<!-- a -- b -->\n" + LONG.replace("<link", "<!-- c -- d -->\n  <link", 1)
     path = write("r.urdf", text)
-    assert urdftool("lint", path, "--fix", "--no-cache").code == 0
+    assert urdftool("lint", path, "--fix", "--unsafe-fixes", "--no-cache").code == 0
     mended = Path(path).read_text()
     assert mended.startswith('<?xml version="1.0"?>\n<!-- a - - b -->\n<robot')
     assert '<axis xyz="0 0 1"/>' in mended
@@ -310,10 +315,10 @@ def test_what_cannot_be_read_is_mended_until_it_can(write, urdftool):
 
 def test_json_says_what_would_be_written_where(write, urdftool):
     path = write("r.urdf", LONG)
-    found = json.loads(urdftool("lint", path, "--format", "json", *ONLY).out)
+    found = json.loads(urdftool("lint", path, "--format", "json", *SHOWN).out)
     (finding,) = found["findings"]
     assert finding["fix"] == {
-        "applicability": "safe",
+        "applicability": "unsafe",
         "message": 'write xyz="0 0 1"',
         "edits": [
             {
@@ -328,9 +333,16 @@ def test_json_says_what_would_be_written_where(write, urdftool):
 
 def test_the_report_for_people_says_how_to_apply_it(write, urdftool):
     path = write("r.urdf", LONG)
-    assert '= fix: write xyz="0 0 1" (--fix)\n' in urdftool("lint", path, *ONLY).out
-    assert "axis-not-unit (fix: safe)" in urdftool("lint", path, *ONLY, "--statistics").out
-    assert "Fix: safe (--fix)" in urdftool("lint", "--explain", "axis-not-unit").out
+    out = urdftool("lint", path, *SHOWN).out
+    assert '= fix: write xyz="0 0 1" (--fix --unsafe-fixes)\n' in out
+    assert "axis-not-unit (fix: unsafe)" in urdftool("lint", path, *SHOWN, "--statistics").out
+    assert (
+        "Fix: unsafe (--fix --unsafe-fixes)" in urdftool("lint", "--explain", "axis-not-unit").out
+    )
+    path = write("r.urdf", ROBOT.format(axis="0 0 1", dynamics="<dynamics/>"))
+    words = ("--select", "empty-dynamics", "--no-cache")
+    assert "= fix: take the empty <dynamics> out (--fix)\n" in urdftool("lint", path, *words).out
+    assert "Fix: safe (--fix)" in urdftool("lint", "--explain", "empty-dynamics").out
     assert "[fix: safe or unsafe]" in urdftool("lint", "--list-rules").out
 
 
@@ -354,13 +366,14 @@ def test_nothing_is_weighed_by_meshes_of_doubtful_size(tmp_path, urdftool):
     ],
 )
 def test_no_safe_fix_takes_a_comment_away(write, urdftool, comment, goes):
-    dynamics = f"<dynamics><damping>0.1</damping>{comment}</dynamics>"
-    path = write("r.urdf", ROBOT.format(axis="0 0 1", dynamics=dynamics))
-    only = ("--select", "dynamics-as-child-elements", "--no-cache", "--exit-zero")
+    limit = f'<limit effort="1">{comment}</limit>'
+    text = ROBOT.format(axis="0 0 1", dynamics=limit).replace("continuous", "fixed")
+    path = write("r.urdf", text.replace('<axis xyz="0 0 1"/>', ""))
+    only = ("--select", "redundant-on-fixed", "--no-cache", "--exit-zero")
     urdftool("lint", path, "--fix", *only)
-    assert (dynamics not in Path(path).read_text()) == goes
+    assert (limit not in Path(path).read_text()) == goes
     urdftool("lint", path, "--fix", "--unsafe-fixes", *only)
-    assert '<dynamics damping="0.1"/>' in Path(path).read_text()
+    assert "<limit" not in Path(path).read_text()
 
 
 def test_comments_are_rewritten_only_when_asked_for(write, urdftool):

@@ -111,6 +111,6 @@ def _proposal(finding: Finding, origin: Origin | None, around: Around) -> Propos
     if origin is None:
         found = fixer(finding)
     else:
-        around.document = origin.document
+        around.document, around.severity = origin.document, finding.severity
         found = fixer(origin.problem, around)
     return found

@@ -178,6 +178,18 @@ class Packages:
             rule="package-not-found",
         )
 
+    def neighbors(self) -> list[Path]:
+        """List the folders of the packages around the file, its own first.
+
+        Outside of a package that is the folder of the file.
+        """
+        own = own_package(self.file)
+        if own is None:
+            return [self.file.parent]
+        roots = self._workspace_roots(own[1])
+        beside = [folder for root in roots for folder in packages_below(root).values()]
+        return list(dict.fromkeys([own[1], *beside]))
+
     def folder_with(self, name: str, inner: str) -> Path | None:
         """A folder around the file or beside it, or a package near, that has a file at this path.
 

@@ -145,9 +145,9 @@ def ros2_control_unknown_joint(problem: Problem, around: Around) -> Proposal | N
 
 
 def ros2_control_fixed_joint(problem: Problem, around: Around) -> Proposal | None:
-    """Gone."""
+    """Remove the joint, whose states ROS before Jazzy reports."""
     element = element_at(problem)
-    return safe("take the joint out", remove(element)) if element is not None else None
+    return unsafe("take the joint out", remove(element)) if element is not None else None
 
 
 def ros2_control_mimic(problem: Problem, around: Around) -> Proposal | None:
@@ -160,7 +160,7 @@ def ros2_control_mimic(problem: Problem, around: Around) -> Proposal | None:
 
 
 def ros2_control_legacy_mimic_param(problem: Problem, around: Around) -> Proposal | None:
-    """The ``<mimic>`` of the URDF instead."""
+    """Leave it to the ``<mimic>`` of the URDF, which ROS before Jazzy does not read here."""
     param = element_at(problem)
     part = param.parent if param is not None else None
     joint = around.robot.joint.get(part.get("name") or "") if part is not None else None
@@ -179,7 +179,7 @@ def ros2_control_legacy_mimic_param(problem: Problem, around: Around) -> Proposa
         return unsafe("write <mimic> into the joint", *changes)
     if joint.mimic.joint != leader:
         return None
-    return safe("take it out: the joint has its <mimic>", *changes)
+    return unsafe("take it out: the joint has its <mimic>", *changes)
 
 
 def ros2_control_duplicate_interface(problem: Problem, around: Around) -> Proposal | None:
@@ -233,8 +233,9 @@ def ros2_control_invalid_tag(problem: Problem, around: Around) -> Proposal | Non
 
 
 def ros2_control_nested(problem: Problem, around: Around) -> Proposal | None:
-    """Directly in the robot."""
+    """Move it up into the robot; where another is there, the hardware is one more from then on."""
     element = problem.element
+    make = unsafe if around.robot.element.child("ros2_control") is not None else safe
     top: Element = element
     while top.parent is not None and top.parent is not around.robot.element:
         top = top.parent
@@ -242,8 +243,8 @@ def ros2_control_nested(problem: Problem, around: Around) -> Proposal | None:
         return None
     alone = element.parent is top and len(top.children) == 1 and top.tag == "gazebo"
     if alone and not top.attributes:
-        return safe("move it up", replace(top, tuple(lines_of(element))))
-    return safe("move it up", remove(element), after(top, *lines_of(element)))
+        return make("move it up", replace(top, tuple(lines_of(element))))
+    return make("move it up", remove(element), after(top, *lines_of(element)))
 
 
 def ros2_control_wrong_sim_plugin(problem: Problem, around: Around) -> Proposal | None:

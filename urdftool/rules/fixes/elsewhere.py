@@ -5,7 +5,9 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Collection, Iterator
+from pathlib import Path
 
+from ...inputs import Remembered
 from ...source.nearby import bytes_of
 from ...source.packages import own_package, shown_path
 from .proposal import Around, RefusedError
@@ -47,10 +49,66 @@ def check_alone(around: Around, word: str, *, robots: bool, but: Collection[str]
             raise RefusedError(f"{shown_path(path)} names '{word}', too")
 
 
+_INCLUDE = re.compile(rb"<(?:\w+:)?include\b[^>]*?filename\s*=\s*[\"']([^\"']*)[\"']")
+
+
+def check_not_included(around: Around) -> None:
+    """Make sure that no other robot includes the description, which would get what is added.
+
+    The packages of its workspace are looked at. A gripper that is a robot by itself for tests is
+    part of an arm in another package.
+
+    Args:
+        around: The robot and its description.
+
+    Raises:
+        RefusedError: One does.
+    """
+    file = around.description.packages.file
+    own = own_package(file)
+    for folder in around.description.packages.neighbors():
+        for user, said in _included(str(folder)).get(file.name, ()):
+            found = _FIND.match(said)
+            if found is not None:
+                is_this = own is not None and found[1] == own[0]
+            else:
+                there = os.path.join(os.path.dirname(user), said)
+                is_this = "$" in said or os.path.realpath(there) == os.path.realpath(file)
+            if is_this:
+                raise RefusedError(
+                    f"{shown_path(user)} includes {file.name}, and would get it as well"
+                )
+
+
+_FIND = re.compile(r"\$\(find\s+([\w.-]+)\s*\)")
+
+
+@Remembered
+def _included(folder: str) -> dict[str, list[tuple[str, str]]]:
+    """List what xacro files below a folder include, by file name: who does, and in which words."""
+    found: dict[str, list[tuple[str, str]]] = {}
+    for number, path in enumerate(_below(folder)):
+        if number >= _MOST_FILES:
+            break
+        if not path.endswith((".xacro", ".urdf")):
+            continue
+        try:
+            data = Path(path).read_bytes()[:_MOST_BYTES]
+        except OSError:
+            continue
+        for match in _INCLUDE.finditer(data):
+            said = match[1].decode("utf-8", "replace").strip()
+            found.setdefault(said.rpartition("/")[2], []).append((path, said))
+    return found
+
+
 def _files(around: Around) -> Iterator[str]:
     """The files of the description's package, or of its folder."""
     own = own_package(around.description.packages.file)
-    root = own[1] if own is not None else around.description.packages.file.parent
+    yield from _below(own[1] if own is not None else around.description.packages.file.parent)
+
+
+def _below(root: str | Path) -> Iterator[str]:
     for where, folders, files in os.walk(root):
         folders[:] = sorted(folder for folder in folders if not folder.startswith("."))
         for file in sorted(files):

@@ -9,6 +9,7 @@ from ..gazebo.keywords import JOINT_KEYWORDS, LINK_KEYWORDS, NOT_IN_GZ, SURFACE
 from ..gazebo.sensors import without_frame
 from ..gazebo.tags import _colours, _shows_colour
 from ..rule import Problem
+from .elsewhere import check_not_included
 from .proposal import (
     Around,
     Change,
@@ -272,7 +273,7 @@ def lumped_flag_leaks(problem: Problem, around: Around) -> Proposal | None:
 
 
 def named_geometry_loses_extensions(problem: Problem, around: Around) -> Proposal | None:
-    """With the name of its link in front, where nothing names it."""
+    """Put the name of its link in front, where nothing names it; friction applies from then on."""
     found = attribute_at(problem)
     link = around.link(problem)
     if found is None:
@@ -282,7 +283,7 @@ def named_geometry_loses_extensions(problem: Problem, around: Around) -> Proposa
     if name in around.texts:
         return None
     new = f"{link.name}_{name}"
-    return safe(f"call it '{new}'", put(element, attribute, new))
+    return unsafe(f"call it '{new}'", put(element, attribute, new))
 
 
 def lumped_link_referenced(problem: Problem, around: Around) -> Proposal | None:
@@ -295,13 +296,14 @@ def lumped_link_referenced(problem: Problem, around: Around) -> Proposal | None:
 
 
 def root_not_anchored(problem: Problem, around: Around) -> Proposal | None:
-    """A link ``world``, and a fixed joint to it."""
+    """Add a link ``world`` and a fixed joint to it, where no other robot includes the arm."""
     robot = around.robot
     root = robot.tree.root
     if root is None or "world" in robot.link or "world_joint" in robot.joint:
         return None
     if is_computed(root.element):
         return None
+    check_not_included(around)
     blocks = (
         ('<link name="world"/>',),
         (
@@ -315,9 +317,13 @@ def root_not_anchored(problem: Problem, around: Around) -> Proposal | None:
 
 
 def missing_control_plugin(problem: Problem, around: Around) -> Proposal | None:
-    """One that reports the joints in new Gazebo; that of ros_control in Gazebo Classic."""
+    """Add one that reports the joints in new Gazebo; that of ros_control in Gazebo Classic.
+
+    An end effector that another robot includes is driven by the plugin of that robot.
+    """
     if {"gz", "gazebo-classic"} <= around.targets:
         return None
+    check_not_included(around)
     if "gz" not in around.targets:
         if not around.robot.transmissions:
             return None
@@ -340,12 +346,12 @@ def unknown_sensor_type(problem: Problem, around: Around) -> Proposal | None:
 
 
 def cpu_ray_in_gz(problem: Problem, around: Around) -> Proposal | None:
-    """The one of the graphics card."""
+    """Write the one of the graphics card, which Gazebo Classic does not know."""
     sensor = problem.element
     changes = [put(sensor, "type", "gpu_lidar")]
     if sensor.child("lidar") is None:
         changes += [retag(child, "lidar") for child in sensor.all("ray")]
-    return safe("write gpu_lidar", *changes)
+    return unsafe("write gpu_lidar", *changes)
 
 
 def ros_plugin_inside_sensor(problem: Problem, around: Around) -> Proposal | None:

@@ -15,6 +15,7 @@ from ..inertia.solids import _only_shape, box_of, solid_tensor, solid_volume
 from ..inertia.tensors import SIX, is_zero, six_of
 from ..mesh.outlines import reaches
 from ..rule import Problem
+from .elsewhere import check_not_included
 from .proposal import (
     Around,
     Change,
@@ -27,7 +28,6 @@ from .proposal import (
     is_computed,
     put,
     quote,
-    remove,
     safe,
     unsafe,
 )
@@ -135,17 +135,6 @@ def incomplete_inertial(problem: Problem, around: Around) -> Proposal | None:
     return unsafe(f"write {zeros}", *(put(inertia, name, "0") for name in missing))
 
 
-def zero_mass(problem: Problem, around: Around) -> Proposal | None:
-    """A frame on a fixed joint needs no inertial."""
-    link = around.link(problem)
-    joint = around.robot.tree.parent_joint(link.name)
-    if link.inertial is None or link.visuals or link.collisions:
-        return None
-    if joint is None or not joint.is_fixed or around.robot.extensions.get(link.name):
-        return None
-    return safe("take the <inertial> of the frame out", remove(link.inertial.element))
-
-
 def negative_mass(problem: Problem, around: Around) -> Proposal | None:
     """Without its sign."""
     found = attribute_at(problem)
@@ -242,7 +231,10 @@ def placeholder_inertia(problem: Problem, around: Around) -> Proposal | None:
 
 
 def inertia_triangle_inequality_rounding(problem: Problem, around: Around) -> Proposal | None:
-    """A little more about every axis: the excess on each moment, which keeps the principal axes."""
+    """Add the excess to each moment, which keeps the principal axes.
+
+    However small it is, PyBullet reads a tensor that breaks the inequality as zero.
+    """
     link = around.link(problem)
     inertial = link.inertial
     if inertial is None or inertial.inertia is None:
@@ -262,9 +254,7 @@ def inertia_triangle_inequality_rounding(problem: Problem, around: Around) -> Pr
         return None
     element = inertial.inertia.element
     changes = [put(element, SIX[i], f"{new[i]:.10g}") for i in (0, 3, 5)]
-    small = excess < 1e-4 * high
-    make = safe if small else unsafe
-    return make(f"make each moment {factor * excess:.1g} larger", *changes)
+    return unsafe(f"make each moment {factor * excess:.1g} larger", *changes)
 
 
 def inertia_component_slip(problem: Problem, around: Around) -> Proposal | None:
@@ -335,6 +325,7 @@ def root_link_has_inertia(problem: Problem, around: Around) -> Proposal | None:
         return None
     if around.targets & {"moveit"}:
         return None  # the virtual joint and the groups of the SRDF name the root
+    check_not_included(around)
     changes: tuple[Change, ...] = (
         Change(
             "first",

@@ -17,6 +17,8 @@ from .proposal import (
     drop,
     element_at,
     figures,
+    is_computed,
+    may_vary,
     meant,
     put,
     remove,
@@ -40,28 +42,32 @@ def unknown_joint_type(problem: Problem, around: Around) -> Proposal | None:
 
 
 def redundant_on_fixed(problem: Problem, around: Around) -> Proposal | None:
-    """What means nothing goes."""
+    """Remove what means nothing, where the joint is fixed whatever the arguments are."""
     element = element_at(problem)
-    if element is None:
+    if element is None or is_computed(around.joint(problem).element, "type"):
         return None
     return safe(f"take the <{element.tag}> away", remove(element))
 
 
 def axis_not_unit(problem: Problem, around: Around) -> Proposal | None:
-    """The same direction at unit length."""
+    """Write the same direction at unit length.
+
+    PyBullet takes the axis as it is written: at length 2 a revolute joint accelerates by half, and
+    a prismatic one moves by twice its position.
+    """
     joint = around.joint(problem)
     if joint.axis is None:
         return None
     length = norm(joint.axis.xyz)
     unit = figures((part / length for part in joint.axis.xyz), 17)
-    return safe(f'write xyz="{unit}"', put(joint.axis.element, "xyz", unit))
+    return unsafe(f'write xyz="{unit}"', put(joint.axis.element, "xyz", unit))
 
 
 def axis_omitted(problem: Problem, around: Around) -> Proposal | None:
-    """The default, written down."""
+    """Write the default, where no argument puts another axis there."""
     joint = around.joint(problem)
     behind = joint.child_element or joint.parent_element
-    if behind is None:
+    if behind is None or may_vary(joint.element):
         return None
     return safe('write <axis xyz="1 0 0"/>', after(behind, '<axis xyz="1 0 0"/>'))
 
@@ -107,6 +113,8 @@ def limit_without_effort_or_velocity(problem: Problem, around: Around) -> Propos
     if limit is None:
         return None
     if joint.is_fixed:
+        if is_computed(joint.element, "type"):
+            return None
         return safe("take the <limit> of the fixed joint away", remove(limit.element))
     changes, said = [], []
     for name in ("effort", "velocity"):
@@ -138,7 +146,11 @@ def _usual(around: Around, joint: Joint, name: str) -> str | None:
 
 
 def limit_without_bounds(problem: Problem, around: Around) -> Proposal | None:
-    """A revolute joint without stops is continuous; one bound is 0, written down."""
+    """Make a revolute joint without stops continuous; write 0 for one bound that is missing.
+
+    Readers differ on what a missing bound is: pinocchio and urdfdom read 0, PyBullet reads an upper
+    one as -1, and MuJoCo takes a joint with one bound for one without limits.
+    """
     joint = around.joint(problem)
     if joint.limit is None:
         return None
@@ -148,7 +160,7 @@ def limit_without_bounds(problem: Problem, around: Around) -> Proposal | None:
         if joint.type != "revolute":
             return None
         return unsafe("make it continuous", put(joint.element, "type", "continuous"))
-    return safe(f'write {missing[0]}="0"', put(element, missing[0], "0"))
+    return unsafe(f'write {missing[0]}="0"', put(element, missing[0], "0"))
 
 
 def continuous_with_bounds(problem: Problem, around: Around) -> Proposal | None:
@@ -282,7 +294,7 @@ def empty_dynamics(problem: Problem, around: Around) -> Proposal | None:
 
 
 def dynamics_as_child_elements(problem: Problem, around: Around) -> Proposal | None:
-    """As attributes."""
+    """Write attributes; MuJoCo loads the joint without damping and friction until then."""
     dynamics = around.joint(problem).dynamics
     if dynamics is None:
         return None
@@ -294,7 +306,7 @@ def dynamics_as_child_elements(problem: Problem, around: Around) -> Proposal | N
     if not written.keys() <= known or any(number(text) is None for text in written.values()):
         return None
     line = "<dynamics " + " ".join(f'{k}="{v}"' for k, v in written.items()) + "/>"
-    return safe(f"write {line}", replace(element, (line,)))
+    return unsafe(f"write {line}", replace(element, (line,)))
 
 
 def mimic_unknown_joint(problem: Problem, around: Around) -> Proposal | None:
@@ -309,7 +321,10 @@ def mimic_unknown_joint(problem: Problem, around: Around) -> Proposal | None:
 
 
 def mimic_chain(problem: Problem, around: Around) -> Proposal | None:
-    """The first leader, with the multipliers multiplied."""
+    """Follow the first leader, with the multipliers multiplied.
+
+    It is the same motion, and another constraint in MuJoCo, which ties the joint to another one.
+    """
     joint = around.joint(problem)
     mimic = joint.mimic
     leader = around.robot.joint.get(mimic.joint) if mimic is not None else None
@@ -321,26 +336,32 @@ def mimic_chain(problem: Problem, around: Around) -> Proposal | None:
     for name, value, default in (("multiplier", multiplier, 1.0), ("offset", offset, 0.0)):
         if value != default or name in mimic.element.attributes:
             changes.append(put(mimic.element, name, figures([value], 15)))
-    return safe(f"mimic '{leader.mimic.joint}'", *changes)
+    return unsafe(f"mimic '{leader.mimic.joint}'", *changes)
 
 
 def mimic_limits_inconsistent(problem: Problem, around: Around) -> Proposal | None:
-    """The limits that its leader's imply."""
+    """Lower the limits of the leader to what its follower can do.
+
+    The limits of the follower are those of the hardware, and are not raised.
+    """
     joint = around.joint(problem)
     mimic = joint.mimic
     leader = around.robot.joint.get(mimic.joint) if mimic is not None else None
-    if mimic is None or leader is None:
+    if mimic is None or leader is None or not mimic.multiplier:
         return None
     own, other = _bounds(joint), _bounds(leader)
     if own is None or other is None:
         return None
-    low, high = sorted(mimic.multiplier * value + mimic.offset for value in other[1:])
+    ends = sorted((value - mimic.offset) / mimic.multiplier for value in own[1:])
+    low, high = max(ends[0], other[1]), min(ends[1], other[2])
+    if low >= high:
+        return None
     changes = []
-    if low < own[1]:
-        changes.append(put(own[0].element, "lower", figures([low])))
-    if high > own[2]:
-        changes.append(put(own[0].element, "upper", figures([high])))
-    return unsafe(f"let it go from {low:g} to {high:g}", *changes)
+    if low > other[1]:
+        changes.append(put(other[0].element, "lower", figures([low])))
+    if high < other[2]:
+        changes.append(put(other[0].element, "upper", figures([high])))
+    return unsafe(f"limit '{leader.name}' to {low:g} … {high:g}", *changes)
 
 
 def soft_limits_lock_joint(problem: Problem, around: Around) -> Proposal | None:

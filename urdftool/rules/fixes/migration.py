@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot, Transmission
 from ..rule import Problem
+from .elsewhere import check_not_included
 from .proposal import Around, Change, Lines, Proposal, is_computed, quote, remove, replace, unsafe
 
 _COMMANDS = {"Position": "position", "Velocity": "velocity", "Effort": "effort"}
@@ -90,6 +91,7 @@ def mujoco_welds_root(problem: Problem, around: Around) -> Proposal | None:
         return None
     if "world" in robot.link or "world_joint" in robot.joint:
         return None
+    check_not_included(around)
     blocks: tuple[Lines, ...] = (
         ('<link name="world"/>',),
         (

@@ -10,6 +10,7 @@ from ...source.nearby import bytes_of
 from ...source.packages import own_package
 from ..gazebo.systems import REPLACEMENTS, SYSTEMS
 from ..rule import Problem
+from .elsewhere import check_not_included
 from .proposal import (
     Around,
     Proposal,
@@ -58,7 +59,7 @@ def classic_plugin_in_gz(problem: Problem, around: Around) -> Proposal | None:
 
 
 def ignition_name(problem: Problem, around: Around) -> Proposal | None:
-    """By its new name."""
+    """Write its new name, which Gazebo Fortress, the last called Ignition, does not know."""
     plugin = problem.element
     new = problem.message.partition("; write '")[2].partition("'")[0]
     if not new:
@@ -69,14 +70,16 @@ def ignition_name(problem: Problem, around: Around) -> Proposal | None:
         changes.append(sub(plugin, "name", "^ignition::gazebo::", "gz::sim::"))
     elif name.startswith("ign_ros2_control::"):
         changes.append(put(plugin, "name", SYSTEMS["gz_ros2_control-system"]))
-    return safe(f"write {new}", *changes)
+    return unsafe(f"write {new}", *changes)
 
 
 def plugin_class_mismatch(problem: Problem, around: Around) -> Proposal | None:
-    """The class in the library."""
+    """Write the class in the library, by the name that goes with the library's."""
     right = problem.message.partition("' is '")[2].partition("'")[0]
     if not right:
         return None
+    if "ignition-gazebo" in (problem.element.get("filename") or ""):
+        right = right.replace("gz::sim::", "ignition::gazebo::")
     return safe(f"write {right}", put(problem.element, "name", right))
 
 
@@ -106,6 +109,7 @@ def ros2_control_sim_plugin_pair(problem: Problem, around: Around) -> Proposal |
     files = [path for path in sorted((own[1] / "config").glob("*.y*ml")) if _manages(path)]
     if len(files) != 1 or not runs:
         return None
+    check_not_included(around)
     file, name = runs[0]
     lines = (
         "<gazebo>",

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
-from ...finding import Remake
+from ...finding import Remake, Severity
 from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
 from ...source.document import Document, Element
@@ -92,6 +92,7 @@ class Around:
         targets: The active targets.
         document: The file of the source, for rules that look at each.
         weigh: As in the options; None where inertia is not to be computed from meshes.
+        severity: How much the finding matters.
     """
 
     robot: Robot
@@ -99,6 +100,7 @@ class Around:
     targets: frozenset[str]
     document: Document | None = None
     weigh: Weigh | None = None
+    severity: Severity = Severity.ERROR
 
     @cached_property
     def texts(self) -> str:
@@ -265,6 +267,23 @@ def written(element: Element, name: str) -> str:
 def is_computed(element: Element, name: str = "name") -> bool:
     """Whether an attribute comes from an expression, so that it is another with other arguments."""
     return "$" in written(element, name)
+
+
+def may_vary(element: Element) -> bool:
+    """Tell whether other arguments may put other children into an element than it has now."""
+    raw = source_of(element.file).elements.get(element.start)
+    return raw is None or any(one.tag.startswith("xacro:") for one in raw.walk())
+
+
+def is_always_there(element: Element) -> bool:
+    """Tell whether an element is there whatever the arguments are, and once."""
+    raw = source_of(element.file).elements.get(element.start)
+    if raw is None or any(call.macro for call in element.calls):
+        return False
+    parent = raw.parent
+    while parent is not None and not parent.tag.startswith("xacro:"):
+        parent = parent.parent
+    return parent is None
 
 
 def stands_in(inner: Element, outer: Element) -> bool:

@@ -9,6 +9,7 @@ import re
 import unicodedata
 from collections.abc import Iterator
 
+from ...finding import Severity
 from ...model.elements import Joint, Link, Robot
 from ...source.document import Element
 from ..moveit.semantic import references, semantics
@@ -21,12 +22,17 @@ _LETTERS = str.maketrans({"ß": "ss", "æ": "ae", "ø": "o", "ł": "l", "đ": "d
 
 
 def renamed(around: Around, part: Link | Joint, new: str) -> Proposal | None:
-    """A link or joint by another name; None where that is taken.
+    """Give a link or joint another name; None where that is taken, or the name is worth more.
+
+    Controllers, launch files and programs of other packages name the joints that move, and a
+    remark is no reason to break them.
 
     Raises:
         RefusedError: Another file of the package names it.
     """
     robot, old = around.robot, part.name
+    if isinstance(part, Joint) and not part.is_fixed and around.severity is Severity.INFO:
+        return None
     if not new or new == old or new in robot.link or new in robot.joint:
         return None
     if old in robot.link and old in robot.joint and robot.extensions.get(old):

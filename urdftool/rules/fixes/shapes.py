@@ -194,7 +194,10 @@ def fully_transparent(problem: Problem, around: Around) -> Proposal | None:
 
 
 def empty_material_name(problem: Problem, around: Around) -> Proposal | None:
-    """A name made of the colour."""
+    """Name it by its color.
+
+    urdfdom drops the shapes behind a material without a ``name``, and has them afterwards.
+    """
     found = attribute_at(problem)
     link = around.link(problem)
     if found is None and not any(v.material and not v.material.name for v in link.visuals):
@@ -206,17 +209,21 @@ def empty_material_name(problem: Problem, around: Around) -> Proposal | None:
             continue
         if material.color is None or any(not 0 <= part <= 1 for part in material.color):
             return None
+        if is_computed(material.element.child("color") or material.element, "rgba"):
+            return None
         name = "rgba_" + "".join(f"{round(part * 255):02x}" for part in material.color)
         known = {m.name: m.color for m in around.robot.materials}
         if known.get(name, material.color) != material.color:
             return None
         changes.append(put(material.element, "name", name))
-    return safe("name it by its colour", *changes) if changes else None
+    there = all("name" in change.element.attributes for change in changes)
+    return (safe if there else unsafe)("name it by its color", *changes) if changes else None
 
 
 def unused_material(problem: Problem, around: Around) -> Proposal | None:
-    """Gone."""
-    return safe("take it out", remove(problem.element))
+    """Remove it; in xacro another robot, or other arguments, may use it."""
+    make = safe if around.description.expansion is None else unsafe
+    return make("take it out", remove(problem.element))
 
 
 def mesh_in_millimetres(problem: Problem, around: Around) -> Proposal | None:

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import re
+
 from ..rule import Problem
+from .elsewhere import check_not_included
 from .proposal import (
     Around,
     Proposal,
     attribute_at,
     first,
+    is_always_there,
+    is_computed,
     meant,
     put,
     remove,
@@ -18,11 +23,23 @@ from .proposal import (
 
 
 def unknown_parent_link(problem: Problem, around: Around) -> Proposal | None:
-    """``world`` is declared; another is the one that was meant."""
+    """Declare ``world``; write the link that was meant for another.
+
+    A world is declared in a description that is a robot whatever its arguments are: a part that
+    another robot includes gets its world from there.
+    """
     joint = around.joint(problem)
-    if joint.parent == "world":
-        return safe('add <link name="world"/>', first(around.robot.element, '<link name="world"/>'))
-    return _other_link(problem)
+    if joint.parent != "world":
+        return _other_link(problem)
+    check_not_included(around)
+    made = first(around.robot.element, '<link name="world"/>')
+    parent = joint.parent_element
+    sure = parent is not None and is_always_there(parent) and not is_computed(parent, "link")
+    known = any(_WORLD.search(file.data) for file in around.description.files)
+    return (safe if sure and not known else unsafe)('add <link name="world"/>', made)
+
+
+_WORLD = re.compile(rb"<link\b[^>]*\bname\s*=\s*[\"']world[\"']")
 
 
 def unknown_child_link(problem: Problem, around: Around) -> Proposal | None:
@@ -56,7 +73,10 @@ def _free(name: str, taken: set[str]) -> str:
 
 
 def conflicting_material(problem: Problem, around: Around) -> Proposal | None:
-    """The second of two that are equal goes."""
+    """Remove the second of two that are equal.
+
+    In xacro another robot, or other arguments, may have the second alone.
+    """
     element = problem.element
     if element.tag != "material" or element.parent is not around.robot.element:
         return None
@@ -66,4 +86,5 @@ def conflicting_material(problem: Problem, around: Around) -> Proposal | None:
         return None
     if (firsts[0].file.path, firsts[0].start) == (element.file.path, element.start):
         return None  # one place that is included twice
-    return safe("keep the first, which is equal", remove(element))
+    make = safe if around.description.expansion is None else unsafe
+    return make("keep the first, which is equal", remove(element))

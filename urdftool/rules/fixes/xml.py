@@ -230,23 +230,30 @@ def empty_geometry(problem: Problem, around: Around) -> Proposal | None:
 
 
 def tab_or_newline_in_vector(problem: Problem, around: Around) -> Proposal | None:
-    """Single blanks between the numbers."""
+    """Write single blanks between the numbers.
+
+    urdfdom and PyBullet split at blanks alone: what they drop or take for zero until then, they
+    read afterwards.
+    """
     found = attribute_at(problem)
     if found is None:
         return None
     element, name = found
-    return safe("write single blanks", sub(element, name, r"\s+", " "))
+    return unsafe("write single blanks", sub(element, name, r"\s+", " "))
 
 
 def not_a_number(problem: Problem, around: Around) -> Proposal | None:
-    """Without blanks behind; with a point for a comma."""
+    """Remove blanks around it; write a point for a comma.
+
+    urdfdom drops the inertial or the shape with such a number, and has it afterwards.
+    """
     found = attribute_at(problem)
     if found is None:
         return None
     element, name = found
     text = element.get(name) or ""
     if text != text.strip() and number(text.strip()) is not None:
-        return safe(f'write "{text.strip()}"', sub(element, name, r"^\s+|\s+$", ""))
+        return unsafe(f'write "{text.strip()}"', sub(element, name, r"^\s+|\s+$", ""))
     words = text.split()
     count = VOCABULARY[element.tag].numbers.get(name, 1)
     if len(words) == count and all(re.fullmatch(r"[-+]?\d*[.,]?\d+", word) for word in words):
@@ -260,7 +267,10 @@ def not_a_number(problem: Problem, around: Around) -> Proposal | None:
 
 
 def wrong_arity(problem: Problem, around: Around) -> Proposal | None:
-    """A colour without opacity is opaque; one scale is that of all three axes."""
+    """Make a color without opacity opaque; write one scale for all three axes.
+
+    urdfdom drops a mesh with one scale, and has it afterwards.
+    """
     found = attribute_at(problem)
     if found is None:
         return None
@@ -269,19 +279,23 @@ def wrong_arity(problem: Problem, around: Around) -> Proposal | None:
     if name == "rgba" and len(words) == 3:
         return safe("write 1 as the fourth number", put(element, name, " ".join([*words, "1"])))
     if name == "scale" and len(words) == 1:
-        return safe("write it three times", put(element, name, " ".join(words * 3)))
+        return unsafe("write it three times", put(element, name, " ".join(words * 3)))
     return None
 
 
 def wrong_case_keyword(problem: Problem, around: Around) -> Proposal | None:
-    """In lower case."""
+    """Write it in lower case.
+
+    Every reader rejects a joint type, a parent or a child in another case. Of all other words they
+    ignore what is written, and read it afterwards.
+    """
     found = attribute_at(problem)
     if found is not None:
         element, name = found
         if name == "type" and element.tag == "joint":
             lower = (element.get(name) or "").lower()
             return safe(f"write {lower}", put(element, name, lower))
-        return safe(f"write {name.lower()}", rename(element, name, name.lower()))
+        return unsafe(f"write {name.lower()}", rename(element, name, name.lower()))
     element = problem.element
     if isinstance(problem.subject, Joint) or element.tag == element.tag.lower():
         return None
@@ -290,16 +304,26 @@ def wrong_case_keyword(problem: Problem, around: Around) -> Proposal | None:
         parent.child(lower) is not None and lower not in VOCABULARY[parent.tag].many
     ):
         return None
-    return safe(f"write <{lower}>", retag(element, lower))
+    make = safe if parent.tag == "joint" and lower in ("parent", "child") else unsafe
+    return make(f"write <{lower}>", retag(element, lower))
 
 
 def padded_reference(problem: Problem, around: Around) -> Proposal | None:
-    """Without the blank."""
+    """Remove the blank.
+
+    Every reader rejects a robot whose joint does not find its parent or child. A mimic joint that
+    does not find its leader, and a block of Gazebo that does not find its link, are ignored, and
+    are there afterwards.
+    """
     found = attribute_at(problem)
     if found is None:
         return None
     element, name = found
-    return safe("take the blank away", sub(element, name, r"^\s+|\s+$", ""))
+    ends = {end for joint in around.robot.joints for end in (joint.parent, joint.child)}
+    joins = element.tag in ("parent", "child")
+    joins = joins or (element.tag == "link" and (element.get(name) or "").strip() in ends)
+    make = safe if joins else unsafe
+    return make("take the blank away", sub(element, name, r"^\s+|\s+$", ""))
 
 
 def unsupported_urdf_version(problem: Problem, around: Around) -> Proposal | None:
