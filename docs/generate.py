@@ -27,7 +27,7 @@ from urdftool.report.file_diff import file_diff
 from urdftool.report.rule_pages import facts
 from urdftool.rules import RULES, all_rules, get_rule
 from urdftool.rules.effect_sources import effect_source
-from urdftool.rules.fix_table import FIXABLE
+from urdftool.rules.fix_table import FIX_FILE, FIXABLE
 from urdftool.rules.rule import TARGETS, Rule
 
 DOCS = Path(__file__).resolve().parent
@@ -86,6 +86,7 @@ def _controllers(path: Path) -> list[str]:
 def fix_shown(rule: str) -> str:
     """What the fix of a rule makes of a fixture, as a diff."""
     option = "--fix" if FIXABLE[rule] == "safe" else "--fix --unsafe-fixes"
+    option += " --fix-meshes" if FIX_FILE[rule] == "mesh_files" else ""
     lines: list[str] = []
     found = sorted((FIXTURES / rule).glob("fixed*"), key=lambda path: (path.is_dir(), path.name))
     stem = found[0].name.split(".")[0]

@@ -86,7 +86,8 @@ class Fix(NamedTuple):
     @property
     def option(self) -> str:
         """What applies it on the command line."""
-        return "--fix" if self.safe else "--fix --unsafe-fixes"
+        meshes = " --fix-meshes" if self.remakes else ""
+        return ("--fix" if self.safe else "--fix --unsafe-fixes") + meshes
 
 
 @dataclass(slots=True)

@@ -143,14 +143,14 @@ def test_a_read_only_file_is_left(write, urdftool, monkeypatch):
 
 def test_a_file_that_was_changed_meanwhile_is_left(write, urdftool, monkeypatch):
     path = write("r.urdf", LONG)
-    original = fix_run.mend
+    original = fix_run.apply_fixes
 
     def and_change(*args, **kwargs):
-        mended = original(*args, **kwargs)
+        done = original(*args, **kwargs)
         write("r.urdf", LONG + "\n<!-- typed in the editor -->\n")
-        return mended
+        return done
 
-    monkeypatch.setattr(fix_run, "mend", and_change)
+    monkeypatch.setattr(fix_run, "apply_fixes", and_change)
     result = urdftool("lint", path, "--fix", *ONLY)
     assert result.code == 2
     assert "was changed meanwhile" in result.err

@@ -26,7 +26,7 @@ ROBOT = """<robot name="r">
   </link>
 </robot>
 """
-FIX = ("--fix", "--unsafe-fixes", "--no-cache", "--exit-zero")
+FIX = ("--fix", "--unsafe-fixes", "--fix-meshes", "--no-cache", "--exit-zero")
 
 
 @pytest.fixture
@@ -117,7 +117,7 @@ def test_diff_says_what_becomes_of_a_binary_file(write, urdftool):
     write("arm.stl", INVERTED.read_bytes())
     path = write("r.urdf", ROBOT.format("arm.stl"))
     size = len(INVERTED.read_bytes())
-    words = ("--select", "inverted-mesh", "--unsafe-fixes", "--no-cache")
+    words = ("--select", "inverted-mesh", "--unsafe-fixes", "--fix-meshes", "--no-cache")
     shown = urdftool("lint", path, "--diff", *words)
     assert shown.out == f"binary file arm.stl: {size} bytes → {size} bytes\n"
     assert Path("arm.stl").read_bytes() == INVERTED.read_bytes()
@@ -141,12 +141,39 @@ def test_a_new_mesh_is_made_with_what_names_it_or_not_at_all(write, urdftool, mo
         patch.setattr(output, "write_file", only_meshes)
         output.rewrite(was, {"new.stl": b"x", path: b"y"})
     assert sorted(os.listdir(".")) == ["arm#1.stl", "r.urdf"]
-    shown = urdftool(*words[:-4], "--diff", "--unsafe-fixes", "--no-cache").out
+    shown = urdftool(*words[:4], "--diff", *FIX[1:]).out
     assert f"binary file arm_1.stl: new {len(INVERTED.read_bytes())} bytes\n" in shown
     assert urdftool(*words).code == 0
     assert Path("arm_1.stl").read_bytes() == INVERTED.read_bytes()
     assert 'filename="arm_1.stl"' in Path(path).read_text()
     assert "Nothing to fix." in urdftool(*words).err
+
+
+def test_no_mesh_is_written_unasked(write, urdftool):
+    """Meshes are binary, and kept in git-lfs: what rewrites 130 of them is asked for by name."""
+    text = b"solid arm\nfacet normal 0 0 1\nouter loop\n" + b"vertex 0 0 0\n" * 3
+    text += b"endloop\nendfacet\nendsolid arm\n"
+    write("arm.stl", text)
+    write("arm#1.stl", INVERTED.read_bytes())
+    path = write("r.urdf", ROBOT.format("arm.stl"))
+    other = write("s.urdf", ROBOT.format("arm#1.stl"))
+    words = ("lint", path, other, "--select", "ascii-stl,unsafe-file-name", "--exit-zero")
+    before = {p: Path(p).read_bytes() for p in sorted(os.listdir("."))}
+    result = urdftool(*words, "--fix")
+    assert {p: Path(p).read_bytes() for p in sorted(os.listdir("."))} == before
+    assert "1 more finding has a fix that writes mesh files (--fix-meshes)\n" in result.err
+    said = "1 more finding has an unsafe fix that writes mesh files (--unsafe-fixes --fix-meshes)\n"
+    assert said in result.err
+    assert "Nothing to fix." in result.err
+    assert "2 more findings have a fix that" in urdftool(*words, "--fix", "--unsafe-fixes").err
+    assert {p: Path(p).read_bytes() for p in sorted(os.listdir("."))} == before
+    assert "= fix: write it as binary STL (--fix --fix-meshes)\n" in urdftool(*words).out
+    shown = urdftool(*words, "--diff", "--fix-meshes")
+    assert shown.out.startswith("binary file arm.stl: ")
+    assert "Fixed 1 in 1 file: ascii-stl" in urdftool(*words, "--fix", "--fix-meshes").err
+    assert not Path("arm_1.stl").exists()
+    assert urdftool(*words, "--fix-meshes").code == 2
+    assert "Fix: safe (--fix --fix-meshes)" in urdftool("lint", "--explain", "ascii-stl").out
 
 
 def test_json_says_which_files_are_made(write, urdftool):
@@ -261,7 +288,7 @@ def test_a_text_becomes_the_same_triangles(write, urdftool):
         text += f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n"
     write("arm.stl", text + "endsolid arm\n")
     path = write("r.urdf", ROBOT.format("arm.stl"))
-    assert urdftool("lint", path, "--select", "ascii-stl", "--fix", "--no-cache").code == 0
+    assert urdftool("lint", path, "--select", "ascii-stl", "--fix", "--fix-meshes").code == 0
     assert _triangles(Path("arm.stl").read_bytes()) == _triangles(INVERTED.read_bytes())
 
 

@@ -16,6 +16,8 @@ from urdftool.rules.fix_table import FIX_FILE, FIXABLE, OPTIONS
 RULES = FIXTURES / "rules"
 BAD = sorted(path for rule in FIXABLE for path in (RULES / rule).glob("bad*.urdf*"))
 
+ALL = ("--unsafe-fixes", "--fix-meshes")
+
 ALSO = {"unused-suppression": ("missing-collision",)}
 """Rules that must run for another to find anything."""
 
@@ -51,13 +53,13 @@ def test_bad_becomes_fixed(bad, folder, urdftool):
             expected |= _files(path) if path.is_dir() else {name: path.read_bytes()}
     changes = expected != _files(there)
     select = ("--select", ",".join((rule, *ALSO.get(rule, ()))), "--no-cache", "--exit-zero")
-    shown = urdftool("lint", bad.name, *select, "--diff", "--unsafe-fixes")
+    shown = urdftool("lint", bad.name, *select, "--diff", *ALL)
     assert _files(there) != expected or not changes
-    result = urdftool("lint", bad.name, *select, "--fix", "--unsafe-fixes")
+    result = urdftool("lint", bad.name, *select, "--fix", *ALL)
     assert result.code == 0, result.err
     assert _files(there) == expected
     assert bool(shown.out) == changes
-    again = urdftool("lint", bad.name, *select, "--fix", "--unsafe-fixes")
+    again = urdftool("lint", bad.name, *select, "--fix", *ALL)
     assert "Nothing to fix." in again.err
     assert _files(there) == expected
 
@@ -69,7 +71,8 @@ def test_only_safe_fixes_without_unsafe_ones(bad, folder, urdftool):
         return
     there = folder(rule)
     before = _files(there)
-    result = urdftool("lint", bad.name, "--select", rule, "--fix", "--exit-zero", "--no-cache")
+    words = ("--select", rule, "--fix", "--fix-meshes", "--exit-zero", "--no-cache")
+    result = urdftool("lint", bad.name, *words)
     assert _files(there) == before
     assert "Nothing to fix." in result.err
 

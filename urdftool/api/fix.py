@@ -20,6 +20,7 @@ def fix(
     targets: Iterable[str] = (),
     config: str | None = None,
     unsafe: bool = False,
+    meshes: bool = False,
     write: bool = False,
     gltf_up: GltfUp | None = None,
 ) -> Mended:
@@ -39,6 +40,7 @@ def fix(
         targets: Simulators and middlewares; none means that they are inferred.
         config: A configuration file, instead of the nearest above the description.
         unsafe: Whether to make also fixes that invent or remove physics.
+        meshes: Whether to make also fixes that write mesh files.
         write: Whether to write the files that changed: all of them, or none.
         gltf_up: The axis that is up in glTF meshes; None for what the configuration says.
 
@@ -67,7 +69,7 @@ def fix(
     report = lint_file(path, options)
     if report.error is not None:
         raise report.error
-    mended = mend(report, options, unsafe=unsafe)
+    mended = mend(report, options, unsafe=unsafe, meshes=meshes)
     if write and mended.after:
         from ..output import rewrite
 

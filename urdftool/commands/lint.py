@@ -38,6 +38,11 @@ LEVELS = ("error", "warning", "info")
     is_flag=True,
     help="With --fix or --diff: also those that invent or remove physics.",
 )
+@click.option(
+    "--fix-meshes",
+    is_flag=True,
+    help="With --fix or --diff: also those that write mesh files, which may be binary.",
+)
 @click.option("--diff", is_flag=True, help="Show what --fix would change, and write nothing.")
 @click.option("--exit-zero", is_flag=True, help="Exit 0 even if there are findings.")
 @click.option(
@@ -68,6 +73,7 @@ def command(
     statistics: bool,
     fix: bool,
     unsafe_fixes: bool,
+    fix_meshes: bool,
     diff: bool,
     exit_zero: bool,
     fail_on: str,
@@ -117,8 +123,9 @@ def command(
         ignore=check_selectors(ignore),
         targets=check_targets(target),
     )
-    if unsafe_fixes and not (fix or diff):
-        raise click.UsageError("--unsafe-fixes goes with --fix or --diff")
+    for option, given in (("--unsafe-fixes", unsafe_fixes), ("--fix-meshes", fix_meshes)):
+        if given and not (fix or diff):
+            raise click.UsageError(f"{option} goes with --fix or --diff")
     kept = cache_place("lint", cache_dir, no_cache)
     options = Options(settings, arguments, package, package_path, console.config)
     options.gltf_up = console.gltf_up
@@ -130,10 +137,11 @@ def command(
     options.fixes = style in _WITH_FIXES
     wanted = Wanted(style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline)
     if fix or diff:
-        from .lint_fix import fix_files
+        from .lint_fix import Kinds, fix_files
 
+        kinds = Kinds(unsafe_fixes, fix_meshes)
         return fix_files(
-            console, files, options, settings, wanted, jobs=jobs, unsafe=unsafe_fixes, diff=diff
+            console, files, options, settings, wanted, jobs=jobs, kinds=kinds, diff=diff
         )
     reports = lint_files(files, options, jobs)
     return report(console, reports, settings, wanted)

@@ -6,14 +6,14 @@ import os
 import sys
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..console import Console
 from ..extras import missing
 
 if TYPE_CHECKING:
-    from ..lint.fix_run import Mended
+    from ..lint.fix_run import FixResult
     from ..lint.outcome import Options, Report
     from ..lint.settings import Settings
     from .lint_report import Wanted
@@ -21,21 +21,16 @@ if TYPE_CHECKING:
 _MOST = 6
 
 
-@dataclass
-class _Done:
-    """What came of fixing many descriptions.
+class Kinds(NamedTuple):
+    """Which fixes are made besides the safe ones.
 
     Attributes:
-        before: The bytes of each file that changed, as they were; None for one that is new.
-        after: The same as they are to be.
-        applied: How many fixes of each rule were made.
-        code: The exit code that something that failed asks for.
+        unsafe: Those that invent or remove physics.
+        meshes: Those that write mesh files.
     """
 
-    before: dict[str, bytes | None] = field(default_factory=dict)
-    after: dict[str, bytes] = field(default_factory=dict)
-    applied: Counter[str] = field(default_factory=Counter)
-    code: int = 0
+    unsafe: bool = False
+    meshes: bool = False
 
 
 def fix_files(
@@ -46,7 +41,7 @@ def fix_files(
     wanted: Wanted,
     *,
     jobs: int | None,
-    unsafe: bool,
+    kinds: Kinds,
     diff: bool,
 ) -> int:
     """Fix descriptions, or show how; gives the exit code.
@@ -56,12 +51,13 @@ def fix_files(
     from contextlib import ExitStack
 
     from ..inertia.scales import Scales
+    from ..lint.fix_run import apply_fixes
     from ..lint.parallel import lint_files
     from ..rules.fixes.inertia import DENSITY
     from ..source.document import STDIN, reading_instead
     from .lint_report import report
 
-    scales = Scales(DENSITY) if unsafe else None
+    scales = Scales(DENSITY) if kinds.unsafe else None
     options = replace(options, fixes=True, cache=None, weigh=scales)
     with ExitStack() as stack:
         given = b""
@@ -69,10 +65,10 @@ def fix_files(
             given = sys.stdin.buffer.read()
             stack.enter_context(reading_instead({STDIN: given}))
         reports = list(lint_files(files, options, jobs))
-        done = _Done()
-        for number in range(len(reports)):
-            _fix_one(console, reports, number, options, done, unsafe=unsafe, diff=diff)
-        _say_what_is_left(console, reports, unsafe=unsafe)
+        done = apply_fixes(reports, options, unsafe=kinds.unsafe, meshes=kinds.meshes)
+        _say_broken(console, done)
+        code = 0 if diff else _write(console, done, reports, options)
+        _say_what_is_left(console, done.reports, kinds)
         if diff:
             return _show(console, done, wanted)
         _say(console, "Fixed", done)
@@ -82,65 +78,50 @@ def fix_files(
             sys.stdout.flush()
             sys.stdout.buffer.write(done.after.get(STDIN, given))
             sys.stdout.buffer.flush()
-        return max(report(console, reports, settings, wanted), done.code)
+        return max(report(console, done.reports, settings, wanted), code)
 
 
-def _fix_one(
-    console: Console,
-    reports: list[Report],
-    number: int,
-    options: Options,
-    done: _Done,
-    *,
-    unsafe: bool,
-    diff: bool,
-) -> None:
-    """Fix one description; others that read the same files are checked anew."""
+def _write(console: Console, done: FixResult, reports: Sequence[Report], options: Options) -> int:
+    """Write the files that changed; gives the exit code.
+
+    The files of one description are written together or not at all. Where they cannot be, its
+    findings are those that it has.
+    """
     from ..errors import OutputError
-    from ..lint.fix_run import concerns, mend
+    from ..lint.fix_run import concerns
     from ..lint.run import lint_file
     from ..output import rewrite
-    from ..source.document import STDIN, reading_instead
+    from ..source.document import STDIN
 
-    one = reports[number]
-    if not any(f.fix is not None and (f.fix.safe or unsafe) for f in one.findings):
-        return
-    shown = done.after if diff else {k: v for k, v in done.after.items() if k == STDIN}
-    with reading_instead(shown):
-        mended = mend(one, options, unsafe=unsafe, others=reports)
-    _say_broken(console, mended)
-    if not mended.after:
-        return
-    if not diff:
+    failed: set[str] = set()
+    for group in done.groups:
+        after = {path: done.after[path] for path in group if path != STDIN}
         try:
-            rewrite(mended.before, {k: v for k, v in mended.after.items() if k != STDIN})
+            rewrite({path: done.before[path] for path in after}, after)
         except OutputError as error:
             console.error(error)
-            done.code = 2
-            return
-    for path, data in mended.before.items():
-        done.before.setdefault(path, data)
-    done.after.update(mended.after)
-    done.applied += mended.applied
-    reports[number] = mended.report
-    with reading_instead(done.after):
-        for other, report in enumerate(reports):
-            if other != number and concerns(report, mended.after):
-                reports[other] = lint_file(report.path, options)
+            failed |= after.keys()
+    if not failed:
+        return 0
+    done.drop(failed)
+    for number, report in enumerate(reports):
+        if concerns(report, failed) or concerns(done.reports[number], failed):
+            done.reports[number] = lint_file(report.path, options)
+    return 2
 
 
-def _say_broken(console: Console, mended: Mended) -> None:
-    for rule, how in mended.broken.items():
+def _say_broken(console: Console, done: FixResult) -> None:
+    for rule, how in done.broken.items():
         console.say(
             f"the fix of {rule} would make things worse and is not made: {how}. "
             "If that is not plain from the file, it is a bug in urdftool"
         )
-    for rule, how in mended.unmade.items():
+    for rule, how in done.unmade.items():
         console.note(f"is not fixed [{rule}]: {how}")
 
 
-def _say_what_is_left(console: Console, reports: Sequence[Report], *, unsafe: bool) -> None:
-    """Fixes that could not be made, and those that were not asked for."""
+def _say_what_is_left(console: Console, reports: Sequence[Report], kinds: Kinds) -> None:
+    """Print which fixes could not be made, and which options would make others."""
     outside: Counter[str] = Counter()
     for report in reports:
         for finding, reason in report.unmended:
@@ -154,18 +135,31 @@ def _say_what_is_left(console: Console, reports: Sequence[Report], *, unsafe: bo
     skipped = {rule: name for report in reports for rule, name in report.skipped_fixes.items()}
     for rule, library in skipped.items():
         console.note(str(missing(library, f"not fixed: the fix of {rule}")))
-    left = {
-        (f.rule, f.place.path, f.place.start)
-        for report in reports
-        for f in report.findings
-        if f.fix is not None and not f.fix.safe
-    }
-    if left and not unsafe:
-        what = "1 more finding has" if len(left) == 1 else f"{len(left)} more findings have"
-        console.note(f"{what} an unsafe fix (--unsafe-fixes)")
+    left: dict[str, set[tuple[str, str, int]]] = {}
+    for finding in (f for report in reports for f in report.findings):
+        if finding.fix is None:
+            continue
+        needed = []
+        if not finding.fix.safe and not kinds.unsafe:
+            needed.append("--unsafe-fixes")
+        if finding.fix.remakes and not kinds.meshes:
+            needed.append("--fix-meshes")
+        if needed:
+            key = finding.rule, finding.place.path, finding.place.start
+            left.setdefault(" ".join(needed), set()).add(key)
+    for options, found in left.items():
+        have = "1 more finding has" if len(found) == 1 else f"{len(found)} more findings have"
+        console.note(f"{have} {_KINDS[options]} ({options})")
 
 
-def _say(console: Console, did: str, done: _Done) -> None:
+_KINDS = {
+    "--unsafe-fixes": "an unsafe fix",
+    "--fix-meshes": "a fix that writes mesh files",
+    "--unsafe-fixes --fix-meshes": "an unsafe fix that writes mesh files",
+}
+
+
+def _say(console: Console, did: str, done: FixResult) -> None:
     """``Fixed 5: axis-not-unit × 3, empty-dynamics × 2 (in 2 files)``."""
     total = sum(done.applied.values())
     if not total:
@@ -179,7 +173,7 @@ def _say(console: Console, did: str, done: _Done) -> None:
     console.note(f"{did} {total} {where}: {', '.join(rules[:_MOST])}{more}")
 
 
-def _say_where(console: Console, done: _Done, files: Sequence[str]) -> None:
+def _say_where(console: Console, done: FixResult, files: Sequence[str]) -> None:
     """The files that changed or were made beside the ones that were asked for."""
     from ..source.packages import shown_path
 
@@ -196,7 +190,7 @@ def _say_where(console: Console, done: _Done, files: Sequence[str]) -> None:
             console.note(f"{what}: {', '.join(sorted(paths))}")
 
 
-def _show(console: Console, done: _Done, wanted: Wanted) -> int:
+def _show(console: Console, done: FixResult, wanted: Wanted) -> int:
     """The fixes as a unified diff; exit 1 if there are any."""
     from ..output import write_result
     from ..report.file_diff import file_diff
@@ -206,4 +200,4 @@ def _show(console: Console, done: _Done, wanted: Wanted) -> int:
     inputs = [path for path in done.after if os.path.exists(path)]
     write_result(text, wanted.output_file, inputs=inputs)
     _say(console, "Would fix", done)
-    return max(done.code, int(bool(changed) and not wanted.exit_zero))
+    return int(bool(changed) and not wanted.exit_zero)

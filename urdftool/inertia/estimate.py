@@ -294,8 +294,8 @@ def _sampled(
     if filled is not None:
         difference = _average(filled.moments, moments)[1]
         notes.append(f"Flat caps and winding numbers differ by {difference:.1%}.")
-        caps = filling.volume_error / filled.moments.measure
-        if max(difference, caps) <= AGREEMENT and opening <= LARGE_OPENING:
+        missed = filling.volume_error / filled.moments.measure
+        if max(difference, missed) <= AGREEMENT and opening <= LARGE_OPENING:
             # the caps are free of the samples' noise, and the samples of the caps' guess
             return _Solid(filled.moments, "repaired", difference, True, tuple(notes))
         error = max(noise, difference)

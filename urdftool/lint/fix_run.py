@@ -1,8 +1,12 @@
-"""Apply fixes to a description until none is left, and prove each step before it is kept.
+"""Apply the fixes of descriptions until none is left, and prove each step before it is kept.
 
 Nothing is written here. The edited bytes are read in place of the files; they must be well-formed,
 expand, and have fewer findings than before. A fix that makes things worse is our bug: it is taken
 back and said.
+
+Fixes are applied many at once, those of all descriptions together, and what they concern is linted
+once for all of them. Only where that is worse are they tried in halves, and halves of those, until
+the fix is found that does it.
 """
 
 from __future__ import annotations
@@ -61,6 +65,40 @@ _Key = tuple[Any, ...]
 
 
 @dataclass
+class FixResult:
+    """Descriptions with fixes applied.
+
+    Attributes:
+        reports: What is wrong with each now, in the order given.
+        before: The bytes of each file that changed, as they were; None for one that is new.
+        after: The same as they are to be.
+        applied: How many fixes of each rule were made.
+        broken: Rules whose fix would have made things worse, with how.
+        unmade: Rules whose fix wants a file made of one that cannot be read, with which.
+        made: Each fix that was made: its rule, and the files that it changed.
+        groups: Files that are written together or not at all.
+    """
+
+    reports: list[Report]
+    before: dict[str, bytes | None] = field(default_factory=dict)
+    after: dict[str, bytes] = field(default_factory=dict)
+    applied: Counter[str] = field(default_factory=Counter)
+    broken: dict[str, str] = field(default_factory=dict)
+    unmade: dict[str, str] = field(default_factory=dict)
+    made: list[tuple[str, set[str]]] = field(default_factory=list)
+    groups: list[set[str]] = field(default_factory=list)
+
+    def drop(self, paths: set[str]) -> None:
+        """Take back the changes of files that are not written, and the count of their fixes."""
+        for path in paths:
+            del self.before[path], self.after[path]
+        for rule, where in self.made:
+            if not where.isdisjoint(paths):
+                self.applied[rule] -= 1
+        self.applied = +self.applied
+
+
+@dataclass
 class Mended:
     """A description with fixes applied.
 
@@ -81,64 +119,79 @@ class Mended:
     unmade: dict[str, str] = field(default_factory=dict)
 
 
-class _Wrong(NamedTuple):
-    """Why fixes are not kept, and whether that is for a file they are made of."""
-
-    text: str
-    of_a_file: bool = False
-
-
-def mend(
-    report: Report,
-    options: Options,
-    *,
-    unsafe: bool = False,
-    others: Sequence[Report] = (),
-    keep: Iterable[str] = (),
-) -> Mended:
-    """Apply the fixes of a description.
+def mend(report: Report, options: Options, *, unsafe: bool = False, meshes: bool = False) -> Mended:
+    """Apply the fixes of one description.
 
     Args:
         report: The description, checked with the same options.
         options: What the command line says; ``fixes`` must be on.
         unsafe: Whether unsafe fixes are applied as well.
-        others: Descriptions that may read the same files; they must not become worse.
-        keep: Paths of files that are not edited.
+        meshes: Whether fixes that write mesh files are applied as well.
 
     Raises:
         ConfigError: The configuration is wrong.
     """
-    mended = Mended(report)
-    kept, banned = set(keep), set[_Key]()
+    done = apply_fixes([report], options, unsafe=unsafe, meshes=meshes)
+    return Mended(done.reports[0], done.before, done.after, done.applied, done.broken, done.unmade)
+
+
+def apply_fixes(
+    reports: Sequence[Report], options: Options, *, unsafe: bool = False, meshes: bool = False
+) -> FixResult:
+    """Apply the fixes of many descriptions, of which none becomes worse.
+
+    Args:
+        reports: The descriptions, checked with the same options.
+        options: What the command line says; ``fixes`` must be on.
+        unsafe: Whether unsafe fixes are applied as well.
+        meshes: Whether fixes that write mesh files are applied as well.
+
+    Raises:
+        ConfigError: The configuration is wrong.
+    """
+    result = FixResult(list(reports))
+    banned: set[_Key] = set()
     for _ in range(MAX_ROUNDS):
-        chosen = _choose(mended.report, unsafe, kept, banned)
+        chosen = _choose(result.reports, banned, unsafe=unsafe, meshes=meshes)
         if not chosen:
             break
-        if _attempt(mended, chosen, options):
-            _one_by_one(mended, chosen, options, banned)
-    shared = _worse_for_others(mended, others, options)
-    if shared:
-        return mend(report, options, unsafe=unsafe, others=others, keep=kept | shared)
-    return mended
+        _Round(result, options, banned).prove(chosen)
+    result.groups = _groups(result)
+    return result
 
 
-def _choose(report: Report, unsafe: bool, kept: set[str], banned: set[_Key]) -> list[Finding]:
+class _Wanted(NamedTuple):
+    """A fix that is tried: the number of its report, and the finding."""
+
+    number: int
+    finding: Finding
+
+    @property
+    def paths(self) -> set[str]:
+        assert self.finding.fix is not None
+        return self.finding.fix.paths
+
+
+def _choose(
+    reports: Sequence[Report], banned: set[_Key], *, unsafe: bool, meshes: bool
+) -> list[_Wanted]:
     """Findings whose fixes do not overlap; what several of them do alike is done once."""
-    chosen: list[Finding] = []
+    chosen: list[_Wanted] = []
     taken: dict[str, list[tuple[int, int, bytes]]] = {}
-    for finding in report.findings:
-        fix = finding.fix
-        if fix is None or not (fix.safe or unsafe) or _key(finding) in banned:
-            continue
-        if not kept.isdisjoint(fix.paths):
-            continue
-        spans = [(r.place.path, r.place.start, r.place.end, r.data) for r in fix.replacements]
-        spans += [(r.path, 0, _ALL, r.how.encode()) for r in fix.remakes]
-        if any(_meets(taken.get(path, []), a, b, data) for path, a, b, data in spans):
-            continue
-        for path, start, end, data in spans:
-            taken.setdefault(path, []).append((start, end, data))
-        chosen.append(finding)
+    for number, report in enumerate(reports):
+        for finding in report.findings:
+            fix = finding.fix
+            if fix is None or not (fix.safe or unsafe) or (fix.remakes and not meshes):
+                continue
+            if _key(finding) in banned:
+                continue
+            spans = [(r.place.path, r.place.start, r.place.end, r.data) for r in fix.replacements]
+            spans += [(r.path, 0, _ALL, r.how.encode()) for r in fix.remakes]
+            if any(_meets(taken.get(path, []), a, b, data) for path, a, b, data in spans):
+                continue
+            for path, start, end, data in spans:
+                taken.setdefault(path, []).append((start, end, data))
+            chosen.append(_Wanted(number, finding))
     return chosen
 
 
@@ -155,41 +208,172 @@ def _meets(taken: Sequence[tuple[int, int, bytes]], start: int, end: int, data: 
     return False
 
 
-def _attempt(mended: Mended, chosen: Sequence[Finding], options: Options) -> _Wrong | None:
-    """Apply some fixes at once; gives what would become worse, and None where it was done."""
-    replaced: dict[str, list[tuple[int, int, bytes]]] = {}
-    files: dict[str, bytes] = {}
-    for finding in chosen:
-        assert finding.fix is not None
-        for replacement in finding.fix.replacements:
-            place = replacement.place
-            files.setdefault(place.path, _bytes_of(mended, place.path, place.file.data))
-            replaced.setdefault(place.path, []).append((place.start, place.end, replacement.data))
-    edited = {path: _edited(files[path], spans) for path, spans in replaced.items()}
-    before: dict[str, bytes | None] = dict(files)
-    try:
-        with reading_instead(mended.after):
-            for remake in _remakes(chosen):
-                now, made = _now(remake.path), remade(remake)
+class _Wrong(NamedTuple):
+    """Why fixes are not kept, and whether that is for a file they are made of."""
+
+    text: str
+    of_a_file: bool = False
+
+
+class _Round:
+    """Fixes of one choice, all of them in bytes as they are before the first is applied."""
+
+    def __init__(self, result: FixResult, options: Options, banned: set[_Key]) -> None:
+        """Start with nothing applied."""
+        self.result = result
+        self.options = options
+        self.banned = banned
+        self.start = dict(result.after)
+        self.findings = [report.findings for report in result.reports]
+        self.kept: list[_Wanted] = []
+        self.concerned: dict[str, set[int]] = {}
+        for number, report in enumerate(result.reports):
+            self._index(number, report)
+
+    def _index(self, number: int, report: Report) -> None:
+        for path in _paths(report) if report.checked else ():
+            self.concerned.setdefault(path, set()).add(number)
+
+    def prove(self, chosen: Sequence[_Wanted]) -> None:
+        """Apply what can be applied; fixes with no description in common do not meet."""
+        for part in self._apart(chosen):
+            self.kept = []
+            self._halve(part)
+
+    def _apart(self, chosen: Sequence[_Wanted]) -> list[list[_Wanted]]:
+        """Sort fixes so that those in two lists concern no description in common."""
+        group = {n: n for n in range(len(self.result.reports))}
+
+        def root(number: int) -> int:
+            while group[number] != number:
+                number = group[number] = group[group[number]]
+            return number
+
+        for one in chosen:
+            for path in one.paths:
+                for other in self.concerned.get(path, ()):
+                    group[root(other)] = root(one.number)
+        parts: dict[int, list[_Wanted]] = {}
+        for one in chosen:
+            parts.setdefault(root(one.number), []).append(one)
+        return list(parts.values())
+
+    def _halve(self, chosen: Sequence[_Wanted]) -> None:
+        """Apply fixes; where that is worse, one half of them and then the other."""
+        wrong = self._attempt(chosen)
+        if wrong is None:
+            return
+        if len(chosen) == 1:
+            finding = chosen[0].finding
+            self.banned.add(_key(finding))
+            kind = self.result.unmade if wrong.of_a_file else self.result.broken
+            kind.setdefault(finding.rule, f"{finding.place}: {wrong.text}")
+            return
+        middle = _middle(chosen)
+        self._halve(chosen[:middle])
+        self._halve(chosen[middle:])
+
+    def _attempt(self, some: Sequence[_Wanted]) -> _Wrong | None:
+        """Apply fixes beside those that are kept; gives what is worse, None where they are kept."""
+        result = self.result
+        try:
+            before, edited = self._edited([*self.kept, *some])
+        except _UnmadeError as error:
+            return _Wrong(str(error), True)
+        after = {**result.after, **edited}
+        own = dict.fromkeys(one.number for one in some)
+        changed = [path for path, data in edited.items() if result.after.get(path) != data]
+        others = sorted(set().union(*(self.concerned.get(path, ()) for path in changed)))
+        fresh: dict[int, Report] = {}
+        for number in dict.fromkeys((*own, *others)):
+            old = result.reports[number]
+            with reading_instead(after):
+                new = lint_file(old.path, self.options)
+            wrong = _worse(old, new, [one.finding for one in some if one.number == number])
+            if wrong:
+                return _Wrong(wrong)
+            fresh[number] = new
+        for path, data in before.items():
+            result.before.setdefault(path, data)
+        result.after = after
+        for number, report in fresh.items():
+            result.reports[number] = report
+            self._index(number, report)
+        result.applied.update(one.finding.rule for one in some)
+        result.made += [(one.finding.rule, one.paths) for one in some]
+        self.kept += some
+        return None
+
+    def _edited(
+        self, chosen: Sequence[_Wanted]
+    ) -> tuple[dict[str, bytes | None], dict[str, bytes]]:
+        """The bytes of the files that fixes change, before and after.
+
+        Raises:
+            _UnmadeError: A file cannot be made.
+        """
+        replaced: dict[str, list[tuple[int, int, bytes]]] = {}
+        files: dict[str, bytes] = {}
+        for number, finding in chosen:
+            assert finding.fix is not None
+            for replacement in finding.fix.replacements:
+                place = replacement.place
+                if place.path not in files:
+                    files[place.path] = self._bytes_of(number, place.path, place.file.data)
+                replaced.setdefault(place.path, []).append(
+                    (place.start, place.end, replacement.data)
+                )
+        edited = {path: _spliced(files[path], spans) for path, spans in replaced.items()}
+        before: dict[str, bytes | None] = dict(files)
+        with reading_instead(self.start):
+            for remake in _remakes(one.finding for one in chosen):
+                try:
+                    now, made = _now(remake.path), remade(remake)
+                except (UrdftoolError, OSError) as error:
+                    text = f"{remake.origin} cannot be made {remake.how}: {error}"
+                    raise _UnmadeError(text) from error
                 if now != made:
                     before[remake.path], edited[remake.path] = now, made
-    except (UrdftoolError, OSError) as error:
-        return _Wrong(f"{remake.origin} cannot be made {remake.how}: {error}", True)
-    after = {**mended.after, **edited}
-    with reading_instead(after):
-        report = lint_file(mended.report.path, options)
-    wrong = _worse(mended.report, report, chosen)
-    if wrong:
-        return _Wrong(wrong)
-    for path, data in before.items():
-        mended.before.setdefault(path, data)
-    mended.after = after
-    mended.report = report
-    mended.applied.update(finding.rule for finding in chosen)
-    return None
+        return before, edited
+
+    def _bytes_of(self, number: int, path: str, data: bytes) -> bytes:
+        """The bytes that places in a file mean; of one that was repaired to be read, its own."""
+        if path in self.start:
+            return self.start[path]
+        for other in self.findings[number]:
+            if other.place.path == path and other.rule in ("not-well-formed", _LATE):
+                return other.place.file.data
+        return data
 
 
-def _remakes(chosen: Sequence[Finding]) -> Iterator[Remake]:
+class _UnmadeError(Exception):
+    """A file that a fix makes cannot be made; the text says why."""
+
+
+def _middle(chosen: Sequence[_Wanted]) -> int:
+    """Where to part fixes: between two rules, if it can be, as most fail by rule."""
+    half = len(chosen) / 2
+    edges = [
+        n for n in range(1, len(chosen)) if chosen[n].finding.rule != chosen[n - 1].finding.rule
+    ]
+    return min(edges, key=lambda n: abs(n - half), default=len(chosen) // 2)
+
+
+def _groups(result: FixResult) -> list[set[str]]:
+    """The files that changed, by what is written together: the sources of a description."""
+    group = {path: {path} for path in result.after}
+    linked = [set(report.files) for report in result.reports]
+    for paths in (*linked, *(where for _, where in result.made)):
+        met = [group[path] for path in paths if path in group]
+        whole = max(met, key=len, default=set[str]())
+        for one in met:
+            if one is not whole:
+                whole |= one
+                group.update(dict.fromkeys(one, whole))
+    return list({id(one): one for one in group.values()}.values())
+
+
+def _remakes(chosen: Iterable[Finding]) -> Iterator[Remake]:
     for finding in chosen:
         yield from finding.fix.remakes if finding.fix is not None else ()
 
@@ -199,42 +383,15 @@ def _now(path: str) -> bytes | None:
     return bytes_of(path) if os.path.lexists(path) else None
 
 
-def _bytes_of(mended: Mended, path: str, data: bytes) -> bytes:
-    """The bytes that places in a file mean; of one that had to be mended to be read, its own."""
-    if path in mended.after:
-        return mended.after[path]
-    for other in mended.report.findings:
-        if other.place.path == path and other.rule in ("not-well-formed", _LATE):
-            return other.place.file.data
-    return data
-
-
 _LATE = "content-before-declaration"
 
 
-def _edited(data: bytes, spans: Sequence[tuple[int, int, bytes]]) -> bytes:
+def _spliced(data: bytes, spans: Sequence[tuple[int, int, bytes]]) -> bytes:
     parts, position = [], 0
     for start, end, new in sorted(spans, key=lambda span: span[:2]):
         parts += [data[position:start], new]
         position = end
     return b"".join([*parts, data[position:]])
-
-
-def _one_by_one(
-    mended: Mended, chosen: Sequence[Finding], options: Options, banned: set[_Key]
-) -> None:
-    """Apply the fixes of one rule, or one fix; what cannot be applied alone is given up."""
-    for rule in dict.fromkeys(finding.rule for finding in chosen):
-        some = [finding for finding in chosen if finding.rule == rule]
-        if len(some) < len(chosen) and not _attempt(mended, some, options):
-            return
-        for finding in some:
-            wrong = _attempt(mended, [finding], options)
-            if wrong is None:
-                return
-            banned.add(_key(finding))
-            kind = mended.unmade if wrong.of_a_file else mended.broken
-            kind.setdefault(rule, f"{finding.place}: {wrong.text}")
 
 
 def _key(finding: Finding) -> _Key:
@@ -280,28 +437,13 @@ def _count(report: Report, level: Severity) -> int:
     return sum(finding.severity >= level for finding in report.findings)
 
 
-def _worse_for_others(mended: Mended, others: Sequence[Report], options: Options) -> set[str]:
-    """Edited files whose edits make another description worse that reads them."""
-    shared: set[str] = set()
-    for other in others:
-        common = {path for path in mended.after if path in other.files}
-        if not common or other.path == mended.report.path or not other.checked:
-            continue
-        with reading_instead(mended.after):
-            try:
-                report = lint_file(other.path, options)
-            except UrdftoolError:
-                shared |= common
-                continue
-        if _worse(other, report, ()):
-            shared |= common
-    return shared
-
-
 def concerns(report: Report, paths: Iterable[str]) -> bool:
     """Whether a description, or a fix of it, is of any of these files."""
-    theirs = set(report.files).union(*(f.fix.paths for f in report.findings if f.fix is not None))
-    return not theirs.isdisjoint(paths)
+    return not _paths(report).isdisjoint(paths)
+
+
+def _paths(report: Report) -> set[str]:
+    return set(report.files).union(*(f.fix.paths for f in report.findings if f.fix is not None))
 
 
 def changed(before: Mapping[str, bytes | None], after: Mapping[str, bytes]) -> list[str]:

@@ -8,7 +8,7 @@ from ..errors import ConfigError
 from ..lint.settings import nearest_rule
 from ..rules import FAMILY_OF, all_rules, get_rule
 from ..rules.effect_sources import effect_source
-from ..rules.fix_table import FIXABLE, OPTIONS
+from ..rules.fix_table import FIXABLE, options_of
 from ..rules.rule import Rule
 
 
@@ -57,7 +57,7 @@ def facts(rule: Rule) -> list[tuple[str, str]]:
         on = f"when selected (--extend-select {rule.name})"
     found = [("Severity", severity), ("On", on)]
     if rule.name in FIXABLE:
-        found.append(("Fix", OPTIONS[FIXABLE[rule.name]]))
+        found.append(("Fix", options_of(rule.name)))
     for threshold, default in rule.thresholds.items():
         found.append(("Threshold", f"{threshold.replace('_', '-')} = {default:g}"))
     return found

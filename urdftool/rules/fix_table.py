@@ -187,7 +187,7 @@ FIXES: dict[str, dict[str, str]] = {
         "unknown-sensor-type": UNSAFE,
         "cpu-ray-in-gz": UNSAFE,
         "ros-plugin-inside-sensor": UNSAFE,
-        "missing-gz-frame-id": BOTH,
+        "missing-gz-frame-id": SAFE,
         "duplicate-sensor-name": UNSAFE,
         "duplicate-plugin-name": UNSAFE,
         "camera-sensor-not-optical": UNSAFE,
@@ -256,6 +256,12 @@ FIXABLE = {rule: how for rules in FIXES.values() for rule, how in rules.items()}
 
 FIX_FILE = {rule: file for file, rules in FIXES.items() for rule in rules}
 """The file in ``fixes`` by rule."""
+
+
+def options_of(rule: str) -> str:
+    """Applicability of a rule's fixes, with what applies them on the command line."""
+    text = OPTIONS[FIXABLE[rule]]
+    return text.replace(")", " --fix-meshes)") if FIX_FILE[rule] == "mesh_files" else text
 
 
 def may_have_fix(rule: str, kind: str) -> bool:

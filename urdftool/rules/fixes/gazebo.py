@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ...model.elements import Link, Robot
+from ...model.read import numbers
 from ...source.document import Element
 from ..gazebo.contact import contact_role
 from ..gazebo.keywords import JOINT_KEYWORDS, LINK_KEYWORDS, NOT_IN_GZ, SURFACE
@@ -376,10 +377,15 @@ def ros_plugin_inside_sensor(problem: Problem, around: Around) -> Proposal | Non
 
 
 def missing_gz_frame_id(problem: Problem, around: Around) -> Proposal | None:
-    """Its link, and those of all others where they are one finding."""
+    """Name its link, and those of all others where they are one finding.
+
+    A sensor with a pose of its own does not measure in the frame of its link, and is left alone.
+    """
     sensors = [problem.element]
     if " more) " in problem.message:
         sensors = [sensor.element for _, sensor in without_frame(around.robot)]
+    if any(_has_pose(sensor) for sensor in sensors):
+        return None
     lines = []
     for sensor in sensors:
         name = written(sensor.parent, "reference") if sensor.parent is not None else ""
@@ -389,6 +395,12 @@ def missing_gz_frame_id(problem: Problem, around: Around) -> Proposal | None:
     changes = [insert(*change) for change in zip(sensors, lines, strict=True)]
     more = " and so on" if len(lines) > 1 else ""
     return safe(f"write {lines[0]}{more}", *changes)
+
+
+def _has_pose(sensor: Element) -> bool:
+    """Tell whether a sensor stands elsewhere than the frame of its link."""
+    pose = sensor.child("pose")
+    return pose is not None and (bool(pose.attributes) or numbers(pose.text, 6) != (0.0,) * 6)
 
 
 def camera_sensor_not_optical(problem: Problem, around: Around) -> Proposal | None:

@@ -26,7 +26,7 @@ def way_between(
     Returns:
         The packages from ``start`` to ``goal``; none where there is no way.
     """
-    ways = {start: (start,)}
+    ways: dict[str, tuple[str, ...]] = {start: (start,)}
     todo = [start]
     while todo and len(ways) < _MOST_PACKAGES:
         name = todo.pop(0)
