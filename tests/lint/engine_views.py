@@ -1,6 +1,6 @@
-"""A URDF as physics engines load it: what they know of it, as plain numbers by name.
+"""A URDF as physics engines load it: kinematics, masses, inertia, collision shapes and limits.
 
-Runs as a process of its own, ``python -m tests.lint.engine_views ENGINE``, since PyBullet ends the
+``python -m tests.lint.engine_views ENGINE`` is a process of its own, since PyBullet ends the
 process on some robots: each line of its input is the path of a URDF, each line of its output one
 JSON object, or ``{"error": …}`` where the engine does not load it.
 """
@@ -8,6 +8,7 @@ JSON object, or ``{"error": …}`` where the engine does not load it.
 import json
 import math
 import os
+import select
 import subprocess
 import sys
 from pathlib import Path
@@ -24,7 +25,7 @@ def pinocchio_view(path):
         model = pinocchio.buildModelFromUrdf(path, True)
     except ValueError:  # it takes a leader on the way to the root only
         model = pinocchio.buildModelFromUrdf(path)
-    view = {"name": model.name}
+    view, half = {"name": model.name}, _half(model)
     for number in range(model.njoints):
         name, joint, inertia = model.names[number], model.joints[number], model.inertias[number]
         place = model.jointPlacements[number]
@@ -32,9 +33,9 @@ def pinocchio_view(path):
         v = slice(joint.idx_v, joint.idx_v + joint.nv) if number else slice(0, 0)
         view[f"joint {name}"] = {
             "parent": model.names[model.parents[number]],
-            "type": joint.shortname() if number else "",
+            "freedom": [joint.nq, joint.nv],
             "place": [*place.translation, *place.rotation.ravel()],
-            "axis": _moved(joint) if number else [],
+            "moved": _moved(joint, half) if number else [],
             "mass": inertia.mass,
             "lever": [*(inertia.mass * inertia.lever)],
             "inertia": [*inertia.matrix()[3:, 3:].ravel()],
@@ -72,11 +73,24 @@ def pinocchio_view(path):
     return view
 
 
-def _moved(joint):
-    """Where a joint takes its child at a half, which shows its axis; empty for one that mimics."""
+def _half(model):
+    """A configuration in which every joint with one axis stands at a half."""
+    import pinocchio
+
+    q = pinocchio.neutral(model)
+    for joint in model.joints:
+        if joint.nq == 1:
+            q[joint.idx_q] = 0.5
+        elif (joint.nq, joint.nv) == (2, 1):
+            q[joint.idx_q : joint.idx_q + 2] = math.cos(0.5), math.sin(0.5)
+    return q
+
+
+def _moved(joint, q):
+    """Where a joint takes its child, which shows its axis; empty for one that mimics."""
     data = joint.createData()
     try:
-        joint.calc(data, [0.5] * joint.nq)
+        joint.calc(data, q)
     except Exception:
         return []
     return [*data.M.translation, *data.M.rotation.ravel()]
@@ -126,6 +140,7 @@ def _pybullet_body(pybullet, body, client, how):
             [shape[2], [*shape[3]], os.path.basename(shape[4].decode()), [*shape[5]], [*shape[6]]]
             for shape in pybullet.getCollisionShapeData(body, number, **at)
         ]
+        view[f"box of {name}"] = [*pybullet.getAABB(body, number, **at)]
     return view
 
 
@@ -173,7 +188,7 @@ def mujoco_view(path):
                 [*model.geom_size[geom], *model.geom_pos[geom], *model.geom_quat[geom]],
                 [int(model.geom_contype[geom]), int(model.geom_conaffinity[geom])],
                 [*model.geom_friction[geom]],
-                int(model.mesh_vertnum[mesh]) if mesh >= 0 else 0,
+                _mesh(model, mesh) if mesh >= 0 else [],
             ]
         )
     view |= {f"geoms of {owner}": shapes for owner, shapes in geoms.items()}
@@ -184,6 +199,13 @@ def mujoco_view(path):
             [*model.eq_data[number]],
         ]
     return view
+
+
+def _mesh(model, number):
+    """What MuJoCo keeps of a mesh: how many vertices, and the box around them."""
+    start, count = model.mesh_vertadr[number], model.mesh_vertnum[number]
+    vertices = model.mesh_vert[start : start + count]
+    return [int(count), [*vertices.min(axis=0), *vertices.max(axis=0)]]
 
 
 VIEWS = {"pinocchio": pinocchio_view, "pybullet": pybullet_view, "mujoco": mujoco_view}
@@ -203,12 +225,13 @@ def _plain(value):
 class Engine:
     """An engine in a process of its own, started again where it died."""
 
-    def __init__(self, name):
-        """Start with no process."""
+    def __init__(self, name, folder):
+        """Start with no process; what engines log is written into the folder."""
         self.name = name
+        self.folder = folder
         self.process = None
 
-    def view(self, path):
+    def view(self, path, seconds=120):
         """What the engine knows of a URDF, or ``{"error": …}``."""
         if self.process is None:
             self.process = subprocess.Popen(
@@ -216,24 +239,25 @@ class Engine:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,
-                cwd=Path(__file__).resolve().parents[2],
+                cwd=self.folder,
+                env=os.environ | {"PYTHONPATH": str(Path(__file__).resolve().parents[2])},
                 text=True,
             )
         try:
             self.process.stdin.write(f"{path}\n")
             self.process.stdin.flush()
-            answer = self.process.stdout.readline()
+            ready, _, _ = select.select([self.process.stdout], [], [], seconds)
+            answer = self.process.stdout.readline() if ready else ""
         except BrokenPipeError:
             answer = ""
         if not answer:
             self.close()
-            return {"error": "the engine ended the process"}
+            return {"error": "the engine ended the process, or took too long"}
         return json.loads(answer)
 
     def close(self):
         """End the process."""
         if self.process is not None:
-            self.process.stdin.close()
             self.process.kill()
             self.process.wait()
             self.process.stdout.close()

@@ -148,7 +148,7 @@ FIXES: dict[str, dict[str, str]] = {
         "mujoco-missing-compiler": UNSAFE,
     },
     "mesh_files": {
-        "ascii-stl": SAFE,
+        "ascii-stl": BOTH,
         "binary-stl-starts-with-solid": SAFE,
         "inverted-mesh": UNSAFE,
         "degenerate-triangles": UNSAFE,

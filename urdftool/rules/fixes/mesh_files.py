@@ -47,9 +47,13 @@ def _in_place(uses: Iterable[MeshUse], how: str) -> list[Remake]:
 
 
 def ascii_stl(problem: Problem, around: Around) -> Proposal | None:
-    """The same triangles in the binary form."""
+    """Write the same triangles in the binary form.
+
+    PyBullet cannot read the text, so what collides has a shape there only afterwards.
+    """
     uses = _named(problem, around)
-    return safe("write it as binary STL", *_in_place(uses[:1], BINARY)) if uses else None
+    make = unsafe if any(use.collides for use in uses) else safe
+    return make("write it as binary STL", *_in_place(uses[:1], BINARY)) if uses else None
 
 
 def binary_stl_starts_with_solid(problem: Problem, around: Around) -> Proposal | None:
