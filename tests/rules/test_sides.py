@@ -67,3 +67,19 @@ def test_a_pair_alone_of_its_kind_is_compared_with_its_limb(write, flipped, othe
         parts.append((f"{side}_foot", above, place, "continuous", "1 0 0"))
     found = check(write("legs.urdf", robot(*parts)), select=("axis-against-others",))
     assert [finding.name for finding in found] == ([named] if named else [])
+
+
+def test_links_in_a_circle_end_the_search(write):
+    """A limb whose links carry each other has no pair above the first, and no last one."""
+    parts = [
+        (f"{side}_{name}", f"{side}_{above}" if above else "base", f"0 {sign}0.2 0.1")
+        for side, sign in (("left", ""), ("right", "-"))
+        for name, above in (
+            *(("hip", ""), ("knee", "hip"), ("ankle", "knee")),
+            *(("arm", "hand"), ("elbow", "arm"), ("hand", "elbow")),
+        )
+    ]
+    parts += [(f"{side}_claw", "ring", "0 0 0.1") for side in ("left", "right")]
+    parts += [("ring", "hoop", "0 0 0"), ("hoop", "ring", "0 0 0")]
+    path = write("circle.urdf", robot(*((*part, "revolute", "0 1 0") for part in parts)))
+    assert check(path, select=("axis-against-others", "com-not-mirrored")) == []

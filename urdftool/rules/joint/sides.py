@@ -231,22 +231,18 @@ def _limb(robot: Robot, found: Sides, pair: Pair) -> set[int]:
     """The pairs above and below one, as far as one carries one other."""
     by_link = {other.left.name: other for other in found.pairs if not other.left_joint.is_fixed}
     carrier: dict[str, str] = {}
-    for name in by_link:
-        joint = robot.tree.parent_joint(name)
-        while joint is not None and joint.parent not in by_link:
-            joint = robot.tree.parent_joint(joint.parent)
-        if joint is not None:
-            carrier[name] = joint.parent
+    for link in by_link:
+        above = next((one for one in robot.tree.ancestors(link) if one in by_link), None)
+        if above is not None:
+            carrier[link] = above
     counts = Counter(carrier.values())
-    carried = {above: name for name, above in carrier.items() if counts[above] == 1}
-    limb, name = set(), pair.left.name
-    while name in carried and id(by_link[carried[name]]) not in limb:
-        name = carried[name]
-        limb.add(id(by_link[name]))
-    name = pair.left.name
-    while name in carrier and counts[carrier[name]] == 1:
-        name = carrier[name]
-        limb.add(id(by_link[name]))
+    single = {link: above for link, above in carrier.items() if counts[above] == 1}
+    limb: set[int] = set()
+    for step in (single, {above: link for link, above in single.items()}):
+        name: str | None = step.get(pair.left.name)
+        while name is not None and id(by_link[name]) not in limb:  # they may be a circle
+            limb.add(id(by_link[name]))
+            name = step.get(name)
     return limb
 
 
