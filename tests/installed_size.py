@@ -7,7 +7,10 @@ from pathlib import Path
 LARGEST = 120
 """Megabytes (10^6 bytes) that the core may take."""
 
-TOOLS = ("pip", "setuptools", "pkg_resources", "_distutils_hack")
+TOOLS = (
+    *("pip", "setuptools", "pkg_resources", "_distutils_hack", "distutils-precedence"),
+    *("python", "activate", "Activate"),
+)
 """What a new environment brings by itself."""
 
 
@@ -19,8 +22,9 @@ def megabytes(path):
 
 def sizes():
     """The parts of this environment's packages, largest first; what it came with left out."""
-    packages = Path(sysconfig.get_path("purelib")).iterdir()
-    found = {p.name: megabytes(p) for p in packages if p.name.split("-")[0] not in TOOLS}
+    places = [Path(sysconfig.get_path(name)) for name in ("purelib", "scripts")]
+    parts = [part for place in places for part in place.iterdir()]
+    found = {p.name: megabytes(p) for p in parts if not p.name.startswith(TOOLS)}
     return dict(sorted(found.items(), key=lambda item: -item[1]))
 
 

@@ -12,6 +12,7 @@ from ...model.tensor3 import Six
 from ..mesh.outlines import reaches
 from ..rule import ERROR, WARNING, Problem, rule
 from .proposals import attributes_text, proposal_of
+from .solids import solid_tensor
 from .tensors import SIX, is_zero, tensors
 
 
@@ -83,8 +84,11 @@ def slip_of(link: Link, inertial: Inertial, six: Six, robot: Robot) -> Proposal 
 def _moment_of_box(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> Proposal | None:
     """The one moment that is off by a power of ten, by the other two and the bounding box.
 
-    None where the axes of the inertial are oblique to those of the link.
+    None for one solid shape, whose tensor is known, for numbers that xacro computes, where no
+    decimal point was slipped, and where the axes of the inertial are oblique to those of the link.
     """
+    if solid_tensor(link) is not None or _is_computed(inertial):
+        return None
     rotation = pose_of(inertial.origin).rotation
     if box is None or any(0.1 < abs(entry) < 0.9 for row in rotation for entry in row):
         return None
@@ -93,6 +97,14 @@ def _moment_of_box(link: Link, inertial: Inertial, six: Six, box: Bounds | None)
         for column in zip(*rotation, strict=True)
     )
     return propose_moment(link.mass, six, (x, y, z))
+
+
+def _is_computed(inertial: Inertial) -> bool:
+    """Whether an inertia is written as expressions of xacro."""
+    if inertial.inertia is None:
+        return False
+    place = inertial.inertia.element.place
+    return b"${" in place.file.data[place.start : place.end]
 
 
 @rule(
