@@ -84,15 +84,15 @@ def test_hooks_pass_what_is_right_and_stop_what_is_wrong(repository, write):
     assert hook("urdftool-lint-errors").returncode == 1
 
     crooked = (
-        '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous">'
-        '<parent link="a"/><child link="b"/><axis xyz="0 0 2"/><limit effort="1" velocity="1"/>'
+        '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="Continuous">'
+        '<parent link="a"/><child link="b"/><axis xyz="0 0 1"/><limit effort="1" velocity="1"/>'
         "</joint></robot>\n"
     )
     write("bad.urdf", crooked)
     done = hook("urdftool-lint-fix")
     assert done.returncode == 1
     assert "files were modified by this hook" in done.stdout
-    assert Path("bad.urdf").read_text() == crooked.replace("0 0 2", "0 0 1")
+    assert Path("bad.urdf").read_text() == crooked.replace("Continuous", "continuous")
     done = hook("urdftool-lint-fix")
     assert done.returncode == 0, done.stdout
 

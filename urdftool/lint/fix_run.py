@@ -150,12 +150,12 @@ def apply_fixes(
         ConfigError: The configuration is wrong.
     """
     result = FixResult(list(reports))
-    banned: set[_Key] = set()
+    banned, doubted = set[_Key](), set[_Key]()
     for _ in range(MAX_ROUNDS):
         chosen = _choose(result.reports, banned, unsafe=unsafe, meshes=meshes)
         if not chosen:
             break
-        _Round(result, options, banned).prove(chosen)
+        _Round(result, options, banned, doubted).prove(chosen)
     result.groups = _groups(result)
     return result
 
@@ -209,22 +209,32 @@ def _meets(taken: Sequence[tuple[int, int, bytes]], start: int, end: int, data: 
 
 
 class _Wrong(NamedTuple):
-    """Why fixes are not kept, and whether that is for a file they are made of."""
+    """Why fixes are not kept.
+
+    Attributes:
+        text: What is worse.
+        of_a_file: Whether that is a file that they are made of.
+        subjects: What has more findings than before, or those that were to be gone: kind and name.
+    """
 
     text: str
     of_a_file: bool = False
+    subjects: frozenset[tuple[str, str]] = frozenset()
 
 
 class _Round:
     """Fixes of one choice, all of them in bytes as they are before the first is applied."""
 
-    def __init__(self, result: FixResult, options: Options, banned: set[_Key]) -> None:
+    def __init__(
+        self, result: FixResult, options: Options, banned: set[_Key], doubted: set[_Key]
+    ) -> None:
         """Start with nothing applied."""
         self.result = result
         self.options = options
         self.banned = banned
         self.start = dict(result.after)
         self.findings = [report.findings for report in result.reports]
+        self.doubted = doubted
         self.kept: list[_Wanted] = []
         self.concerned: dict[str, set[int]] = {}
         for number, report in enumerate(result.reports):
@@ -235,10 +245,21 @@ class _Round:
             self.concerned.setdefault(path, set()).add(number)
 
     def prove(self, chosen: Sequence[_Wanted]) -> None:
-        """Apply what can be applied; fixes with no description in common do not meet."""
+        """Apply what can be applied; fixes with no description in common do not meet.
+
+        Those that reveal what is wrong with what was ignored come by themselves: with one of them,
+        more findings are no reason to take the others back. What was wrong with a fix in another
+        description, such as a variant of the robot, is likely to be wrong with its like.
+        """
         for part in self._apart(chosen):
             self.kept = []
-            self._halve(part)
+            groups: dict[object, list[_Wanted]] = {}
+            for one in part:
+                like = _likeness(one.finding)
+                key = like if like in self.doubted else one.finding.rule in REVEALING
+                groups.setdefault(key, []).append(one)
+            for some in sorted(groups.values(), key=len, reverse=True):
+                self._halve(some)
 
     def _apart(self, chosen: Sequence[_Wanted]) -> list[list[_Wanted]]:
         """Sort fixes so that those in two lists concern no description in common."""
@@ -259,15 +280,25 @@ class _Round:
         return list(parts.values())
 
     def _halve(self, chosen: Sequence[_Wanted]) -> None:
-        """Apply fixes; where that is worse, one half of them and then the other."""
+        """Apply fixes; where that is worse, some of them and then the others.
+
+        What has become worse is mostly what a fix was of; where it is not, they are halved.
+        """
         wrong = self._attempt(chosen)
         if wrong is None:
             return
         if len(chosen) == 1:
             finding = chosen[0].finding
             self.banned.add(_key(finding))
+            self.doubted.add(_likeness(finding))
             kind = self.result.unmade if wrong.of_a_file else self.result.broken
             kind.setdefault(finding.rule, f"{finding.place}: {wrong.text}")
+            return
+        suspects = [one for one in chosen if _subject(one.finding) in wrong.subjects]
+        others = [one for one in chosen if _subject(one.finding) not in wrong.subjects]
+        if suspects and others:
+            self._halve(others)
+            self._halve(suspects)
             return
         middle = _middle(chosen)
         self._halve(chosen[:middle])
@@ -291,7 +322,7 @@ class _Round:
                 new = lint_file(old.path, self.options)
             wrong = _worse(old, new, [one.finding for one in some if one.number == number])
             if wrong:
-                return _Wrong(wrong)
+                return wrong
             fresh[number] = new
         for path, data in before.items():
             result.before.setdefault(path, data)
@@ -401,31 +432,43 @@ def _key(finding: Finding) -> _Key:
     return (*key, place.start) if finding.kind == "file" else key
 
 
-def _worse(before: Report, after: Report, chosen: Sequence[Finding]) -> str:
-    """What is worse after some fixes; empty where nothing is."""
+def _likeness(finding: Finding) -> _Key:
+    """What a finding has in common with its like in another description."""
+    return finding.rule, finding.kind, finding.name, finding.message
+
+
+def _subject(finding: Finding) -> tuple[str, str]:
+    return finding.kind, finding.name
+
+
+def _worse(before: Report, after: Report, chosen: Sequence[Finding]) -> _Wrong | None:
+    """What is worse after some fixes; None where nothing is."""
     if after.error is not None and before.error is None:
-        return f"the file could not be read: {after.error.message}"
+        return _Wrong(f"the file could not be read: {after.error.message}")
     if after.skipped and not before.skipped:
-        return f"the file would not be checked: {after.skipped}"
+        return _Wrong(f"the file would not be checked: {after.skipped}")
     broke = after.failed_rules.keys() - before.failed_rules.keys()
     if broke:
-        return f"the rule {min(broke)} breaks"
+        return _Wrong(f"the rule {min(broke)} breaks")
     stops = [_stops(before), _stops(after)]
     if len(stops[1]) > len(stops[0]) or (stops[1] and not stops[0]):
-        return f"the file could not be read: {stops[1][0].message}"
+        return _Wrong(f"the file could not be read: {stops[1][0].message}")
     left = Counter(map(_key, after.findings))
     there = Counter(map(_key, before.findings))
-    for finding in chosen:
-        if left[_key(finding)] >= there[_key(finding)]:
-            return "the finding is still there"
+    still = [finding for finding in chosen if left[_key(finding)] >= there[_key(finding)]]
+    if still:
+        return _Wrong("the finding is still there", subjects=frozenset(map(_subject, still)))
     if stops[0] or any(finding.rule in REVEALING for finding in chosen):
-        return ""
+        return None
     for level in (Severity.ERROR, Severity.WARNING):
-        if _count(after, level) > _count(before, level):
+        now, then = _counted(after, level), _counted(before, level)
+        more = frozenset(subject for subject, count in now.items() if count > then[subject])
+        # among many, one that brings more than it takes away is not seen in the sum
+        if sum(now.values()) > sum(then.values()) or (more and len(chosen) > 1):
             new = [f for f in after.findings if f.severity >= level and not there[_key(f)]]
             what = f"then {new[0].message} [{new[0].rule}]" if new else ""
-            return what or "there would be more findings"
-    return ""
+            return _Wrong(what or "there would be more findings", subjects=more)
+    return None
 
 
 def _stops(report: Report) -> list[Finding]:
@@ -433,8 +476,9 @@ def _stops(report: Report) -> list[Finding]:
     return [f for f in report.findings if f.kind == "file" and f.severity is Severity.ERROR]
 
 
-def _count(report: Report, level: Severity) -> int:
-    return sum(finding.severity >= level for finding in report.findings)
+def _counted(report: Report, level: Severity) -> Counter[tuple[str, str]]:
+    """How many findings there are of each subject, from a severity on."""
+    return Counter(_subject(f) for f in report.findings if f.severity >= level)
 
 
 def concerns(report: Report, paths: Iterable[str]) -> bool:
