@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from .source.location import Call, Place
 
@@ -24,6 +24,38 @@ class Severity(IntEnum):
     def label(self) -> str:
         """``error``, ``warning`` or ``info``."""
         return self.name.lower()
+
+
+Scope = Literal["robot", "repository"]
+"""What the findings of a rule may be reported once for."""
+
+Site = tuple[str, int]
+"""Where an element starts: the path of its file, and the byte."""
+
+
+class Group(NamedTuple):
+    """How a finding is reported with others of its rule.
+
+    Attributes:
+        by: What they are reported once for.
+        sentence: The message for several, with ``{count}`` and ``{names}``; empty for the first
+            message followed by the other names.
+    """
+
+    by: Scope
+    sentence: str
+
+
+class Cause(NamedTuple):
+    """What may explain a finding.
+
+    Attributes:
+        rules: The rules whose finding does.
+        site: The element that it is about.
+    """
+
+    rules: tuple[str, ...]
+    site: Site
 
 
 class Replacement(NamedTuple):
@@ -109,6 +141,11 @@ class Finding:
         expansions: How many instances there are.
         variants: The sets of xacro arguments it is there with; empty means all that were tried.
         fix: What mends it in the source, where that is known and was asked for.
+        site: The element that it is about.
+        group: How it is reported with others of its rule; None where it stands alone.
+        cause: What may explain it.
+        members: The findings that this one stands for, where several are reported as one.
+        consequences: The findings that this one explains, which are listed under it.
     """
 
     rule: str
@@ -124,6 +161,22 @@ class Finding:
     expansions: int = 1
     variants: tuple[str, ...] = ()
     fix: Fix | None = None
+    site: Site | None = None
+    group: Group | None = None
+    cause: Cause | None = None
+    members: list[Finding] = field(default_factory=list)
+    consequences: list[Finding] = field(default_factory=list)
+
+    @property
+    def names(self) -> list[str]:
+        """The names of all that it is about, each once."""
+        each = [self.name, *(name for name, _ in self.others)]
+        return [name for name in dict.fromkeys(each) if name]
+
+    @property
+    def count(self) -> int:
+        """How many facts it stands for: instances of macros, and members of a group."""
+        return sum(m.expansions for m in self.members) if self.members else self.expansions
 
     def __str__(self) -> str:
         """``FILE:LINE:COLUMN: severity: message [rule]``, with the number of instances."""

@@ -50,7 +50,8 @@ def robots(tmp_path, monkeypatch):
 
 
 def _findings(robot):
-    report = lint_file(robot, Options(Settings()))
+    settings = Settings(extend_select=("nonstandard-xmlns",))  # which is off by default
+    report = lint_file(robot, Options(settings))
     return {(f.place.path, f.place.line, f.rule): f.name for f in report.findings}
 
 

@@ -46,6 +46,7 @@ class Wanted:
 def report(console: Console, reports: Iterable[Report], settings: Settings, wanted: Wanted) -> int:
     """Show a run; gives the exit code."""
     from ..finding import Severity
+    from ..lint.group import together
     from ..lint.merge import gather
     from ..output import check_targets, write_result
     from ..report.findings import summary
@@ -56,6 +57,7 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, want
     check_targets((wanted.output_file, wanted.write_baseline), inputs=_inputs(outcome))
     if wanted.baseline or wanted.write_baseline:
         outcome = _with_baseline(console, outcome, settings, wanted)
+    outcome = together(outcome)
     threshold = Severity[wanted.fail_on.upper()]
     to_file = wanted.output_file not in (None, "-")
     text = as_text(

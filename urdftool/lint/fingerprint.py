@@ -9,11 +9,14 @@ def fingerprint(finding: Finding) -> str:
     """Sixteen hexadecimal digits from the rule, the element's kind and name, and its attributes.
 
     Neither lines nor blanks nor the order of attributes count, so that a finding keeps its
-    fingerprint while the file is edited around it.
+    fingerprint while the file is edited around it. That of a group is made of those of its members,
+    so one that has a new member is a new finding.
     """
     from hashlib import sha256
 
     words = [finding.rule, finding.kind, finding.name, *_written(finding)]
+    if finding.members:
+        words = [finding.rule, *sorted(map(fingerprint, finding.members))]
     return sha256("\0".join(words).encode("utf-8", "surrogateescape")).hexdigest()[:16]
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from ..configuration import Configuration, find_configuration
 from ..errors import ConfigError, SourceError, UrdftoolError
 from ..extras import missing_library
-from ..finding import Finding, Severity
+from ..finding import Cause, Finding, Group, Severity, Site
 from ..inputs import listen
 from ..model.elements import Robot
 from ..model.read import read_robot
@@ -41,6 +41,7 @@ def check(
     config: str | None = None,
     fixes: bool = False,
     gltf_up: GltfUp | None = None,
+    grouped: bool = False,
 ) -> list[Finding]:
     """What is wrong with a robot.
 
@@ -57,6 +58,8 @@ def check(
         fixes: Whether each finding is to have its ``fix``, as bytes of the source.
         gltf_up: The axis that is up in glTF meshes, for a path; None for what the configuration
             says.
+        grouped: Whether a fact that many links or files have is one finding with ``members``, and
+            what another finding explains is among its ``consequences``, as in ``urdftool lint``.
 
     Raises:
         SourceError: The file cannot be read.
@@ -80,7 +83,11 @@ def check(
         report = lint_file(robot, options)
         if report.error is not None:
             raise report.error
-    return report.findings
+    if not grouped:
+        return report.findings
+    from .group import group
+
+    return group(report.findings)
 
 
 def lint_file(path: str | Path, options: Options) -> Report:
@@ -355,4 +362,11 @@ def _finding(rule: Rule, problem: Problem, settings: Settings, targets: frozense
         tuple(sorted(concerned)) if rule.on is not None else (),
         dict(rule.effects),
         problem.hint,
+        site=_site(problem.element),
+        group=Group(rule.group, problem.group) if rule.group else None,
+        cause=Cause(rule.caused_by, _site(problem.cause_element)) if rule.caused_by else None,
     )
+
+
+def _site(element: Element) -> Site:
+    return element.file.path, element.start

@@ -9,7 +9,7 @@ import click
 from ..finding import Finding, Severity
 from ..lint.outcome import Outcome
 from ..rules.fix_table import FIXABLE
-from .findings_words import call_lines, remarks, sentence
+from .findings_words import call_lines, member_lines, remarks, sentence
 from .findings_words import clean as clean
 
 _COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "blue"}
@@ -99,6 +99,12 @@ def _remarks(finding: Finding, paint: Painter) -> Iterator[str]:
         label, _, text = remark.partition(": ")
         yield f"{paint(label, bold=True)}: {text}"
     yield from (f"from {line}" for line in call_lines(finding.place.calls))
+    if finding.members:
+        lines = list(member_lines(finding))
+        yield from (f"also {line}" for line in lines[: _MOST_CALLS - 1])
+        if len(lines) > _MOST_CALLS - 1:
+            yield f"and {len(lines) - _MOST_CALLS + 1} more"
+        return
     chains = [(name, calls) for name, calls in finding.others if calls]
     for name, calls in chains[: _MOST_CALLS - 1]:
         through = ", ".join(call_lines(calls[:1]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ..finding import Finding, Severity
-from .findings_words import call_lines, remarks, sentence
+from .findings_words import call_lines, member_lines, remarks, sentence
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 
@@ -22,7 +22,8 @@ def github(findings: Iterable[Finding]) -> Iterator[str]:
         properties["title"] = finding.rule
         said = ",".join(f"{key}={_property(str(value))}" for key, value in properties.items())
         came = (f"from {call}" for call in call_lines(finding.place.calls))
-        text = "\n".join([sentence(finding), *remarks(finding), *came])
+        also = (f"also {line}" for line in member_lines(finding))
+        text = "\n".join([sentence(finding), *remarks(finding), *came, *also])
         yield f"::{_COMMANDS[finding.severity]} {said}::{_data(text)}"
 
 

@@ -11,7 +11,7 @@ from string import Template
 from ..finding import Finding, Severity
 from ..lint.outcome import Outcome
 from .findings import summary
-from .findings_words import call_lines, clean, remarks, sentence
+from .findings_words import call_lines, clean, member_lines, remarks, sentence
 
 _PAGE = Path(__file__).with_name("findings_page.html")
 _MOST_LINES = 6
@@ -80,7 +80,9 @@ def _rows(finding: Finding) -> Iterator[tuple[str, str]]:
         yield label, text
     for line in call_lines(finding.place.calls):
         yield "from", line
-    for name, calls in finding.others:
+    for line in member_lines(finding):
+        yield "also", line
+    for name, calls in () if finding.members else finding.others:
         yield "also", ", ".join([name, *call_lines(calls[:1])])
 
 

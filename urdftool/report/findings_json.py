@@ -64,7 +64,25 @@ def finding_record(finding: Finding) -> dict[str, Any]:
     }
     if finding.variants:
         record["variants"] = list(finding.variants)
+    if finding.members and finding.group is not None:
+        members = [_member(member) for member in finding.members]
+        record["group"] = {"by": finding.group.by, "count": finding.count, "members": members}
+    if finding.consequences:
+        record["consequences"] = [finding_record(found) for found in finding.consequences]
     return record
+
+
+def _member(member: Finding) -> dict[str, Any]:
+    """One finding of a group: what it says by itself, and where."""
+    line, column = member.place.file.position(member.place.start)
+    return {
+        "message": member.message,
+        "path": member.place.path,
+        "line": line,
+        "column": column,
+        "element": {"kind": member.kind, "name": member.name},
+        "expansions": member.expansions,
+    }
 
 
 def fix_record(fix: Fix | None) -> dict[str, Any] | None:

@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 from ..extras import missing
 from ..finding import Finding, Severity
 from ..lint.outcome import Outcome, Report
-from .findings_words import call_lines, clean, remarks, sentence
+from .findings_words import call_lines, clean, member_lines, remarks, sentence
 
 
 def to_junit(outcome: Outcome, fail_on: Severity) -> str:
@@ -69,6 +69,7 @@ def _lines(finding: Finding) -> Iterable[str]:
     yield f"{clean(str(finding.place))}: {finding.severity.label}: {sentence(finding)}"
     yield from (f"  {remark}" for remark in remarks(finding))
     yield from (f"  from {clean(line)}" for line in call_lines(finding.place.calls))
+    yield from (f"  also {line}" for line in member_lines(finding))
 
 
 def _unchecked(suite: Element, report: Report) -> None:

@@ -115,9 +115,15 @@ def _related(finding: Finding) -> Iterator[dict[str, Any]]:
     """The macro calls and includes it came through, then those of its other instances."""
     for call in finding.place.calls:
         yield _call(call, f"from {call_words(call)}")
-    for name, calls in finding.others:
+    for member in finding.members[1:]:
+        text = clean(member.message)
+        yield {"physicalLocation": _place(member.place), "message": {"text": text}}
+    for name, calls in () if finding.members else finding.others:
         for call in calls[:1]:
             yield _call(call, f"also {clean(name)}, from {call_words(call)}")
+    for found in finding.consequences:
+        text = f"{sentence(found)} [{found.rule}]"
+        yield {"physicalLocation": _place(found.place), "message": {"text": text}}
 
 
 def _call(call: Call, text: str) -> dict[str, Any]:

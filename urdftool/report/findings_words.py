@@ -24,7 +24,8 @@ def clean(text: str) -> str:
 
 def sentence(finding: Finding) -> str:
     """The message, with how many instances there are, and in which variants alone."""
-    times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
+    several = finding.expansions > 1 and not finding.members
+    times = f" (in {finding.expansions} expansions)" if several else ""
     only = f" (only with {clean('; '.join(finding.variants))})" if finding.variants else ""
     return f"{clean(finding.message)}{times}{only}"
 
@@ -37,6 +38,15 @@ def remarks(finding: Finding) -> Iterator[str]:
         yield f"hint: {clean(finding.hint)}"
     if finding.fix is not None:
         yield f"fix: {clean(finding.fix.message)} ({finding.fix.option})"
+    for consequence in finding.consequences:
+        yield f"so: {sentence(consequence)} [{consequence.rule}]"
+
+
+def member_lines(finding: Finding) -> Iterator[str]:
+    """``FILE:LINE:COLUMN: 'name'`` for each member of a group but the first."""
+    for member in finding.members[1:]:
+        name = f": '{clean(member.name)}'" if member.name else ""
+        yield f"{clean(str(member.place))}{name}"
 
 
 def call_words(call: Call) -> str:

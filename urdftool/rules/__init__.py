@@ -201,7 +201,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         ),
     },
     "mesh": {
-        "files": ("mesh-not-found", "mesh-case-mismatch", "corrupt-mesh"),
+        "files": ("mesh-not-found", "mesh-case-mismatch", "corrupt-mesh", "git-lfs-pointer"),
         "uris": (
             "absolute-path",
             "mesh-without-filename",

@@ -13,6 +13,20 @@ fact, then why it hurts. What it wants to see it names as parameters:
     The active targets, a frozenset of names.
 
 Keyword-only parameters are thresholds; the configuration sets them by name.
+
+Two arguments of the decorator say how findings are reported together:
+
+``group="robot"``
+    The findings of the rule about one robot are reported as one, with their count and names;
+    ``group="repository"`` does so over all robots of one repository. Each finding stays a fact of
+    its own for comments, baselines, fixes and variants. ``Problem(group=…)`` gives the sentence
+    for several: ``"{count} links have a visual and no collision: {names}"``. Problems with the
+    same sentence and severity are one finding; without a sentence the first message is followed by
+    the other names.
+
+``caused_by=("placeholder-inertia",)``
+    A finding of one of these rules about the same element explains a finding of this rule, which
+    is then listed under it. ``Problem(cause=…)`` names another element to look at.
 """
 
 from __future__ import annotations
@@ -22,7 +36,7 @@ from dataclasses import dataclass, field
 from types import FunctionType
 from typing import Any
 
-from ..finding import Severity
+from ..finding import Scope, Severity
 from ..model.elements import Part
 from ..source.document import Element
 from ..source.location import Place
@@ -46,9 +60,12 @@ class Problem:
         at: Where; the subject's start tag if None.
         hint: What would mend it, where the message does not say it.
         severity: Instead of the rule's, where it depends on the case.
+        group: The sentence for several such problems, with ``{count}`` and ``{names}``, for a rule
+            that groups them; see the module's docstring.
+        cause: The element that a finding which explains this one is about; None for the subject.
     """
 
-    __slots__ = ("at", "hint", "message", "severity", "subject")
+    __slots__ = ("at", "cause", "group", "hint", "message", "severity", "subject")
 
     def __init__(
         self,
@@ -58,6 +75,8 @@ class Problem:
         at: Part | Element | Place | None = None,
         hint: str = "",
         severity: Severity | None = None,
+        group: str = "",
+        cause: Part | Element | None = None,
     ) -> None:
         """Keep what was found; the place is worked out when it is reported."""
         self.subject = subject
@@ -65,6 +84,8 @@ class Problem:
         self.at = at
         self.hint = hint
         self.severity = severity
+        self.group = group
+        self.cause = cause
 
     @property
     def place(self) -> Place:
@@ -85,7 +106,16 @@ class Problem:
     @property
     def element(self) -> Element:
         """The element of the subject."""
-        return self.subject if isinstance(self.subject, Element) else self.subject.element
+        return _element_of(self.subject)
+
+    @property
+    def cause_element(self) -> Element:
+        """The element that a finding which explains this one is about."""
+        return _element_of(self.subject if self.cause is None else self.cause)
+
+
+def _element_of(subject: Part | Element) -> Element:
+    return subject if isinstance(subject, Element) else subject.element
 
 
 @dataclass
@@ -103,6 +133,8 @@ class Rule:
         default: Whether it is on without being selected.
         needs: The names of the parameters it wants.
         thresholds: Its thresholds with their defaults.
+        group: What its findings are reported once for; None where each is reported.
+        caused_by: Rules whose finding about the same element explains one of this rule.
     """
 
     name: str
@@ -115,6 +147,8 @@ class Rule:
     default: bool = True
     needs: tuple[str, ...] = ()
     thresholds: Mapping[str, Any] = field(default_factory=dict)
+    group: Scope | None = None
+    caused_by: tuple[str, ...] = ()
 
     @property
     def fact(self) -> str:
@@ -138,6 +172,8 @@ def rule(
     raised: Mapping[str, Severity] | None = None,
     effects: Mapping[str, str] | None = None,
     default: bool = True,
+    group: Scope | None = None,
+    caused_by: tuple[str, ...] = (),
 ) -> Callable[[Any], Rule]:
     """Make a rule of a function; the arguments are those of :class:`Rule`."""
 
@@ -155,6 +191,8 @@ def rule(
             default=default,
             needs=code.co_varnames[: code.co_argcount],
             thresholds=check.__kwdefaults__ or {},
+            group=group,
+            caused_by=caused_by,
         )
 
     return make

@@ -30,6 +30,7 @@ _MARKER = 0.1  # [m] a marker of a frame is no larger
         "moveit": "plans straight through it; MoveIt 2 warns",
         "mujoco": "loads the body without a geom: visuals of a URDF are discarded",
     },
+    group="robot",
 )
 def missing_collision(
     robot: Robot, *, smallest: float = 0.01, small: float = 0.03
@@ -59,6 +60,8 @@ def missing_collision(
             f"link '{link.name}' has a visual and no collision; "
             "add a <collision>, best with a primitive shape",
             severity=INFO if sizes[link.name] < small else None,
+            group="{count} links have a visual and no collision: {names}; "
+            "add a <collision> to each, best with a primitive shape",
         )
 
 

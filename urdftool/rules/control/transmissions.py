@@ -44,6 +44,7 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
     effects={
         "gazebo_ros_control": "accepts it, and warns of deprecated syntax at every start",
     },
+    group="robot",
 )
 def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
     """A hardware interface lacks its ``hardware_interface/``.
@@ -62,6 +63,8 @@ def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
                         f"'{name}' in {called(transmission)} lacks its prefix; "
                         f"write hardware_interface/{name}",
                         at=child,
+                        group="{count} hardware interfaces lack their prefix hardware_interface/, "
+                        "in the transmissions {names}",
                     )
 
 

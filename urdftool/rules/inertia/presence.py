@@ -25,6 +25,7 @@ _LOST = "Gazebo leaves it out, with all that hangs on it"
         "mujoco": "assumes the mass of water in the shape of its collisions",
         "pinocchio, KDL, drake": "take 0 kg",
     },
+    group="robot",
 )
 def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A link that is seen or touches has no ``<inertial>``.
@@ -43,19 +44,25 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
         joint = robot.tree.parent_joint(link.name)
         if in_gazebo and link.name not in heavy:
             severity, so = ERROR, f"; {_LOST}"
+            several = "; Gazebo leaves them out, with all that is fixed or joined to them"
         elif "pybullet" in targets:
             severity, so = ERROR, "; PyBullet makes it weigh 1 kg"
+            several = "; PyBullet gives each of them 1 kg"
         elif "mujoco" in targets and link.collisions:
             severity, so = ERROR, "; MuJoCo makes it as heavy as water"
+            several = "; MuJoCo gives each of them the density of water"
         elif in_gazebo and joint is not None and joint.is_fixed:
             severity, so = INFO, f" and adds nothing to '{joint.parent}', which it is fixed to"
+            several = " and add nothing to the links that they are fixed to"
         else:
             severity, so = WARNING, ", so it weighs nothing"
+            several = ", so they have no mass"
         yield Problem(
             link,
             f"link '{link.name}' has no <inertial>{so}",
             hint="'urdftool inertia' computes one from its shapes",
             severity=severity,
+            group=f"{{count}} links have no <inertial>{several}: {{names}}",
         )
 
 

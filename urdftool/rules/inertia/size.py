@@ -23,6 +23,7 @@ from .tensors import is_positive, is_zero, moments_of, six_of, tensors
             "take it as written: the link swings like a flywheel"
         ),
     },
+    group="robot",
 )
 def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
     """An inertia is the same power of ten about every axis, such as 1 or 1e-3.
@@ -44,6 +45,8 @@ def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
             at=inertial.inertia,
             severity=WARNING if large else INFO,
             hint="'urdftool inertia' computes it",
+            group="inertia of {count} links is a placeholder, the same power of ten about every "
+            "axis: {names}",
         )
 
 

@@ -171,10 +171,9 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
 def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
     """A mesh file is there and holds no mesh.
 
-    A pointer that git-lfs left in place of the file, an empty file, an STL file that ends before
-    its last triangle, or a file without triangles: an OBJ with points and lines alone, a COLLADA
-    file whose geometry was left out at its export. Readers say something about numbers or the
-    format, or nothing.
+    An empty file, an STL file that ends before its last triangle, or a file without triangles: an
+    OBJ with points and lines alone, a COLLADA file whose geometry was left out at its export.
+    Readers say something about numbers or the format, or nothing.
     """
     told: set[Path] = set()
     for use in mesh_uses(robot, description):
@@ -182,11 +181,41 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
             continue
         told.add(use.path)
         wrong = what_is_wrong(use.path)
-        if wrong:
+        if wrong and wrong != _LFS:
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' {wrong}",
                 at=use.mesh.element.attribute_place("filename"),
+            )
+
+
+@rule(
+    ERROR,
+    effects={
+        "rviz, gazebo": "show nothing there",
+        "mujoco": "refuses the robot, with a message that points elsewhere",
+    },
+    group="repository",
+)
+def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A mesh file is a pointer that git-lfs left in place of the file.
+
+    The repository keeps its meshes in git-lfs, and this checkout has not fetched them: each mesh
+    is a text of three lines. Readers report numbers or formats that are wrong, or nothing. One
+    ``git lfs pull`` fetches all of them, so all pointers of a repository are one finding.
+    """
+    reported: set[Path] = set()
+    for use in mesh_uses(robot, description):
+        if use.path is None or not use.exists or use.path in reported:
+            continue
+        reported.add(use.path)
+        if what_is_wrong(use.path) == _LFS:
+            yield Problem(
+                use.link,
+                f"mesh '{use.uri}' {_LFS}",
+                at=use.mesh.element.attribute_place("filename"),
+                group="{count} mesh files are pointers of git-lfs, not the files themselves, in "
+                "the links {names}; run 'git lfs pull'",
             )
 
 

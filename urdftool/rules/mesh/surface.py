@@ -152,6 +152,7 @@ def with_slivers(
     effects={
         "mujoco, pybullet": "collide with its convex hull: a ball between two prongs touches them",
     },
+    group="robot",
 )
 def nonconvex_collision_mesh(
     robot: Robot, description: Description, *, ratio: float = 1.5
@@ -174,4 +175,6 @@ def nonconvex_collision_mesh(
             f"{hull / abs(surface.volume):.2g} times its volume",
             at=use.mesh.element.attribute_place("filename"),
             hint="'urdftool collision' cuts it into convex pieces",
+            group="{count} collision meshes are far from convex, and engines fill them up to their "
+            "hulls, in the links {names}",
         )

@@ -1,0 +1,199 @@
+"""Findings as they are reported: consequences under their cause, one fact many times as one.
+
+Comments, baselines, fixes and variants work on each finding by itself. What is put together here is
+the last step before a report is written, and every format writes it.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ..finding import Cause, Finding, Fix, Group, Remake, Replacement, Site
+from ..inputs import Remembered
+from .merge import in_order
+from .outcome import Outcome
+
+NAMES = 5
+"""How many names the sentence of a group has; the others are counted."""
+
+
+def together(outcome: Outcome) -> Outcome:
+    """A run as it is reported.
+
+    Args:
+        outcome: The run, after what a baseline has was set apart.
+    """
+    robots: dict[Any, int] = {}
+    for number, report in enumerate(outcome.reports):
+        for finding in report.findings:
+            robots.setdefault(_identity(finding), number)
+    return replace(
+        outcome,
+        findings=group(outcome.findings, robots),
+        known=group(outcome.known, robots),
+    )
+
+
+def group(findings: Iterable[Finding], robots: Mapping[Any, int] | None = None) -> list[Finding]:
+    """Findings with consequences under their causes, and one finding for each group.
+
+    Args:
+        findings: Findings, in the order of the source.
+        robots: The description that each comes from; without it, all are of one.
+    """
+    return in_order(_grouped(_nested(list(findings)), robots or {}))
+
+
+def _nested(findings: list[Finding]) -> list[Finding]:
+    """Findings without those that another explains, which has them as its consequences."""
+    if not any(finding.cause for finding in findings):
+        return findings
+    causes: dict[tuple[str, Site | None], list[int]] = {}
+    for number, finding in enumerate(findings):
+        causes.setdefault((finding.rule, finding.site), []).append(number)
+    above: dict[int, int] = {}
+    for number, finding in enumerate(findings):
+        if finding.cause is None:
+            continue
+        for candidate in _candidates(finding.cause, causes):
+            if _explains(findings[candidate], finding) and not _is_above(number, candidate, above):
+                above[number] = candidate
+                break
+    if not above:
+        return findings
+    made = [replace(f, consequences=list(f.consequences)) for f in findings]
+    for number in sorted(above, key=lambda n: -_depth(n, above)):
+        cause = made[above[number]]
+        cause.consequences.append(made[number])
+        cause.severity = max(cause.severity, made[number].severity)
+    return [finding for number, finding in enumerate(made) if number not in above]
+
+
+def _candidates(cause: Cause, causes: Mapping[tuple[str, Site | None], list[int]]) -> Iterable[int]:
+    for rule in cause.rules:
+        yield from causes.get((rule, cause.site), ())
+
+
+def _explains(cause: Finding, finding: Finding) -> bool:
+    """Whether a cause is there wherever its consequence is."""
+    if cause.variants and not set(finding.variants or ("",)) <= set(cause.variants):
+        return False
+    if finding.site != cause.site:
+        return True
+    return set(finding.names) <= set(cause.names)
+
+
+def _is_above(number: int, other: int, above: Mapping[int, int]) -> bool:
+    """Whether a finding is the other, or explains it already."""
+    while other != number and other in above:
+        other = above[other]
+    return other == number
+
+
+def _depth(number: int, above: Mapping[int, int]) -> int:
+    depth = 0
+    while number in above:
+        number, depth = above[number], depth + 1
+    return depth
+
+
+def _grouped(findings: Iterable[Finding], robots: Mapping[Any, int]) -> list[Finding]:
+    groups: dict[Any, list[Finding]] = {}
+    for finding in findings:
+        groups.setdefault(_key(finding, robots), []).append(finding)
+    return [found[0] if len(found) == 1 else _as_one(found) for found in groups.values()]
+
+
+def _key(finding: Finding, robots: Mapping[Any, int]) -> Any:
+    """What the findings of one group have in common."""
+    if finding.group is None:
+        return id(finding)
+    where: Any = robots.get(_identity(finding), 0)
+    if finding.group.by == "repository":
+        where = repository(os.path.dirname(os.path.abspath(finding.place.path)))
+    return finding.rule, finding.severity, finding.group, finding.variants, where
+
+
+def _identity(finding: Finding) -> Any:
+    place = finding.place
+    return finding.rule, place.path, place.start, place.end, finding.name, finding.message
+
+
+@Remembered
+def repository(folder: str) -> str:
+    """The nearest folder that has a ``.git``, from a folder upward; empty where there is none."""
+    for above in (Path(folder), *Path(folder).parents):
+        if (above / ".git").exists():
+            return str(above)
+    return ""
+
+
+def _as_one(found: Sequence[Finding]) -> Finding:
+    """One finding for several of a group, at the place of the first."""
+    first = found[0]
+    rest = [
+        (name, calls) for f in found[1:] for name, calls in ((f.name, f.place.calls), *f.others)
+    ]
+    hints = {finding.hint for finding in found}
+    consequences = [c for finding in found for c in finding.consequences]
+    whole = replace(
+        first,
+        members=list(found),
+        others=[*first.others, *rest],
+        hint=first.hint if len(hints) == 1 else "",
+        fix=_fix(found),
+        consequences=_grouped(consequences, {}),
+    )
+    assert first.group is not None
+    whole.message = _sentence(first.group, whole)
+    return whole
+
+
+def _sentence(group: Group, whole: Finding) -> str:
+    if group.sentence:
+        sentence = group.sentence.replace("{count}", str(whole.count))
+        return sentence.replace("{names}", _listed(whole.names))
+    names = f": {_listed(whole.names[1:])}" if whole.names[1:] else ""
+    return f"{whole.message} (and {whole.count - 1} more{names})"
+
+
+def _listed(names: Sequence[str]) -> str:
+    """``'a', 'b' and 7 more``."""
+    shown = ", ".join(f"'{name}'" for name in names[:NAMES])
+    more = len(names) - NAMES
+    return f"{shown} and {more} more" if more > 0 else shown
+
+
+def _fix(found: Sequence[Finding]) -> Fix | None:
+    """What fixes a group; where that is not all of it, the message says how much."""
+    fixes = [finding.fix for finding in found if finding.fix is not None]
+    safe = [fix for fix in fixes if fix.safe]
+    chosen = safe or fixes
+    if not chosen:
+        return None
+    replacements: list[Replacement] = []
+    remakes: list[Remake] = []
+    covered = 0
+    for fix in chosen:
+        new = [r for r in fix.replacements if r not in replacements]
+        if any(_overlap(one, other) for one in new for other in replacements):
+            continue
+        covered += 1
+        replacements += new
+        remakes += [remake for remake in fix.remakes if remake not in remakes]
+    message = chosen[0].message
+    if any(fix.message != message for fix in chosen):
+        message = f"{message}, and so on"
+    if covered < len(found):
+        message += f" (covers {covered} of {len(found)} places)"
+    replacements.sort(key=lambda r: (r.place.path, r.place.start, r.place.end))
+    return Fix(bool(safe), message, tuple(replacements), tuple(remakes))
+
+
+def _overlap(one: Replacement, other: Replacement) -> bool:
+    a, b = one.place, other.place
+    return a.path == b.path and a.start < b.end and b.start < a.end
