@@ -141,6 +141,7 @@ class Finding:
         expansions: How many instances there are.
         variants: The sets of xacro arguments it is there with; empty means all that were tried.
         fix: What mends it in the source, where that is known and was asked for.
+        unchecked: Whether because of it nothing else of the robot was checked.
         site: The element that it is about.
         group: How it is reported with others of its rule; None where it stands alone.
         cause: What may explain it.
@@ -161,6 +162,7 @@ class Finding:
     expansions: int = 1
     variants: tuple[str, ...] = ()
     fix: Fix | None = None
+    unchecked: bool = False
     site: Site | None = None
     group: Group | None = None
     cause: Cause | None = None

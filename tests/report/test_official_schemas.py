@@ -94,6 +94,9 @@ def test_annotations_come_back_as_they_were(runs, urdftool):
     for words in runs:
         table = json.loads(urdftool("lint", *words, "--format", "json").out)
         lines = urdftool("lint", *words, "--format", "github").out.splitlines()
+        unreadable = [line for line in lines if "title=not-checked" in line]
+        assert len(unreadable) == len(table["summary"]["unreadable"])
+        lines = [line for line in lines if line not in unreadable]
         assert len(lines) == len(table["findings"])
         for line, finding in zip(lines, table["findings"], strict=True):
             level, properties, message = unescaped(line)

@@ -72,7 +72,7 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, want
     else:
         write_result(text, wanted.output_file, inputs=_inputs(outcome) if to_file else [])
     broken = _say_the_rest(console, outcome.reports)
-    if any(report.checked for report in outcome.reports):
+    if any(report.checked or report.stopped for report in outcome.reports):
         console.note(summary(outcome))
         for line in skipped_rules(outcome):
             console.note(line)
@@ -121,7 +121,7 @@ def _write(console: Console, outcome: Outcome, settings: Settings, path: str) ->
     from ..output import write_result
 
     if not outcome.complete:
-        console.say(f"{path}: is not written, because not all files could be checked")
+        console.say(f"{path}: is not written, because not all robots could be checked")
         return None
     kept = {}
     if os.path.exists(path):
@@ -157,6 +157,7 @@ def _say_the_rest(console: Console, reports: Iterable[Report]) -> int:
             console.note(f"{report.path}: skipped, {report.skipped}", level=1)
         if report.error is not None:
             console.error(report.error)
+        if report.not_checked:
             code = max(code, 2)
         for rule, reason in report.failed_rules.items():
             console.say(

@@ -122,7 +122,7 @@ def compare(outcome: Outcome, baseline: Baseline) -> tuple[Outcome, list[Entry]]
     matched: set[Entry] = set()
     for finding in outcome.findings:
         entry = baseline.entry(finding)
-        if left[entry] > 0:
+        if left[entry] > 0 and not finding.unchecked:
             left[entry] -= 1
             matched.add(entry)
             known.append(finding)

@@ -57,6 +57,7 @@ class Report:
         files: The files of its source that were read.
         skipped: Why it was not checked; empty if it was.
         error: What kept it from being read.
+        stopped: What kept the robot in it from being read, so that nothing of it was checked.
         failed_rules: Rules that broke, which is a bug of ours, with what they raised.
         skipped_rules: Rules that require an optional library that is not installed, with its name.
         skipped_fixes: Rules whose fix requires an optional library that is not installed.
@@ -70,6 +71,7 @@ class Report:
     files: tuple[str, ...] = ()
     skipped: str = ""
     error: UrdftoolError | None = None
+    stopped: str = ""
     failed_rules: dict[str, str] = field(default_factory=dict)
     skipped_rules: dict[str, str] = field(default_factory=dict)
     skipped_fixes: dict[str, str] = field(default_factory=dict)
@@ -82,8 +84,13 @@ class Report:
 
     @property
     def checked(self) -> bool:
-        """Whether it was read and looked at."""
-        return not self.skipped and self.error is None
+        """Whether the robot in it was checked."""
+        return not self.skipped and not self.not_checked
+
+    @property
+    def not_checked(self) -> str:
+        """Why the robot in it was not checked, though it should have been; empty if it was."""
+        return self.stopped if self.error is None else self.error.message
 
 
 @dataclass
@@ -112,6 +119,11 @@ class Outcome:
         }
 
     @property
+    def not_checked(self) -> list[Report]:
+        """The descriptions whose robot was not checked."""
+        return [report for report in self.reports if report.not_checked]
+
+    @property
     def complete(self) -> bool:
-        """Whether all files were read and no rule broke."""
-        return all(report.error is None and not report.failed_rules for report in self.reports)
+        """Whether all robots were checked and no rule broke."""
+        return not any(report.not_checked or report.failed_rules for report in self.reports)

@@ -10,7 +10,7 @@ from typing import Any
 from ..configuration import Configuration, find_configuration
 from ..errors import ConfigError, SourceError, UrdftoolError
 from ..extras import missing_library
-from ..finding import Cause, Finding, Group, Severity, Site
+from ..finding import Cause, Finding, Group, Site
 from ..inputs import listen
 from ..model.elements import Robot
 from ..model.read import read_robot
@@ -19,9 +19,10 @@ from ..rules.fix_table import FIXABLE, may_have_fix
 from ..rules.rule import Problem, Rule
 from ..source.description import Description, GltfUp, is_xacro, read_description
 from ..source.document import Document, Element, parse, read_file
-from ..source.location import Place, SourceFile
+from ..source.location import SourceFile
 from ..source.well_formed import mend
 from .merge import in_order, merge
+from .not_checked import finding_of, refuse_other_files, refuse_other_roots, refuse_srdf
 from .outcome import Options, Report
 from .settings import Settings, check_selectors, check_targets, settings_for
 from .suppress import read_suppressions, suppress, unused
@@ -154,36 +155,38 @@ def _lint_once(
 ) -> Report:
     """Check a description with one set of xacro arguments."""
     report = Report(str(path))
+    failures: list[UrdftoolError] = []
+    description: Description | None = None
     try:
         file = read_file(path)
+        refuse_other_files(file)
+        try:
+            description = _read(file, options, configuration)
+        except SourceError as error:
+            failures.append(error)
+            description = _read_mended(file, options, configuration)
+        if description is not None:
+            root = description.document.root
+            if description.expansion and not (root.child("link") or root.child("joint")):
+                report.skipped = "only macros: it has no link of its own"
+                return report
+            refuse_srdf(description)
     except SourceError as error:
         report.error = error
         return report
-    failures: list[UrdftoolError] = []
-    try:
-        description: Description | None = _read(file, options, configuration)
-    except SourceError as error:
-        failures.append(error)
-        description = _read_mended(file, options, configuration)
     robot = None
     if description is not None:
-        root = description.document.root
-        if description.expansion is not None and not (root.child("link") or root.child("joint")):
-            report.skipped = "only macros: it has no link of its own"
-            return report
-        if str(path).endswith(".srdf") and root.tag == "robot" and not root.child("link"):
-            report.error = SourceError(
-                "is an SRDF, which is checked with the robot that it is for: lint the URDF or "
-                "xacro beside it",
-                path=str(path),
-            )
-            return report
-        if root.tag == "robot":
-            robot = read_robot(root)
+        try:
+            refuse_other_roots(description)
+            robot = read_robot(description.document.root)
             robot.source = description
-    _check_description(
-        description or _unexpanded(file, failures), robot, settings, report, failures, options
-    )
+        except SourceError as error:
+            failures.insert(0, error)
+            settings = replace(settings, select=(), extend_select=())
+    if robot is None or description is None:
+        report.stopped = failures[0].message
+        description = _unexpanded(file, failures)
+    _check_description(description, robot, settings, report, failures, options)
     return report
 
 
@@ -244,7 +247,9 @@ def _check_description(
     report.files = tuple(file.path for file in description.files)
     rules = _rules(settings, targets, description)
     documents = list(_documents(description))
-    findings = [_of_failure(failure, settings) for failure in failures]
+    findings = [
+        finding_of(failure, settings.severity, unchecked=robot is None) for failure in failures
+    ]
     subjects: dict[str, Any] = {
         "robot": robot,
         "description": description,
@@ -313,21 +318,6 @@ def _documents(description: Description) -> Iterator[Document]:
             yield parse(file)
         except SourceError:
             continue
-
-
-def _of_failure(failure: UrdftoolError, settings: Settings) -> Finding:
-    """What kept the description from being read, as a finding."""
-    place = failure.at or Place(SourceFile(failure.path or "", b""), 0, 0)
-    name = failure.rule or "not-well-formed"
-    severity = Severity.WARNING if name == "package-not-found" else Severity.ERROR
-    return Finding(
-        name,
-        settings.severity.get(name) or severity,
-        failure.message,
-        place,
-        "file",
-        hint="; ".join(failure.notes),
-    )
 
 
 def _problems(

@@ -150,7 +150,7 @@ def suppress(
     kept: list[Finding] = []
     ignored: list[tuple[Finding, str]] = []
     for finding in findings:
-        covering = [s for s in suppressions if s.covers(finding)]
+        covering = [] if finding.unchecked else [s for s in suppressions if s.covers(finding)]
         for suppression in covering:
             suppression.used = True
         if covering:

@@ -71,11 +71,16 @@ def as_one(reports: Mapping[str, Report]) -> Report:
     """The reports of a file's variants, by label, as one.
 
     A finding that some variants do not have says which have it. What is unused in some and used in
-    others is not unused.
+    others is not unused. A file is not checked if one of its variants is not.
     """
-    checked = {name: report for name, report in reports.items() if report.checked}
+    checked = {
+        name: report
+        for name, report in reports.items()
+        if report.error is None and not report.skipped
+    }
     if not checked:
         return next(iter(reports.values()))
+    stopped = {name: report.stopped for name, report in checked.items() if report.stopped}
     findings = _merged({name: report.findings for name, report in checked.items()}, len(reports))
     reasons = {_key(f): reason for report in checked.values() for f, reason in report.ignored}
     first = next(iter(checked.values()))
@@ -89,6 +94,7 @@ def as_one(reports: Mapping[str, Report]) -> Report:
         targets=frozenset().union(*(report.targets for report in checked.values())),
         ignored=[(finding, reasons[_key(finding)]) for finding in hidden],
         files=tuple(dict.fromkeys(f for report in checked.values() for f in report.files)),
+        stopped="; ".join(f"with {name}: {reason}" for name, reason in stopped.items()),
         failed_rules={k: v for r in checked.values() for k, v in r.failed_rules.items()},
         skipped_rules={k: v for r in checked.values() for k, v in r.skipped_rules.items()},
     )

@@ -9,6 +9,7 @@ import click
 from ..finding import Finding, Severity
 from ..lint.outcome import Outcome
 from ..rules.fix_table import FIXABLE
+from .counted import counted
 from .findings_words import call_lines, member_lines, remarks, sentence
 from .findings_words import clean as clean
 
@@ -113,15 +114,21 @@ def _remarks(finding: Finding, paint: Painter) -> Iterator[str]:
         yield f"and {len(chains) - _MOST_CALLS + 1} more"
 
 
-def statistics(findings: Iterable[Finding]) -> Iterator[str]:
+def statistics(outcome: Outcome) -> Iterator[str]:
     """How often each rule has fired, the most frequent first."""
     counts: dict[tuple[str, Severity], int] = {}
-    for finding in findings:
+    for finding in outcome.findings:
         key = (finding.rule, finding.severity)
         counts[key] = counts.get(key, 0) + 1
     for (rule, severity), count in sorted(counts.items(), key=lambda kv: (-kv[1], kv[0][0])):
         fixable = f" (fix: {FIXABLE[rule]})" if rule in FIXABLE else ""
         yield f"{count:>6}  {severity.label:<8} {rule}{fixable}"
+    if outcome.not_checked:
+        yield f"{len(outcome.not_checked):>6}  error    {NOT_CHECKED} (a file without its robot)"
+
+
+NOT_CHECKED = "not-checked"
+"""What formats with names of rules call a file whose robot was not checked."""
 
 
 def summary(outcome: Outcome) -> str:
@@ -142,4 +149,7 @@ def summary(outcome: Outcome) -> str:
     known = f", {len(outcome.known)} in the baseline" if outcome.known else ""
     hidden = f", {suppressed} ignored by comments" if suppressed else ""
     names = ", ".join(sorted(targets)) or "any reader of URDF"
-    return f"{what}{hidden}{known} in {files} file{'s' * (files != 1)} (targets: {names})"
+    where = f" in {counted(files, 'file')}" if files else ""
+    missing = len(outcome.not_checked)
+    unchecked = f", {counted(missing, 'file')} not checked" if missing else ""
+    return f"{what}{hidden}{known}{where}{unchecked}" + (f" (targets: {names})" if files else "")

@@ -27,7 +27,7 @@ def as_text(
         statistics: Count findings by rule instead.
     """
     if statistics:
-        return _joined(findings.statistics(outcome.findings))
+        return _joined(findings.statistics(outcome))
     text = _in_style(outcome, style, colors, fail_on)
     return text.encode("utf-8", "backslashreplace").decode()  # names of files may be any bytes
 
@@ -52,7 +52,7 @@ def _in_style(outcome: Outcome, style: str, colors: bool, fail_on: Severity) -> 
     if style == "github":
         from .findings_github import github
 
-        return _joined(github(outcome.findings))
+        return _joined(github(outcome))
     write = findings.full if style == "full" else findings.concise
     return _joined(write(outcome.findings, colors=colors))
 

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
-from ..finding import Finding, Severity
-from .findings_words import call_lines, member_lines, remarks, sentence
+from ..finding import Severity
+from ..lint.outcome import Outcome
+from .findings import NOT_CHECKED
+from .findings_words import call_lines, clean, member_lines, remarks, sentence
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 
 
-def github(findings: Iterable[Finding]) -> Iterator[str]:
+def github(outcome: Outcome) -> Iterator[str]:
     """``::error file=…,line=…,title=RULE::message``, a line each."""
-    for finding in findings:
+    for report in outcome.reports:
+        if report.error is not None:
+            where = f"file={_property(report.path)},title={NOT_CHECKED}"
+            yield f"::error {where}::{_data(clean(report.error.message))}"
+    for finding in outcome.findings:
         line, column = finding.place.file.position(finding.place.start)
         end_line, end_column = finding.place.end_position
         properties: dict[str, object] = {"file": finding.place.path, "line": line}

@@ -9,8 +9,8 @@ from pathlib import Path
 from string import Template
 
 from ..finding import Finding, Severity
-from ..lint.outcome import Outcome
-from .findings import summary
+from ..lint.outcome import Outcome, Report
+from .findings import NOT_CHECKED, summary
 from .findings_words import call_lines, clean, member_lines, remarks, sentence
 
 _PAGE = Path(__file__).with_name("findings_page.html")
@@ -23,7 +23,8 @@ def to_html(outcome: Outcome) -> str:
     by_file: dict[str, list[Finding]] = {}
     for finding in outcome.findings:
         by_file.setdefault(finding.place.path, []).append(finding)
-    files = [_file(path, findings) for path, findings in by_file.items()]
+    files = [_unreadable(r) for r in outcome.reports if r.error is not None]
+    files += [_file(path, findings) for path, findings in by_file.items()]
     return Template(_PAGE.read_text("utf-8")).substitute(
         summary=_text(summary(outcome)),
         filters=_filters(outcome),
@@ -59,6 +60,17 @@ def _counted(count: int, severity: Severity) -> str:
 def _file(path: str, findings: list[Finding]) -> str:
     shown = "\n".join(_finding(finding) for finding in findings)
     return f"<section>\n<h2>{_text(path)}</h2>\n{shown}\n</section>"
+
+
+def _unreadable(report: Report) -> str:
+    """A file that could not be read, which has no finding."""
+    text = _text(report.not_checked)
+    return (
+        f"<section>\n<h2>{_text(report.path)}</h2>\n"
+        f'<article class="error" data-rule="{NOT_CHECKED}">\n'
+        f'<p><span class="level">error</span> {text}; nothing of it was checked</p>\n'
+        "</article>\n</section>"
+    )
 
 
 def _finding(finding: Finding) -> str:

@@ -29,6 +29,7 @@ def to_json(outcome: Outcome) -> str:
             "unreadable": [
                 {"path": r.path, "reason": r.error.message} for r in reports if r.error is not None
             ],
+            "not_checked": [{"path": r.path, "reason": r.not_checked} for r in outcome.not_checked],
         },
     }
     if outcome.skipped_rules:
@@ -62,6 +63,8 @@ def finding_record(finding: Finding) -> dict[str, Any]:
         "hint": finding.hint or None,
         "fix": fix_record(finding.fix),
     }
+    if finding.unchecked:
+        record["not_checked"] = True
     if finding.variants:
         record["variants"] = list(finding.variants)
     if finding.members and finding.group is not None:

@@ -8,6 +8,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 from ..extras import missing
 from ..finding import Finding, Severity
 from ..lint.outcome import Outcome, Report
+from .findings import NOT_CHECKED
 from .findings_words import call_lines, clean, member_lines, remarks, sentence
 
 
@@ -73,12 +74,13 @@ def _lines(finding: Finding) -> Iterable[str]:
 
 
 def _unchecked(suite: Element, report: Report) -> None:
-    """A file that was skipped or could not be read, and rules that broke on it."""
+    """A file that was skipped or not checked, and rules that broke on it."""
     if report.skipped:
         SubElement(_case(suite, report.path, "lint"), "skipped", message=clean(report.skipped))
-    if report.error is not None:
+    if report.not_checked:
         case = _case(suite, report.path, "lint")
-        SubElement(case, "error", type="unreadable", message=clean(report.error.message))
+        kind = "unreadable" if report.error is not None else NOT_CHECKED
+        SubElement(case, "error", type=kind, message=clean(report.not_checked))
     for rule, library in report.skipped_rules.items():
         why = str(missing(library, f"rule {rule}"))
         SubElement(_case(suite, report.path, rule), "skipped", message=clean(why))

@@ -12,9 +12,10 @@ from urllib.parse import quote
 from .. import __version__
 from ..finding import Finding, Fix, Severity
 from ..lint.fingerprint import fingerprint
-from ..lint.outcome import Outcome
+from ..lint.outcome import Outcome, Report
 from ..rules import FAMILY_OF, get_rule
 from ..source.location import Call, Place
+from .findings import NOT_CHECKED
 from .findings_words import call_words, clean, remarks, sentence, skipped_rules
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
@@ -29,12 +30,14 @@ def to_sarif(outcome: Outcome) -> str:
         *((finding, []) for finding in outcome.findings),
         *((finding, [suppression]) for finding, suppression in excused),
     ]
-    names = sorted({finding.rule for finding, _ in found})
+    unreadable = [report for report in outcome.reports if report.error is not None]
+    names = sorted({finding.rule for finding, _ in found} | {NOT_CHECKED for _ in unreadable})
     seen: Counter[tuple[str, str]] = Counter()
     results = []
     for finding, suppressions in found:
         result = _result(finding, names.index(finding.rule), seen)
         results.append(result | {"suppressions": suppressions} if excused else result)
+    results += [_unreadable(report, names.index(NOT_CHECKED)) for report in unreadable]
     driver = {
         "name": "urdftool",
         "semanticVersion": __version__,
@@ -53,6 +56,14 @@ def to_sarif(outcome: Outcome) -> str:
 def _rule(name: str) -> dict[str, Any]:
     """A rule with its page as help."""
     record: dict[str, Any] = {"id": name}
+    if name == NOT_CHECKED:
+        fact = {"text": "A file could not be read, so nothing of it was checked."}
+        return record | {
+            "shortDescription": fact,
+            "help": fact,
+            "defaultConfiguration": {"level": "error", "enabled": True},
+            "properties": {"tags": ["lint"]},
+        }
     if name not in FAMILY_OF:
         return record
     from .rule_pages import page
@@ -63,6 +74,18 @@ def _rule(name: str) -> dict[str, Any]:
         "help": {"text": page(name)},
         "defaultConfiguration": {"level": _LEVELS[rule.severity], "enabled": rule.default},
         "properties": {"tags": [rule.family]},
+    }
+
+
+def _unreadable(report: Report, index: int) -> dict[str, Any]:
+    """A file that could not be read, which has no finding."""
+    return {
+        "ruleId": NOT_CHECKED,
+        "ruleIndex": index,
+        "level": "error",
+        "message": {"text": clean(report.not_checked)},
+        "locations": [{"physicalLocation": _file(report.path)}],
+        "partialFingerprints": {"primaryLocationLineHash": f"{NOT_CHECKED}:1"},
     }
 
 
@@ -131,8 +154,12 @@ def _call(call: Call, text: str) -> dict[str, Any]:
     return {"physicalLocation": _place(place), "message": {"text": text}}
 
 
+def _file(path: str) -> dict[str, Any]:
+    return {"artifactLocation": {"uri": uri(path)}}
+
+
 def _place(place: Place) -> dict[str, Any]:
-    where: dict[str, Any] = {"artifactLocation": {"uri": uri(place.path)}}
+    where = _file(place.path)
     if place.file.data:
         line, column = place.file.position(place.start)
         end_line, end_column = place.end_position
@@ -160,8 +187,8 @@ def _invocation(outcome: Outcome) -> dict[str, Any]:
     """Whether all files were read and no rule broke, and what kept them."""
     notes = []
     for report in outcome.reports:
-        where = {"physicalLocation": {"artifactLocation": {"uri": uri(report.path)}}}
-        said = [clean(report.error.message)] if report.error is not None else []
+        where = {"physicalLocation": _file(report.path)}
+        said = [clean(report.not_checked)] if report.not_checked else []
         said += [f"rule {r}: {clean(why)}" for r, why in report.failed_rules.items()]
         notes += [
             {"level": "error", "message": {"text": text}, "locations": [where]} for text in said

@@ -23,11 +23,12 @@ def clean(text: str) -> str:
 
 
 def sentence(finding: Finding) -> str:
-    """The message, with how many instances there are, and in which variants alone."""
+    """The message, with the number of instances, the variants, and what it prevented."""
     several = finding.expansions > 1 and not finding.members
     times = f" (in {finding.expansions} expansions)" if several else ""
     only = f" (only with {clean('; '.join(finding.variants))})" if finding.variants else ""
-    return f"{clean(finding.message)}{times}{only}"
+    alone = "; nothing else in this description was checked" if finding.unchecked else ""
+    return f"{clean(finding.message)}{times}{only}{alone}"
 
 
 def remarks(finding: Finding) -> Iterator[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...source.description import Description
+from ...source.document import Element
 from ..rule import ERROR, WARNING, Problem, rule
 
 
@@ -47,7 +48,7 @@ _BELONGS = {
     "sdf": "it is SDF; 'gz sdf --check' is the tool for it",
     "mujoco": "it is MJCF; MuJoCo's own compiler checks it",
     "launch": "it is a launch file",
-    "package": "it is a package.xml",
+    "package": "it is the manifest of a package",
     "gazebo": "put it inside a <robot>",
 }
 
@@ -58,16 +59,19 @@ _BELONGS = {
         "urdfdom": "rejects the file: no 'robot' element",
     },
 )
-def wrong_root(description: Description) -> Iterator[Problem]:
+def wrong_root() -> tuple[Problem, ...]:
     """The root element is not ``<robot>``.
 
-    Readers look for ``<robot>`` and find nothing. SDF, MJCF and launch files often end up with the
-    wrong ending.
+    Readers look for ``<robot>`` and find nothing, so nothing else of the file is checked. SDF, MJCF
+    and launch files often end up with the wrong ending.
     """
-    root = description.document.root
-    if root.tag and root.tag != "robot":
-        belongs = _BELONGS.get(root.tag, 'a robot description starts with <robot name="…">')
-        yield Problem(root, f"the root element is <{root.tag}>; {belongs}")
+    return ()
+
+
+def fault_of_root(root: Element) -> str:
+    """What is wrong with a root that is not ``<robot>``, and what the file seems to be."""
+    belongs = _BELONGS.get(root.tag, 'a robot description starts with <robot name="…">')
+    return f"the root element is <{root.tag}>; {belongs}"
 
 
 @rule(

@@ -1,0 +1,107 @@
+"""Files that are not robot descriptions, and descriptions that nothing of is checked."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+
+from ..errors import SourceError, UrdftoolError
+from ..finding import Finding, Severity
+from ..source.description import Description
+from ..source.document import Element
+from ..source.location import Place, SourceFile
+
+_MESHES = (".stl", ".dae", ".obj", ".ply", ".glb", ".gltf", ".3ds", ".step", ".stp")
+_HEAD = 1024
+
+
+def refuse_other_files(file: SourceFile) -> None:
+    """Refuse what is a part of a package and not a robot description.
+
+    Raises:
+        SourceError: The file is a mesh, a binary file or the manifest of a package.
+    """
+    name = os.path.basename(file.path).lower()
+    if name.endswith(_MESHES):
+        raise SourceError(
+            "is a mesh, not a robot description; lint the URDF or xacro that names it, which "
+            "checks its meshes",
+            path=file.path,
+        )
+    if name == "package.xml":
+        raise SourceError(
+            "is the manifest of a package, not a robot description; lint the URDF or xacro files "
+            "of the package, which checks the manifest as far as they need it",
+            path=file.path,
+        )
+    text = (b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")  # UTF-16 and UTF-32 have zero bytes
+    if b"\0" in file.data[:_HEAD] and not file.data.startswith(text):
+        raise SourceError("is a binary file, not a robot description", path=file.path)
+
+
+def refuse_srdf(description: Description) -> None:
+    """Refuse an SRDF, which is checked with its robot.
+
+    Raises:
+        SourceError: The description is an SRDF.
+    """
+    root = description.document.root
+    if description.path.endswith(".srdf") and root.tag == "robot" and not root.child("link"):
+        raise SourceError(
+            "is an SRDF, which is checked with the robot that it is for: lint the URDF or xacro "
+            "beside it",
+            path=description.path,
+        )
+
+
+def refuse_other_roots(description: Description) -> None:
+    """Refuse XML that readers of robot descriptions find no robot in, or only a part of it.
+
+    Raises:
+        SourceError: The root is not ``<robot>``, or tags of xacro have no namespace, so that
+            nothing of them is expanded.
+    """
+    root = description.document.root
+    if root.tag != "robot":
+        from ..rules.xml.document import fault_of_root
+
+        raise SourceError(fault_of_root(root), at=root.place, rule="wrong-root")
+    if description.expansion is None and "xmlns:xacro" not in root.attributes:
+        tags = [element for element in root.walk() if element.tag.startswith("xacro:")]
+        if tags:
+            count = f"{len(tags)} tags" if len(tags) > 1 else "a tag"
+            raise SourceError(
+                f"the file has {count} of xacro and does not declare its namespace, so nothing is "
+                'expanded; write xmlns:xacro="http://www.ros.org/wiki/xacro" on <robot>',
+                at=_first(tags).place,
+                rule="missing-xmlns",
+            )
+
+
+def _first(elements: list[Element]) -> Element:
+    return min(elements, key=lambda element: element.start)
+
+
+def finding_of(
+    failure: UrdftoolError, severities: Mapping[str, Severity | None], *, unchecked: bool
+) -> Finding:
+    """What kept a description from being read, as a finding.
+
+    Args:
+        failure: The error.
+        severities: The severities of rules that the configuration gives.
+        unchecked: Whether nothing of the robot was checked, which is an error whatever the
+            configuration says.
+    """
+    place = failure.at or Place(SourceFile(failure.path or "", b""), 0, 0)
+    rule = failure.rule or "not-well-formed"
+    severity = None if unchecked else severities.get(rule)
+    return Finding(
+        rule,
+        severity or Severity.ERROR,
+        failure.message,
+        place,
+        "file",
+        hint="; ".join(failure.notes),
+        unchecked=unchecked,
+    )
