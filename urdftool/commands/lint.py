@@ -28,7 +28,16 @@ LEVELS = ("error", "warning", "info")
     "Repeatable; without it, what the file shows.",
 )
 @click.option(
-    "--format", "style", type=click.Choice(FORMATS), default="full", help="How findings are shown."
+    "--format",
+    "style",
+    type=click.Choice(FORMATS),
+    help="Format of the findings.  [default: full; concise at a terminal for more than 8 findings]",
+)
+@click.option(
+    "--all",
+    "whole",
+    is_flag=True,
+    help="Show every finding with all details, not at most 25 lines for each family of rules.",
 )
 @click.option("--output-file", metavar="FILE", help="Write the findings there, not to stdout.")
 @click.option("--statistics", is_flag=True, help="Count findings by rule instead of showing them.")
@@ -68,7 +77,8 @@ def command(
     extend_select: tuple[str, ...],
     ignore: tuple[str, ...],
     target: tuple[str, ...],
-    style: str,
+    style: str | None,
+    whole: bool,
     output_file: str | None,
     statistics: bool,
     fix: bool,
@@ -107,6 +117,7 @@ def command(
     from ..lint.outcome import Options
     from ..lint.parallel import lint_files
     from ..lint.settings import Settings, check_selectors, check_targets
+    from ..lint.skipped import with_parts, without_excluded
     from .lint_report import Wanted, report
 
     if explain or list_rules:
@@ -117,6 +128,7 @@ def command(
     files = find_descriptions(paths)
     if not files:
         raise click.UsageError(nothing_below(paths))
+    files, excluded = without_excluded(files, paths, console.config)
     settings = Settings(
         select=check_selectors(select) if select else None,
         extend_select=check_selectors(extend_select),
@@ -134,8 +146,9 @@ def command(
         from ..store import Store
 
         options.cache = Cache(Store(kept))
-    options.fixes = style in _WITH_FIXES
+    options.fixes = style is None or style in _WITH_FIXES
     wanted = Wanted(style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline)
+    wanted.paths, wanted.whole = paths, whole
     if fix or diff:
         from .lint_fix import Kinds, fix_files
 
@@ -143,8 +156,8 @@ def command(
         return fix_files(
             console, files, options, settings, wanted, jobs=jobs, kinds=kinds, diff=diff
         )
-    reports = lint_files(files, options, jobs)
-    return report(console, reports, settings, wanted)
+    reports = with_parts(lint_files(files, options, jobs), paths)
+    return report(console, [*reports, *excluded], settings, wanted)
 
 
 def _show_rules(explain: str | None) -> int:

@@ -53,6 +53,7 @@ def fix_files(
     from ..inertia.scales import Scales
     from ..lint.fix_run import apply_fixes
     from ..lint.parallel import lint_files
+    from ..lint.skipped import with_parts
     from ..rules.fixes.inertia import DENSITY
     from ..source.document import STDIN, reading_instead
     from .lint_report import report
@@ -78,7 +79,8 @@ def fix_files(
             sys.stdout.flush()
             sys.stdout.buffer.write(done.after.get(STDIN, given))
             sys.stdout.buffer.flush()
-        return max(report(console, done.reports, settings, wanted), code)
+        whole = with_parts(done.reports, wanted.paths)
+        return max(report(console, whole, settings, wanted), code)
 
 
 def _write(console: Console, done: FixResult, reports: Sequence[Report], options: Options) -> int:

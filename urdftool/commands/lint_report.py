@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import sys
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -23,7 +24,7 @@ class Wanted:
     """How findings are to be shown, and which of them fail.
 
     Attributes:
-        style: The format.
+        style: The format; None for what suits where the findings go.
         output_file: Where they go, instead of standard output.
         statistics: Whether they are counted by rule instead.
         exit_zero: Whether findings leave the exit code 0.
@@ -31,9 +32,11 @@ class Wanted:
         baseline: A file of findings that were there before.
         write_baseline: A file to write the findings to.
         to_stderr: Whether they go to standard error, because standard output is taken.
+        paths: The files and folders that were named.
+        whole: Whether people get every finding, and not at most a screen of each family of rules.
     """
 
-    style: str
+    style: str | None
     output_file: str | None
     statistics: bool
     exit_zero: bool
@@ -41,6 +44,8 @@ class Wanted:
     baseline: str | None
     write_baseline: str | None
     to_stderr: bool = False
+    paths: Sequence[str] = ()
+    whole: bool = False
 
 
 def report(console: Console, reports: Iterable[Report], settings: Settings, wanted: Wanted) -> int:
@@ -51,6 +56,7 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, want
     from ..output import check_targets, write_result
     from ..report.findings import summary
     from ..report.findings_formats import as_text
+    from ..report.findings_screen import MANY, advice
     from ..report.findings_words import skipped_rules
 
     outcome = gather(reports)
@@ -60,21 +66,29 @@ def report(console: Console, reports: Iterable[Report], settings: Settings, want
     outcome = together(outcome)
     threshold = Severity[wanted.fail_on.upper()]
     to_file = wanted.output_file not in (None, "-")
+    at_terminal = not to_file and sys.stdout.isatty()
+    many = len(outcome.findings) > MANY
+    style = wanted.style or ("concise" if at_terminal and many and not wanted.whole else "full")
     text = as_text(
         outcome,
-        wanted.style,
+        style,
         colors=console.colors(to_file=to_file),
         fail_on=threshold,
         statistics=wanted.statistics,
+        whole=wanted.whole or to_file or (style == "concise" and not at_terminal),
     )
     if wanted.to_stderr:
         click.echo(text, err=True, nl=False)
     else:
         write_result(text, wanted.output_file, inputs=_inputs(outcome) if to_file else [])
+    _report_skipped(console, outcome.reports, wanted.paths)
     broken = _say_the_rest(console, outcome.reports)
     if any(report.checked or report.stopped for report in outcome.reports):
         console.note(summary(outcome))
         for line in skipped_rules(outcome):
+            console.note(line)
+        people = style in ("full", "concise") and not wanted.statistics
+        for line in advice(outcome.findings) if people else ():
             console.note(line)
     if broken:
         return broken
@@ -146,15 +160,30 @@ def _said(baseline: Baseline, stale: list[Entry]) -> str:
     )
 
 
+def _report_skipped(console: Console, reports: Iterable[Report], named: Sequence[str]) -> None:
+    """Files that were skipped: those that were named, and the .xacro files of folders."""
+    groups: dict[tuple[str, int], list[str]] = {}
+    reports = list(reports)
+    read = {path for report in reports if report.checked for path in report.files}
+    for report in reports:
+        if report.skipped:
+            usual = report.path in named or not report.path.endswith((".urdf", ".urdf.xacro"))
+            macros = report.path.endswith(".urdf.xacro") and "excluded" not in report.skipped
+            level = 0 if usual or (macros and report.path not in read) else 1
+            groups.setdefault((report.skipped, level), []).append(report.path)
+    for (reason, level), paths in groups.items():
+        more = len(paths) - _MOST_ENTRIES
+        shown = ", ".join(paths[:_MOST_ENTRIES]) + (f" and {more} more" if more > 0 else "")
+        console.note(f"{shown}: skipped, {reason}", level=level)
+
+
 def _say_the_rest(console: Console, reports: Iterable[Report]) -> int:
-    """Skipped files, unreadable ones, and rules that broke; the exit code these ask for."""
+    """Unreadable files, and rules that broke; the exit code these ask for."""
     from .. import __version__
     from ..cli import REPORT_BUGS
 
     code = 0
     for report in reports:
-        if report.skipped:
-            console.note(f"{report.path}: skipped, {report.skipped}", level=1)
         if report.error is not None:
             console.error(report.error)
         if report.not_checked:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -21,6 +22,10 @@ ASSIGN = ":="
 def split_arguments(words: tuple[str, ...]) -> tuple[list[str], dict[str, str]]:
     """Paths, and xacro arguments written ``name:=value``."""
     paths = [word for word in words if ASSIGN not in word]
+    for word in paths:
+        name, equals, value = word.partition("=")
+        if equals and name.isidentifier() and not os.path.exists(word):
+            raise click.UsageError(f"no file is called '{word}'; did you mean {name}:={value}?")
     pairs = (word.partition(ASSIGN) for word in words if ASSIGN in word)
     arguments = {}
     for name, _, value in pairs:

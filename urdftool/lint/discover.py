@@ -23,6 +23,13 @@ def find_descriptions(paths: Iterable[str]) -> list[str]:
     return list(found.values())
 
 
+def parts_below(paths: Iterable[str]) -> list[str]:
+    """The ``.xacro`` files of searched folders that are not taken for descriptions."""
+    folders = [path for path in paths if os.path.isdir(path)]
+    found = (path for folder in folders for path in _below(folder, (".xacro",)))
+    return [path for path in dict.fromkeys(found) if not path.endswith(ENDINGS)]
+
+
 def nothing_below(paths: Iterable[str]) -> str:
     """What to say where folders have no description, with a ``.xacro`` that may be one."""
     folders = list(paths)

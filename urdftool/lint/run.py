@@ -168,7 +168,9 @@ def _lint_once(
         if description is not None:
             root = description.document.root
             if description.expansion and not (root.child("link") or root.child("joint")):
-                report.skipped = "only macros: it has no link of its own"
+                from .skipped import why_without_links
+
+                report.skipped = why_without_links(description)
                 return report
             refuse_srdf(description)
     except SourceError as error:

@@ -16,7 +16,7 @@ from ..rules import FAMILIES, FAMILY_OF, get_rule, speaks_of
 from ..rules.rule import TARGETS, Rule
 
 _LISTS = ("select", "ignore", "extend-select", "targets")
-_KEYS = (*_LISTS, "severity", "per-file-ignores", "variants")
+_KEYS = (*_LISTS, "severity", "per-file-ignores", "variants", "exclude")
 _LEVELS = ("off", "info", "warning", "error")
 
 

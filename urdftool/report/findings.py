@@ -131,21 +131,26 @@ NOT_CHECKED = "not-checked"
 """What formats with names of rules call a file whose robot was not checked."""
 
 
+def severity_counts(findings: Iterable[Finding]) -> str:
+    """``2 errors, 1 warning, 3 info``, without those that there are none of."""
+    counts = dict.fromkeys(reversed(Severity), 0)
+    for finding in findings:
+        counts[finding.severity] += 1
+    return ", ".join(
+        f"{count} {severity.label}{'s' if count != 1 and severity is not Severity.INFO else ''}"
+        for severity, count in counts.items()
+        if count
+    )
+
+
 def summary(outcome: Outcome) -> str:
     """One line: how many of each severity, in how many files, for which targets."""
     checked = [report for report in outcome.reports if report.checked]
     files = len(checked)
     targets = {name for report in checked for name in report.targets}
     suppressed = sum(report.suppressed for report in outcome.reports)
-    counts = dict.fromkeys(reversed(Severity), 0)
-    for finding in outcome.findings:
-        counts[finding.severity] += 1
-    said = [
-        f"{count} {severity.label}{'s' if count != 1 and severity is not Severity.INFO else ''}"
-        for severity, count in counts.items()
-        if count
-    ]
-    what = ", ".join(said) or ("no new findings" if outcome.known else "no findings")
+    none = "no new findings" if outcome.known else "no findings"
+    what = severity_counts(outcome.findings) or none
     known = f", {len(outcome.known)} in the baseline" if outcome.known else ""
     hidden = f", {suppressed} ignored by comments" if suppressed else ""
     names = ", ".join(sorted(targets)) or "any reader of URDF"

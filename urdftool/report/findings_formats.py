@@ -6,7 +6,8 @@ from collections.abc import Iterable
 
 from ..finding import Severity
 from ..lint.outcome import Outcome
-from . import findings
+from .findings import statistics as count_by_rule
+from .findings_screen import screen
 
 
 def as_text(
@@ -16,6 +17,7 @@ def as_text(
     colors: bool = False,
     fail_on: Severity = Severity.WARNING,
     statistics: bool = False,
+    whole: bool = True,
 ) -> str:
     """What there is to say of a run.
 
@@ -25,14 +27,19 @@ def as_text(
         colors: Whether text is coloured.
         fail_on: From which severity on a finding fails the run.
         statistics: Count findings by rule instead.
+        whole: Whether ``full`` and ``concise`` have every finding, or at most a screen of each
+            family of rules.
     """
     if statistics:
-        return _joined(findings.statistics(outcome))
-    text = _in_style(outcome, style, colors, fail_on)
+        return _joined(count_by_rule(outcome))
+    if style in ("full", "concise"):
+        text = _joined(screen(outcome.findings, style, colors=colors, whole=whole))
+    else:
+        text = _in_style(outcome, style, fail_on)
     return text.encode("utf-8", "backslashreplace").decode()  # names of files may be any bytes
 
 
-def _in_style(outcome: Outcome, style: str, colors: bool, fail_on: Severity) -> str:
+def _in_style(outcome: Outcome, style: str, fail_on: Severity) -> str:
     if style == "json":
         from .findings_json import to_json
 
@@ -49,12 +56,9 @@ def _in_style(outcome: Outcome, style: str, colors: bool, fail_on: Severity) -> 
         from .findings_html import to_html
 
         return to_html(outcome)
-    if style == "github":
-        from .findings_github import github
+    from .findings_github import github
 
-        return _joined(github(outcome))
-    write = findings.full if style == "full" else findings.concise
-    return _joined(write(outcome.findings, colors=colors))
+    return _joined(github(outcome))
 
 
 def _joined(lines: Iterable[str]) -> str:

@@ -11,6 +11,7 @@ from string import Template
 from ..finding import Finding, Severity
 from ..lint.outcome import Outcome, Report
 from .findings import NOT_CHECKED, summary
+from .findings_screen import by_weight
 from .findings_words import call_lines, clean, member_lines, remarks, sentence
 
 _PAGE = Path(__file__).with_name("findings_page.html")
@@ -21,7 +22,7 @@ _LONGEST_LINE = 400
 def to_html(outcome: Outcome) -> str:
     """A run as a page: findings by file, which severity and rule filter."""
     by_file: dict[str, list[Finding]] = {}
-    for finding in outcome.findings:
+    for finding in by_weight(outcome.findings):
         by_file.setdefault(finding.place.path, []).append(finding)
     files = [_unreadable(r) for r in outcome.reports if r.error is not None]
     files += [_file(path, findings) for path, findings in by_file.items()]

@@ -1,0 +1,99 @@
+"""Files of searched folders that are not checked by themselves, and why."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from fnmatch import fnmatch
+from pathlib import Path
+
+from ..configuration import find_configuration
+from ..errors import ConfigError, SourceError
+from ..source.description import Description
+from ..source.document import parse, read_file
+from .discover import parts_below
+from .outcome import Report
+
+_NAMES = 3
+_DEFINITIONS = frozenset(f"xacro:{word}" for word in ("macro", "property", "arg", "include"))
+
+
+def why_without_links(description: Description) -> str:
+    """Why a xacro file that expands to no link is not checked."""
+    from ..rules.xacro.definitions import macro_names
+
+    macros = sorted(macro_names(description))
+    tags = dict.fromkeys(child.tag for child in description.document.root.children)
+    if macros:
+        more = "" if len(macros) <= _NAMES else f" and {len(macros) - _NAMES} more"
+        what = f"only macros ({', '.join(macros[:_NAMES])}{more})"
+    elif tags:
+        what = f"only {', '.join(f'<{tag}>' for tag in tags)}"
+    else:
+        what = "only properties or nothing"
+    return f"{what}, and no link of its own; lint the robot that includes it"
+
+
+def with_parts(reports: Iterable[Report], paths: Iterable[str]) -> Iterator[Report]:
+    """Reports, and after them one for each ``.xacro`` of searched folders that none has read.
+
+    Args:
+        reports: The reports of descriptions.
+        paths: The files and folders that were named.
+    """
+    read: set[str] = set()
+    for report in reports:
+        read.update(os.path.realpath(path) for path in (report.path, *report.files))
+        yield report
+    for path in parts_below(paths):
+        if os.path.realpath(path) not in read:
+            yield Report(path, skipped=_why(path))
+
+
+def _why(path: str) -> str:
+    """Why a ``.xacro`` in a folder is not checked by itself."""
+    try:
+        root = parse(read_file(path)).root
+    except SourceError as error:
+        return error.message
+    calls = (tag for tag in (child.tag for child in root.children) if tag.startswith("xacro:"))
+    if root.child("link") or any(call not in _DEFINITIONS for call in calls):
+        return "may be a robot, for it has links or calls macros; name the file to check it"
+    return "a part that no description found here includes"
+
+
+def without_excluded(
+    files: Sequence[str], named: Collection[str], config: str | None
+) -> tuple[list[str], list[Report]]:
+    """The files to check, and a report for each that a configuration's ``lint.exclude`` leaves out.
+
+    Args:
+        files: The files that were found.
+        named: Those that the user named, which are checked in any case.
+        config: The configuration file that the user named.
+
+    Raises:
+        ConfigError: The option is not a list of patterns.
+    """
+    kept: list[str] = []
+    excluded: list[Report] = []
+    for file in files:
+        pattern = None if file in named else _pattern(file, config)
+        if pattern is None:
+            kept.append(file)
+        else:
+            excluded.append(Report(file, skipped=f"excluded by '{pattern}' of the configuration"))
+    return kept, excluded
+
+
+def _pattern(file: str, config: str | None) -> str | None:
+    """The pattern that leaves out a file."""
+    configuration = find_configuration(file, config)
+    patterns = configuration.lint.get("exclude", [])
+    if not isinstance(patterns, list) or not all(isinstance(word, str) for word in patterns):
+        raise ConfigError("lint.exclude must be a list of patterns", path=configuration.path)
+    if not patterns:
+        return None
+    folder = Path(os.path.abspath(configuration.path or ".")).parent
+    relative = os.path.relpath(os.path.abspath(file), folder).replace(os.sep, "/")
+    return next((pattern for pattern in patterns if fnmatch(relative, pattern)), None)

@@ -1,0 +1,135 @@
+"""Findings for people: what matters first, and no more of a family of rules than a screen."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
+
+from ..finding import Finding, Severity
+from ..rules import FAMILY_OF
+from ..rules.fix_table import BOTH, FIXABLE, SAFE, UNSAFE
+from .counted import counted
+from .findings import concise, full, severity_counts
+
+SCREEN = 25
+"""Lines that one family of rules gets, unless all is asked for."""
+
+MANY = 8
+"""Findings above which a terminal gets one line for each, and the summary names rules."""
+
+_RULES = 3
+
+
+def by_weight(findings: Iterable[Finding]) -> list[Finding]:
+    """Findings by file, then by severity, errors first; those of one rule are together."""
+    findings = list(findings)
+    first: dict[tuple[str, Severity, str], int] = {}
+    for finding in findings:
+        key = finding.place.path, finding.severity, finding.rule
+        first[key] = min(finding.place.start, first.get(key, finding.place.start))
+
+    def weight(finding: Finding) -> tuple[str, int, int, str, int]:
+        key = finding.place.path, finding.severity, finding.rule
+        place = finding.place
+        return place.path, -finding.severity, first[key], finding.rule, place.start
+
+    return sorted(findings, key=weight)
+
+
+def screen(
+    findings: Iterable[Finding], style: str, *, colors: bool = False, whole: bool = False
+) -> Iterator[str]:
+    """Findings in the order of their weight.
+
+    Args:
+        findings: The findings of a run.
+        style: ``full`` or ``concise``.
+        colors: Whether text is coloured.
+        whole: Whether to show all of them; otherwise a family that needs more lines than a screen
+            has gets one line for each finding, errors first, and the number of those left out.
+    """
+    shown = by_weight(findings)
+    write = full if style == "full" else concise
+    blocks = [list(write([finding], colors=colors)) for finding in shown]
+    left: dict[str, list[Finding]] = {}
+    lengths = [len(block) for block in blocks]
+    if not whole:
+        families: dict[str, list[int]] = {}
+        for number, finding in enumerate(shown):
+            families.setdefault(FAMILY_OF.get(finding.rule, "lint"), []).append(number)
+        for family, numbers in families.items():
+            numbers.sort(key=lambda number: (-shown[number].severity, number))
+            cut = _fit(numbers, blocks)
+            if cut:
+                left[family] = [shown[number] for number in cut]
+    yield from _joined(blocks) if style == "full" else chain.from_iterable(blocks)
+    short = sum(len(b) == 1 < length for b, length in zip(blocks, lengths, strict=True))
+    if short:
+        what = "1 finding is" if short == 1 else f"{short} findings are"
+        yield f"{what} shown in one line; --all shows all details"
+    for family, findings in left.items():
+        yield f"{len(findings)} more of {family}: {severity_counts(findings)}; --all shows them"
+    if style == "full" and (short or left):
+        yield ""
+
+
+def _fit(numbers: Sequence[int], blocks: list[list[str]]) -> Sequence[int]:
+    """Shorten the blocks of a family until they fit; gives those that are left out.
+
+    Args:
+        numbers: The blocks of the family, the weightiest first.
+        blocks: All blocks; the first line of each is its headline.
+    """
+    if sum(len(blocks[number]) for number in numbers) <= SCREEN:
+        return ()
+    room = SCREEN if len(numbers) <= SCREEN else SCREEN - 1
+    lines = SCREEN - len(numbers)
+    for number in numbers[:room]:
+        more = len(blocks[number]) - 1
+        if more > lines:
+            blocks[number] = blocks[number][:1]
+        else:
+            lines -= more
+    for number in numbers[room:]:
+        blocks[number] = []
+    return numbers[room:]
+
+
+def _joined(blocks: Iterable[Sequence[str]]) -> Iterator[str]:
+    """Blocks one below the other, with a blank line around those of several lines."""
+    headlines = False
+    for block in blocks:
+        if len(block) > 1 and headlines:
+            yield ""
+        if block:
+            headlines = len(block) == 1
+        yield from block
+    if headlines:
+        yield ""
+
+
+def advice(findings: Sequence[Finding]) -> Iterator[str]:
+    """The rules with the most findings, and how to fix or silence each; for many findings only."""
+    if len(findings) <= MANY:
+        return
+    safe = sum(finding.fix is not None and finding.fix.safe for finding in findings)
+    unsafe = sum(finding.fix is not None and not finding.fix.safe for finding in findings)
+    counts = Counter(finding.rule for finding in findings).most_common(_RULES)
+    width = max(len(rule) for rule, _ in counts)
+    yield "rules with the most findings:"
+    for rule, count in counts:
+        if safe or unsafe:
+            fixes = [f.fix.option for f in findings if f.rule == rule and f.fix is not None]
+        else:  # nobody has asked for fixes
+            fixes = [_OPTION[FIXABLE[rule]]] if rule in FIXABLE else []
+        fix = f"{min(fixes, key=len)}, or " if fixes else ""
+        yield f"  {count:>4}  {rule:<{width}}  {fix}--ignore {rule}"
+    if safe:
+        yield f"--fix --diff shows {counted(safe, 'safe fix', 'safe fixes')}"
+    if unsafe:
+        what = counted(unsafe, "unsafe fix", "unsafe fixes")
+        yield f"--fix --unsafe-fixes --diff shows {what}{' as well' if safe else ''}"
+
+
+_OPTION = {SAFE: "--fix", UNSAFE: "--fix --unsafe-fixes", BOTH: "--fix"}
