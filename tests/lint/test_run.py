@@ -72,7 +72,7 @@ def test_a_robot_that_was_loaded_can_be_checked(write):
 
 def test_a_file_that_is_not_well_formed_is_still_looked_at(write):
     path = write("r.urdf", "<!-- (c) -->\n<?xml version='1.0'?>\n<robot><link name='a'/></robot>")
-    found = {f.rule for f in check(path, ignore=["missing-gazebo-tags"])}
+    found = {f.rule for f in check(path)}
     assert found == {"content-before-declaration", "missing-name"}
 
 

@@ -37,12 +37,7 @@ def _findings(path):
     assert not report.failed_rules
     for library in report.skipped_rules.values():
         pytest.skip(f"requires {library}")
-    return [finding for finding in report.findings if not _is_for_any_plain_robot(finding)]
-
-
-def _is_for_any_plain_robot(finding):
-    """The one remark on a robot that has no simulator, which most fixtures are."""
-    return finding.rule == "missing-gazebo-tags" and finding.kind == "robot"
+    return report.findings
 
 
 def _expected(path):

@@ -15,13 +15,10 @@ def _found(path, **options):
     return [(f.kind, f.name, f.severity.label) for f in found]
 
 
-def test_robot_without_a_simulator_gets_one_remark(tmp_path):
+def test_robot_without_a_simulator_gets_none(tmp_path):
     file = tmp_path / "cart.urdf"
     file.write_text(PLAIN)
-    assert _found(file) == [("robot", "cart", "info")]
-    assert (
-        "Gazebo Classic shows no colours" in check(file, select=["missing-gazebo-tags"])[0].message
-    )
+    assert _found(file) == []
 
 
 def test_robot_for_another_simulator_gets_none(tmp_path):

@@ -152,6 +152,6 @@ def test_names_are_no_markup(write):
         tab.click(*tab.place(tab_named("Parts")))
         tab.until(SAYS.format("{1+1}"))
         tab.click(*tab.place(tab_named("Findings")))
-        tab.until(SAYS.format("missing-gazebo-tags"))
+        tab.until(SAYS.format("axis-omitted"))
         assert tab.run("document.querySelectorAll('img[src=x]').length") == 0
         assert "onerror" in tab.run("document.title")

@@ -10,18 +10,19 @@ from typing import Any
 from ..configuration import Configuration, find_configuration
 from ..errors import ConfigError, SourceError, UrdftoolError
 from ..extras import missing_library
-from ..finding import Cause, Finding, Group, Site
+from ..finding import Cause, Finding, Group, Severity, Site
 from ..inputs import listen
 from ..model.elements import Robot
 from ..model.read import read_robot
 from ..rules import ONLY_WITH, speaks_of
-from ..rules.fix_table import FIXABLE, may_have_fix
+from ..rules.fix_table import FIXABLE
 from ..rules.rule import Problem, Rule
 from ..source.description import Description, GltfUp, is_xacro, read_description
 from ..source.document import Document, Element, parse, read_file
 from ..source.location import SourceFile
 from ..source.well_formed import mend
 from .merge import in_order, merge
+from .motion import why_unused
 from .not_checked import finding_of, refuse_other_files, refuse_other_roots, refuse_srdf
 from .outcome import Options, Report
 from .settings import Settings, check_selectors, check_targets, settings_for
@@ -267,7 +268,7 @@ def _check_description(
             subjects["document"] = document
             problems = _problems(rule, subjects, settings, report)
             for problem in problems:
-                finding = _finding(rule, problem, settings, targets)
+                finding = _finding(rule, problem, settings, targets, robot)
                 findings.append(finding)
                 if options.fixes and rule.name in FIXABLE:
                     origins[id(finding)] = problem, subjects["document"]
@@ -279,7 +280,7 @@ def _check_description(
         idle = {name for name in selected if not speaks_of(name, tags)}
         stale = unused(suppressions, ran | idle) if robot is not None else ()
         findings += [f for f in (*wrong, *stale) if f.rule in selected]
-    if options.fixes and any(may_have_fix(f.rule, f.kind) for f in findings):
+    if options.fixes and any(f.rule in FIXABLE for f in findings):
         from .fix import Origin, add_fixes
 
         made = {number: Origin(*origin) for number, origin in origins.items()}
@@ -339,10 +340,21 @@ def _problems(
     return found
 
 
-def _finding(rule: Rule, problem: Problem, settings: Settings, targets: frozenset[str]) -> Finding:
+def _finding(
+    rule: Rule,
+    problem: Problem,
+    settings: Settings,
+    targets: frozenset[str],
+    robot: Robot | None,
+) -> Finding:
     severity = settings.severity.get(rule.name)
+    effects = dict(rule.effects)
     if severity is None:
         severity = problem.severity or rule.severity_for(targets)
+        if rule.of_motion and severity is not Severity.ERROR:
+            unused = why_unused(robot, problem.element)
+            if unused:
+                severity, effects = Severity.INFO, {"every reader": unused}
     concerned = targets if rule.on is None else targets.intersection(rule.on)
     return Finding(
         rule.name,
@@ -352,7 +364,7 @@ def _finding(rule: Rule, problem: Problem, settings: Settings, targets: frozense
         problem.kind,
         problem.name,
         tuple(sorted(concerned)) if rule.on is not None else (),
-        dict(rule.effects),
+        effects,
         problem.hint,
         site=_site(problem.element),
         group=Group(rule.group, problem.group) if rule.group else None,

@@ -262,16 +262,3 @@ def options_of(rule: str) -> str:
     """Applicability of a rule's fixes, with what applies them on the command line."""
     text = OPTIONS[FIXABLE[rule]]
     return text.replace(")", " --fix-meshes)") if FIX_FILE[rule] == "mesh_files" else text
-
-
-def may_have_fix(rule: str, kind: str) -> bool:
-    """Whether a finding may be mended.
-
-    Nearly every plain robot gets the one remark that it has no tag for Gazebo at all, which has no
-    fix; for that alone nothing is imported.
-
-    Args:
-        rule: Its rule.
-        kind: What it is about.
-    """
-    return rule in FIXABLE and (rule, kind) != ("missing-gazebo-tags", "robot")

@@ -27,6 +27,11 @@ Two arguments of the decorator say how findings are reported together:
 ``caused_by=("placeholder-inertia",)``
     A finding of one of these rules about the same element explains a finding of this rule, which
     is then listed under it. ``Problem(cause=…)`` names another element to look at.
+
+``of_motion=True``
+    What is found matters only for what can move, such as an inertia that is too large: of a link
+    that is fixed to the world, and of a fixed joint, a warning becomes an info. Errors stay,
+    because readers reject the robot all the same.
 """
 
 from __future__ import annotations
@@ -135,6 +140,8 @@ class Rule:
         thresholds: Its thresholds with their defaults.
         group: What its findings are reported once for; None where each is reported.
         caused_by: Rules whose finding about the same element explains one of this rule.
+        of_motion: Whether it matters only for what can move: of a link that is fixed to the world,
+            or of a fixed joint, a warning of it is an info.
     """
 
     name: str
@@ -149,6 +156,7 @@ class Rule:
     thresholds: Mapping[str, Any] = field(default_factory=dict)
     group: Scope | None = None
     caused_by: tuple[str, ...] = ()
+    of_motion: bool = False
 
     @property
     def fact(self) -> str:
@@ -174,6 +182,7 @@ def rule(
     default: bool = True,
     group: Scope | None = None,
     caused_by: tuple[str, ...] = (),
+    of_motion: bool = False,
 ) -> Callable[[Any], Rule]:
     """Make a rule of a function; the arguments are those of :class:`Rule`."""
 
@@ -193,6 +202,7 @@ def rule(
             thresholds=check.__kwdefaults__ or {},
             group=group,
             caused_by=caused_by,
+            of_motion=of_motion,
         )
 
     return make

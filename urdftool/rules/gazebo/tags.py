@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import GazeboExtension, Link, Material, Mesh, Robot
-from ..rule import INFO, WARNING, Problem, rule
+from ..rule import GAZEBO, INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import nearest
 from .contact import contact_role, has_friction
@@ -16,16 +16,19 @@ _FRICTION = {
     "foot": "<mu1> and <mu2> for its grip",
     "finger": "<mu1> and <mu2> for its grip",
 }
+_PLURAL = {"wheel": "wheels", "caster": "casters", "foot": "feet", "finger": "fingers"}
 _GREY = 0.06  # colours whose parts differ less than this look like Gazebo Classic's own
 
 
 @rule(
     WARNING,
+    on=("gazebo-classic", "gz"),
     effects={
         "gz, gazebo-classic": (
             "take a friction of 1, the default of SDF (sdformat 12.3 passes URDF's colors on)"
         ),
     },
+    group="robot",
 )
 def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A link has no ``<gazebo>`` block though it needs one.
@@ -34,15 +37,9 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
     ``<gazebo reference="the link">``. A link needs the block if it rolls, stands or grips (a
     wheel, a caster, a foot, a finger), for its friction; and in Gazebo Classic if a visual has a
     colour. Other links need none and are not named; a block that lacks something is a case of
-    ``missing-friction`` or ``missing-gazebo-material``.
-
-    A robot without any ``<gazebo>``, that shows no sign of a simulator either, gets one remark.
+    ``missing-friction`` or ``missing-gazebo-material``. A robot that is not for Gazebo needs none.
     """
-    if not targets.intersection(("gazebo-classic", "gz")):
-        if not robot.gazebo and robot.links and not targets.intersection(("mujoco", "pybullet")):
-            yield Problem(robot, _without_any(robot), severity=INFO)
-        return
-    if _is_unclear(robot):
+    if targets.isdisjoint(GAZEBO) or _is_unclear(robot):
         return
     colours = _colours(robot)
     names = {*robot.link, *robot.joint}
@@ -59,6 +56,8 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
             yield Problem(
                 link,
                 f'{kind} has no <gazebo reference="{link.name}">; it needs {" and ".join(needs)}',
+                group="{count} links have no <gazebo> block of their own, and need "
+                f"{' and '.join(needs)}: {{names}}",
             )
 
 
@@ -67,27 +66,13 @@ def _is_unclear(robot: Robot) -> bool:
     return any(is_unexpanded(block.reference or "") for block in robot.gazebo)
 
 
-def _without_any(robot: Robot) -> str:
-    """What Gazebo does with a robot that has nothing for it."""
-    would = ["every surface has a friction of 1"]
-    if _colours_of(robot):
-        would.append("Gazebo Classic shows no colours")
-    if robot.moving_joints:
-        would.append("the joints hang limp, for nothing drives them")
-    would.append("nothing is sensed")
-    last = would.pop()
-    return (
-        f"robot '{robot.name}' has no <gazebo> tag; in Gazebo {', '.join(would)} and {last} "
-        "(--target gz or gazebo-classic tells which links need one)"
-    )
-
-
 @rule(
     WARNING,
     on=("gazebo-classic",),
     effects={
         "gz": "takes URDF's color (sdformat 12.3)",
     },
+    group="robot",
 )
 def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
     """A link with a colour has a ``<gazebo>`` block without a material.
@@ -108,6 +93,8 @@ def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
                 f"link '{link.name}' has a colour that Gazebo Classic does not show; write "
                 f'<material> into its <gazebo reference="{link.name}">',
                 at=blocks[0],
+                group="{count} links have a colour that Gazebo Classic does not show; write "
+                "<material> into their <gazebo> blocks: {names}",
             )
 
 
@@ -117,6 +104,7 @@ def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
     effects={
         "gz, gazebo-classic": "take a friction of 1, the default of SDF, in both directions",
     },
+    group="robot",
 )
 def missing_friction(robot: Robot) -> Iterator[Problem]:
     """A wheel, caster, foot or finger has a ``<gazebo>`` block without friction.
@@ -136,6 +124,8 @@ def missing_friction(robot: Robot) -> Iterator[Problem]:
                     link,
                     f"{role} '{link.name}' has no friction of its own; write {_FRICTION[role]}",
                     at=blocks[0],
+                    group=f"{{count}} {_PLURAL[role]} have no friction of their own: {{names}}; "
+                    f"write {_FRICTION[role]}",
                 )
 
 

@@ -146,6 +146,7 @@ def negative_mass(robot: Robot) -> Iterator[Problem]:
     effects={
         "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take it as written",
     },
+    of_motion=True,
 )
 def implausible_mass(
     robot: Robot, *, heaviest: float = 1000.0, lightest: float = 1e-5
@@ -176,6 +177,7 @@ def implausible_mass(
     effects={
         "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take it as written",
     },
+    of_motion=True,
 )
 def implausible_density(
     robot: Robot,
@@ -185,6 +187,7 @@ def implausible_density(
     least_possible: float = 1.0,
     most_possible: float = 22600.0,
     small: float = 0.02,
+    dummy: float = 1e-3,
     most_of_box: float = 8000.0,
     together: float = 6,
 ) -> Iterator[Problem]:
@@ -192,9 +195,10 @@ def implausible_density(
 
     Between foam and lead lie 5 and 12,000 kg/m³, and nothing is denser than osmium with 22,600.
     Beyond that, a unit is wrong: grams, or millimetres. A shape of millimetres is mostly a mark for
-    a frame, and no more than a remark. Of a mesh, or of several shapes, the box around them counts:
-    one that is all of steel has ``most_of_box``, and one lighter than air is hollow beyond belief.
-    More than ``together`` remarks are one, which names the links.
+    a frame, and no more than a remark; so is a link of at most ``dummy`` [kg] that is fixed to
+    another, as sensors have it to survive Gazebo. Of a mesh, or of several shapes, the box around
+    them counts: one that is all of steel has ``most_of_box``, and one lighter than air is hollow
+    beyond belief. More than ``together`` remarks are one, which names the links.
     """
     reach = reaches(robot)
     remarks: list[tuple[Problem, float]] = []
@@ -207,6 +211,8 @@ def implausible_density(
         impossible = density > most_possible or density < least_possible
         box = reach.link(link)
         if box is None or max(box.size) < small:
+            impossible = False
+        if density < least and mass <= dummy and _is_fixed(robot, link):
             impossible = False
         problem = Problem(
             link,
@@ -224,6 +230,11 @@ def implausible_density(
         remarks[0][0].message += f"; densities are as odd of {others}"
         del remarks[1:]
     yield from (problem for problem, _ in remarks)
+
+
+def _is_fixed(robot: Robot, link: Link) -> bool:
+    joint = robot.tree.parent_joint(link.name)
+    return joint is not None and joint.is_fixed
 
 
 def _density(box: Bounds | None, link: Link, mass: float) -> tuple[float | None, bool]:

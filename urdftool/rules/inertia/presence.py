@@ -8,8 +8,10 @@ from ...model.elements import Link, Robot
 from ..rule import ERROR, GAZEBO, INFO, ROS, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_children
 from .bodies import bodies, mass_of
+from .solids import solid_volume
 
 _SIMULATED = ("gazebo-classic", "gz", "mujoco")
+_MARKER = 1e-3  # [kg]
 _LOST = "Gazebo leaves it out, with all that hangs on it"
 
 
@@ -32,7 +34,8 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
 
     A body without mass cannot be accelerated, and every simulator makes something else of it:
     Gazebo leaves out the link with everything below, PyBullet makes it weigh one kilogram, MuJoCo
-    fills its collision shapes with water. A mere frame needs none.
+    fills its collision shapes with water. A mere frame needs none, and a marker that would weigh
+    less than a gram is an info where nobody gives it more.
     """
     in_gazebo = not targets.isdisjoint(GAZEBO)
     heavy = _links_with_mass(robot) if in_gazebo else frozenset()
@@ -49,13 +52,16 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             severity, so = ERROR, "; PyBullet makes it weigh 1 kg"
             several = "; PyBullet gives each of them 1 kg"
         elif "mujoco" in targets and link.collisions:
-            severity, so = ERROR, "; MuJoCo makes it as heavy as water"
+            severity = INFO if _is_marker(link) else ERROR
+            so = "; MuJoCo makes it as heavy as water"
             several = "; MuJoCo gives each of them the density of water"
         elif in_gazebo and joint is not None and joint.is_fixed:
             severity, so = INFO, f" and adds nothing to '{joint.parent}', which it is fixed to"
             several = " and add nothing to the links that they are fixed to"
         else:
-            severity, so = WARNING, ", so it weighs nothing"
+            fixed = joint is not None and joint.is_fixed
+            severity = INFO if fixed and _is_marker(link) else WARNING
+            so = ", so it weighs nothing"
             several = ", so they have no mass"
         yield Problem(
             link,
@@ -64,6 +70,13 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             severity=severity,
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
         )
+
+
+def _is_marker(link: Link) -> bool:
+    """Whether a link is so small that as water it would weigh less than a gram."""
+    shapes = link.collisions or link.visuals
+    volumes = [solid_volume(shape.geometry) for shape in shapes]
+    return all(volumes) and 1000 * sum(volumes) < _MARKER
 
 
 def _links_with_mass(robot: Robot) -> frozenset[str]:

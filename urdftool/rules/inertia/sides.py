@@ -17,6 +17,7 @@ from ..sides import Pair, Sides, family_of, sides, twin_of
     effects={
         "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take the two as written",
     },
+    of_motion=True,
 )
 def left_right_asymmetry(
     robot: Robot,

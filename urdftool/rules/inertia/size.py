@@ -24,6 +24,7 @@ from .tensors import is_positive, is_zero, moments_of, six_of, tensors
         ),
     },
     group="robot",
+    of_motion=True,
 )
 def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
     """An inertia is the same power of ten about every axis, such as 1 or 1e-3.
@@ -67,6 +68,7 @@ def _is_placeholder(link: Link, six: Six) -> bool:
     effects={
         "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
     },
+    of_motion=True,
 )
 def inertia_exceeds_geometry(
     robot: Robot, *, allowed: float = 1.1, rounding: float = 0.01, certain: float = 10.0
@@ -111,6 +113,7 @@ def _has_mesh(link: Link) -> bool:
             "take it as written: the same force turns the link faster"
         ),
     },
+    of_motion=True,
 )
 def inertia_below_geometry(robot: Robot, *, least: float = 0.12) -> Iterator[Problem]:
     """An inertia is far smaller than that of a body of the link's size.
@@ -151,6 +154,7 @@ def inertia_below_geometry(robot: Robot, *, least: float = 0.12) -> Iterator[Pro
     effects={
         "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
     },
+    of_motion=True,
 )
 def com_outside_geometry(
     robot: Robot, *, margin: float = 0.02, together: float = 6
@@ -208,6 +212,7 @@ def com_outside_geometry(
             "put the center of mass at the link's origin, on the joint"
         ),
     },
+    of_motion=True,
 )
 def inertial_not_at_com_suspect(robot: Robot, *, far: float = 0.2) -> Iterator[Problem]:
     """An ``<inertial>`` has no origin though the link's shapes lie to one side.
@@ -250,6 +255,7 @@ def inertial_not_at_com_suspect(robot: Robot, *, far: float = 0.2) -> Iterator[P
     effects={
         "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
     },
+    of_motion=True,
 )
 def radius_of_gyration(
     robot: Robot, *, largest: float = 1.0, smallest: float = 1e-3, heavy: float = 0.01

@@ -22,6 +22,7 @@ from .tensors import SIX, is_zero, tensors
         "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
         "mujoco": "rejects the file",
     },
+    of_motion=True,
 )
 def inertia_component_slip(robot: Robot) -> Iterator[Problem]:
     """The six numbers of an inertia are in the wrong order.
@@ -49,6 +50,7 @@ def inertia_component_slip(robot: Robot) -> Iterator[Problem]:
         ),
         "mujoco": "rejects the file where the triangle inequality is broken",
     },
+    of_motion=True,
 )
 def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
     """One number of an inertia is off by a power of ten.

@@ -126,6 +126,7 @@ def inertia_triangle_inequality_rounding(
             "keeps the zeros: the mass matrix is singular where the center of mass is on the axis"
         ),
     },
+    of_motion=True,
 )
 def zero_inertia(robot: Robot) -> Iterator[Problem]:
     """A link has a mass and no inertia: all six numbers are 0.
@@ -152,6 +153,7 @@ def zero_inertia(robot: Robot) -> Iterator[Problem]:
         ),
         "mujoco": "rejects the file: inertia must have positive eigenvalues",
     },
+    of_motion=True,
 )
 def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Problem]:
     """An inertia tensor is zero about one axis.

@@ -106,6 +106,7 @@ def negative_limit(robot: Robot) -> Iterator[Problem]:
     effects={
         "gz, gazebo-classic, pybullet, pinocchio, drake": "take it as written",
     },
+    of_motion=True,
 )
 def implausible_velocity(
     robot: Robot, *, fastest_turn: float = 100.0, fastest_slide: float = 20.0, together: float = 4
@@ -137,6 +138,7 @@ def implausible_velocity(
     effects={
         "gz, gazebo-classic, mujoco, pybullet, pinocchio": "take it as written",
     },
+    of_motion=True,
 )
 def implausible_effort(
     robot: Robot, *, largest: float = 1e4, together: float = 4
@@ -180,12 +182,13 @@ def _alike(
         "drake": "rejects the file",
         "mujoco, pybullet": "simulate it as it is: the joint gains energy",
     },
+    of_motion=True,
 )
 def negative_dynamics(robot: Robot) -> Iterator[Problem]:
     """A joint's damping or friction is negative.
 
     It feeds energy into the joint instead of taking it out: the slightest motion grows until the
-    simulation blows up.
+    simulation diverges. Of a fixed joint no reader uses it.
     """
     for joint in robot.joints:
         dynamics = joint.dynamics
@@ -197,6 +200,7 @@ def negative_dynamics(robot: Robot) -> Iterator[Problem]:
                     joint,
                     f"{name} of joint '{joint.name}' is {value:g}; write {-value:g}",
                     at=dynamics.element.attribute_place(name),
+                    severity=INFO if joint.is_fixed else None,
                 )
 
 
@@ -206,6 +210,7 @@ def negative_dynamics(robot: Robot) -> Iterator[Problem]:
         "urdfdom, gz, gazebo-classic, pybullet, pinocchio": "reject the robot",
         "mujoco, drake": "take 0",
     },
+    of_motion=True,
 )
 def empty_dynamics(robot: Robot) -> Iterator[Problem]:
     """A ``<dynamics>`` has neither damping nor friction.
@@ -235,6 +240,7 @@ def empty_dynamics(robot: Robot) -> Iterator[Problem]:
         ),
         "mujoco, drake": "ignore them",
     },
+    of_motion=True,
 )
 def dynamics_as_child_elements(robot: Robot) -> Iterator[Problem]:
     """Damping or friction is written as an element inside ``<dynamics>``.

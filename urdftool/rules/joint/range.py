@@ -205,17 +205,18 @@ def range_above_full_turn(robot: Robot) -> Iterator[Problem]:
 
 @rule(
     INFO,
-    raised=dict.fromkeys(("gz", "gazebo-classic", "moveit"), WARNING),
     effects={
         "gz, gazebo-classic": "spawn the joint at 0, outside its limits",
         "moveit": "reports that the start state is outside its bounds",
     },
+    group="robot",
 )
 def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Problem]:
     """A joint's range does not contain 0.
 
     Simulators start every joint at 0, so the first step throws it back over its stop, and planners
-    start out of bounds. ros2_control can set an ``initial_value``.
+    start out of bounds. ros2_control can set an ``initial_value``. The range itself is as it should
+    be: an elbow that cannot be straight has it.
     """
     for joint, limit, lower, upper in _bounded(robot):
         if joint.mimic is not None or lower > upper:
@@ -227,6 +228,7 @@ def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Pr
                 f"joint '{joint.name}' cannot be at 0, where simulators start it: "
                 f"its range is {lower:g} to {upper:g}",
                 at=limit.element.attribute_place(name),
+                group="{count} joints cannot be at 0, where simulators start them: {names}",
             )
 
 

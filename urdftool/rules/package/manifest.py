@@ -169,7 +169,9 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
     """A folder that the description uses is not installed.
 
     It is there in the source and works from there; the built and packaged robot lacks it. In CMake
-    it wants ``install(DIRECTORY meshes DESTINATION share/${PROJECT_NAME})``.
+    it wants ``install(DIRECTORY meshes DESTINATION share/${PROJECT_NAME})``. A workspace of ROS 1
+    is mostly used from its sources: there it is a warning, and an info for a package that installs
+    nothing at all.
     """
     own = own_package(description.packages.file)
     if own is None:
@@ -185,6 +187,9 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
     if "." in words or "" in words or "${CMAKE_CURRENT_SOURCE_DIR}" in words:
         return
     places = {word.replace("${CMAKE_CURRENT_SOURCE_DIR}/", "") for word in words}
+    severity = None
+    if re.search(r"\bcatkin\b", text) and not re.search(r"\bament", text):
+        severity = WARNING if installs else INFO
     wanted: dict[str, Element] = {}
     for use in mesh_uses(robot, description):
         if use.exists and use.path is not None and use.uri.startswith(f"package://{own[0]}/"):
@@ -200,6 +205,7 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
                 f"write install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}}) "
                 "into CMakeLists.txt",
                 at=element.attribute_place("filename"),
+                severity=severity,
             )
 
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 
 from ...source.description import Description
 from ...source.document import Element
 from ...source.location import Place
-from ..rule import WARNING, Problem, rule
+from ..rule import INFO, WARNING, Problem, rule
 
+_ROUNDING = 1e-4
 _GLOBAL = re.compile(r"redefining global symbol: (\w+)")
 _ATTRIBUTE = re.compile(r"(\S+): unknown attribute\(s\): (.+)")
 _DEPRECATED = re.compile(r"Using (\w+)\(\) directly is deprecated. Use ([\w.]+)\(\)")
@@ -38,18 +40,41 @@ def shadowed_builtin(description: Description) -> Iterator[Problem]:
     """A property or parameter has the name of something that xacro has itself.
 
     ``pi``, ``e``, ``min``, ``len``, ``radians`` and the rest of Python's ``math`` are there in
-    every expression. One that is defined anew is another thing from there on, also where
-    ``${pi/2}`` means the number.
+    every expression. One that is defined again is another thing from there on, also where
+    ``${pi/2}`` means the number. ``pi`` defined as 3.14159 is pi, and no more than an info.
     """
     told: set[tuple[str, str, int]] = set()
     for match, root, place in _warned(description, _GLOBAL):
         at = _parameter(description, match[1], place) or place
         key = (match[1], at.path, at.start)
-        if key not in told:
-            told.add(key)
+        if key in told:
+            continue
+        told.add(key)
+        if _is_the_constant(match[1], at):
+            yield Problem(
+                root,
+                f"'{match[1]}' has the value that xacro gives it; remove the property",
+                at=at,
+                severity=INFO,
+            )
+        else:
             yield Problem(
                 root, f"'{match[1]}' is a name that xacro has itself; choose another", at=at
             )
+
+
+def _is_the_constant(name: str, place: Place) -> bool:
+    """Whether a property defines pi, e or tau as what it is, to four digits."""
+    value = getattr(math, name, None)
+    span = place.file.attribute_spans(place.start).get("value")
+    if not isinstance(value, float) or span is None:
+        return False
+    text = place.file.data[span[0] : span[1]].decode(place.file.encoding, "replace")
+    try:
+        written = float(text.partition("=")[2].strip().strip("\"'"))
+    except ValueError:
+        return False
+    return abs(written - value) < _ROUNDING
 
 
 def _parameter(description: Description, name: str, call: Place) -> Place | None:

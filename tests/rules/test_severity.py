@@ -1,0 +1,192 @@
+"""Severity by consequence: what no reader uses, and what is no defect, is at most an info."""
+
+import pytest
+
+from urdftool import check
+
+INERTIAL = (
+    '<inertial>{0}<mass value="{1}"/>'
+    '<inertia ixx="{2}" iyy="{2}" izz="{2}" ixy="0" ixz="0" iyz="0"/></inertial>'
+)
+BOX = '<{0}><geometry><box size="{1} {1} {1}"/></geometry></{0}>'
+LINK = '<link name="{0}">{1}</link>'
+JOINT = (
+    '<joint name="{0}" type="{1}"><parent link="{2}"/><child link="{3}"/><axis xyz="0 0 1"/>'
+    '<limit lower="-1" upper="1" effort="9" velocity="9"/>{4}</joint>'
+)
+
+
+def robot(*parts):
+    return f'<robot name="r">{"".join(parts)}</robot>'
+
+
+def levels(path, rule, **options):
+    return [(f.name, f.severity.label) for f in check(path, select=[rule], **options)]
+
+
+def arm(root, kind, *, mass="1", moment="0.5", origin=""):
+    """A body whose inertia is 75 times what its size allows, on a root."""
+    body = INERTIAL.format(origin, mass, moment) + BOX.format("collision", "0.2")
+    return robot(
+        LINK.format(root, ""),
+        LINK.format("body", body),
+        JOINT.format("mount", kind, root, "body", ""),
+    )
+
+
+@pytest.mark.parametrize(
+    ("root", "kind", "level"),
+    [
+        ("world", "fixed", "info"),
+        ("base", "fixed", "warning"),
+        ("world", "revolute", "warning"),
+    ],
+)
+def test_an_inertia_that_is_welded_to_the_world_is_an_info(write, root, kind, level):
+    path = write("r.urdf", arm(root, kind))
+    assert levels(path, "inertia-exceeds-geometry") == [("body", level)]
+    (finding,) = check(path, select=["inertia-exceeds-geometry"])
+    unused = finding.effects.get("every reader", "")
+    assert ("fixed to the world" in unused) == (level == "info")
+    path = write("r.urdf", arm(root, kind, moment="0.01", origin='<origin xyz="0 0 5"/>'))
+    assert levels(path, "com-outside-geometry") == [("body", level)]
+
+
+def test_what_readers_reject_stays_an_error(write):
+    text = arm("world", "fixed").replace('izz="0.5"', 'izz="5"')
+    path = write("r.urdf", text)
+    assert levels(path, "inertia-triangle-inequality") == [("body", "error")]
+
+
+def test_a_severity_of_the_configuration_holds(write):
+    write("urdftool.toml", '[lint.severity]\ninertia-exceeds-geometry = "error"\n')
+    path = write("r.urdf", arm("world", "fixed"))
+    assert levels(path, "inertia-exceeds-geometry") == [("body", "error")]
+
+
+@pytest.mark.parametrize(("kind", "level"), [("fixed", "info"), ("revolute", "error")])
+def test_dynamics_of_a_fixed_joint_are_an_info(write, kind, level):
+    body = INERTIAL.format("", "1", "0.01") + BOX.format("collision", "0.2")
+    joint = JOINT.format("j", kind, "base", "body", '<dynamics damping="-1"/>')
+    path = write("r.urdf", robot(LINK.format("base", body), LINK.format("body", body), joint))
+    assert levels(path, "negative-dynamics") == [("j", level)]
+
+
+@pytest.mark.parametrize("target", [(), ("gz",), ("gazebo-classic",), ("moveit",)])
+def test_a_joint_that_cannot_be_at_0_is_no_warning(write, target):
+    joint = JOINT.format("elbow", "revolute", "a", "b", "").replace('lower="-1"', 'lower="0.5"')
+    path = write("r.urdf", robot(LINK.format("a", ""), LINK.format("b", ""), joint))
+    assert levels(path, "zero-outside-limits", targets=target) == [("elbow", "info")]
+
+
+CMAKE = "cmake_minimum_required(VERSION 3.5)\nproject(p)\nfind_package({0})\n{1}\n"
+MANIFEST = '<package format="{0}"><name>p</name><buildtool_depend>{1}</buildtool_depend></package>'
+MESH = (
+    '<link name="a"><visual><geometry><mesh filename="package://p/meshes/a.stl"/>'
+    "</geometry></visual></link>"
+)
+
+
+@pytest.mark.parametrize(
+    ("tool", "installs", "level"),
+    [
+        ("catkin", "", "info"),
+        ("catkin", "install(DIRECTORY launch DESTINATION share/p)", "warning"),
+        ("ament_cmake", "", "error"),
+        ("ament_cmake", "install(DIRECTORY launch DESTINATION share/p)", "error"),
+    ],
+)
+def test_a_folder_that_is_not_installed(write, tool, installs, level):
+    write("p/package.xml", MANIFEST.format("2", tool))
+    write("p/CMakeLists.txt", CMAKE.format(tool, installs))
+    write("p/meshes/a.stl", "solid a\nendsolid a\n")
+    path = write("p/urdf/r.urdf", robot(MESH))
+    assert levels(path, "directory-not-installed") == [("r", level)]
+
+
+SPHERE = '<{0}><geometry><sphere radius="{1}"/></geometry></{0}>'
+
+
+@pytest.mark.parametrize(
+    ("radius", "target", "level"),
+    [
+        ("0.001", (), "info"),
+        ("0.001", ("mujoco",), "info"),
+        ("0.001", ("pybullet",), "error"),  # which gives it 1 kg
+        ("0.05", (), "warning"),
+        ("0.05", ("mujoco",), "error"),
+    ],
+)
+def test_a_marker_of_milligrams_without_inertial(write, radius, target, level):
+    body = INERTIAL.format("", "1", "0.01") + BOX.format("collision", "0.2")
+    marker = SPHERE.format("visual", radius) + SPHERE.format("collision", radius)
+    path = write(
+        "r.urdf",
+        robot(
+            LINK.format("base", body),
+            LINK.format("marker", marker),
+            JOINT.format("j", "fixed", "base", "marker", ""),
+        ),
+    )
+    assert levels(path, "missing-inertial", targets=target) == [("marker", level)]
+
+
+@pytest.mark.parametrize(
+    ("mass", "kind", "level"),
+    [("0.0001", "fixed", "info"), ("0.0001", "revolute", "warning"), ("0.002", "fixed", "warning")],
+)
+def test_a_sensor_dummy_of_a_gram_is_no_warning(write, mass, kind, level):
+    body = INERTIAL.format("", "1", "0.01") + BOX.format("collision", "0.2")
+    dummy = INERTIAL.format("", mass, "1e-7") + BOX.format("collision", "0.2")
+    path = write(
+        "r.urdf",
+        robot(
+            LINK.format("base", body),
+            LINK.format("dummy", dummy),
+            JOINT.format("j", kind, "base", "dummy", ""),
+        ),
+    )
+    assert levels(path, "implausible-density") == [("dummy", level)]
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "level"),
+    [
+        ("pi", "3.14159265358979", "info"),
+        ("pi", "3.1415", "info"),
+        ("pi", "3.14", "warning"),
+        ("pi", "${22/7}", "warning"),
+        ("e", "2.718281828", "info"),
+        ("e", "0.1", "warning"),
+    ],
+)
+def test_pi_defined_as_pi_is_no_warning(xacro_file, name, value, level):
+    text = f'<xacro:property name="{name}" value="{value}"/><link name="a${{{name}}}"/>'
+    path = xacro_file("r.urdf.xacro", text)
+    assert [f.severity.label for f in check(path, select=["shadowed-builtin"])] == [level]
+
+
+def test_a_track_of_15_m_is_no_warning(write):
+    track = JOINT.format("track", "prismatic", "a", "cart", "").replace('upper="1"', 'upper="15"')
+    cart = INERTIAL.format("", "1", "0.01") + BOX.format("visual", "0.2")
+    path = write("r.urdf", robot(LINK.format("a", ""), LINK.format("cart", cart), track))
+    assert levels(path, "prismatic-in-millimetres") == [("track", "info")]
+
+
+def test_only_robots_for_gazebo_are_asked_for_its_tags(write):
+    wheel = (
+        '<visual><origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.1" length="0.05"/>'
+        "</geometry></visual>" + INERTIAL.format("", "1", "0.01")
+    )
+    axle = JOINT.format("axle", "continuous", "base", "left_wheel", "")
+    text = robot(
+        LINK.format("base", BOX.format("collision", "0.2")),
+        LINK.format(
+            "left_wheel", wheel + wheel.partition("<inertial>")[0].replace("visual", "collision")
+        ),
+        axle.replace("0 0 1", "0 1 0"),
+    )
+    path = write("r.urdf", text)
+    assert levels(path, "missing-gazebo-tags", targets=("gz",)) == [("left_wheel", "warning")]
+    assert "missing-gazebo-tags" not in {f.rule for f in check(path)}
+    assert levels(path, "missing-gazebo-tags", targets=("mujoco",)) == []

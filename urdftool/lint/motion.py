@@ -1,0 +1,29 @@
+"""Which links and joints can move, for rules whose facts matter in motion only."""
+
+from __future__ import annotations
+
+from ..model.elements import Robot
+from ..source.document import Element
+
+UNUSED_LINK = "do not use it: the link is fixed to the world"
+UNUSED_JOINT = "do not use it: the joint is fixed"
+
+
+def why_unused(robot: Robot | None, element: Element) -> str:
+    """Why no reader uses the dynamics of a link or joint; empty where some do."""
+    name = element.get("name")
+    if robot is None or name is None:
+        return ""
+    if element.tag == "joint":
+        joint = robot.joint.get(name)
+        return UNUSED_JOINT if joint is not None and joint.is_fixed else ""
+    if element.tag != "link" or "world" not in robot.link:
+        return ""
+    seen: set[str] = set()
+    while name != "world" and name not in seen:
+        seen.add(name)
+        joint = robot.tree.parent_joint(name)
+        if joint is None or not joint.is_fixed:
+            return ""
+        name = joint.parent
+    return UNUSED_LINK if name == "world" else ""
