@@ -361,7 +361,18 @@ def test_a_file_that_changes_while_it_is_checked_is_not_kept(write, tmp_path, mo
 def test_several_processes_use_one_folder(write):
     for number in range(30):
         write(f"r/{number}.urdf", f"<robot><link name='{number}'/></robot>")
-    words = [sys.executable, "-m", "urdftool", "lint", "r", "--cache-dir", "kept", "-j", "2"]
+    words = [
+        sys.executable,
+        "-m",
+        "urdftool",
+        "lint",
+        "r",
+        "--all",
+        "--cache-dir",
+        "kept",
+        "-j",
+        "2",
+    ]
     some = [subprocess.Popen(words, stdout=subprocess.PIPE, text=True) for _ in range(3)]
     said = [process.communicate()[0] for process in some]
     assert [process.returncode for process in some] == [1, 1, 1]

@@ -49,6 +49,12 @@ def test_one_fact_of_many_links_is_one_finding_with_its_names(write, urdftool):
     assert [instance["name"] for instance in found["instances"]] == list("bcdefgh")
 
 
+def test_statistics_count_groups_and_their_places(write, urdftool):
+    path = write("r.urdf", robot(*"abcdefgh"))
+    result = urdftool("lint", path, *ONLY, "--statistics")
+    assert result.out == "     1  info     missing-collision, 8 places (fix: unsafe)\n"
+
+
 def test_one_alone_is_reported_as_before(write, urdftool):
     path = write("r.urdf", robot("a"))
     (found,) = lint_json(urdftool, path, *ONLY)["findings"]
@@ -234,7 +240,7 @@ def fact(rule, name, start=8, *, cause=(), severity=Severity.WARNING, calls=(), 
     return Finding(
         rule,
         severity,
-        f"{rule} of {name}",
+        f"{rule} of '{name}'",
         Place(FILE, start, start + 7, calls),
         "link",
         name,
@@ -256,7 +262,7 @@ def test_what_another_finding_explains_is_listed_under_it():
         ("no-mass", "a", Severity.ERROR),
         ("falls", "b", Severity.WARNING),
     ]
-    assert [f.message for f in found[0].consequences] == ["falls of a"]
+    assert [f.message for f in found[0].consequences] == ["falls of 'a'"]
 
 
 def test_a_cause_that_only_some_instances_have_explains_nothing():
@@ -289,7 +295,22 @@ def test_consequences_of_a_group_are_grouped():
     (whole,) = group(facts)
     assert whole.message == "7: 'l0', 'l1', 'l2', 'l3', 'l4' and 2 more"
     (under,) = whole.consequences
-    assert under.message == ("falls of l0 (and 6 more: 'l1', 'l2', 'l3', 'l4', 'l5' and 1 more)")
+    assert under.message == ("falls of 'l0' (and 6 more: 'l1', 'l2', 'l3', 'l4', 'l5' and 1 more)")
+
+
+def test_messages_that_say_different_things_are_not_grouped():
+    alike = Group("robot", "")
+    messages = (
+        "limit of 'a' is 0.5 m, above 10",
+        "limit of 'b' is 3e-05 m, above 100",
+        "limit of 'c' is 0.5 rad, above 10",
+        "<limit> of 'd' does not belong here",
+        "<axis> of 'e' does not belong here",
+    )
+    facts = [fact("a", name, 8 + n, group=alike) for n, name in enumerate("abcde")]
+    for one, message in zip(facts, messages, strict=True):
+        one.message = message
+    assert [found.names for found in group(facts)] == [["a", "b"], ["c"], ["d"], ["e"]]
 
 
 def test_declared_groups_and_causes_are_of_rules():

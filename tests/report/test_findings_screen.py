@@ -141,6 +141,8 @@ def test_the_summary_names_three_rules_and_what_to_do():
         "--fix --unsafe-fixes --diff shows 3 unsafe fixes as well",
     ]
     assert list(advice(facts[:MANY])) == []
+    rules = "abcdefghi"
+    assert list(advice([fact(rule, INFO, n) for n, rule in enumerate(rules)])) == []
 
 
 def test_the_summary_has_it_on_stderr_and_only_for_people(many, urdftool):

@@ -7,6 +7,7 @@ the last step before a report is written, and every format writes it.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -115,7 +116,12 @@ def _key(finding: Finding, robots: Mapping[Any, int]) -> Any:
     where: Any = robots.get(_identity(finding), 0)
     if finding.group.by == "repository":
         where = repository(os.path.dirname(os.path.abspath(finding.place.path)))
-    return finding.rule, finding.severity, finding.group, finding.variants, where
+    same = finding.group.sentence or _QUOTED_OR_NUMBER.sub("", finding.message)
+    return finding.rule, finding.severity, same, finding.variants, where
+
+
+_QUOTED_OR_NUMBER = re.compile(r"'[^']*'|(?<![\w<])-?\d[\d.]*(?:e[-+]?\d+)?")
+"""What may differ between messages that say the same of several things."""
 
 
 def _identity(finding: Finding) -> Any:

@@ -355,6 +355,7 @@ def _finding(
             unused = why_unused(robot, problem.element)
             if unused:
                 severity, effects = Severity.INFO, {"every reader": unused}
+    causes = rule.caused_by if problem.caused_by is None else problem.caused_by
     concerned = targets if rule.on is None else targets.intersection(rule.on)
     return Finding(
         rule.name,
@@ -368,7 +369,7 @@ def _finding(
         problem.hint,
         site=_site(problem.element),
         group=Group(rule.group, problem.group) if rule.group else None,
-        cause=Cause(rule.caused_by, _site(problem.cause_element)) if rule.caused_by else None,
+        cause=Cause(causes, _site(problem.cause_element)) if causes else None,
     )
 
 

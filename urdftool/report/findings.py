@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 
 import click
@@ -14,7 +15,7 @@ from .findings_words import call_lines, member_lines, remarks, sentence
 from .findings_words import clean as clean
 
 _COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "blue"}
-_MOST_LINES = 6
+_MOST_LINES = 3
 _MOST_CALLS = 4
 _LONGEST_LINE = 160
 
@@ -38,13 +39,19 @@ def concise(findings: Iterable[Finding], *, colors: bool = False) -> Iterator[st
         yield _headline(finding, paint)
 
 
-def full(findings: Iterable[Finding], *, colors: bool = False) -> Iterator[str]:
-    """The headline, the source, what each reader does, the calls it came through, a hint."""
+def full(findings: Iterable[Finding], *, colors: bool = False, whole: bool = True) -> Iterator[str]:
+    """The headline, the source, what each reader does, the calls it came through, a hint.
+
+    Args:
+        findings: The findings.
+        colors: Whether text is coloured.
+        whole: Whether all members of a group are listed, or some and the number of the others.
+    """
     paint = Painter(colors)
     for finding in findings:
         yield _headline(finding, paint)
         yield from _source(finding, paint)
-        yield from (f"   {paint('=', 'cyan')} {line}" for line in _remarks(finding, paint))
+        yield from (f"   {paint('=', 'cyan')} {line}" for line in _remarks(finding, paint, whole))
         yield ""
 
 
@@ -95,16 +102,17 @@ def _expand_tabs(text: str) -> str:
     return text.expandtabs(4)
 
 
-def _remarks(finding: Finding, paint: Painter) -> Iterator[str]:
+def _remarks(finding: Finding, paint: Painter, whole: bool) -> Iterator[str]:
     for remark in remarks(finding):
         label, _, text = remark.partition(": ")
         yield f"{paint(label, bold=True)}: {text}"
     yield from (f"from {line}" for line in call_lines(finding.place.calls))
     if finding.members:
         lines = list(member_lines(finding))
-        yield from (f"also {line}" for line in lines[: _MOST_CALLS - 1])
-        if len(lines) > _MOST_CALLS - 1:
-            yield f"and {len(lines) - _MOST_CALLS + 1} more"
+        most = len(lines) if whole or len(lines) <= _MOST_CALLS else _MOST_CALLS - 1
+        yield from (f"also {line}" for line in lines[:most])
+        if lines[most:]:
+            yield f"and {len(lines) - most} more"
         return
     chains = [(name, calls) for name, calls in finding.others if calls]
     for name, calls in chains[: _MOST_CALLS - 1]:
@@ -115,14 +123,18 @@ def _remarks(finding: Finding, paint: Painter) -> Iterator[str]:
 
 
 def statistics(outcome: Outcome) -> Iterator[str]:
-    """How often each rule has fired, the most frequent first."""
-    counts: dict[tuple[str, Severity], int] = {}
+    """How many findings each rule has, the most first; for groups with the number of places."""
+    counts: Counter[tuple[str, Severity]] = Counter()
+    places: Counter[tuple[str, Severity]] = Counter()
     for finding in outcome.findings:
         key = (finding.rule, finding.severity)
-        counts[key] = counts.get(key, 0) + 1
-    for (rule, severity), count in sorted(counts.items(), key=lambda kv: (-kv[1], kv[0][0])):
+        counts[key] += 1
+        places[key] += len(finding.members) or 1
+    for key, count in sorted(counts.items(), key=lambda kv: (-kv[1], kv[0][0])):
+        rule, severity = key
+        several = f", {places[key]} places" if places[key] > count else ""
         fixable = f" (fix: {FIXABLE[rule]})" if rule in FIXABLE else ""
-        yield f"{count:>6}  {severity.label:<8} {rule}{fixable}"
+        yield f"{count:>6}  {severity.label:<8} {rule}{several}{fixable}"
     if outcome.not_checked:
         yield f"{len(outcome.not_checked):>6}  error    {NOT_CHECKED} (a file without its robot)"
 

@@ -50,8 +50,10 @@ def screen(
             has gets one line for each finding, errors first, and the number of those left out.
     """
     shown = by_weight(findings)
-    write = full if style == "full" else concise
-    blocks = [list(write([finding], colors=colors)) for finding in shown]
+    if style == "full":
+        blocks = [list(full([finding], colors=colors, whole=whole)) for finding in shown]
+    else:
+        blocks = [[line] for line in concise(shown, colors=colors)]
     left: dict[str, list[Finding]] = {}
     lengths = [len(block) for block in blocks]
     if not whole:
@@ -117,8 +119,11 @@ def advice(findings: Sequence[Finding]) -> Iterator[str]:
     unsafe = sum(finding.fix is not None and not finding.fix.safe for finding in findings)
     counts = Counter(finding.rule for finding in findings).most_common(_RULES)
     width = max(len(rule) for rule, _ in counts)
-    yield "rules with the most findings:"
+    if counts[0][1] > 1:
+        yield "rules with the most findings:"
     for rule, count in counts:
+        if count == 1:
+            break
         if safe or unsafe:
             fixes = [f.fix.option for f in findings if f.rule == rule and f.fix is not None]
         else:  # nobody has asked for fixes

@@ -44,10 +44,15 @@ def remarks(finding: Finding) -> Iterator[str]:
 
 
 def member_lines(finding: Finding) -> Iterator[str]:
-    """``FILE:LINE:COLUMN: 'name'`` for each member of a group but the first."""
+    """``FILE:LINE:COLUMN: MESSAGE`` for each member of a group but the first.
+
+    Where the sentence of the group says what each message says, the name of the member is enough.
+    """
     for member in finding.members[1:]:
-        name = f": '{clean(member.name)}'" if member.name else ""
-        yield f"{clean(str(member.place))}{name}"
+        text = clean(member.message)
+        if finding.group is not None and finding.group.sentence:
+            text = f"'{clean(member.name)}'" if member.name else ""
+        yield f"{clean(str(member.place))}: {text}".removesuffix(": ")
 
 
 def call_words(call: Call) -> str:

@@ -21,12 +21,13 @@ Two arguments of the decorator say how findings are reported together:
     ``group="repository"`` does so over all robots of one repository. Each finding stays a fact of
     its own for comments, baselines, fixes and variants. ``Problem(group=…)`` gives the sentence
     for several: ``"{count} links have a visual and no collision: {names}"``. Problems with the
-    same sentence and severity are one finding; without a sentence the first message is followed by
-    the other names.
+    same sentence and severity are one finding. Without a sentence, those are whose messages differ
+    in quoted names and numbers only, and the first message is followed by the other names.
 
 ``caused_by=("placeholder-inertia",)``
     A finding of one of these rules about the same element explains a finding of this rule, which
-    is then listed under it. ``Problem(cause=…)`` names another element to look at.
+    is then listed under it. ``Problem(cause=…)`` names another element to look at, and
+    ``Problem(caused_by=…)`` other rules, or none.
 
 ``of_motion=True``
     What is found matters only for what can move, such as an inertia that is too large: of a link
@@ -68,9 +69,10 @@ class Problem:
         group: The sentence for several such problems, with ``{count}`` and ``{names}``, for a rule
             that groups them; see the module's docstring.
         cause: The element that a finding which explains this one is about; None for the subject.
+        caused_by: Instead of the rule's, where it depends on the case.
     """
 
-    __slots__ = ("at", "cause", "group", "hint", "message", "severity", "subject")
+    __slots__ = ("at", "cause", "caused_by", "group", "hint", "message", "severity", "subject")
 
     def __init__(
         self,
@@ -82,6 +84,7 @@ class Problem:
         severity: Severity | None = None,
         group: str = "",
         cause: Part | Element | None = None,
+        caused_by: tuple[str, ...] | None = None,
     ) -> None:
         """Keep what was found; the place is worked out when it is reported."""
         self.subject = subject
@@ -91,6 +94,7 @@ class Problem:
         self.severity = severity
         self.group = group
         self.cause = cause
+        self.caused_by = caused_by
 
     @property
     def place(self) -> Place:

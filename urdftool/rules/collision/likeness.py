@@ -164,6 +164,7 @@ def collision_much_larger_than_visual(
             "collide with the shape as written: things pass through what is shown"
         ),
     },
+    group="robot",
 )
 def collision_much_smaller_than_visual(robot: Robot, *, ratio: float = 4.0) -> Iterator[Problem]:
     """A link collides with far less than what is seen of it.

@@ -24,6 +24,7 @@ _SIZES = {
         "drake": "aborts for a cylinder",
         "urdfdom, gz, gazebo-classic, pybullet, pinocchio": "accept it without a message",
     },
+    group="robot",
 )
 def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
     """A shape has a length of zero or less.

@@ -111,6 +111,7 @@ def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
     effects={
         "ros2_control": "takes the mimic joint from the URDF, not from the parameter, since Jazzy",
     },
+    group="robot",
 )
 def ros2_control_legacy_mimic_param(robot: Robot) -> Iterator[Problem]:
     """Mimicry is written as a parameter.

@@ -238,6 +238,7 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
         "gazebo_ros_control": "fails to start: the merged joint is not in the simulated robot",
         "gz, gazebo-classic": "merge the fixed joint",
     },
+    group="robot",
 )
 def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
     """A transmission drives a fixed joint.
@@ -255,7 +256,12 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@rule(WARNING, on=("ros1",), effects={"gazebo_ros_control": "neither reports nor drives the joint"})
+@rule(
+    WARNING,
+    on=("ros1",),
+    effects={"gazebo_ros_control": "neither reports nor drives the joint"},
+    group="robot",
+)
 def actuated_joint_without_transmission(robot: Robot) -> Iterator[Problem]:
     """A joint moves and has no transmission, in a robot that ros_control drives.
 

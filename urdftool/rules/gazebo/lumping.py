@@ -55,6 +55,7 @@ def _blocks_of_links(robot: Robot) -> Iterator[tuple[str, GazeboExtension]]:
             "merge the joint and drop what the block holds, without a message (sdformat 12.3)"
         ),
     },
+    group="robot",
 )
 def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
     """A fixed joint has something in Gazebo and is not kept.
@@ -88,6 +89,7 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
     effects={
         "gz, gazebo-classic": "apply the flag to the whole merged body",
     },
+    group="robot",
 )
 def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
     """A flag of a link that is joined to another holds for both.
@@ -158,6 +160,7 @@ def preserved_joint_massless(robot: Robot) -> Iterator[Problem]:
             "rename the shape and apply none of the settings, without a message (sdformat 12.3)"
         ),
     },
+    group="robot",
 )
 def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
     """A named collision or visual loses what Gazebo is told of its link.
@@ -229,6 +232,7 @@ def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
     effects={
         "gz, gazebo-classic": "drop it",
     },
+    group="robot",
 )
 def surface_without_collision(robot: Robot) -> Iterator[Problem]:
     """A link is told how it grips and has nothing to grip with.

@@ -69,6 +69,7 @@ def _loops(robot: Robot) -> Iterator[Problem]:
     effects={
         "gz, gazebo-classic": "drop it, without a message (sdformat 12.3)",
     },
+    group="robot",
 )
 def misplaced_extension(robot: Robot) -> Iterator[Problem]:
     """A word of Gazebo's stands at a link and belongs to a joint, or the other way round.

@@ -67,6 +67,7 @@ def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     effects={
         "gz": "does not read Ogre scripts, and warns",
     },
+    group="robot",
 )
 def ogre_material_script(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A material of Gazebo Classic's is not known to new Gazebo.

@@ -61,6 +61,7 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
     effects={
         "gz, gazebo-classic": "take 1, the default of SDF, for the other",
     },
+    group="robot",
 )
 def half_friction(robot: Robot) -> Iterator[Problem]:
     """One of ``mu1`` and ``mu2`` is written.
@@ -92,6 +93,7 @@ _MU = ("mu1", "mu2")
     effects={
         "gz, gazebo-classic": "take it as written",
     },
+    group="robot",
 )
 def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Problem]:
     """A friction or a stiffness is not of this world.

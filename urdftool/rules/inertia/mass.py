@@ -79,6 +79,7 @@ def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
         "mujoco": "rejects a moving body; merges a fixed one",
         "pybullet": "fixes a base to the world",
     },
+    group="robot",
 )
 def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A link's mass is 0.
@@ -178,6 +179,11 @@ def implausible_mass(
         "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take it as written",
     },
     of_motion=True,
+    group="robot",
+    caused_by=(
+        *("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line"),
+        "collision-much-larger-than-visual",
+    ),
 )
 def implausible_density(
     robot: Robot,

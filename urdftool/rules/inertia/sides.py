@@ -18,6 +18,11 @@ from ..sides import Pair, Sides, family_of, sides, twin_of
         "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take the two as written",
     },
     of_motion=True,
+    caused_by=(
+        *("zero-mass", "zero-inertia", "singular-inertia", "placeholder-inertia"),
+        *("inertia-component-slip", "inertia-off-by-power-of-ten", "inertia-exceeds-geometry"),
+        *("inertia-triangle-inequality", "inertia-not-positive-definite"),
+    ),
 )
 def left_right_asymmetry(
     robot: Robot,

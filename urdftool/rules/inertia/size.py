@@ -15,6 +15,9 @@ from .proposals import remedy_text
 from .solids import centre_of_solids, solid_moments, solid_text, spread_ratio
 from .tensors import is_positive, is_zero, moments_of, six_of, tensors
 
+_SIZE_IN_DOUBT = ("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line")
+_CENTER = ("com-outside-geometry", "inertial-not-at-com-suspect")
+
 
 @rule(
     INFO,
@@ -69,6 +72,7 @@ def _is_placeholder(link: Link, six: Six) -> bool:
         "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
     },
     of_motion=True,
+    group="robot",
 )
 def inertia_exceeds_geometry(
     robot: Robot, *, allowed: float = 1.1, rounding: float = 0.01, certain: float = 10.0
@@ -92,12 +96,14 @@ def inertia_exceeds_geometry(
         if ratio <= allowed or about_com(link, inertial, six, reach.link(link)) is not None:
             continue
         remark = ratio <= certain and _has_mesh(link)
+        fits, _ = spread_ratio(reach.link(link), inertial, rounding, centered=True)
         yield Problem(
             link,
             f"inertia of link '{link.name}' spreads its mass along {'xyz'[axis]} more than its "
             f"shapes allow, by a factor of {ratio:.2g}{remedy_text(link, inertial, six)}",
             at=inertial.inertia,
             severity=INFO if remark else None,
+            caused_by=(*_SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits <= allowed else ())),
         )
 
 
@@ -114,6 +120,7 @@ def _has_mesh(link: Link) -> bool:
         ),
     },
     of_motion=True,
+    caused_by=_SIZE_IN_DOUBT,
 )
 def inertia_below_geometry(robot: Robot, *, least: float = 0.12) -> Iterator[Problem]:
     """An inertia is far smaller than that of a body of the link's size.
@@ -155,6 +162,8 @@ def inertia_below_geometry(robot: Robot, *, least: float = 0.12) -> Iterator[Pro
         "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
     },
     of_motion=True,
+    group="robot",
+    caused_by=_SIZE_IN_DOUBT,
 )
 def com_outside_geometry(
     robot: Robot, *, margin: float = 0.02, together: float = 6
@@ -213,6 +222,7 @@ def com_outside_geometry(
         ),
     },
     of_motion=True,
+    group="robot",
 )
 def inertial_not_at_com_suspect(robot: Robot, *, far: float = 0.2) -> Iterator[Problem]:
     """An ``<inertial>`` has no origin though the link's shapes lie to one side.

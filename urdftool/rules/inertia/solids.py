@@ -136,13 +136,21 @@ def solid_text(link: Link) -> str:
     return f"; a solid {tag} of {link.mass:g} kg has ixx {x:.4g}, iyy {y:.4g}, izz {z:.4g}"
 
 
-def spread_ratio(box: Bounds | None, inertial: Inertial, rounding: float) -> tuple[float, int]:
+def spread_ratio(
+    box: Bounds | None, inertial: Inertial, rounding: float, *, centered: bool = False
+) -> tuple[float, int]:
     """By how much a mass is spread wider than the box around it allows, and along which axis.
 
     Mass within an interval [lo, hi] with its mean at c has a variance of at most (hi − c)(c − lo)
     (Bhatia and Davis, "A Better Bound on the Variance", 2000). The variance along an axis is the
     second moment ½ tr(I) − Iₐₐ over the mass. Above 1 is impossible for a body inside its shapes.
     Of a plate the difference is small and lost in rounding, so that part of ½ tr(I) is allowed.
+
+    Args:
+        box: The box around the shapes, in the link frame.
+        inertial: The mass, its place and its tensor.
+        rounding: The part of ½ tr(I) that is allowed in addition.
+        centered: Whether to take the mean in the middle of the box instead of where it is.
     """
     tensor, mass = inertial.inertia, inertial.mass
     if box is None or tensor is None or not mass or mass < 0:
@@ -154,7 +162,8 @@ def spread_ratio(box: Bounds | None, inertial: Inertial, rounding: float) -> tup
     half_trace = (xx + yy + zz) / 2
     worst = (0.0, 0)
     for i, moment in enumerate((xx, yy, zz)):
-        low, high, centre = box[0][i], box[1][i], pose.translation[i]
+        low, high = box[0][i], box[1][i]
+        centre = (low + high) / 2 if centered else pose.translation[i]
         room = (high - centre) * (centre - low) * mass + rounding * half_trace
         if low < centre < high and room > 0:
             worst = max(worst, ((half_trace - moment) / room, i))

@@ -95,6 +95,7 @@ def inertia_triangle_inequality(
         "drake": "warns, and takes another inertia",
         "urdfdom, pinocchio": "accept it without a message",
     },
+    group="robot",
 )
 def inertia_triangle_inequality_rounding(
     robot: Robot, *, tolerance: float = 1e-12, rounding: float = 0.01
@@ -127,6 +128,7 @@ def inertia_triangle_inequality_rounding(
         ),
     },
     of_motion=True,
+    group="robot",
 )
 def zero_inertia(robot: Robot) -> Iterator[Problem]:
     """A link has a mass and no inertia: all six numbers are 0.
@@ -154,6 +156,7 @@ def zero_inertia(robot: Robot) -> Iterator[Problem]:
         "mujoco": "rejects the file: inertia must have positive eigenvalues",
     },
     of_motion=True,
+    group="robot",
 )
 def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Problem]:
     """An inertia tensor is zero about one axis.

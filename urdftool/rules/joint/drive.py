@@ -20,6 +20,7 @@ _UNITS = {"prismatic": ("N", "m/s")}
         "gz": "passes a limit of 0 on to the engine: the joint cannot be driven",
         "mujoco": "loads it without the limit",
     },
+    group="robot",
 )
 def zero_effort_limit(robot: Robot) -> Iterator[Problem]:
     """A moving joint's effort limit is 0.
@@ -45,6 +46,7 @@ def zero_effort_limit(robot: Robot) -> Iterator[Problem]:
         "moveit": "does not time a trajectory: no velocity limit was defined",
         "gz": "passes a limit of 0 on to the engine",
     },
+    group="robot",
 )
 def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
     """A moving joint's velocity limit is 0.
@@ -107,6 +109,7 @@ def negative_limit(robot: Robot) -> Iterator[Problem]:
         "gz, gazebo-classic, pybullet, pinocchio, drake": "take it as written",
     },
     of_motion=True,
+    group="robot",
 )
 def implausible_velocity(
     robot: Robot, *, fastest_turn: float = 100.0, fastest_slide: float = 20.0, together: float = 4
@@ -139,6 +142,7 @@ def implausible_velocity(
         "gz, gazebo-classic, mujoco, pybullet, pinocchio": "take it as written",
     },
     of_motion=True,
+    group="robot",
 )
 def implausible_effort(
     robot: Robot, *, largest: float = 1e4, together: float = 4

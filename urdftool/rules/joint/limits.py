@@ -15,6 +15,7 @@ from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
         "urdfdom, gz, gazebo-classic, pybullet, pinocchio": "reject the robot",
         "mujoco, drake": "load the joint without limits",
     },
+    group="robot",
 )
 def missing_limit(robot: Robot) -> Iterator[Problem]:
     """A revolute or prismatic joint has no ``<limit>``.
@@ -81,6 +82,7 @@ def _version(robot: Robot) -> float:
         "urdfdom, gz, gazebo-classic, pinocchio": "take 0 for a bound that is not written",
         "mujoco, pybullet, drake": "load the joint without limits where both are missing",
     },
+    group="robot",
 )
 def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
     """A revolute or prismatic joint's ``<limit>`` lacks lower, upper or both.

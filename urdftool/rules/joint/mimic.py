@@ -30,6 +30,7 @@ from ..xml.vocabulary_table import misspelt_attributes
         "ros2_control": "stops with an exception where the joint is in <ros2_control>",
         "pybullet": "does not read <mimic>",
     },
+    group="robot",
 )
 def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
     """A mimic joint follows a joint that is not there.

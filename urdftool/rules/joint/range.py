@@ -43,6 +43,7 @@ def lower_above_upper(robot: Robot) -> Iterator[Problem]:
         "pybullet": "holds it in place",
         "gz, gazebo-classic, pinocchio, drake": "keep the two equal limits",
     },
+    group="robot",
 )
 def locked_by_limits(robot: Robot) -> Iterator[Problem]:
     """A joint's lower and upper limit are equal.
@@ -154,6 +155,7 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
     effects={
         "moveit": "takes the limit as written for the bound of the joint",
     },
+    group="robot",
 )
 def limit_rounded_outward(
     robot: Robot, *, smallest: float = 1e-7, largest: float = 1e-3

@@ -17,6 +17,7 @@ from ..words import quoted
     effects={
         "urdfdom, gz, gazebo-classic, mujoco": "place the joint as written: the robot is crooked",
     },
+    group="robot",
 )
 def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
     """A joint is not where the mirror image of its twin is.

@@ -87,6 +87,7 @@ def duplicate_joint_name(robot: Robot) -> Iterator[Problem]:
         ),
         "urdfdom, mujoco, pybullet, pinocchio, drake": "accept it",
     },
+    group="robot",
 )
 def link_joint_name_clash(robot: Robot) -> Iterator[Problem]:
     """A link and a joint have the same name.

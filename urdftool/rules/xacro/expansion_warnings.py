@@ -53,7 +53,7 @@ def shadowed_builtin(description: Description) -> Iterator[Problem]:
         if _is_the_constant(match[1], at):
             yield Problem(
                 root,
-                f"'{match[1]}' has the value that xacro gives it; remove the property",
+                f"'{match[1]}' is a name that xacro has itself, with this value; remove it",
                 at=at,
                 severity=INFO,
             )

@@ -134,6 +134,7 @@ _REDUNDANT = ("iyx", "izx", "izy")
             "ignore it, without a message"
         ),
     },
+    group="robot",
 )
 def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]:
     """URDF has no such element there.
@@ -173,6 +174,7 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             "ignore it, and take the default of the attribute that was meant"
         ),
     },
+    group="robot",
 )
 def unknown_attribute(robot: Robot) -> Iterator[Problem]:
     """URDF has no such attribute on that element.
