@@ -53,7 +53,11 @@ LEVELS = ("error", "warning", "info")
     help="With --fix or --diff: also those that write mesh files, which may be binary.",
 )
 @click.option("--diff", is_flag=True, help="Show what --fix would change, and write nothing.")
-@click.option("--exit-zero", is_flag=True, help="Exit 0 even if there are findings.")
+@click.option(
+    "--exit-zero",
+    is_flag=True,
+    help="Exit 0 even if there are findings, but 2 if a robot was not checked.",
+)
 @click.option(
     "--fail-on",
     type=click.Choice(LEVELS),
@@ -111,7 +115,8 @@ def command(
         urdftool lint --explain zero-axis
 
     Exit 1 if there are findings of --fail-on or above that the baseline does not have (with --fix,
-    those that are left; with --diff, if anything would be fixed), 2 if a file cannot be read.
+    those that are left; with --diff, if anything would be fixed), 2 if a robot could not be read or
+    expanded and was therefore not checked, whatever the options say.
     """  # noqa: D301 -- click reads the escape
     from ..lint.discover import find_descriptions, nothing_below
     from ..lint.outcome import Options

@@ -49,7 +49,8 @@ def check(
 
     Args:
         robot: A robot from :func:`urdftool.load`, or the path of a description. A path is more:
-            a file that is not well-formed or cannot be expanded is a finding too.
+            a file that is not well-formed or cannot be expanded is a finding too, an error with
+            ``unchecked`` where nothing else of the robot could be checked.
         args: Values for xacro arguments, for a path.
         packages: Folders of ROS packages by name, for a path.
         package_paths: Folders with ROS packages below, for a path.
