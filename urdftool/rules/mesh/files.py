@@ -193,7 +193,9 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
     ERROR,
     effects={
         "rviz, gazebo": "show nothing there",
-        "mujoco": "refuses the robot, with a message that points elsewhere",
+        "mujoco": "rejects the robot: invalid header in STL file (4.0)",
+        "pinocchio, drake": "reject the robot",
+        "pybullet": "warns; the link has nothing to touch with and falls through the ground",
     },
     group="repository",
 )
