@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -162,7 +163,7 @@ def _said(baseline: Baseline, stale: list[Entry]) -> str:
 
 def _report_skipped(console: Console, reports: Iterable[Report], named: Sequence[str]) -> None:
     """Files that were skipped: those that were named, and the .xacro files of folders."""
-    groups: dict[tuple[str, int], list[str]] = {}
+    groups: dict[tuple[str, int], list[Report]] = {}
     reports = list(reports)
     read = {path for report in reports if report.checked for path in report.files}
     for report in reports:
@@ -170,11 +171,14 @@ def _report_skipped(console: Console, reports: Iterable[Report], named: Sequence
             usual = report.path in named or not report.path.endswith((".urdf", ".urdf.xacro"))
             macros = report.path.endswith(".urdf.xacro") and "excluded" not in report.skipped
             level = 0 if usual or (macros and report.path not in read) else 1
-            groups.setdefault((report.skipped, level), []).append(report.path)
-    for (reason, level), paths in groups.items():
-        more = len(paths) - _MOST_ENTRIES
-        shown = ", ".join(paths[:_MOST_ENTRIES]) + (f" and {more} more" if more > 0 else "")
-        console.note(f"{shown}: skipped, {reason}", level=level)
+            reason = re.sub(r" \([^)]*\)", "", report.skipped)  # without the names of macros
+            groups.setdefault((reason, level), []).append(report)
+    for (reason, level), some in groups.items():
+        more = len(some) - _MOST_ENTRIES
+        shown = ", ".join(report.path for report in some[:_MOST_ENTRIES])
+        shown += f" and {more} more" if more > 0 else ""
+        why = reason if len(some) > 1 else some[0].skipped
+        console.note(f"{shown}: skipped, {why}", level=level)
 
 
 def _say_the_rest(console: Console, reports: Iterable[Report]) -> int:
