@@ -87,7 +87,9 @@ def _broken_for(monkeypatch, wrong):
     def fixer(problem, around):
         dynamics = around.joint(problem).dynamics
         if wrong(problem.name):
-            return safe("break it", replace(dynamics.element, ("<dynamics damping='x' friction='y'/>",)))
+            return safe(
+                "break it", replace(dynamics.element, ("<dynamics damping='x' friction='y'/>",))
+            )
         return safe("take it out", remove(dynamics.element))
 
     monkeypatch.setattr(fixes, "empty_dynamics", fixer)
