@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from generator.programs import bare_path
 from hypothesis import HealthCheck, settings
 
 from urdftool import cli, configuration, extras, inputs
@@ -81,6 +80,8 @@ def skipped_tests(pytestconfig):
 @pytest.fixture(scope="session")
 def programs(tmp_path_factory):
     """A PATH with what every machine has, and the programs beside this Python."""
+    from generator.programs import bare_path
+
     return bare_path(tmp_path_factory.mktemp("programs"), Path(sys.executable).parent)
 
 
