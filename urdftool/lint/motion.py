@@ -5,8 +5,8 @@ from __future__ import annotations
 from ..model.elements import Robot
 from ..source.document import Element
 
-UNUSED_LINK = "do not use it: the link is fixed to the world"
-UNUSED_JOINT = "do not use it: the joint is fixed"
+UNUSED_LINK = "does not use it, because the link is fixed to the world"
+UNUSED_JOINT = "does not use it, because the joint is fixed"
 
 
 def why_unused(robot: Robot | None, element: Element) -> str:

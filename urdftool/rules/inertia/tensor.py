@@ -155,7 +155,6 @@ def zero_inertia(robot: Robot) -> Iterator[Problem]:
         ),
         "mujoco": "rejects the file: inertia must have positive eigenvalues",
     },
-    of_motion=True,
     group="robot",
 )
 def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Problem]:

@@ -214,7 +214,6 @@ def negative_dynamics(robot: Robot) -> Iterator[Problem]:
         "urdfdom, gz, gazebo-classic, pybullet, pinocchio": "reject the robot",
         "mujoco, drake": "take 0",
     },
-    of_motion=True,
 )
 def empty_dynamics(robot: Robot) -> Iterator[Problem]:
     """A ``<dynamics>`` has neither damping nor friction.
@@ -244,7 +243,6 @@ def empty_dynamics(robot: Robot) -> Iterator[Problem]:
         ),
         "mujoco, drake": "ignore them",
     },
-    of_motion=True,
 )
 def dynamics_as_child_elements(robot: Robot) -> Iterator[Problem]:
     """Damping or friction is written as an element inside ``<dynamics>``.

@@ -192,10 +192,11 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "rviz, gazebo": "show nothing there",
-        "mujoco": "rejects the robot: invalid header in STL file (4.0)",
-        "pinocchio, drake": "reject the robot",
-        "pybullet": "warns; the link has nothing to touch with and falls through the ground",
+        "rviz": "shows nothing there",
+        "mujoco": "rejects the robot: a wrong header or number of faces",
+        "pybullet": "loads the link without the shape, with a warning",
+        "pinocchio": "rejects the shapes of the robot",
+        "drake": "rejects the robot for a collision",
     },
     group="repository",
 )
