@@ -8,7 +8,7 @@ from itertools import chain
 
 from ..finding import Finding, Severity
 from ..rules import FAMILY_OF
-from ..rules.fix_table import BOTH, FIXABLE, SAFE, UNSAFE
+from ..rules.fix_table import FIX_FILE, FIXABLE, UNSAFE
 from .counted import counted
 from .findings import concise, full, severity_counts
 
@@ -115,8 +115,9 @@ def advice(findings: Sequence[Finding]) -> Iterator[str]:
     """The rules with the most findings, and how to fix or silence each; for many findings only."""
     if len(findings) <= MANY:
         return
-    safe = sum(finding.fix is not None and finding.fix.safe for finding in findings)
-    unsafe = sum(finding.fix is not None and not finding.fix.safe for finding in findings)
+    options = Counter(finding.fix.option for finding in findings if finding.fix is not None)
+    safe, unsafe = options["--fix"], options["--fix --unsafe-fixes"]
+    meshes = options.total() - safe - unsafe
     counts = Counter(finding.rule for finding in findings).most_common(_RULES)
     width = max(len(rule) for rule, _ in counts)
     if counts[0][1] > 1:
@@ -124,10 +125,10 @@ def advice(findings: Sequence[Finding]) -> Iterator[str]:
     for rule, count in counts:
         if count == 1:
             break
-        if safe or unsafe:
+        if options:
             fixes = [f.fix.option for f in findings if f.rule == rule and f.fix is not None]
         else:  # nobody has asked for fixes
-            fixes = [_OPTION[FIXABLE[rule]]] if rule in FIXABLE else []
+            fixes = [_option(rule)] if rule in FIXABLE else []
         fix = f"{min(fixes, key=len)}, or " if fixes else ""
         yield f"  {count:>4}  {rule:<{width}}  {fix}--ignore {rule}"
     if safe:
@@ -135,6 +136,11 @@ def advice(findings: Sequence[Finding]) -> Iterator[str]:
     if unsafe:
         what = counted(unsafe, "unsafe fix", "unsafe fixes")
         yield f"--fix --unsafe-fixes --diff shows {what}{' as well' if safe else ''}"
+    if meshes:
+        yield f"--fix-meshes adds {counted(meshes, 'fix', 'fixes')} of mesh files"
 
 
-_OPTION = {SAFE: "--fix", UNSAFE: "--fix --unsafe-fixes", BOTH: "--fix"}
+def _option(rule: str) -> str:
+    """What applies the fixes of a rule, where it is not known of each finding."""
+    unsafe = " --unsafe-fixes" if FIXABLE[rule] == UNSAFE else ""
+    return f"--fix{unsafe}" + (" --fix-meshes" if FIX_FILE[rule] == "mesh_files" else "")
