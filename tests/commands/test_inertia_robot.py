@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tests.conftest import FIXTURES, ROOT
+from urdftool.lint.run import check
 
 ROBOTS = FIXTURES / "robots"
 SCHEMAS = ROOT / "docs" / "schemas"
@@ -81,7 +82,6 @@ def test_a_sound_arm(urdftool):
         ((1, 5, 0, 1, 0, 1), 12, "positivity"),
         ((900, 0, 0, 900, 0, 900), 12, "box"),
         ((1.25, 0, 0, 1.25, 0, 2), -12, "mass"),
-        ((1.25, 0, 0, 1.25, 0, 2), 0, "mass"),
         (("{ixx}", 0, 0, 1.25, 0, 2), 12, "unreadable"),
         (("nan", 0, 0, 1.25, 0, 2), 12, "unreadable"),
     ],
@@ -92,6 +92,71 @@ def test_what_cannot_be(urdftool, write, six, mass, kind):
     assert code == 1
     assert links["a"]["faults"][0]["kind"] == kind
     assert urdftool("inertia", "robot", path).code == 1
+
+
+@pytest.mark.parametrize(
+    ("kind", "six", "wrong"),
+    [
+        ("continuous", (0, 0, 0, 0, 0, 0), True),
+        ("continuous", (1, 0, 0, 1, 0, 1), True),
+        ("fixed", (1, 0, 0, 1, 0, 1), True),
+        ("fixed", (0, 0, 0, 0, 0, 0), False),
+    ],
+)
+def test_a_mass_of_zero_is_right_for_a_part_of_a_body(urdftool, write, kind, six, wrong):
+    base = link("base", inertial(12, 1.25, 0, 0, 1.25, 0, 2))
+    text = robot(base, link("a", inertial(0, *six)), joints=joint("j", kind, "base", "a"))
+    code, links = review(urdftool, write("r.urdf", text))
+    assert code == int(wrong)
+    assert [fault["kind"] for fault in links["a"]["faults"]] == ["mass"] * wrong
+
+
+def test_a_root_of_mass_zero_is_static(urdftool, write):
+    code, links = review(urdftool, write("r.urdf", robot(link("a", inertial(0, *[0] * 6)))))
+    assert code == 0
+    assert "static" in links["a"]["notes"][0]
+
+
+def test_a_frame_of_a_gram_is_no_fault(urdftool, write):
+    """Its small tensor is larger than its shape allows, as is that of many a sensor's frame."""
+    base = link("base", inertial(12, 1.25, 0, 0, 1.25, 0, 2))
+    frame = link(
+        "frame", inertial(0.001, 1e-6, 0, 0, 1e-6, 0, 1e-6), '<box size="0.01 0.01 0.01"/>'
+    )
+    text = robot(base, frame, joints=joint("j", "fixed", "base", "frame"))
+    code, links = review(urdftool, write("r.urdf", text))
+    assert (code, links["frame"]["faults"]) == (0, [])
+    assert "placeholder" in links["frame"]["notes"][0]
+
+
+@pytest.mark.parametrize(
+    ("mass", "six", "origin", "rule"),
+    [
+        (12, (9, 0, 0, 9, 0, 12), "0 0 0", "inertia-exceeds-geometry"),
+        (12, (900, 0, 0, 901, 0, 902), "0.1 0.2 0", "inertia-exceeds-geometry"),
+        (12, (1.25, 0, 0, 1.25, 0, 2), "0 0 0.4", "com-outside-geometry"),
+        (12, (0, 0, 0, 0, 0, 0), "0 0 0", "zero-inertia"),
+        (12, (1, 0, 0, 1, 0, 3), "0 0 0", "inertia-triangle-inequality"),
+        (3, (1, 0, 0, 1, 0, 1), "0 0 0", "placeholder-inertia"),
+        (12, (1.25, 0, 0, 1.25, 0, 2), "0 0 0", ""),
+        (12, (1.25, 0, 0, 1.25, 0, 2), "0 0 0.255", ""),
+        (12, (1.25, 0, 0, 1.25, 0, 2), "0 0 0.24", ""),
+        (12, (0.01, 0, 0, 0.01, 0, 0.01), "0 0 0", ""),
+    ],
+)
+def test_one_verdict_and_one_number_with_lint(urdftool, write, mass, six, origin, rule):
+    tensor = inertial(mass, *six, origin=f'<origin xyz="{origin}"/>')
+    path = write("r.urdf", robot(link("a", tensor)))
+    found = [f for f in check(path, select=["inertia"]) if f.severity.label != "info"]
+    code, links = review(urdftool, path)
+    assert code == bool(rule)
+    assert [finding.rule for finding in found] == [rule] * bool(rule)
+    fault = links["a"]["faults"][0] if rule else {"kind": ""}
+    if fault["kind"] == "box":
+        what = "centre of mass" if "outside" in fault["message"] else "inertia"
+        said = fault["message"].partition(" is ")[2]
+        assert said
+        assert found[0].message.startswith(f"{what} of link 'a' is {said}")
 
 
 def test_a_centre_of_mass_outside_the_geometry(urdftool, write):
@@ -304,7 +369,7 @@ def test_a_mimic_follows_and_limits_are_said(urdftool, write):
     done = urdftool("inertia", "robot", write("m.urdf", text), "--lump", "--pose", "pitch_joint=1")
     assert done.code == 0
     assert "beyond its limits" in done.err
-    balls = [link(name, inertial(1, 1, 0, 0, 1, 0, 1), "") for name in "abc"]
+    balls = [link(name, inertial(1, 1, 0, 0, 1, 0, 1.5), "") for name in "abc"]
     follow = joint("k", "revolute", "b", "c").replace(
         "</joint>", '<mimic joint="j" multiplier="-2" offset="0.5"/></joint>'
     )

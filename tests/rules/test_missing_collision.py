@@ -14,6 +14,7 @@ HEAD = """<?xml version="1.0"?>
   <joint name="mount" type="fixed">
     <parent link="base"/>
     <child link="motor"/>
+    <origin xyz="0 0 {height}"/>
   </joint>
 </robot>
 """
@@ -27,17 +28,24 @@ def _lines(tmp_path, text, **options):
 
 
 def test_link_without_collision_is_found_at_its_line(tmp_path):
-    assert _lines(tmp_path, HEAD.format(comment="")) == [("missing-collision", 7)]
+    assert _lines(tmp_path, HEAD.format(comment="", height=0.2)) == [("missing-collision", 7)]
+
+
+def test_a_link_that_an_attached_one_covers_needs_none(tmp_path):
+    assert _lines(tmp_path, HEAD.format(comment="", height=0.05)) == []
+    assert _lines(tmp_path, HEAD.format(comment="", height=0.11)) == [("missing-collision", 7)]
+    moved = HEAD.replace('type="fixed"', 'type="continuous"')
+    assert _lines(tmp_path, moved.format(comment="", height=0)) == [("missing-collision", 7)]
 
 
 def test_comment_in_its_line_excuses_a_link(tmp_path):
-    comment = " <!-- urdftool-ignore[missing-collision] inside the housing -->"
-    assert _lines(tmp_path, HEAD.format(comment=comment)) == []
+    comment = " <!-- urdftool-ignore[missing-collision] a sticker -->"
+    assert _lines(tmp_path, HEAD.format(comment=comment, height=0.2)) == []
 
 
 def test_severity_depends_on_the_target(tmp_path):
     file = tmp_path / "head.urdf"
-    file.write_text(HEAD.format(comment=""))
+    file.write_text(HEAD.format(comment="", height=0.2))
     severities = {
         target: check(file, select=["missing-collision"], targets=[target])[0].severity.label
         for target in ("ros2", "gz", "gazebo-classic", "mujoco", "pybullet", "moveit")
@@ -49,7 +57,7 @@ def test_severity_depends_on_the_target(tmp_path):
 def test_small_links_are_no_more_than_info(tmp_path):
     file = tmp_path / "head.urdf"
     file.write_text(
-        HEAD.format(comment="").replace(
+        HEAD.format(comment="", height=0.2).replace(
             'radius="0.02" length="0.04"', 'radius="0.01" length="0.005"'
         )
     )
@@ -58,11 +66,11 @@ def test_small_links_are_no_more_than_info(tmp_path):
 
 
 def test_what_is_tiny_or_marks_a_frame_needs_none(tmp_path):
-    tiny = HEAD.format(comment="").replace(
+    tiny = HEAD.format(comment="", height=0.2).replace(
         'radius="0.02" length="0.04"', 'radius="0.004" length="0.002"'
     )
     assert _lines(tmp_path, tiny) == []
-    marker = HEAD.format(comment="").replace("motor", "camera_optical_frame")
+    marker = HEAD.format(comment="", height=0.2).replace("motor", "camera_optical_frame")
     assert _lines(tmp_path, marker) == []
 
 
@@ -74,5 +82,5 @@ def test_each_link_is_named_where_none_collides(tmp_path):
 
 
 def test_a_misspelt_collision_is_not_also_missing(tmp_path):
-    text = HEAD.format(comment="<colision/>")
+    text = HEAD.format(comment="<colision/>", height=0.2)
     assert _lines(tmp_path, text) == []

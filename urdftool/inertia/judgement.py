@@ -3,22 +3,30 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import UrdftoolError
-from ..model.elements import Inertial
-from ..model.pose import pose_of
+from ..meshes.outline import outline
+from ..model.attached import attached_links, is_fixed_to_world
+from ..model.body_inertia import combined_inertia
+from ..model.bounds import Bounds, bounds_at
+from ..model.elements import Inertia, Inertial, Link, Mesh, Robot
+from ..model.mass_fit import Misfit, misfit_of_com, misfit_of_spread
+from ..model.pose import IDENTITY, Pose, pose_of
 from ..model.read import number
+from ..model.tensor3 import SMALLEST_RADIUS, turned
+from ..model.world import WORLD
 from ..source.location import Place
-from .bound import spread_ratio
+from .bodies import MeshBody
 from .comparison import compare
 from .link_review import NAMES, Fault, LinkReview, inertial_rotation
 from .mesh_files import Meshes
-from .pieces import link_body, mesh_names, shapes_of
-from .proposal import ROUNDING, SPREAD, Proposal, propose
+from .pieces import SOURCES, Shape, shapes_of
+from .proposal import ROUNDING, Proposal, propose
 from .tensor import (
-    Array,
     MassProperties,
     is_positive,
     principal,
@@ -77,39 +85,83 @@ def _unreadable(inertial: Inertial, tag: str, name: str, item: LinkReview) -> bo
     return True
 
 
-def judge(item: LinkReview, meshes: Meshes) -> None:
-    """Compare what is written with the geometry, find what cannot be, propose a repair."""
+class Context(NamedTuple):
+    """What a link is judged with.
+
+    Attributes:
+        robot: The robot.
+        meshes: What its meshes enclose.
+    """
+
+    robot: Robot
+    meshes: Meshes
+
+
+def judge(item: LinkReview, context: Context) -> None:
+    """Compare what is written with the geometry, find what cannot be, propose a repair.
+
+    The verdict is that of ``urdftool lint``: what is no more than a remark there is a note here.
+    """
     inertial, written = item.link.inertial, item.written
     if inertial is None or inertial.mass is None:
         return
-    mass_element = inertial.element.child("mass")
-    at = mass_element.attribute_place("value") if mass_element is not None else inertial.place
-    if inertial.mass < 0:
-        item.faults.append(
-            Fault("mass", f"the mass is {inertial.mass:g} kg; it must be above zero", at)
-        )
-    elif inertial.mass == 0 and (item.body or (written is not None and written.inertia.any())):
-        item.faults.append(Fault("mass", "the mass is 0 kg; what has a shape weighs something", at))
+    _judge_mass(item, inertial, context.robot)
     if written is None or written.mass <= 0 or inertial.inertia is None:
         return
     complete = item.body is not None and item.body.complete
     if complete and item.body is not None:
         item.comparison = compare(written, item.body.unit)
-    _judge_tensor(item, written, inertial.inertia.place)
+    _judge_tensor(item, written, inertial.inertia.place, context.robot)
     if not item.faults:
-        _judge_box(item, written, inertial.place, meshes)
+        made_up = _judge_placeholder(item, inertial.inertia, written.mass)
+        _judge_box(item, inertial, context, only_com=made_up)
     if complete:
         item.proposal = _proposal(item, inertial, written)
-    if item.proposal is not None and item.proposal.kind == "copied":
+    if item.faults and item.proposal is not None and item.proposal.kind == "copied":
         moment = f"{inertial.inertia.ixx:.6g}"
         message = f"the inertia is {moment} about every axis, that of its geometry is not"
         item.faults = [Fault("copied", message, inertial.inertia.place)]
 
 
-def _judge_tensor(item: LinkReview, written: MassProperties, at: Place) -> None:
+def _judge_mass(item: LinkReview, inertial: Inertial, robot: Robot) -> None:
+    """Judge the mass; 0 is right for a part of a body that has one, and for a static root."""
+    mass = inertial.element.child("mass")
+    at = mass.attribute_place("value") if mass is not None else inertial.place
+    assert inertial.mass is not None
+    if inertial.mass < 0:
+        message = f"the mass is {inertial.mass:g} kg; it must be above zero"
+        item.faults.append(Fault("mass", message, at))
+    if inertial.mass != 0 or item.link.name == WORLD:
+        return
+    members = [link for link, _ in attached_links(robot, item.link)]
+    if sum(link.mass for link in members) > 0:
+        if inertial.inertia is not None and any(inertial.inertia.six):
+            message = "the mass is 0 kg, and the inertia is not"
+            item.faults.append(Fault("mass", message, at))
+        else:
+            item.notes.append("a mass of 0: the link adds none to what it is fixed to")
+        return
+    joints = [robot.tree.parent_joint(link.name) for link in members]
+    if any(joint is not None and not joint.is_fixed for joint in joints):
+        item.faults.append(Fault("mass", "the mass is 0 kg; a body that moves has a mass", at))
+    else:
+        item.notes.append("a mass of 0: PyBullet takes the robot as static, and Gazebo removes it")
+
+
+def _judge_tensor(item: LinkReview, written: MassProperties, at: Place, robot: Robot) -> None:
     moments = principal(written.inertia)[0]
     shown = ", ".join(f"{moment:.4g}" for moment in moments)
-    if not is_positive(written.inertia, tolerance=1e-6) or moments[0] <= 0 < (item.volume or 0.0):
+    nothing = np.abs(written.inertia).max() <= written.mass * SMALLEST_RADIUS**2
+    thin = nothing or moments[0] <= 0 < (item.volume or 0.0)
+    negative = not nothing and not is_positive(written.inertia, tolerance=1e-6)
+    impossible = not nothing and triangle_excess(written.inertia) > ROUNDING
+    if thin and not negative and not impossible and _is_added(robot, item.link):
+        item.notes.append(
+            f"principal moments {shown} kg m²: no body of its own, and harmless, since it is a "
+            "part of one that has an inertia or does not move"
+        )
+        return
+    if negative or (thin and not impossible):
         message = f"principal moments {shown} kg m² are not all positive"
         item.faults.append(Fault("positivity", message, at))
         return
@@ -127,38 +179,133 @@ def _judge_tensor(item: LinkReview, written: MassProperties, at: Place) -> None:
         )
 
 
-def _judge_box(item: LinkReview, written: MassProperties, at: Place, meshes: Meshes) -> None:
-    """Whether so wide a spread of mass fits into the box around the geometry of either kind."""
-    if item.body is None or not item.body.complete:
+def _is_added(robot: Robot, link: Link) -> bool:
+    """Whether a link's inertia is added to that of a body which has one, or never matters."""
+    members = attached_links(robot, link)
+    if is_fixed_to_world(robot, link):
+        return True
+    return len(members) > 1 and not combined_inertia(members).is_thin
+
+
+def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_com: bool) -> None:
+    """Whether the mass fits into the box around the shapes, as lint judges it.
+
+    First with the geometry that counts; then with all shapes of the link, and with those of
+    attached links that hardly have a mass of their own.
+    """
+    tensor, mass, link = inertial.inertia, inertial.mass, item.link
+    if tensor is None or not mass:
         return
-    low, high = item.body.box
-    if _worst_spread(written, low, high) <= SPREAD:
-        return
-    other = "visual" if item.body.source == "collision" else "collision"
-    meshes.want(mesh_names(shapes_of(item.link, other)))
-    body = link_body(item.link, other, meshes.known)
-    if body is not None:
-        if not body.complete:
-            item.notes.append(f"not judged against its box: a {other} of it cannot be read")
+    pose = pose_of(inertial.origin)
+    com, six = pose.translation, turned(tensor.six, pose.rotation)
+
+    def misfits(box: Bounds, has_mesh: bool) -> list[Misfit]:
+        spread = None if only_com else misfit_of_spread(box, mass, com, six, has_mesh)
+        found = misfit_of_com(box, com, has_mesh), spread
+        return [misfit for misfit in found if misfit is not None]
+
+    if item.body is not None:
+        box = _box_of_shapes(shapes_of(link, item.body.source), IDENTITY, context)
+        if box is not None and not misfits(box, False):
             return
-        low, high = np.minimum(low, body.box[0]), np.maximum(high, body.box[1])
-    worst = _worst_spread(written, low, high)
-    if worst <= SPREAD:
+    kinds = [kind for kind in SOURCES if shapes_of(link, kind)]
+    boxes = [_box_of_shapes(shapes_of(link, kind), IDENTITY, context) for kind in kinds]
+    if not boxes:
         return
-    corners = " to ".join(" ".join(f"{value:.4g}" for value in corner) for corner in (low, high))
-    if math.isinf(worst):
-        com = " ".join(f"{value:.4g}" for value in written.com)
-        message = f"the centre of mass {com} is outside the geometry, which spans {corners} m"
+    whole = boxes[0]
+    for box in boxes:
+        if box is None or whole is None:
+            item.notes.append("not judged against its box: a shape of it cannot be read")
+            return
+        if not whole.meets(box):
+            item.notes.append("not judged against its box: its visual and its collision are apart")
+            return
+        whole = whole.joined(box)
+    if whole is None or not any(whole.size):
+        return
+    shapes = [shape for kind in kinds for shape in shapes_of(link, kind)]
+    has_mesh = any(isinstance(shape.geometry, Mesh) for shape in shapes)
+    if not misfits(whole, has_mesh):
+        return
+    for other, at in attached_links(context.robot, link)[1:]:
+        more: list[Shape] = [*other.visuals, *other.collisions]
+        if more and other.mass <= 0.1 * mass:
+            box = _box_of_shapes(more, at, context)
+            if box is None:
+                return
+            whole = whole.joined(box)
+    for misfit in misfits(whole, has_mesh):
+        of_tensor = "times as long" in misfit.sentence
+        message = f"the {'inertia' if of_tensor else 'center of mass'} {misfit.sentence}"
+        if not misfit.certain:
+            item.notes.append(f"{message}; the mesh may leave out what is heavy")
+        else:
+            item.faults.append(Fault("box", message, inertial.place))
+
+
+def _box_of_shapes(shapes: Sequence[Shape], at: Pose, context: Context) -> Bounds | None:
+    """The box around shapes whose link has a pose; None where there is none or one is not known."""
+    box: Bounds | None = None
+    for shape in shapes:
+        pose, geometry = at @ pose_of(shape.origin), shape.geometry
+        if isinstance(geometry, Mesh):
+            other = _box_of_mesh(geometry, pose, context)
+        else:
+            other = bounds_at(geometry, pose)
+        if other is None:
+            return None
+        box = other if box is None else box.joined(other)
+    return box
+
+
+def _box_of_mesh(mesh: Mesh, pose: Pose, context: Context) -> Bounds | None:
+    """The box around a mesh; its points are only read where the box in its file is not enough."""
+    body, source = context.meshes.known.get(mesh.filename), context.robot.source
+    if 0 in mesh.scale or source is None:
+        return None
+    aligned = all(sum(abs(part) > 1e-9 for part in row) == 1 for row in pose.rotation)
+    if aligned and isinstance(body, MeshBody):
+        (a, b, c), ends = mesh.scale, (body.lower.tolist(), body.upper.tolist())
+        corners = [pose.transform((a * x, b * y, c * z)) for x, y, z in ends]
+        (d, e, f), (g, h, i) = corners
+        box = Bounds((min(d, g), min(e, h), min(f, i)), (max(d, g), max(e, h), max(f, i)))
     else:
-        message = (
-            f"the inertia needs mass spread {math.sqrt(worst):.3g} times as far as the geometry "
-            f"reaches, which spans {corners} m"
-        )
-    item.faults.append(Fault("box", message, at))
+        try:
+            points = outline(source.resolve(mesh.filename), source.gltf_up)
+        except UrdftoolError:
+            return None
+        if points is None:
+            return None
+        box = Bounds(*points.box(mesh.scale, *pose))
+    # one in another unit is judged by its size, and says nothing of the link
+    return box if SMALLEST < max(box.size) < LARGEST else None
 
 
-def _worst_spread(written: MassProperties, low: Array, high: Array) -> float:
-    return float(spread_ratio(written.mass, written.com, written.inertia, low, high).max())
+LARGEST, SMALLEST = 10.0, 0.001
+"""Sizes of a mesh [m] beyond which it is in another unit."""
+
+
+def _judge_placeholder(item: LinkReview, inertia: Inertia, mass: float) -> bool:
+    """Whether a tensor is a power of ten about every axis, which nobody measured.
+
+    A large one is a fault, and a small one a note, as in lint.
+    """
+    xx, xy, xz, yy, yz, zz = inertia.six
+    if not (xx == yy == zz > 0 and xy == xz == yz == 0):
+        return False
+    power = math.log10(xx)
+    if abs(power - round(power)) > 1e-9:
+        return False
+    shapes = item.link.collisions or item.link.visuals
+    if item.implied is not None and len(shapes) == 1 and not isinstance(shapes[0].geometry, Mesh):
+        if all(0.5 * xx <= moment <= 2 * xx for moment in principal(item.implied.inertia)[0]):
+            return False
+    message = f"the inertia is a placeholder, {xx:g} about every axis"
+    if xx == 1.0 or xx > mass:
+        item.faults.append(Fault("placeholder", message, inertia.place))
+    else:
+        item.notes.append(message)
+    return True
 
 
 def _proposal(item: LinkReview, inertial: Inertial, written: MassProperties) -> Proposal | None:

@@ -22,8 +22,8 @@ class Fault:
     """Something that cannot be.
 
     Attributes:
-        kind: ``"unreadable"``, ``"mass"``, ``"positivity"``, ``"triangle"``, ``"box"`` or
-            ``"copied"``.
+        kind: ``"unreadable"``, ``"mass"``, ``"positivity"``, ``"triangle"``, ``"box"``,
+            ``"copied"`` or ``"placeholder"``.
         message: What is wrong, with what would be right.
         place: Where it is written.
     """

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ..model.elements import Link, Robot
 from .bodies import weighed
-from .judgement import judge, read_written
+from .judgement import Context, judge, read_written
 from .link_review import LinkReview
 from .masses import Masses, check_masses, weigh
 from .mesh_files import Meshes, ReadMeshes
@@ -51,7 +51,7 @@ def review(
         item.mass = plan[item.link.name]
         if item.mass and item.body is not None and item.body.complete:
             item.implied = weighed(item.body.unit, "link", mass=item.mass)
-        judge(item, meshes)
+        judge(item, Context(robot, meshes))
     return [item for item in found if not only or item.link.name in only]
 
 

@@ -7,14 +7,14 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from .positions import UPRIGHT, Affine, Columns, joined, moved, numbers, product
+from .positions import UPRIGHT, Affine, Columns, chosen, is_much, joined, moved, numbers, product
 
 _MAX_DEPTH = 64
 _FACES = ("triangles", "polylist", "polygons", "trifans", "tristrips")
 
 
 def collada_columns(path: Path) -> Columns | None:
-    """All positions of the scene [m], in the axes of the file; None if it has none.
+    """The corners of the scene's faces [m], in the axes of the file; None if it has none.
 
     Raises:
         ValueError: The file is no COLLADA file, or its nodes form a circle.
@@ -72,13 +72,33 @@ class _Reader:
         return self.named.get((element.get("url") or "")[1:])
 
     def add(self, geometry: Any, matrix: Affine) -> None:
-        """Add the positions of a geometry; lines are nothing that is seen or touched."""
-        if not any(child.tag[len(self.space) :] in _FACES for child in geometry.iter()):
+        """Add the positions of a geometry's faces; points and lines are not a surface."""
+        corners: dict[str, set[int]] = {}
+        for child in geometry.iter():
+            if child.tag[len(self.space) :] in _FACES:
+                source, rows = self.corners(child)
+                corners.setdefault(source, set()).update(rows)
+        if not corners:
             return
-        for entry in geometry.iterfind(f".//{self.space}vertices/{self.space}input"):
-            if entry.get("semantic") == "POSITION":
-                columns = self.positions((entry.get("source") or "")[1:])
-                self.found.append(moved(columns, matrix))
+        for vertices in geometry.iterfind(f".//{self.space}vertices"):
+            rows = corners.get(vertices.get("id") or "", set())
+            for entry in vertices.iterfind(f"{self.space}input"):
+                if entry.get("semantic") == "POSITION" and rows:
+                    columns = self.positions((entry.get("source") or "")[1:])
+                    self.found.append(moved(chosen(columns, rows), matrix))
+
+    def corners(self, primitive: Any) -> tuple[str, set[int]]:
+        """The ``<vertices>`` that faces are made of, and the numbers of those that they have."""
+        source, offset, stride = "", 0, 1
+        for entry in primitive.iterfind(f"{self.space}input"):
+            at = int(entry.get("offset") or 0)
+            stride = max(stride, at + 1)
+            if entry.get("semantic") == "VERTEX":
+                source, offset = (entry.get("source") or "")[1:], at
+        rows: set[int] = set()
+        for p in primitive.iter(f"{self.space}p"):
+            rows |= _rows(p.text or "", offset, stride)
+        return source, rows
 
     def add_skin(self, controller: Any, matrix: Affine) -> None:
         """Add the positions of a skin in its bind shape."""
@@ -102,6 +122,19 @@ class _Reader:
             whole = values[: len(values) // stride * stride]
             self.read[source] = whole[0::stride], whole[1::stride], whole[2::stride]
         return self.read[source]
+
+
+def _rows(text: str, offset: int, stride: int) -> set[int]:
+    """Every number of a text at one place of each group."""
+    if is_much(0.03 * len(text)):
+        import numpy as np
+
+        try:
+            numbers_of = np.fromstring(text, dtype=np.int64, sep=" ")
+        except (ValueError, DeprecationWarning) as error:  # not all of it is numbers
+            raise ValueError("corners are not numbers") from error
+        return set(np.unique(numbers_of[offset::stride]).tolist())
+    return set(map(int, set(text.split()[offset::stride])))
 
 
 def _matrix(values: list[float]) -> Affine:

@@ -11,18 +11,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote
 
-from .positions import UPRIGHT, Affine, Columns, every_third, joined, moved, product
+from .positions import UPRIGHT, Affine, Columns, chosen, every_third, joined, moved, product
 
 if TYPE_CHECKING:
     from ..source.description import GltfUp
 
 _MAX_DEPTH = 64
 _FLOAT = 5126
+_TRIANGLES = 4  # and 5, 6 for strips and fans of them
+_UNSIGNED = {5121: "B", 5123: "H", 5125: "I"}
 _UP: Affine = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, -1.0, 0.0), (0.0, 1.0, 0.0, 0.0))
 
 
 def gltf_columns(path: Path, gltf_up: GltfUp = "y") -> Columns | None:
-    """All positions of the scene [m], its Y as Z where that is up; None if it has none.
+    """The corners of the scene's triangles [m], its Y as Z where that is up; None if it has none.
 
     Raises:
         ValueError: The file is no glTF file, or its nodes form a circle. What else a damaged one
@@ -62,8 +64,14 @@ def _node(
     matrix = product(above, _matrix(node))
     if "mesh" in node:
         for primitive in tree["meshes"][node["mesh"]]["primitives"]:
+            if primitive.get("mode", _TRIANGLES) < _TRIANGLES:
+                continue  # points and lines are not a surface
             accessor = tree["accessors"][primitive["attributes"]["POSITION"]]
-            found.append(moved(_points(tree, accessor, path, chunk), matrix))
+            columns = _points(tree, accessor, path, chunk)
+            if "indices" in primitive and len(columns[0]) == accessor["count"]:
+                rows = _rows(tree, tree["accessors"][primitive["indices"]], path, chunk)
+                columns = columns if rows is None else chosen(columns, rows)
+            found.append(moved(columns, matrix))
     for child in node.get("children", ()):
         _node(tree, child, matrix, path, chunk, found, depth + 1)
 
@@ -89,18 +97,7 @@ def _points(tree: Any, accessor: Any, path: Path, chunk: bytes) -> Columns:
     if "bufferView" not in accessor or accessor["componentType"] != _FLOAT:
         return _corners(accessor["min"], accessor["max"])  # packed, but its box is said
     view = tree["bufferViews"][accessor["bufferView"]]
-    uri = tree["buffers"][view["buffer"]].get("uri")
-    if uri is None:
-        content = chunk
-    elif uri.startswith("data:"):
-        from base64 import b64decode
-
-        content = b64decode(uri.partition(",")[2])
-    else:
-        beside = path.parent / unquote(uri)
-        if not beside.is_file():  # a device or a pipe is read without end
-            raise ValueError(f"there is no file '{uri}' beside it")
-        content = beside.read_bytes()
+    content = _content(tree, view, path, chunk)
     start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
     stride, count = view.get("byteStride", 12), accessor["count"]
     if min(start, count) < 0 or stride < 12 or start + (count - 1) * stride + 12 > len(content):
@@ -113,6 +110,39 @@ def _points(tree: Any, accessor: Any, path: Path, chunk: bytes) -> Columns:
     rows = [struct.unpack_from("<3f", content, start + stride * row) for row in range(count)]
     x, y, z = zip(*rows, strict=True) if rows else ((), (), ())
     return x, y, z
+
+
+def _rows(tree: Any, accessor: Any, path: Path, chunk: bytes) -> set[int] | None:
+    """The numbers of the points that triangles have; None where they are packed."""
+    kind = _UNSIGNED.get(accessor["componentType"])
+    if "bufferView" not in accessor or kind is None:
+        return None
+    view = tree["bufferViews"][accessor["bufferView"]]
+    content = _content(tree, view, path, chunk)
+    start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    values = array(kind)
+    end = start + values.itemsize * accessor["count"]
+    if not 0 <= start <= end <= len(content):
+        raise ValueError("corners beyond the end of the file")
+    values.frombytes(content[start:end])
+    if sys.byteorder == "big":
+        values.byteswap()
+    return set(values)
+
+
+def _content(tree: Any, view: Any, path: Path, chunk: bytes) -> bytes:
+    """The bytes of the buffer that a view is one of."""
+    uri = tree["buffers"][view["buffer"]].get("uri")
+    if uri is None:
+        return chunk
+    if uri.startswith("data:"):
+        from base64 import b64decode
+
+        return b64decode(uri.partition(",")[2])
+    beside = path.parent / unquote(uri)
+    if not beside.is_file():  # a device or a pipe is read without end
+        raise ValueError(f"there is no file '{uri}' beside it")
+    return beside.read_bytes()
 
 
 def _corners(low: Sequence[float], high: Sequence[float]) -> Columns:

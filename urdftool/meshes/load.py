@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -13,7 +14,7 @@ import numpy as np
 
 from ..errors import MeshError
 from .facts import is_lfs_pointer
-from .mesh import Mesh, Part, Reading
+from .mesh import Mesh, Part, Piece, Reading
 
 if TYPE_CHECKING:
     from ..source.description import Description, GltfUp
@@ -120,8 +121,20 @@ def _checked_format(file: Path) -> str:
     return suffix
 
 
+def _used(piece: Piece) -> Piece:
+    """Leave out the vertices of no face, which are a part of no surface."""
+    if piece.faces.min() < 0 or piece.faces.max() >= len(piece.vertices):
+        return piece  # which is refused
+    is_used = np.zeros(len(piece.vertices), dtype=bool)
+    is_used[piece.faces.ravel()] = True
+    if is_used.all():
+        return piece
+    number = np.cumsum(is_used) - 1
+    return replace(piece, vertices=piece.vertices[is_used], faces=number[piece.faces])
+
+
 def _assemble(file: Path, suffix: str, reading: Reading, factors: tuple[float, ...]) -> Mesh:
-    pieces = [piece for piece in reading.pieces if len(piece.faces)]
+    pieces = [_used(piece) for piece in reading.pieces if len(piece.faces)]
     if not pieces:
         raise MeshError("the mesh has no faces; at least one triangle is needed", path=file)
     offsets = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])

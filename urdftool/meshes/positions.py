@@ -10,7 +10,7 @@ import re
 import struct
 import sys
 from array import array
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Set
 from operator import neg
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -145,16 +145,55 @@ def stl_columns(path: Path) -> Columns | None:
 _VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 
 
+def chosen(columns: Columns, rows: Set[int]) -> Columns:
+    """Select the points of which a face has a corner, given by their numbers.
+
+    Numbers beyond the points are left out: a file with such faces is refused by those that draw it.
+    """
+    count = len(columns[0])
+    if len(rows) == count and min(rows, default=0) >= 0 and max(rows, default=0) < count:
+        return columns
+    kept = sorted(row for row in rows if 0 <= row < count)
+    if len(kept) == count:
+        return columns
+    x, y, z = (array("d", [column[row] for row in kept]) for column in columns)
+    return x, y, z
+
+
 def obj_columns(path: Path) -> Columns | None:
-    """The points of an OBJ file, those of no face too; None where there are none.
+    """The points of an OBJ file's faces; None where there are none.
 
     Raises:
         OSError: It cannot be read.
         ValueError: A point is not three numbers.
     """
-    lines = path.read_bytes().splitlines()
+    lines = _CONTINUED.sub(b" ", path.read_bytes()).splitlines()
     rows = [line.split(None, 4)[1:4] for line in lines if line.startswith((b"v ", b"v\t"))]
     if not rows:
         return None
     x, y, z = (numbers(column) for column in zip(*rows, strict=True))
-    return x, y, z
+    return chosen((x, y, z), _obj_corners(lines))
+
+
+_CONTINUED = re.compile(rb"\\\r?\n")
+_CORNER = re.compile(rb"\s(-?\d+)")
+
+
+def _obj_corners(lines: list[bytes]) -> set[int]:
+    """The numbers of the points that the faces of an OBJ file have, from 0.
+
+    A corner is written ``point/texture/normal``; a negative number counts back from the last point
+    above the face.
+    """
+    faces = [line for line in lines if line.startswith((b"f ", b"f\t"))]
+    words = set(_CORNER.findall(b"\n".join([b"", *faces])))
+    found = {int(word) - 1 for word in words if not word.startswith(b"-")}
+    if len(found) == len(words):
+        return found
+    above = 0
+    for line in lines:
+        if line.startswith((b"v ", b"v\t")):
+            above += 1
+        elif line.startswith((b"f ", b"f\t")):
+            found |= {above + int(word) for word in _CORNER.findall(line) if int(word) < 0}
+    return found

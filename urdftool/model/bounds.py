@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from .elements import Box, Capsule, Collision, Cylinder, Geometry, Sphere, Vector, Visual
-from .pose import pose_of
+from .pose import Pose, pose_of
 
 
 class Bounds(NamedTuple):
@@ -60,11 +60,14 @@ def size_of(geometry: Geometry | None) -> Vector | None:
 
 def bounds_of(shape: Visual | Collision) -> Bounds | None:
     """The box around a primitive in its link's frame; None for a mesh or an unknown shape."""
-    geometry = shape.geometry
+    return bounds_at(shape.geometry, pose_of(shape.origin))
+
+
+def bounds_at(geometry: Geometry | None, pose: Pose) -> Bounds | None:
+    """Return the box around a primitive at a pose; None for a mesh or an unknown shape."""
     size = size_of(geometry)
     if size is None:
         return None
-    pose = pose_of(shape.origin)
     if isinstance(geometry, Box):
         half: list[float] = [
             sum(abs(part) * length for part, length in zip(row, size, strict=True)) / 2

@@ -69,6 +69,11 @@ class Inertia(Part):
         """Off the diagonal: ixy, ixz, iyz."""
         return self.ixy, self.ixz, self.iyz
 
+    @property
+    def six(self) -> tuple[float, float, float, float, float, float]:
+        """All of them, row by row: ixx, ixy, ixz, iyy, iyz, izz."""
+        return self.ixx, self.ixy, self.ixz, self.iyy, self.iyz, self.izz
+
 
 @dataclass(slots=True)
 class Inertial(Part):

@@ -28,6 +28,11 @@ _PROPERTY_NAME = re.compile(r"Property names must (?:be valid|not start).*?: ?(.
 _EMPTY_NAME = re.compile(r"(xacro:\w+): empty name")
 _SUBSTITUTION = re.compile(r"\$\((env|optenv|find|arg|dirname|anon)\b.*?\[(.*?)\]")
 _ODD_CHARACTER = re.compile(r"(Dollar signs|Invalid left parenthesis).*?\[(.*?)\](?!\))")
+_TAGS = (
+    *("arg", "attribute", "call", "element", "if", "include", "insert_block", "macro"),
+    *("property", "unless"),
+)
+"""The tags of xacro itself; all others are calls of macros."""
 _WANTS = {"env": "NAME", "optenv": "NAME DEFAULT", "find": "PACKAGE", "arg": "NAME"}
 
 
@@ -90,7 +95,7 @@ def _of_names(failure: Failure) -> tuple[str, str] | None:
     """Names that mean nothing where they stand."""
     text, result, failed_text = failure.text, failure.result, failure.failed_text
     if match := _UNKNOWN_MACRO.search(text):
-        hint = _nearest(match[1], {name for name, _ in _macros(result)})
+        hint = _nearest(match[1], {*_TAGS, *(name for name, _ in _macros(result))})
         return "unknown-macro", f"unknown macro '{match[1]}'{hint}"
     if match := _UNDEFINED.search(text):
         hint = _in_expression(failed_text) + _nearest(match[1], _known(result))

@@ -7,10 +7,11 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from ...model.attached import attached_links
 from ...model.convex import Convex
 from ...model.elements import Collision, Joint, Link, Robot, Sphere, Vector
 from ...model.pose import Pose, dot, pose_of, rotate, transpose
-from ..gazebo.contact import contact_role
+from ..gazebo.contact import is_wheel
 from ..gazebo.drive_wheels import drives
 from .pieces import Pieces, pieces
 
@@ -62,7 +63,7 @@ def axle_of(robot: Robot) -> Axle | None:
     lows = []
     wheels = _driven(robot)
     for joint in wheels:
-        low = _lowest(found, {joint.child})
+        low = _lowest(found, _body(robot, joint.child))
         if low is None or not _hangs_rigidly(robot, joint.parent):
             return None
         lows.append(low)
@@ -78,7 +79,13 @@ def axle_of(robot: Robot) -> Axle | None:
     if max(heights) - min(heights) > 0.002 or max(places) - min(places) > 0.01:
         return None
     a, b, c = (sum(part) / len(lows) for part in zip(*lows, strict=True))
-    return Axle(frozenset(joint.child for joint in wheels), (a, b, c), ahead)
+    links = frozenset(name for joint in wheels for name in _body(robot, joint.child))
+    return Axle(links, (a, b, c), ahead)
+
+
+def _body(robot: Robot, name: str) -> set[str]:
+    """The names of a link and of all that is rigidly attached to it."""
+    return {link.name for link, _ in attached_links(robot, robot.link[name])}
 
 
 def _driven(robot: Robot) -> list[Joint]:
@@ -94,7 +101,7 @@ def _driven(robot: Robot) -> list[Joint]:
     found = []
     for joint in robot.joints:
         link = robot.link.get(joint.child)
-        if joint.type != "continuous" or link is None or contact_role(robot, link) != "wheel":
+        if joint.type != "continuous" or link is None or not is_wheel(robot, link):
             continue
         above = [joint.name, joint.child, *robot.tree.ancestors(joint.child)]
         if not any(CASTER.search(name) for name in above):

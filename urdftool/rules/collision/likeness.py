@@ -6,13 +6,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ...meshes.facts import stl_facts
-from ...model.elements import Robot
+from ...model.bounds import Bounds
+from ...model.elements import Cylinder, Link, Robot, Sphere
 from ...model.gltf_axes import is_gltf
-from ...model.pose import norm
 from ...source.description import Description
 from ..mesh.outlines import reaches
 from ..mesh.uses import Stamp, mesh_uses, stamp
 from ..rule import ERROR, INFO, WARNING, Problem, rule
+from .apart import compare_places, measured, with_attached
 from .displaced import displaced
 
 _SIMPLER = "'urdftool collision' makes simpler shapes, and measures how far off they are"
@@ -135,26 +136,48 @@ def collision_mesh_too_dense(
 def collision_much_larger_than_visual(
     robot: Robot, *, ratio: float = 2.0, least: float = 0.1
 ) -> Iterator[Problem]:
-    """A link collides far outside of what is seen of it.
+    """A link collides far outside of its visual.
 
-    Usually the diameter was written for the radius, or a unit is wrong. The robot touches things
-    that look far away. It is told where the box around the collisions is more than ``ratio`` times
-    as long as that around the visuals, and by more than ``least`` [m].
+    Often a unit is wrong, or the diameter was written for the radius. The robot touches things that
+    look far away. It is reported where the box around the collisions is more than ``ratio`` times
+    as long as that around the visuals, and by more than ``least`` [m]; visuals of links that are
+    fixed to this one count as well.
     """
     reach = reaches(robot)
     for link in robot.links:
-        seen, touches = reach.shapes(link.visuals), reach.shapes(link.collisions)
-        if seen is None or touches is None:
+        seen, touches = measured(reach, link)
+        if seen is None or touches is None or _larger(touches, seen, ratio, least) is None:
             continue
-        for axis, a, b in zip("xyz", touches.size, seen.size, strict=True):
-            if a > ratio * b and a - b > least and not displaced(robot, link):
-                yield Problem(
-                    link,
-                    f"link '{link.name}' collides over {a:.3g} m along {axis} and is seen over "
-                    f"{b:.3g} m; is a diameter written for a radius?",
-                    at=link.collisions[0].geometry or link.collisions[0],
-                )
-                break
+        if displaced(robot, link):
+            continue
+        around = with_attached(reach, link, "visuals", seen, touches)
+        if around is None or (axis := _larger(touches, around, ratio, least)) is None:
+            continue
+        a, b = touches.size[axis], around.size[axis]
+        yield Problem(
+            link,
+            f"link '{link.name}' collides over {a:.3g} m along {'xyz'[axis]} and its visual spans "
+            f"{b:.3g} m"
+            + ("; is a diameter written for a radius?" if _is_doubled(link, touches, seen) else ""),
+            at=link.collisions[0].geometry or link.collisions[0],
+        )
+
+
+def _larger(touches: Bounds, seen: Bounds, ratio: float, least: float) -> int | None:
+    """Return the first axis along which one box is far longer than another; None without one."""
+    for axis, (a, b) in enumerate(zip(touches.size, seen.size, strict=True)):
+        if a > ratio * b and a - b > least:
+            return axis
+    return None
+
+
+def _is_doubled(link: Link, touches: Bounds, seen: Bounds) -> bool:
+    """Whether a round collision is twice as wide as the visual, as with a diameter for a radius."""
+    shapes = [collision.geometry for collision in link.collisions]
+    if len(shapes) != 1 or not isinstance(shapes[0], Cylinder | Sphere):
+        return False
+    ratios = [a / b for a, b in zip(touches.size, seen.size, strict=True) if b > 0]
+    return sum(1.9 <= ratio <= 2.1 for ratio in ratios) >= 2
 
 
 @rule(
@@ -167,25 +190,33 @@ def collision_much_larger_than_visual(
     group="robot",
 )
 def collision_much_smaller_than_visual(robot: Robot, *, ratio: float = 4.0) -> Iterator[Problem]:
-    """A link collides with far less than what is seen of it.
+    """A link's collision is far smaller than its visual.
 
-    Usually a unit is wrong, or a scale. It is told where the box around the visuals is more than
-    ``ratio`` times as long as that around the collisions along each of its sides.
+    Usually a unit is wrong, or a scale. It is reported where the box around the visuals is more
+    than ``ratio`` times as long as that around the collisions along each of its sides; collisions
+    at that place of links that are fixed to this one count as well.
     """
     reach = reaches(robot)
     for link in robot.links:
-        seen, touches = reach.shapes(link.visuals), reach.shapes(link.collisions)
-        if seen is None or touches is None:
+        seen, touches = measured(reach, link)
+        if seen is None or touches is None or not _smaller(touches, seen, ratio):
             continue
-        sizes = list(zip(sorted(seen.size), sorted(touches.size), strict=True))
-        if all(a > ratio * b for a, b in sizes) and sizes[2][1] > 0:
-            (a, b), what = sizes[2], link.collisions[0].geometry
-            yield Problem(
-                link,
-                f"link '{link.name}' is seen over {a:.3g} m and collides over {b:.3g} m; is its "
-                "scale right?",
-                at=what or link.collisions[0],
-            )
+        around = with_attached(reach, link, "collisions", touches, seen)
+        if around is None or not _smaller(around, seen, ratio):
+            continue
+        a, b = max(seen.size), max(touches.size)
+        yield Problem(
+            link,
+            f"the visual of link '{link.name}' spans {a:.3g} m and its collision {b:.3g} m; is its "
+            "scale right?",
+            at=link.collisions[0].geometry or link.collisions[0],
+        )
+
+
+def _smaller(touches: Bounds, seen: Bounds, ratio: float) -> bool:
+    """Whether one box is far shorter than another along each of its sides."""
+    sizes = zip(sorted(seen.size), sorted(touches.size), strict=True)
+    return all(a > ratio * b for a, b in sizes)
 
 
 @rule(
@@ -197,31 +228,31 @@ def collision_much_smaller_than_visual(robot: Robot, *, ratio: float = 4.0) -> I
 def collision_off_visual(
     robot: Robot, description: Description, *, apart: float = 0.5
 ) -> Iterator[Problem]:
-    """A link collides elsewhere than it is seen.
+    """The collision of a link is at another place than its visual.
 
-    One of the two lacks the ``<origin>`` that the other has. It is told where the boxes around
-    visuals and collisions do not meet, or their middles are further apart than ``apart`` of the
-    visual's diagonal.
+    One of the two has the wrong ``<origin>``. It is reported where the boxes around visuals and
+    collisions do not meet, or their middles are further apart than ``apart`` of the visual's
+    diagonal. Two of three decide which one is wrong: visual, collision and center of mass. Where
+    these do not, it is the one whose origin repeats that of the joint. Shapes of different sizes
+    are a remark, as a simple shape may be at another place on purpose; one that the visual of a
+    joined or attached link covers is not reported.
     """
-    reach = reaches(robot)
     for link in robot.links:
-        seen, touches = reach.shapes(link.visuals), reach.shapes(link.collisions)
-        if seen is None or touches is None:
+        found = compare_places(robot, link, apart)
+        if found is None or displaced(robot, link):
             continue
-        x, y, z = (a - b for a, b in zip(seen.centre, touches.centre, strict=True))
-        distance, diagonal = norm((x, y, z)), norm(seen.size)
-        larger = all(a > 2 * b for a, b in zip(touches.size, seen.size, strict=True))
         gltf = any(map(is_gltf, link.visuals)) or any(map(is_gltf, link.collisions))
         lying = gltf and description.gltf_up == "y"
-        if (
-            diagonal > 0.05
-            and not larger
-            and (not seen.meets(touches) or distance > apart * diagonal)
-            and not displaced(robot, link)
-        ):
-            yield Problem(
-                link,
-                f"the collision of link '{link.name}' is {distance:.3g} m off its visual; "
-                "give both the same <origin>" + (_AXES if lying else ""),
-                at=link.collisions[0].origin or link.collisions[0],
-            )
+        if found.odd:
+            what = f"the {found.odd} of link '{link.name}' is {found.distance:.3g} m off its "
+            what += f"{found.other}, and {found.why}; {found.remedy}"
+        else:
+            what = f"visual and collision of link '{link.name}' are {found.distance:.3g} m apart; "
+            what += "give both the same <origin>" if found.alike else "check the <origin> of both"
+        shape = link.visuals[0] if found.odd == "visual" else link.collisions[0]
+        yield Problem(
+            link,
+            what + (_AXES if lying else ""),
+            at=shape.origin or shape,
+            severity=None if found.alike else INFO,
+        )

@@ -237,7 +237,9 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
     passed: list[Joint] = []
     tries = pairs = 0
     for joint in robot.joints:
-        if joint.type not in MOVABLE or joint.mimic is not None or joint.child not in known.poses:
+        if joint.type not in MOVABLE or joint.mimic is not None:
+            continue
+        if joint.child not in known.poses or joint.parent not in known.poses:
             continue
         if tries > TRIES or pairs > PAIRS:
             passed.append(joint)

@@ -21,6 +21,7 @@ class Pieces:
 
     A joint rests at zero, or in the middle of its range where zero is outside. A mesh counts as its
     hull. Links that are fixed to each other are one body; bodies that a joint joins are neighbours.
+    Of a robot with several roots the largest tree counts.
 
     Attributes:
         bodies: The pieces of each body with their links, in the frame of the root.
@@ -34,7 +35,7 @@ class Pieces:
         self.rest = with_mimics(
             robot, {j.name: middle for j in robot.joints if (middle := _rest(j))}
         )
-        self.poses = link_poses(robot, self.rest)
+        self.poses = _of_one_tree(robot, link_poses(robot, self.rest))
         self.body_of = robot.tree.bodies
         self.bodies: dict[str, list[tuple[Link, Convex]]] = {}
         for name, pose in self.poses.items():
@@ -149,6 +150,16 @@ class Pieces:
                 break
         found.sort(key=lambda pair: (number[pair[0]], number[pair[1]]))
         return found[:most], len(found) <= most
+
+
+def _of_one_tree(robot: Robot, poses: dict[str, Pose]) -> dict[str, Pose]:
+    """Keep the links of the largest tree: where another stands relative to it is not known."""
+    roots = robot.tree.roots
+    if len(roots) < 2:
+        return poses
+    trees = [{root.name, *robot.tree.descendants(root.name)} for root in roots]
+    largest = max(trees, key=len)
+    return {name: pose for name, pose in poses.items() if name in largest}
 
 
 def _sphere(found: list[tuple[Link, Convex]]) -> tuple[Vector, float]:

@@ -6,10 +6,12 @@ import re
 from collections.abc import Iterator
 from statistics import median
 
+from ...model.attached import attached_links
 from ...model.bounds import size_of
 from ...model.elements import Link, Mesh, Robot
 from ..gazebo.contact import axis_up
 from ..inertia.bodies import bodies, mass_of
+from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
 from ..sides import family_of
 from ..words import some_of
@@ -40,8 +42,9 @@ def missing_collision(
     What has no collision is a ghost: it falls through the floor, hands close on nothing, planners
     move the arm through it, and lasers that look at collision shapes see nothing. Primitives are
     best; a copy of the visual mesh is better than nothing. A link that is meant to be so (a
-    sticker, a motor inside a housing) says it with a comment,
-    ``urdftool-ignore[missing-collision]``.
+    sticker, a cable) says it with a comment,
+    ``urdftool-ignore[missing-collision]``. One that the collision of a link fixed to it covers is
+    not reported.
 
     Links smaller than ``smallest`` [m] and markers of frames are left out, and those smaller than
     ``small`` [m] are no more than info.
@@ -54,6 +57,8 @@ def missing_collision(
         if link.name in odd:
             continue
         if sizes[link.name] < smallest or _has_misspelt_collision(link):
+            continue
+        if _is_covered(robot, link):
             continue
         yield Problem(
             link,
@@ -173,6 +178,8 @@ def massive_link_without_collision(robot: Robot, *, lightest: float = 0.1) -> It
             continue
         if any(_shapes_below(robot, link)):
             continue
+        if any(one.collisions for one, _ in attached_links(robot, link)):
+            continue
         level = joint.type == "continuous" and abs(axis_up(robot, link, joint)) < 0.5
         if level or (_CONTACT.search(link.name) and not joint.is_fixed):
             yield Problem(
@@ -180,6 +187,25 @@ def massive_link_without_collision(robot: Robot, *, lightest: float = 0.1) -> It
                 f"link '{link.name}' weighs {link.mass:g} kg, turns on '{joint.name}' and has "
                 "nothing to touch the ground with; add a <collision>",
             )
+
+
+def _is_covered(robot: Robot, link: Link) -> bool:
+    """Whether the collision of an attached link covers a link's visual, but for a fifth."""
+    attached = attached_links(robot, link)[1:]
+    if not any(other.collisions for other, _ in attached):
+        return False
+    reach = reaches(robot)
+    seen = reach.shapes(link.visuals)
+    if seen is None:
+        return False
+    for other, at in attached:
+        box = reach.body(link, "collisions", [(other, at)]) if other.collisions else None
+        if box is not None and all(
+            min(c, d) - max(a, b) >= 0.8 * (c - a)
+            for a, b, c, d in zip(seen.low, box.low, seen.high, box.high, strict=True)
+        ):
+            return True
+    return False
 
 
 def _seen_size(link: Link) -> float:

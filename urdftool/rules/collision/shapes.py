@@ -8,6 +8,7 @@ from ...model.elements import Collision, Robot, UnknownShape
 from ...model.read import number, numbers
 from ..rule import ERROR, WARNING, Problem, rule
 from ..words import did_you_mean
+from ..xml.vocabulary_table import VOCABULARY
 
 _SIZES = {
     "box": ("size",),
@@ -30,26 +31,33 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
     """A shape has a length of zero or less.
 
     Often the 0 0 0 of a placeholder, or a subtraction in a macro that went below zero. Nothing of
-    it touches or is seen where it is accepted, and MuJoCo refuses the file. A visual of size zero,
-    which MuJoCo does not read, is only a warning.
+    it has contact or is visible where it is accepted. MuJoCo rejects a robot with such a collision.
+    It discards visuals, unless the robot says ``<compiler discardvisual="false"/>``; a visual is
+    otherwise a warning.
     """
+    keeps = any(
+        (compiler.get("discardvisual") or "").strip() == "false"
+        for mujoco in robot.element.all("mujoco")
+        for compiler in mujoco.all("compiler")
+    )
     for link, shape in robot.shapes:
         if shape.geometry is None:
             continue
         element = shape.geometry.element
+        kind = "collision" if isinstance(shape, Collision) else "visual"
         for name in _SIZES.get(element.tag, ()):
             text = element.get(name)
             one = number(text)
             values = numbers(text, 3) if name == "size" else None if one is None else (one,)
             if values is None or min(values) > 0:
                 continue
-            collides = isinstance(shape, Collision)
+            rejected = kind == "collision" or keeps
             yield Problem(
                 link,
-                f"{name} of a <{element.tag}> of link '{link.name}' is {text}; "
+                f"{name} of a <{element.tag}> in a {kind} of link '{link.name}' is {text}; "
                 "every length must be above 0",
                 at=element.attribute_place(name),
-                severity=ERROR if collides or min(values) < 0 else WARNING,
+                severity=ERROR if rejected else WARNING,
             )
 
 
@@ -83,6 +91,15 @@ def unsupported_shape(robot: Robot) -> Iterator[Problem]:
         geometry = shape.geometry
         if isinstance(geometry, UnknownShape) and ":" not in geometry.element.tag:
             tag = geometry.element.tag
+            if tag in VOCABULARY:
+                kind = shape.element.tag
+                yield Problem(
+                    link,
+                    f"<geometry> in a {kind} of link '{link.name}' begins with <{tag}>, which "
+                    "urdfdom takes for its shape; move it out of <geometry>",
+                    at=geometry,
+                )
+                continue
             near = did_you_mean(tag, _KNOWN)
             right = _INSTEAD.get(tag, "<box>, <cylinder>, <sphere> or <mesh>")
             yield Problem(

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ...model.bounds import size_of
-from ...model.elements import Box, Cylinder, Joint, Robot
-from ...model.pose import dot, norm, pose_of, rotate
+from ...model.elements import Box, Joint, Robot, Vector
 from ..rule import INFO, WARNING, Problem, rule
+from .axle import PLACE, VISUAL, Wheel, agreeing, angle_between, is_upright, wheel_of_joint
 
 if TYPE_CHECKING:
     from .casters import Caster
-
-_WHEEL = re.compile(r"wheel|tire|caster", re.IGNORECASE)
 
 
 @rule(
@@ -26,34 +23,81 @@ _WHEEL = re.compile(r"wheel|tire|caster", re.IGNORECASE)
     },
 )
 def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Problem]:
-    """The cylinder of a wheel does not lie along its axle.
+    """The cylinder of a wheel does not lie along the axis of its joint.
 
     A cylinder of URDF stands along z. A wheel that turns about y needs its collision turned over,
-    by ``rpy="1.5708 0 0"``; without it the wheel rolls on its flat side. ``steepest`` [degrees] is
-    the angle between the two that is let pass.
+    by ``rpy="1.5708 0 0"``; without it the wheel rolls on its flat side. Or the cylinder is right,
+    and the ``<axis>`` of the joint is not. The place of the twin on the other side of the robot
+    decides which one is odd, as the axle goes from one to the other; else the one that points up
+    is, as the axle of a wheel lies level; else the visual and the inertia decide. ``steepest``
+    [degrees] is the angle between the two that is allowed. A ``revolute`` joint without limits
+    counts as ``continuous``; one that steers is left out.
     """
-    from math import acos, degrees
-
     for joint in robot.joints:
-        link = robot.link.get(joint.child)
-        if joint.type != "continuous" or link is None or len(link.collisions) != 1:
+        wheel = wheel_of_joint(robot, joint)
+        if wheel is None:
             continue
-        collision = link.collisions[0]
-        shape = collision.geometry
-        if not isinstance(shape, Cylinder) or not _WHEEL.search(link.name + joint.name):
+        axis, cylinder = wheel.axis.along, wheel.cylinder.along
+        angle = angle_between(axis, cylinder)
+        if angle <= steepest:
             continue
-        axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
-        if norm(axis) < 1e-6 or shape.length > 4 * shape.radius:
-            continue
-        along = rotate(pose_of(collision.origin).rotation, (0.0, 0.0, 1.0))
-        angle = degrees(acos(min(1.0, abs(dot(along, axis)) / norm(axis))))
-        if angle > steepest:
-            yield Problem(
-                link,
-                f"the cylinder of wheel '{link.name}' stands at {angle:.0f}° to the axis of "
-                f"'{joint.name}'; turn its <origin> so that z lies along the axis",
-                at=collision.origin or shape,
-            )
+        right, why = _which_is_right(robot, wheel, 90 - steepest)
+        disc = f"the cylinder of wheel '{wheel.link.name}'"
+        line = f"the axis of '{joint.name}'" + (", x by default," if joint.axis is None else "")
+        if right == "cylinder":
+            what = f"{line} is at {angle:.0f}° to {disc}, which {why}; "
+            what += f'write <axis xyz="{axis_text(cylinder)}"/>'
+        elif right == "axis":
+            same = any(one.what == VISUAL for one in agreeing(wheel.others, cylinder, 45))
+            also = ", and that of its visual," if same else ""
+            what = f"{disc} is at {angle:.0f}° to {line}, which {why}; turn its <origin>{also} "
+            what += "until z lies along the axis"
+        else:
+            what = f"{disc} is at {angle:.0f}° to {line}; turn one of the two"
+        in_joint = right == "cylinder"
+        yield Problem(
+            joint if in_joint else wheel.link,
+            what,
+            at=(joint.axis or joint) if in_joint else (wheel.kind.origin or wheel.shape),
+        )
+
+
+def _which_is_right(robot: Robot, wheel: Wheel, within: float) -> tuple[str, str]:
+    """Decide between the axis of a wheel's joint and its cylinder.
+
+    The place of its twin decides, as the two stand on one axle; without one, that the axle lies
+    level; without that, what the visual and the inertia say.
+
+    Returns:
+        ``axis``, ``cylinder`` or nothing, and what speaks for it, as a clause.
+    """
+    lines = {"axis": wheel.axis.along, "cylinder": wheel.cylinder.along}
+    found = {
+        name: [one.what for one in agreeing(wheel.others, along, within)]
+        for name, along in lines.items()
+    }
+    placed = [name for name in lines if PLACE in found[name]]
+    level = [name for name, along in lines.items() if not is_upright(robot, wheel.joint, along)]
+    voted = [name for name in lines if len(found[name]) * 2 > len(wheel.others)]
+    for choice in (placed, level, voted):
+        if len(choice) == 1:
+            reasons = found[choice[0]]
+            why = f"agrees with {_listed(reasons)}" if reasons else ""
+            return choice[0], why or "lies level, as axles do"
+    return "", ""
+
+
+def axis_text(along: Vector) -> str:
+    """Write a line as an axis: its largest part is positive, and 1 near a coordinate axis."""
+    largest = max(along, key=abs)
+    sign = -1.0 if largest < 0 else 1.0
+    if abs(largest) > 0.999:
+        return " ".join("1" if part == largest else "0" for part in along)
+    return " ".join(f"{sign * part + 0.0:.6g}" for part in along)
+
+
+def _listed(reasons: list[str]) -> str:
+    return " and ".join(filter(None, (", ".join(reasons[:-1]), *reasons[-1:])))
 
 
 @rule(

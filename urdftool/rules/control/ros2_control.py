@@ -205,14 +205,20 @@ def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
     },
 )
 def command_without_state(robot: Robot) -> Iterator[Problem]:
-    """A joint is commanded and does not say where it is.
+    """A joint has a command interface and no state interface of that name.
 
-    Most controllers want the state beside the command: the trajectory controller does not configure
-    without the position.
+    Most controllers read the state of what they command: the trajectory controller does not
+    configure a joint of which it commands the velocity without its position and velocity. The
+    wheels of a drive are different: ``diff_drive_controller`` commands their velocity and reads
+    their position, or their velocity with ``position_feedback: false``. A joint that turns without
+    end is therefore right with either state.
     """
     for control in robot.ros2_controls:
         for joint in control.joints:
             states = {interface.name for interface in joint.state_interfaces}
+            written = robot.joint.get(joint.name)
+            if written is not None and written.type == "continuous" and "position" in states:
+                states.add("velocity")
             missing = [
                 interface
                 for interface in joint.command_interfaces

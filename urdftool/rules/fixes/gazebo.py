@@ -7,7 +7,7 @@ from ...model.read import numbers
 from ...source.document import Element
 from ..gazebo.contact import contact_role
 from ..gazebo.keywords import JOINT_KEYWORDS, LINK_KEYWORDS, NOT_IN_GZ, SURFACE
-from ..gazebo.sensors import without_frame
+from ..gazebo.sensors import Frameless, without_frame
 from ..gazebo.tags import _colours, _shows_colour
 from ..rule import Problem
 from .elsewhere import check_not_included
@@ -377,24 +377,33 @@ def ros_plugin_inside_sensor(problem: Problem, around: Around) -> Proposal | Non
 
 
 def missing_gz_frame_id(problem: Problem, around: Around) -> Proposal | None:
-    """Name its link, and those of all others where they are one finding.
-
-    A sensor with a pose of its own does not measure in the frame of its link, and is left alone.
-    """
-    sensors = [problem.element]
-    if " more) " in problem.message:
-        sensors = [sensor.element for _, sensor in without_frame(around.robot)]
-    if any(_has_pose(sensor) for sensor in sensors):
-        return None
-    lines = []
-    for sensor in sensors:
-        name = written(sensor.parent, "reference") if sensor.parent is not None else ""
-        if not name:
+    """The link where the sensor is, and that of all others where they are one finding."""
+    found = [one for one in without_frame(around.robot) if one.frame is not None]
+    if " more) " not in problem.message:
+        found = [one for one in found if one.sensor.element is problem.element]
+    changes = []
+    for one in found:
+        name = _name_of_frame(one)
+        if name is None:
             return None
-        lines.append(f"<gz_frame_id>{quote(name)}</gz_frame_id>")
-    changes = [insert(*change) for change in zip(sensors, lines, strict=True)]
-    more = " and so on" if len(lines) > 1 else ""
-    return safe(f"write {lines[0]}{more}", *changes)
+        line = f"<gz_frame_id>{quote(name)}</gz_frame_id>"
+        changes.append(insert(one.sensor.element, line))
+    if not changes or "add one there" in problem.message:
+        return None
+    more = " and so on" if len(changes) > 1 else ""
+    return safe(f"write {changes[0].blocks[0][0]}{more}", *changes)
+
+
+def _name_of_frame(one: Frameless) -> str | None:
+    """Write the name of a sensor's frame as the source does; None where it is made elsewhere."""
+    block, frame = one.sensor.element.parent, one.frame
+    if frame is None or block is None:
+        return None
+    if frame is one.link:
+        return written(block, "reference") or None
+    if is_computed(frame.element) and frame.element.calls != one.sensor.element.calls:
+        return None
+    return written(frame.element, "name") or None
 
 
 def _has_pose(sensor: Element) -> bool:

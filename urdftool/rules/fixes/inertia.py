@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 
-from ...model.elements import Inertial, Link
+from ...model.elements import Inertial, Link, Vector
 from ...model.inertia_slips import is_possible
 from ...model.pose import pose_of, transpose
 from ...model.tensor3 import Six, eigenvalues, turned
@@ -14,7 +15,7 @@ from ..inertia.slips import slip_of
 from ..inertia.solids import _only_shape, box_of, solid_tensor, solid_volume
 from ..inertia.tensors import SIX, is_zero, six_of
 from ..mesh.outlines import reaches
-from ..rule import Problem
+from ..rule import INFO, Problem
 from .elsewhere import check_not_included
 from .proposal import (
     Around,
@@ -60,6 +61,8 @@ def _six_text(six: Six) -> str:
 def missing_inertial(problem: Problem, around: Around) -> Proposal | None:
     """What its shapes have at the density of water."""
     link = around.link(problem)
+    if problem.severity is INFO:
+        return None  # the body has a mass, or needs none
     lines = _of_shapes(link, around)
     mass = re.search(r'<mass value="([^"]*)"', " ".join(lines or ()))
     if lines is None or mass is None or float(mass[1]) < LIGHTEST:
@@ -144,8 +147,15 @@ def negative_mass(problem: Problem, around: Around) -> Proposal | None:
     return unsafe(f'write value="{text}"', put(*found, text))
 
 
-def _rewritten(link: Link, six: Six, why: str) -> Proposal | None:
-    """The six numbers written anew, as far as they differ."""
+def _rewritten(link: Link, six: Six, why: str, centre: Vector | None = None) -> Proposal | None:
+    """The six numbers written anew, as far as they differ, and where the mass is.
+
+    Args:
+        link: The link.
+        six: The tensor about the centre of mass, along the axes of the inertial.
+        why: What is done, in words.
+        centre: Where the centre of mass belongs in the frame of the link; None if it stays.
+    """
     inertial = link.inertial
     if inertial is None or inertial.inertia is None or not is_possible(six):
         return None
@@ -156,7 +166,39 @@ def _rewritten(link: Link, six: Six, why: str) -> Proposal | None:
         for name, old, new in zip(SIX, six_of(inertial.inertia), six, strict=True)
         if f"{new:.9g}" != f"{old:.9g}" and max(abs(new), abs(old)) > least
     ]
+    if centre is not None:
+        moved = _moved(link, centre)
+        if moved is None:
+            return None
+        if moved:
+            why += f", centred at {figures(centre, 6)}"
+        changes += moved
     return unsafe(why, *changes) if changes else None
+
+
+def _moved(link: Link, centre: Vector) -> list[Change] | None:
+    """Changes that put a centre of mass which nobody wrote, or is outside, where it belongs.
+
+    Returns:
+        None where it comes from an expression.
+    """
+    inertial = link.inertial
+    if inertial is None:
+        return None
+    now = pose_of(inertial.origin).translation
+    box = box_of(link)
+    inside = box is not None and all(
+        low <= value <= high for low, value, high in zip(box.low, now, box.high, strict=True)
+    )
+    written = inertial.origin is not None and any(inertial.origin.xyz)
+    if (written and (inside or box is None)) or math.dist(now, centre) <= 1e-6:
+        return []
+    text = figures((round(value, 9) for value in centre), 6)
+    if inertial.origin is None:
+        return [first(inertial.element, f'<origin xyz="{text}"/>')]
+    if is_computed(inertial.origin.element, "xyz"):
+        return None
+    return [put(inertial.origin.element, "xyz", text)]
 
 
 def _meant(problem: Problem, around: Around) -> Proposal | None:
@@ -174,7 +216,7 @@ def _meant(problem: Problem, around: Around) -> Proposal | None:
 
 
 def _recomputed(problem: Problem, around: Around) -> Proposal | None:
-    """What the link's shapes have at its mass, about the centre of mass that is written."""
+    """What the link's shapes have at its mass, and where, if nobody wrote where."""
     link = around.link(problem)
     inertial = link.inertial
     if inertial is None or not inertial.mass or inertial.mass <= 0 or inertial.inertia is None:
@@ -187,17 +229,20 @@ def _recomputed(problem: Problem, around: Around) -> Proposal | None:
     six = solid_tensor(link)
     if six is not None and shape is not None and shape.geometry is not None:
         what = f"of a solid {shape.geometry.element.tag}"
-        return _rewritten(link, six, f"write the inertia {what} of {inertial.mass:g} kg")
+        why = f"write the inertia {what} of {inertial.mass:g} kg"
+        return _rewritten(link, six, why, pose_of(shape.origin).translation)
     found = _weighed(link, around)
     if found is None:
         return None
-    mass, _, tensor = found
+    mass, centre, tensor = found
     scale = inertial.mass / mass
     here = turned(
         tuple(value * scale for value in tensor),  # type: ignore[arg-type]
         transpose(pose_of(inertial.origin).rotation),
     )
-    return _rewritten(link, here, f"write the inertia of its shapes at {inertial.mass:g} kg")
+    return _rewritten(
+        link, here, f"write the inertia of its shapes at {inertial.mass:g} kg", centre
+    )
 
 
 def inertia_not_positive_definite(problem: Problem, around: Around) -> Proposal | None:

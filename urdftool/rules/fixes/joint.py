@@ -8,6 +8,7 @@ from collections import Counter
 from ...model.elements import Joint, Limit
 from ...model.pose import norm
 from ...model.read import number
+from ..joint.range import says_unlimited
 from ..rule import Problem
 from .proposal import (
     Around,
@@ -180,11 +181,21 @@ def _bounds(joint: Joint) -> tuple[Limit, float, float] | None:
 
 
 def lower_above_upper(problem: Problem, around: Around) -> Proposal | None:
-    """The two swapped."""
-    found = _bounds(around.joint(problem))
+    """The two swapped; a joint without limits, as PyBullet says it, is continuous."""
+    joint = around.joint(problem)
+    found = _bounds(joint)
     if found is None:
         return None
     element = found[0].element
+    if says_unlimited(*found[1:]):
+        if joint.type != "revolute":
+            return None
+        return unsafe(
+            "make it continuous",
+            put(joint.element, "type", "continuous"),
+            drop(element, "lower"),
+            drop(element, "upper"),
+        )
     lower, upper = element.get("lower") or "", element.get("upper") or ""
     return unsafe("swap the two", put(element, "lower", upper), put(element, "upper", lower))
 

@@ -84,8 +84,13 @@ def plugin_class_mismatch(problem: Problem, around: Around) -> Proposal | None:
 
 
 def plugin_unknown_entity(problem: Problem, around: Around) -> Proposal | None:
-    """The link or joint that was meant."""
+    """The link or joint that was meant; an element for each of several."""
     element = element_at(problem)
+    if element is not None and " takes one " in problem.message:
+        names = [name for name in re.split(r"[,\s]+", element.text) if name]
+        tag = element.tag
+        blocks = [(f"<{tag}>{quote(name)}</{tag}>",) for name in names]
+        return unsafe(f"write {len(names)} <{tag}>", replace(element, *blocks))
     name = meant(problem, element.text.strip()) if element is not None else ""
     if element is None or not name or re.search(r"[,\s]", element.text.strip()):
         return None

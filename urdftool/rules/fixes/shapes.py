@@ -5,17 +5,20 @@ from __future__ import annotations
 import math
 import re
 
-from ...model.elements import Box, Collision, Cylinder, Mesh, Sphere, Visual
+from ...model.elements import Box, Collision, Cylinder, Joint, Mesh, Sphere, Visual
 from ...model.pose import norm
 from ...model.read import numbers
 from ..collision.displaced import displaced
 from ..mesh.outlines import reaches
 from ..rule import INFO, Problem
+from ..xml.vocabulary_table import VOCABULARY
 from .proposal import (
     Around,
     Change,
     Proposal,
+    after,
     attribute_at,
+    depends_on_a_call,
     drop,
     element_at,
     is_computed,
@@ -30,7 +33,11 @@ from .proposal import (
     unsafe,
     written,
 )
+from .xml import moved_up
 
+_WRONG_PLACE = re.compile(
+    r"^the (visual|collision) of link .*; (?:write xyz=\"([^\"]*)\"|give it the <origin>)"
+)
 _PRIMITIVES = (Box, Cylinder, Sphere)
 
 
@@ -83,11 +90,33 @@ def missing_visual(problem: Problem, around: Around) -> Proposal | None:
 
 
 def collision_off_visual(problem: Problem, around: Around) -> Proposal | None:
-    """The origin of the visual, where both are one shape."""
+    """Where the other is, where it is known which of the two is wrong."""
     link = around.link(problem)
-    if len(link.visuals) != 1 or len(link.collisions) != 1:
+    found = _WRONG_PLACE.search(problem.message)
+    if found is None or len(link.visuals) != 1 or len(link.collisions) != 1:
         return None
-    return unsafe("give it the <origin> of the visual", _moved(link.collisions[0], link.visuals[0]))
+    if depends_on_a_call(link.element, "visual", "collision", "inertial"):
+        return None
+    kind, xyz = found[1], found[2]
+    wrong: Visual | Collision = link.visuals[0]
+    right: Visual | Collision = link.collisions[0]
+    if kind == "collision":
+        wrong, right = right, wrong
+    if xyz is not None:
+        lines: tuple[str, ...] = (f'<origin xyz="{xyz}"/>',)
+        what = f'write xyz="{xyz}" for its {kind}'
+    else:
+        lines = tuple(line for origin in right.element.all("origin") for line in lines_of(origin))
+        what = f"give the {kind} the <origin> of the {right.element.tag}"
+    if wrong.origin is None:
+        change = Change("first", wrong.element, blocks=(lines,))
+    elif xyz is not None:
+        change = put(wrong.origin.element, "xyz", xyz)
+    elif lines:
+        change = replace(wrong.origin.element, lines)
+    else:
+        change = remove(wrong.origin.element)
+    return unsafe(what, change)
 
 
 def collision_mesh_displaced(problem: Problem, around: Around) -> Proposal | None:
@@ -128,8 +157,10 @@ def _moved(shape: Visual | Collision, model: Visual | Collision) -> Change:
 
 
 def unsupported_shape(problem: Problem, around: Around) -> Proposal | None:
-    """The shape that was meant."""
+    """The shape that was meant; what belongs elsewhere goes there."""
     element = element_at(problem)
+    if element is not None and element.tag in VOCABULARY and element.parent is not None:
+        return moved_up(element, element.parent)
     name = meant(problem, element.tag) if element is not None else ""
     if element is None or not name:
         return None
@@ -137,19 +168,37 @@ def unsupported_shape(problem: Problem, around: Around) -> Proposal | None:
 
 
 def wheel_cylinder_axis(problem: Problem, around: Around) -> Proposal | None:
-    """Turned so that its length lies along the axle."""
+    """The cylinder turned until its length lies along the axle, or the axis along the cylinder."""
+    subject = problem.subject
+    found = re.search(r'write <axis xyz="([^"]*)"/>', problem.message)
+    if isinstance(subject, Joint):
+        if found is None:
+            return None
+        text = found[1]
+        if subject.axis is not None:
+            change = put(subject.axis.element, "xyz", text)
+        else:
+            behind = subject.child_element or subject.parent_element
+            if behind is None:
+                return None
+            change = after(behind, f'<axis xyz="{text}"/>')
+        return unsafe(f'write <axis xyz="{text}"/>', change)
     link = around.link(problem)
     joint = around.robot.tree.parent_joint(link.name)
-    if joint is None or len(link.collisions) != 1:
+    if joint is None or joint.is_fixed or len(link.collisions) != 1:
+        return None
+    if "until z lies along the axis" not in problem.message:
         return None
     axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
     collision = link.collisions[0]
-    along = {1: "1.5707963267948966 0 0", 0: "0 1.5707963267948966 0"}
+    along = {1: "1.5707963267948966 0 0", 0: "0 1.5707963267948966 0", 2: "0 0 0"}
     place = max(range(3), key=lambda i: abs(axis[i]))
-    if place not in along or abs(axis[place]) < 0.999 * norm(axis):
+    if abs(axis[place]) < 0.999 * norm(axis):
         return None
     rpy = along[place]
     if collision.origin is not None:
+        if collision.origin.quaternion is not None:
+            return None
         change = put(collision.origin.element, "rpy", rpy)
     else:
         change = Change("first", collision.element, blocks=((f'<origin rpy="{rpy}"/>',),))

@@ -21,6 +21,8 @@ from .proposal import (
     unsafe,
 )
 
+_ORPHAN = re.compile(r"did you mean '([^']*)'\? It is the child of no joint")
+
 
 def unknown_parent_link(problem: Problem, around: Around) -> Proposal | None:
     """Declare ``world``; write the link that was meant for another.
@@ -44,6 +46,10 @@ _WORLD = re.compile(rb"<link\b[^>]*\bname\s*=\s*[\"']world[\"']")
 
 def unknown_child_link(problem: Problem, around: Around) -> Proposal | None:
     """The link that was meant, if it is no joint's child yet."""
+    orphan = _ORPHAN.search(problem.message)
+    found = attribute_at(problem)
+    if orphan is not None and found is not None:
+        return unsafe(f"write '{orphan[1]}'", put(*found, orphan[1]))
     name = meant(problem, around.joint(problem).child)
     if any(joint.child == name for joint in around.robot.joints):
         return None

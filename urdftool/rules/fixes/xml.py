@@ -10,6 +10,7 @@ from ...model.pose import rotation_of_quaternion, rpy_of_rotation
 from ...model.read import number, numbers
 from ...source.document import Element
 from ..rule import Problem
+from ..xml.shape import shapes_in
 from ..xml.vocabulary_table import VOCABULARY, attributes_of, misspelt_children
 from ..xml.vocabulary_table import meant as the_word_for
 from .proposal import (
@@ -29,6 +30,7 @@ from .proposal import (
     retag,
     safe,
     same,
+    stands_in,
     sub,
     unsafe,
     written,
@@ -103,7 +105,28 @@ def _told_as_sdf(element: Element, parent: Element) -> Proposal | None:
         return None
     if (inside, tag) == ("collision", "surface"):
         return _surface(element, parent)
+    if inside == "geometry":
+        return moved_up(element, parent)
     return None
+
+
+def moved_up(element: Element, geometry: Element) -> Proposal | None:
+    """Move a ``<material>`` or ``<origin>`` from a ``<geometry>`` to the visual or collision.
+
+    It is safe where only a color comes of it.
+    """
+    around = geometry.parent
+    if around is None or element.tag not in VOCABULARY[around.tag].children:
+        return None
+    if around.child(element.tag) is not None:
+        return None
+    if not (stands_in(element, geometry) and stands_in(geometry, around)):
+        return None
+    lines = tuple(lines_of(element))
+    is_first = element is geometry.children[0]
+    make = safe if element.tag == "material" and not is_first else unsafe
+    message = f"move the <{element.tag}> to the <{around.tag}>"
+    return make(message, remove(element), Change("after", geometry, blocks=(lines,)))
 
 
 def _as_origin(element: Element, parent: Element, text: str) -> Proposal | None:
@@ -187,7 +210,7 @@ def several_shapes_in_geometry(problem: Problem, around: Around) -> Proposal | N
     if geometry is None or around_it is None or around_it.tag not in ("visual", "collision"):
         return None
     changes: list[Change] = []
-    for other in geometry.children[1:]:
+    for other in shapes_in(geometry)[1:]:
         inside = [line for c in around_it.all("origin") for line in lines_of(c)]
         material = [line for c in around_it.all("material") for line in lines_of(c)]
         lines = (

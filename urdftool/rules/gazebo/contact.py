@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 
+from ...model.attached import attached_links
 from ...model.elements import Collision, Cylinder, GazeboExtension, Joint, Link, Robot, Sphere
-from ...model.pose import IDENTITY, cross, dot, norm, pose_of, rotate
+from ...model.pose import IDENTITY, Pose, cross, dot, norm, pose_of, rotate
 
 _WHEEL = re.compile(r"wheel|(^|_)tire(_|\d|$)", re.IGNORECASE)
 _CASTER = re.compile(r"caster|castor", re.IGNORECASE)
@@ -26,7 +27,7 @@ def contact_role(robot: Robot, link: Link) -> str:
     if _CASTER.search(link.name):
         turned = any(below.type == "continuous" for below in robot.tree.child_joints(link.name))
         return "" if turned else "caster"
-    if _rolls(robot, link, joint):
+    if _rolls(robot, link):
         return "wheel"
     leaf = not any(not below.is_fixed for below in robot.tree.child_joints(link.name))
     if leaf and _FOOT.search(link.name) and _moves(robot, link):
@@ -36,22 +37,45 @@ def contact_role(robot: Robot, link: Link) -> str:
     return ""
 
 
-def _rolls(robot: Robot, link: Link, joint: Joint) -> bool:
-    """Whether a link turns without end about an axis that lies level, and is round."""
-    if joint.type != "continuous" or _NOT_WHEEL.search(link.name):
+def is_wheel(robot: Robot, link: Link) -> bool:
+    """Whether a link, or one that is rigidly attached to it, rolls on the ground."""
+    return any(contact_role(robot, one) == "wheel" for one, _ in attached_links(robot, link))
+
+
+def _rolls(robot: Robot, link: Link) -> bool:
+    """Whether a link turns without end about an axis that lies level, and is round.
+
+    The link may be fixed to the one that the joint moves, as a tire to its hub.
+    """
+    members = attached_links(robot, link)
+    hub, pose = next(((one, at) for one, at in members if _is_moved(robot, one)), (link, IDENTITY))
+    joint = robot.tree.parent_joint(hub.name)
+    if joint is None or joint.type != "continuous" or _NOT_WHEEL.search(link.name):
         return False
-    if any(not below.is_fixed for below in robot.tree.child_joints(link.name)):
+    if any(not below.is_fixed for one, _ in members for below in robot.tree.child_joints(one.name)):
         return False
-    if _WHEEL.search(link.name):
+    place = pose.inverse()
+    is_round = any(_is_round_about(collision, joint, place) for collision in link.collisions)
+    if _WHEEL.search(link.name) and (hub is link or is_round or not hub.collisions):
         return True
-    if not any(_is_round_about(collision, joint) for collision in link.collisions):
-        return False
-    return abs(axis_up(robot, link, joint)) < 0.5
+    return is_round and abs(axis_up(robot, hub, joint)) < 0.5
 
 
-def _is_round_about(collision: Collision, joint: Joint) -> bool:
-    """Whether a shape is a cylinder or sphere that turns about its own middle."""
-    shape, pose = collision.geometry, pose_of(collision.origin)
+def _is_moved(robot: Robot, link: Link) -> bool:
+    """Whether a joint that is not fixed has a link as its child."""
+    joint = robot.tree.parent_joint(link.name)
+    return joint is not None and not joint.is_fixed
+
+
+def _is_round_about(collision: Collision, joint: Joint, place: Pose = IDENTITY) -> bool:
+    """Whether a shape is a cylinder or sphere that turns about its own middle.
+
+    Args:
+        collision: The shape.
+        joint: The joint that turns it.
+        place: The pose of the shape's link in the frame of the joint's child.
+    """
+    shape, pose = collision.geometry, place @ pose_of(collision.origin)
     axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
     length = norm(axis)
     if not isinstance(shape, Cylinder | Sphere) or not length:

@@ -9,10 +9,10 @@ from ...model.bounds import Bounds
 from ...model.elements import Robot, Vector
 from ...model.kinematics import link_poses
 from ...model.pose import dot, norm
-from ..mesh.outlines import reaches
+from ..mesh.outlines import ShapeKind, reaches
 from ..rule import GAZEBO, ROS, WARNING, Problem, rule
 from ..sides import sides
-from .contact import contact_role
+from .contact import is_wheel
 from .drive_wheels import Drive, Pair, Told, Wheel, drives, wheel_of
 
 _SLIP = 2.5  # a base that skids is often told of a wider track, since it turns less than it rolls
@@ -37,7 +37,8 @@ def drive_size_mismatch(
     and where the robot is. Half the distance, or a diameter written for a radius, is a factor of
     two in both. A distance is let pass from the inner edges of the wheels to the outer, and beyond
     by the part ``apart``, a radius by the part ``round``; the distance of wheels that skid may be
-    more than that. Plugins stand in the robot, a ``diff_drive_controller`` in a YAML file that is
+    more than that. A wheel is measured with all that is fixed to it, as a tire to its hub. Plugins
+    stand in the robot, a ``diff_drive_controller`` in a YAML file that is
     for it (``controller-unknown-joint``); there a multiplier beside a length may make it right.
     """
     for drive in drives(robot):
@@ -123,7 +124,7 @@ def _commanded(robot: Robot) -> Iterator[Pair]:
     poses = link_poses(robot)
     for pair in sides(robot).pairs:
         wheels = [wheel_of(robot, poses, j.name) for j in (pair.left_joint, pair.right_joint)]
-        rolls = all(contact_role(robot, link) == "wheel" for link in (pair.left, pair.right))
+        rolls = is_wheel(robot, pair.left) and is_wheel(robot, pair.right)
         named = {pair.left_joint.name, pair.right_joint.name} <= driven
         if rolls and named and wheels[0] is not None and wheels[1] is not None:
             yield wheels[0], wheels[1]
@@ -158,10 +159,18 @@ def _radius(robot: Robot, drive: Drive, told: Told, wheel: Wheel, part: float) -
     link, per_radius = robot.link[wheel.name], told.per_radius
     axis = wheel.joint.axis.xyz if wheel.joint.axis is not None else (1.0, 0.0, 0.0)
     reach = reaches(robot)
-    boxes = [reach.shapes(link.collisions), reach.shapes(link.visuals)]
+    kinds: tuple[ShapeKind, ...] = ("collisions", "visuals")
+    boxes = [reach.body(link, kind) for kind in kinds]
     found = [radius for box in boxes if box and (radius := _radius_about(box, axis))]
     if not found:
         return
+    # a hub may be covered by a hub cap, or carry something that is not round
+    members = reach.attached(link)
+    for member in members if len(members) > 1 else ():
+        for kind in kinds:
+            box = reach.body(link, kind, [member])
+            radius = _radius_about(box, axis) if box is not None else None
+            found += [] if radius is None else [radius]
     said = {told.value / per_radius, told.meant / per_radius}
     if any(abs(one - radius) <= part * radius for radius in found for one in said):
         return
@@ -181,7 +190,7 @@ def _span(robot: Robot, wheel: Wheel, along: Vector) -> tuple[float, float] | No
     """From where to where a wheel lies along a direction of the root's frame [m]."""
     link = robot.link[wheel.name]
     reach = reaches(robot)
-    box = reach.shapes(link.collisions) or reach.shapes(link.visuals)
+    box = reach.body(link, "collisions") or reach.body(link, "visuals")
     if box is None:
         return None
     (a, b, c), (d, e, f) = box

@@ -9,7 +9,7 @@ from ...model.elements import Plugin, Robot
 from ...source.document import Element
 from ..rule import ERROR, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean
+from ..words import did_you_mean, quoted
 from .systems import CLASSIC, REPLACEMENTS, SYSTEMS
 
 _GZ = ("gz-sim-", "libgz-sim-", "ignition-gazebo-", "libignition-gazebo-", "gz_ros2_control")
@@ -174,60 +174,80 @@ def plugin_unknown_entity(robot: Robot) -> Iterator[Problem]:
     """A plugin names a joint or link that is not there.
 
     A drive that does not find its wheels says so once in the log, among much else, and does nothing
-    when it is told to go.
+    when it is told to go. The joint state publisher of Gazebo Classic takes several names with
+    commas between them, of which those are reported that are missing. The systems of new Gazebo
+    take one name in each element, and the element several times.
     """
     for plugin in robot.plugins:
         library = plugin.filename.rpartition("/")[2]
         if not library.startswith((*CLASSIC, *_GZ)):
             continue
         for child in plugin.element.children:
-            name = child.text.strip().rpartition("::")[2]
-            if not name or is_unexpanded(name) or child.children or name in ("world", "map"):
+            text = child.text.strip()
+            kind = "joint" if child.tag in _JOINTS else "link" if child.tag in _LINKS else ""
+            if not kind or child.children or is_unexpanded(text):
                 continue
-            if child.tag in _JOINTS and name not in robot.joint:
-                yield _unknown(plugin, child.tag, name, "joint", [*robot.joint], child)
-            elif child.tag in _LINKS and name not in robot.link:
-                yield _unknown(plugin, child.tag, name, "link", [*robot.link], child)
+            known = [*robot.joint] if kind == "joint" else [*robot.link]
+            names = [part.rpartition("::")[2] for part in re.split(r"[,\s]+", text) if part]
+            if len(names) > 1 and text.rpartition("::")[2] in known:
+                continue
+            missing = [name for name in names if name not in (*known, "world", "map")]
+            if len(names) > 1 and library.startswith(_GZ):
+                yield Problem(
+                    plugin.element,
+                    f"<{child.tag}> of plugin '{plugin.name}' takes one {kind} and names several, "
+                    f"'{text}'; write one <{child.tag}> for each",
+                    at=child,
+                )
+            elif missing:
+                yield _unknown(plugin, child, missing, kind, known, len(names) > 1)
 
 
 def _unknown(
-    plugin: Plugin, tag: str, name: str, kind: str, known: list[str], at: Element
+    plugin: Plugin, at: Element, missing: list[str], kind: str, known: list[str], of_list: bool
 ) -> Problem:
-    if "," in name or " " in name:
-        parts = [part for part in re.split(r"[,\s]+", name) if part]
-        name = next((part for part in parts if part not in known), parts[0])
+    verb = "lists" if of_list else "is"
+    kinds = f"such {kind}s" if len(missing) > 1 else f"such {kind}"
+    there = "there are no" if len(missing) > 1 else "there is no"
     return Problem(
         plugin.element,
-        f"<{tag}> of plugin '{plugin.name}' is '{name}', and there is no such {kind}"
-        + did_you_mean(name, known),
+        f"<{at.tag}> of plugin '{plugin.name}' {verb} {quoted(missing)}, and {there} {kinds}"
+        + did_you_mean(missing[0], known),
         at=at,
     )
 
 
 @rule(
-    ERROR,
+    WARNING,
     effects={
+        "gazebo_ros": "of ROS 2 makes no second node of one name, and the plugin gets none",
         "gz, gazebo-classic": "load both (sdformat 12.3)",
     },
 )
-def duplicate_plugin_name(robot: Robot) -> Iterator[Problem]:
+def duplicate_plugin_name(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """Two plugins of the model have one name.
 
-    SDF wants names of siblings to differ. For new Gazebo the name is the class and two of one class
-    are right; there it is not told.
+    In ROS 2 the plugins of gazebo_ros call their node by the name of the plugin, and the second of
+    a name gets none: "Found multiple nodes with same name". A namespace for each makes it right.
+    sdformat 12.3 accepts two plugins of one name. For new Gazebo the name is the class, and two of
+    one class are right; there, and for ROS 1, it is not reported.
     """
-    seen: set[str] = set()
+    if "ros1" in targets and "ros2" not in targets:
+        return
+    seen: set[tuple[str, str]] = set()
     for block in robot.gazebo:
         if block.reference:
             continue
         for plugin in block.plugins:
             library = plugin.filename.rpartition("/")[2]
-            if not plugin.name or not library.startswith(CLASSIC):
+            if not plugin.name or not library.startswith("libgazebo_ros"):
                 continue
-            if plugin.name in seen:
+            spaces = [one.text.strip() for one in plugin.element.walk() if one.tag == "namespace"]
+            key = (spaces[0] if spaces else "", plugin.name)
+            if key in seen:
                 yield Problem(
                     plugin.element,
                     f"a second plugin is called '{plugin.name}'; give it a name of its own",
                     at=plugin.element.attribute_place("name"),
                 )
-            seen.add(plugin.name)
+            seen.add(key)

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
+from typing import NamedTuple
 
-from ...model.elements import GazeboExtension, Robot, Sensor
+from ...model.attached import attached_links
+from ...model.elements import GazeboExtension, Link, Robot, Sensor
+from ...model.pose import IDENTITY, Pose, rotation_of_rpy
+from ...model.read import numbers
 from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
 from ..words import did_you_mean, words
 from .lumping import body_of
@@ -21,6 +26,9 @@ _WITH_FRAME = words(
     "camera depth depth_camera rgbd rgbd_camera gpu_lidar gpu_ray lidar ray imu thermal "
     "thermal_camera segmentation segmentation_camera boundingbox boundingbox_camera"
 )
+
+_OPTICS = ("camera", "lidar", "ray")
+"""Elements of a sensor that may have a pose of their own."""
 
 
 def _sensors(robot: Robot) -> Iterator[tuple[GazeboExtension, Sensor]]:
@@ -116,28 +124,82 @@ def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Proble
     """A sensor does not say in which frame it measures.
 
     New Gazebo makes up a frame of the names of model, link and sensor; there is none such in TF,
-    and RViz shows nothing. ``<gz_frame_id>`` with the name of the link mends it
-    (``ignition_frame_id`` in Fortress). More than ``together`` sensors are one finding.
+    and RViz shows nothing. ``<gz_frame_id>`` names the right one (``ignition_frame_id`` in
+    Fortress): the link of the sensor where the sensor has no ``<pose>`` of its own, else a link
+    that is fixed at just that pose. Where there is none, one has to be added: the name of the
+    sensor's own link would place its data wrongly. More than ``together`` sensors of a kind are one
+    finding.
     """
-    found = list(without_frame(robot))
-    many = len(found) > together
-    for block, sensor in found[:1] if many else found:
-        others = f" (and {len(found) - 1} more)" if many else ""
-        where = ", and the link of each of the others" if many else ""
-        yield Problem(
-            sensor.element,
-            f"sensor '{sensor.name}'{others} names no frame; "
-            f"write <gz_frame_id>{block.reference}</gz_frame_id>{where}",
-        )
+    for placed in (True, False):
+        found = [one for one in without_frame(robot) if (one.frame is not None) is placed]
+        many = len(found) > together
+        for sensor in found[:1] if many else found:
+            others = f" (and {len(found) - 1} more)" if many else ""
+            name = f"sensor '{sensor.sensor.name}'{others}"
+            if sensor.frame is None:
+                what = (
+                    f"{name} names no frame, and no link is at its <pose> in "
+                    f"'{sensor.link.name}'; add one there and name it in <gz_frame_id>"
+                )
+            else:
+                where = ", and the link at the pose of each of the others" if many else ""
+                frame = f"<gz_frame_id>{sensor.frame.name}</gz_frame_id>"
+                what = f"{name} names no frame; write {frame}{where}"
+            yield Problem(sensor.sensor.element, what)
 
 
-def without_frame(robot: Robot) -> Iterator[tuple[GazeboExtension, Sensor]]:
-    """Sensors of a link that name no frame, and could."""
+class Frameless(NamedTuple):
+    """A sensor of new Gazebo that names no frame, and could.
+
+    Attributes:
+        sensor: The sensor.
+        link: The link that it is on.
+        frame: The link that is where the sensor is; None where there is none.
+    """
+
+    sensor: Sensor
+    link: Link
+    frame: Link | None
+
+
+def without_frame(robot: Robot) -> Iterator[Frameless]:
+    """List the sensors of links that name no frame."""
     for block, sensor in _sensors(robot):
         if sensor.type in _WITH_FRAME and block.reference in robot.link:
             tags = {child.tag for child in sensor.element.walk()}
             if not tags & {"gz_frame_id", "ignition_frame_id", "optical_frame_id"}:
-                yield block, sensor
+                link = robot.link[block.reference]
+                yield Frameless(sensor, link, _frame_at(robot, link, sensor))
+
+
+def _frame_at(robot: Robot, link: Link, sensor: Sensor) -> Link | None:
+    """Find the link that is where a sensor of a link is; None where there is none."""
+    pose = pose_in_link(sensor)
+    if pose is None:
+        return None
+    found = (
+        other
+        for other, at in attached_links(robot, link)
+        if math.dist(at.translation, pose.translation) < 1e-4
+        and all(math.dist(a, b) < 2e-3 for a, b in zip(at.rotation, pose.rotation, strict=True))
+    )
+    return next(found, None)
+
+
+def pose_in_link(sensor: Sensor) -> Pose | None:
+    """Read the pose of a sensor in its link; None where it is given in another way."""
+    element = sensor.element
+    inner = [child.child("pose") for child in element.children if child.tag in _OPTICS]
+    if any(one is not None and any(numbers(one.text, 6) or (1.0,)) for one in inner):
+        return None  # the camera stands apart from its sensor
+    pose = element.child("pose")
+    if pose is None:
+        return IDENTITY
+    values = numbers(pose.text, 6)
+    if values is None or pose.attributes:
+        return None
+    x, y, z, roll, pitch, yaw = values
+    return Pose(rotation_of_rpy((roll, pitch, yaw)), (x, y, z))
 
 
 @rule(

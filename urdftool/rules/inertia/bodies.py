@@ -1,7 +1,11 @@
-"""Rigid bodies as Gazebo makes them: a link with all that is fixed to it."""
+"""Rigid bodies as simulators make them: a link with all that is fixed to it, and its inertia."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
+from ...model.attached import attached_links
+from ...model.body_inertia import BodyInertia, combined_inertia
 from ...model.elements import Link, Robot
 
 _KEEPERS = ("preserveFixedJoint", "disableFixedJointLumping")
@@ -35,3 +39,16 @@ def bodies(robot: Robot) -> dict[str, list[Link]]:
 def mass_of(links: list[Link]) -> float:
     """What a rigid body weighs [kg]."""
     return sum(link.mass for link in links)
+
+
+def body_inertia(robot: Robot, links: Iterable[Link]) -> BodyInertia:
+    """Add up the mass properties of the links of one body, in the frame of its first link.
+
+    Args:
+        robot: The robot.
+        links: Links of one body of :func:`bodies`, the topmost first.
+    """
+    members = list(links)
+    names = {link.name for link in members}
+    around = attached_links(robot, members[0])
+    return combined_inertia([(link, pose) for link, pose in around if link.name in names])

@@ -8,12 +8,13 @@ from collections.abc import Iterator
 from ...model.bounds import Bounds
 from ...model.elements import Collision, Inertial, Link, Mesh, Robot, Visual
 from ...model.inertia_slips import is_possible, shifted_to_com
+from ...model.mass_fit import spread_ratio
 from ...model.pose import pose_of, transpose
 from ...model.tensor3 import Six, turned
 from ..mesh.outlines import reaches
 from ..rule import WARNING, Problem, rule
 from .proposals import attributes_text, proposal_of
-from .solids import solid_tensor, spread_ratio
+from .solids import solid_tensor
 from .tensors import is_zero, tensors
 
 HOLLOW = 1.7
@@ -93,7 +94,8 @@ def about_com(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> S
     written, meant = (sum(one[i] for i in (0, 3, 5)) / 2 / whole for one in (tensor, shifted))
     if written < max(HOLLOW, 2 * meant) or not PLAUSIBLE[0] <= meant <= PLAUSIBLE[1]:
         return None
-    if spread_ratio(box, inertial, 0.01)[0] > BEYOND or _explains_products(tensor, shifted):
+    ratio, _ = spread_ratio(box, mass, pose.translation, tensor)
+    if ratio > BEYOND or _explains_products(tensor, shifted):
         return right
     return None
 

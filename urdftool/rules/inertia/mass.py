@@ -8,11 +8,12 @@ from collections.abc import Iterator
 from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
 from ...source.document import Element
-from ..mesh.outlines import reaches
+from ..mesh.outlines import Reaches, reaches
 from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
 from .bodies import bodies, mass_of
 from .solids import solid_volume
+from .tensors import six_of
 
 _SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
@@ -82,40 +83,51 @@ def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
     group="robot",
 )
 def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A link's mass is 0.
+    """A rigid body has mass 0, or a link of mass 0 has an inertia.
 
-    Nothing that moves weighs nothing. Gazebo leaves out such a link with all below, MuJoCo refuses
-    it, PyBullet bolts a base of zero mass to the world. A frame needs no ``<inertial>``.
+    A body that moves has a mass. Gazebo removes one without and everything below it, MuJoCo rejects
+    the file, PyBullet never moves it. What counts is the body: a link of mass 0 that is fixed to
+    one with a mass is merged into it and keeps its shapes, which is how a link says that it adds no
+    mass. A root of mass 0 is PyBullet's way to say that a model is static: it is an error for
+    Gazebo, and of a robot with joints that move a remark. An inertia next to a mass of 0 is added
+    to the body by Gazebo and pinocchio, and Drake makes such a link weigh 1 kg.
     """
     zero = [link for link in robot.links if link.inertial and link.inertial.mass == 0.0]
     if not zero:
         return
     body = {link.name: links for links in bodies(robot).values() for link in links}
     for link in zero:
-        if link.name == "world":
+        if link.name == "world" or link.inertial is None:
             continue
         links = body.get(link.name, [link])
         joint = robot.tree.parent_joint(links[0].name)
-        alone = mass_of(links) <= 0
+        mass = link.inertial.element.child("mass")
+        at = mass.attribute_place("value") if mass is not None else None
+        if mass_of(links) > 0:
+            tensor = link.inertial.inertia
+            if tensor is not None and any(six_of(tensor)):
+                yield Problem(
+                    link,
+                    f"mass of link '{link.name}' is 0 and its inertia is not; write its mass, or "
+                    "an inertia of zeros",
+                    at=at,
+                )
+            continue
+        if link is not next(one for one in links if one in zero):
+            continue  # one finding for a body
         moved = joint is not None and not joint.is_fixed
-        if alone and not targets.isdisjoint(GAZEBO):
-            severity, so = ERROR, "Gazebo leaves it out, with all that hangs on it"
-        elif alone and moved and "mujoco" in targets:
-            severity, so = ERROR, "MuJoCo rejects it"
-        elif link.collisions and alone and joint is not None:
-            severity, so = ERROR, "write what it weighs"
-        elif alone and moved:
-            severity, so = WARNING, "write what it weighs"
-        elif link.collisions or link.visuals:
-            severity, so = WARNING, "write what it weighs, or take the <inertial> out"
+        if not targets.isdisjoint(GAZEBO):
+            severity, so = ERROR, "Gazebo removes the link and everything attached to it"
+        elif moved and "mujoco" in targets:
+            severity, so = ERROR, "MuJoCo rejects the file"
+        elif moved:
+            severity, so = ERROR if link.collisions else WARNING, "a body that moves has a mass"
+        elif robot.moving_joints and targets != {"pybullet"}:
+            severity, so = INFO, "PyBullet takes the robot as static, and Gazebo removes it"
         else:
-            severity, so = INFO, "a frame needs no <inertial>"
-        mass = link.inertial.element.child("mass") if link.inertial else None
+            continue
         yield Problem(
-            link,
-            f"mass of link '{link.name}' is 0; {so}",
-            at=mass.attribute_place("value") if mass is not None else None,
-            severity=severity,
+            link, f"mass of link '{link.name}' is 0; {so}. Write its mass", at=at, severity=severity
         )
 
 
@@ -214,6 +226,8 @@ def implausible_density(
             continue
         if in_box and least_possible <= density < least:
             continue
+        if _is_right_for_body(reach, link, density, least, most_of_box):
+            continue
         impossible = density > most_possible or density < least_possible
         box = reach.link(link)
         if box is None or max(box.size) < small:
@@ -241,6 +255,24 @@ def implausible_density(
 def _is_fixed(robot: Robot, link: Link) -> bool:
     joint = robot.tree.parent_joint(link.name)
     return joint is not None and joint.is_fixed
+
+
+def _is_right_for_body(
+    reach: Reaches, link: Link, density: float, least: float, most: float
+) -> bool:
+    """Whether a link of an odd density is a part of a body that is not odd.
+
+    Its mass is that of attached links without one, or most of the mass has a link of its own.
+    """
+    attached = reach.attached(link)[1:]
+    if not attached:
+        return False
+    if density < least:
+        return any(other.mass >= link.mass for other, _ in attached)
+    own = reach.link(link)
+    box = reach.meant(link, own) if own is not None else None
+    volume = math.prod(box.size) if box is not None else 0.0
+    return box is not own and (volume <= 0 or link.mass / volume <= most)
 
 
 def _density(box: Bounds | None, link: Link, mass: float) -> tuple[float | None, bool]:

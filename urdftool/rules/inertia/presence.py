@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...model.attached import attached_links, is_fixed_to_world
 from ...model.elements import Link, Robot
 from ..rule import ERROR, GAZEBO, INFO, ROS, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_children
@@ -12,7 +13,7 @@ from .solids import solid_volume
 
 _SIMULATED = ("gazebo-classic", "gz", "mujoco")
 _MARKER = 1e-3  # [kg]
-_LOST = "Gazebo leaves it out, with all that hangs on it"
+_REMOVED = "Gazebo removes it and everything attached to it"
 
 
 @rule(
@@ -30,39 +31,49 @@ _LOST = "Gazebo leaves it out, with all that hangs on it"
     group="robot",
 )
 def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
-    """A link that is seen or touches has no ``<inertial>``.
+    """A link with a shape has no ``<inertial>``.
 
-    A body without mass cannot be accelerated, and every simulator makes something else of it:
-    Gazebo leaves out the link with everything below, PyBullet makes it weigh one kilogram, MuJoCo
-    fills its collision shapes with water. A mere frame needs none, and a marker that would weigh
-    less than a gram is an info where nobody gives it more.
+    A body without mass cannot be accelerated, and each simulator substitutes something else: Gazebo
+    removes the body with everything below, PyBullet takes one kilogram, MuJoCo fills the collision
+    shapes with water. Where a fixed joint attaches the link to one with a mass, it is only a
+    remark, except for PyBullet and MuJoCo, which substitute a mass there as well. A frame without
+    shapes needs none; PyBullet gives it a kilogram nevertheless. A marker that would weigh less
+    than a gram is an info where no simulator gives it more.
     """
     in_gazebo = not targets.isdisjoint(GAZEBO)
-    heavy = _links_with_mass(robot) if in_gazebo else frozenset()
+    tops: dict[str, Link] | None = None
     for link in robot.links:
         if link.inertial is not None or link.is_frame or link.name == "world":
             continue
         if "inertial" in misspelt_children(link.element).values():
             continue
-        joint = robot.tree.parent_joint(link.name)
+        if tops is None:
+            found = bodies(robot).values()
+            tops = {one.name: links[0] for links in found for one in links}
+            heavy = {one.name for links in found if mass_of(links) > 0 for one in links}
+        joint = robot.tree.parent_joint(tops.get(link.name, link).name)
+        moves = joint is not None and not joint.is_fixed
+        held = is_fixed_to_world(robot, link)
         if in_gazebo and link.name not in heavy:
-            severity, so = ERROR, f"; {_LOST}"
-            several = "; Gazebo leaves them out, with all that is fixed or joined to them"
-        elif "pybullet" in targets:
-            severity, so = ERROR, "; PyBullet makes it weigh 1 kg"
+            severity, so = ERROR, f"; {_REMOVED}"
+            several = "; Gazebo removes them and everything attached to them"
+        elif "pybullet" in targets and not held:
+            severity, so = ERROR, "; PyBullet gives it 1 kg"
             several = "; PyBullet gives each of them 1 kg"
-        elif "mujoco" in targets and link.collisions:
+        elif "mujoco" in targets and link.collisions and moves:
             severity = INFO if _is_marker(link) else ERROR
-            so = "; MuJoCo makes it as heavy as water"
+            so = "; MuJoCo gives it the mass of water"
             several = "; MuJoCo gives each of them the density of water"
-        elif in_gazebo and joint is not None and joint.is_fixed:
-            severity, so = INFO, f" and adds nothing to '{joint.parent}', which it is fixed to"
-            several = " and add nothing to the links that they are fixed to"
+        elif link.name in heavy:
+            others = [one for one, _ in attached_links(robot, link) if one.mass > 0]
+            severity, so = INFO, f" and adds no mass to '{others[0].name}', which it is fixed to"
+            several = " and add no mass to the links that they are fixed to"
+        elif held:
+            severity, so = INFO, " and is fixed to the world, where its mass has no effect"
+            several = " and are fixed to the world, where their mass has no effect"
         else:
-            fixed = joint is not None and joint.is_fixed
-            severity = INFO if fixed and _is_marker(link) else WARNING
-            so = ", so it weighs nothing"
-            several = ", so they have no mass"
+            severity, so = WARNING, " and so has no mass"
+            several = " and so have no mass"
         yield Problem(
             link,
             f"link '{link.name}' has no <inertial>{so}",
@@ -77,12 +88,6 @@ def _is_marker(link: Link) -> bool:
     shapes = link.collisions or link.visuals
     volumes = [solid_volume(shape.geometry) for shape in shapes]
     return all(volumes) and 1000 * sum(volumes) < _MARKER
-
-
-def _links_with_mass(robot: Robot) -> frozenset[str]:
-    return frozenset(
-        link.name for links in bodies(robot).values() if mass_of(links) > 0 for link in links
-    )
 
 
 @rule(
@@ -205,10 +210,13 @@ def root_link_has_inertia(robot: Robot) -> Iterator[Problem]:
     default=False,
 )
 def mass_without_geometry(robot: Robot) -> Iterator[Problem]:
-    """A link has a mass and no shape.
+    """A rigid body has a mass and no shape.
 
-    Sensor frames get a gram to survive Gazebo; otherwise a visual was forgotten.
+    Sensor frames get a gram to survive Gazebo; otherwise a visual was forgotten. A link whose mass
+    belongs to the shapes of a link that is fixed to it is not reported.
     """
     for link in robot.links:
-        if link.mass > 0 and not link.visuals and not link.collisions:
+        if link.mass <= 0 or link.visuals or link.collisions:
+            continue
+        if not any(one.visuals or one.collisions for one, _ in attached_links(robot, link)):
             yield Problem(link, f"link '{link.name}' weighs {link.mass:g} kg and has no shape")

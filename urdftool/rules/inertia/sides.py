@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ...model.attached import attached_links
+from ...model.body_inertia import BodyInertia, combined_inertia
 from ...model.elements import Link, Robot, Vector
-from ...model.pose import rotate, transpose
+from ...model.pose import norm, rotate, transpose
 from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
 from ..sides import Pair, Sides, family_of, sides, twin_of
@@ -36,7 +38,8 @@ def left_right_asymmetry(
     They are told by their names, such as ``left_arm`` and ``right_arm``. One of the two was changed
     alone, or mistyped. What is compared does not depend on how their frames are turned: the mass,
     how far the centre of mass is from the frame, and the sum of the moments; each may differ by the
-    part that its threshold says.
+    part that its threshold says. Links that are parts of two rigid bodies are not reported where
+    the bodies mirror each other as a whole.
     """
     for link in robot.links:
         name = twin_of(link.name, robot.link)
@@ -45,6 +48,13 @@ def left_right_asymmetry(
             continue
         if link.mass <= 0 or other.mass <= 0:
             continue
+        bodies = _bodies(robot, link, other)
+        if bodies is not None and not (
+            _differ(bodies[0].mass, bodies[1].mass, mass_difference)
+            or _differ(norm(bodies[0].com), norm(bodies[1].com), com_difference)
+            or _differ(_trace(bodies[0]), _trace(bodies[1]), inertia_difference)
+        ):
+            continue  # the bodies that they are parts of mirror each other
         if _differ(link.mass, other.mass, mass_difference):
             yield Problem(
                 other,
@@ -70,6 +80,19 @@ def left_right_asymmetry(
                 f"'{link.name}', which is its mirror image",
                 at=other.inertial.inertia or other.inertial,
             )
+
+
+def _bodies(robot: Robot, link: Link, other: Link) -> tuple[BodyInertia, BodyInertia] | None:
+    """Add up the bodies of two links; None where they are one, or no more than the links."""
+    first, second = attached_links(robot, link), attached_links(robot, other)
+    if len(first) == len(second) == 1 or any(one is other for one, _ in first):
+        return None
+    return combined_inertia(first), combined_inertia(second)
+
+
+def _trace(body: BodyInertia) -> float:
+    """Sum the moments of a body [kg·m²]."""
+    return body.tensor[0] + body.tensor[3] + body.tensor[5]
 
 
 def _differ(one: float, other: float, part: float) -> bool:

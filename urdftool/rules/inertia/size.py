@@ -4,15 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
+from ...model.bounds import Bounds
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
-from ...model.tensor3 import Six
+from ...model.mass_fit import (
+    ALLOWED,
+    CERTAIN,
+    MARGIN,
+    ROUNDING,
+    misfit_of_com,
+    misfit_of_spread,
+)
+from ...model.pose import pose_of
+from ...model.tensor3 import Six, turned
 from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
 from .density import outlier
 from .frame import about_com
 from .proposals import remedy_text
-from .solids import centre_of_solids, solid_moments, solid_text, spread_ratio
+from .solids import centre_of_solids, solid_moments, solid_text
 from .tensors import is_positive, is_zero, moments_of, six_of, tensors
 
 _SIZE_IN_DOUBT = ("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line")
@@ -75,15 +86,21 @@ def _is_placeholder(link: Link, six: Six) -> bool:
     group="robot",
 )
 def inertia_exceeds_geometry(
-    robot: Robot, *, allowed: float = 1.1, rounding: float = 0.01, certain: float = 10.0
+    robot: Robot,
+    *,
+    allowed: float = ALLOWED,
+    rounding: float = ROUNDING,
+    certain: float = CERTAIN,
 ) -> Iterator[Problem]:
     """An inertia is larger than any body of the link's size can have.
 
     Mass is most spread out along an axis when it sits in two lumps at the ends of the shape, and
     even that gives less. Square millimetres for square metres, grams for kilograms, a mass a tenth
-    of what it should be, or the moment of one axis written for all three do it. Of a mesh the box
-    around it counts; up to ``certain`` times too large is then no more than a remark, as the mesh
-    may leave out what is heavy.
+    of what it should be, or the moment of one axis written for all three do it. The message says
+    how many times as long the shapes would have to be; ``allowed`` and ``certain`` are squares of
+    that. Of a mesh the box around it counts; up to ``certain`` it is then no more than a remark, as
+    the mesh may leave out what is heavy. Shapes of attached links without a mass of their own
+    count, too. ``urdftool inertia robot`` judges in the same way.
     """
     reach = reaches(robot)
     for link, inertial, six in tensors(robot):
@@ -92,19 +109,32 @@ def inertia_exceeds_geometry(
         low, middle, high = moments_of(six)
         if low + middle < high * 0.99:
             continue
-        ratio, axis = spread_ratio(reach.link(link), inertial, rounding)
-        if ratio <= allowed or about_com(link, inertial, six, reach.link(link)) is not None:
-            continue
-        remark = ratio <= certain and _has_mesh(link)
-        fits, _ = spread_ratio(reach.link(link), inertial, rounding, centered=True)
-        yield Problem(
-            link,
-            f"inertia of link '{link.name}' spreads its mass along {'xyz'[axis]} more than its "
-            f"shapes allow, by a factor of {ratio:.2g}{remedy_text(link, inertial, six)}",
-            at=inertial.inertia,
-            severity=INFO if remark else None,
-            caused_by=(*_SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits <= allowed else ())),
+        pose = pose_of(inertial.origin)
+        judge = partial(
+            misfit_of_spread,
+            mass=link.mass,
+            tensor=turned(six, pose.rotation),
+            has_mesh=_has_mesh(link),
+            allowed=allowed,
+            certain=certain,
+            rounding=rounding,
         )
+        box = reach.link(link)
+        if box is None or judge(box, com=pose.translation) is None:
+            continue
+        if about_com(link, inertial, six, box) is not None:
+            continue
+        box = reach.meant(link, box)
+        found = judge(box, com=pose.translation) if box is not None else None
+        if found is not None and box is not None:
+            fits = judge(box, com=box.centre) is None
+            yield Problem(
+                link,
+                f"inertia of link '{link.name}' {found.sentence}{remedy_text(link, inertial, six)}",
+                at=inertial.inertia,
+                severity=None if found.certain else INFO,
+                caused_by=(*_SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits else ())),
+            )
 
 
 def _has_mesh(link: Link) -> bool:
@@ -166,7 +196,7 @@ def inertia_below_geometry(robot: Robot, *, least: float = 0.12) -> Iterator[Pro
     caused_by=_SIZE_IN_DOUBT,
 )
 def com_outside_geometry(
-    robot: Robot, *, margin: float = 0.02, together: float = 6
+    robot: Robot, *, margin: float = MARGIN, together: float = 6
 ) -> Iterator[Problem]:
     """A link's centre of mass is outside the box around its shapes.
 
@@ -174,7 +204,8 @@ def com_outside_geometry(
     elsewhere; the link then falls to a side it should not. ``margin`` is the part of the box's
     diagonal that is let pass, of a mesh twice that. A mesh often shows the cover and not the motor
     that weighs most, so there it is a warning only beyond half a diagonal; more than ``together``
-    that are none are one finding, which names the links.
+    that are none are one finding, which names the links. Shapes of attached links without a mass of
+    their own count, too.
     """
     remarks: list[tuple[Problem, str]] = []
     reach = reaches(robot)
@@ -185,29 +216,24 @@ def com_outside_geometry(
         box = reach.link(link)
         if box is None:
             continue
-        lower, upper = box
-        diagonal, has_mesh = math.dist(lower, upper), _has_mesh(link)
-        slack = margin * diagonal * (2 if has_mesh else 1)
-        com = inertial.origin.xyz if inertial.origin is not None else (0.0, 0.0, 0.0)
-        off = [
-            (max(lower[i] - com[i], com[i] - upper[i]), i)
-            for i in range(3)
-            if not lower[i] - slack <= com[i] <= upper[i] + slack
-        ]
-        if off:
-            distance, axis = max(off)
-            less = has_mesh and distance < diagonal / 2
-            problem = Problem(
-                link,
-                f"centre of mass of link '{link.name}' is {distance:.3g} m outside its shapes "
-                f"along {'xyz'[axis]}; they reach from {lower[axis]:.4g} to {upper[axis]:.4g} m",
-                at=inertial.origin if inertial.origin is not None else inertial,
-                severity=INFO if less else None,
-            )
-            if less:
-                remarks.append((problem, f"'{link.name}' by {distance:.3g} m along {'xyz'[axis]}"))
-            else:
-                yield problem
+        com, has_mesh = pose_of(inertial.origin).translation, _has_mesh(link)
+        if misfit_of_com(box, com, has_mesh, margin=margin) is None:
+            continue
+        box = reach.meant(link, box)
+        found = misfit_of_com(box, com, has_mesh, margin=margin) if box is not None else None
+        if found is None:
+            continue
+        problem = Problem(
+            link,
+            f"centre of mass of link '{link.name}' {found.sentence}",
+            at=inertial.origin if inertial.origin is not None else inertial,
+            severity=None if found.certain else INFO,
+        )
+        if found.certain:
+            yield problem
+        else:
+            what = f"'{link.name}' by {found.amount:.3g} m along {'xyz'[found.axis]}"
+            remarks.append((problem, what))
     if len(remarks) > together:
         remarks[0][0].message += f"; so are those of {', '.join(said for _, said in remarks[1:])}"
         del remarks[1:]
@@ -240,24 +266,30 @@ def inertial_not_at_com_suspect(robot: Robot, *, far: float = 0.2) -> Iterator[P
         if inertial.inertia is not None and _is_placeholder(link, six_of(inertial.inertia)):
             continue  # all of it is made up, which is said
         box = reach.link(link)
-        if box is None:
+        if box is None or not _is_off_centre(link, box, far):
             continue
-        lower, upper = box
-        slack = 0.02 * math.dist(lower, upper)
-        if max(lower) - slack > 0 or min(upper) + slack < 0:
-            continue  # the centre of mass is outside, which is more than a suspicion
-        centre = box.centre
-        solid = centre_of_solids(link)
-        if solid is not None and math.hypot(*solid) <= far * math.dist(lower, upper):
-            continue  # what lies to one side is thin
-        if math.hypot(*centre) > far * math.dist(lower, upper):
-            shown = " ".join(f"{value:.4g}" for value in centre)
-            yield Problem(
-                link,
-                f"mass of link '{link.name}' is at its frame, while its shapes are centred at "
-                f"{shown}; write that as the <origin> of its <inertial>",
-                at=inertial.origin if inertial.origin is not None else inertial,
-            )
+        around = reach.meant(link, box)
+        if around is None or not _is_off_centre(link, around, far):
+            continue
+        shown = " ".join(f"{value:.4g}" for value in box.centre)
+        yield Problem(
+            link,
+            f"mass of link '{link.name}' is at its frame, while its shapes are centred at "
+            f"{shown}; write that as the <origin> of its <inertial>",
+            at=inertial.origin if inertial.origin is not None else inertial,
+        )
+
+
+def _is_off_centre(link: Link, box: Bounds, far: float) -> bool:
+    """Whether the frame of a link is inside a box and far from its middle."""
+    lower, upper = box
+    slack = 0.02 * math.dist(lower, upper)
+    if max(lower) - slack > 0 or min(upper) + slack < 0:
+        return False  # the centre of mass is outside, which is more than a suspicion
+    solid = centre_of_solids(link)
+    if solid is not None and math.hypot(*solid) <= far * math.dist(lower, upper):
+        return False  # what lies to one side is thin
+    return math.hypot(*box.centre) > far * math.dist(lower, upper)
 
 
 @rule(
@@ -287,6 +319,9 @@ def radius_of_gyration(
         if high <= 0:
             continue
         radius = math.sqrt(high / mass)
+        around = reach.body(link)
+        if around is not None and radius <= math.dist(*around):
+            continue  # it is that of the body
         if radius > largest:
             remedy = "; if it is in kg·mm², divide it by 1e6" if radius > 10 else ""
         elif radius < smallest and mass > heavy:

@@ -12,7 +12,6 @@ from ...model.elements import (
     Collision,
     Cylinder,
     Geometry,
-    Inertial,
     Link,
     Sphere,
     Vector,
@@ -134,37 +133,3 @@ def solid_text(link: Link) -> str:
     x, y, z = moments
     tag = shape.geometry.element.tag
     return f"; a solid {tag} of {link.mass:g} kg has ixx {x:.4g}, iyy {y:.4g}, izz {z:.4g}"
-
-
-def spread_ratio(
-    box: Bounds | None, inertial: Inertial, rounding: float, *, centered: bool = False
-) -> tuple[float, int]:
-    """By how much a mass is spread wider than the box around it allows, and along which axis.
-
-    Mass within an interval [lo, hi] with its mean at c has a variance of at most (hi − c)(c − lo)
-    (Bhatia and Davis, "A Better Bound on the Variance", 2000). The variance along an axis is the
-    second moment ½ tr(I) − Iₐₐ over the mass. Above 1 is impossible for a body inside its shapes.
-    Of a plate the difference is small and lost in rounding, so that part of ½ tr(I) is allowed.
-
-    Args:
-        box: The box around the shapes, in the link frame.
-        inertial: The mass, its place and its tensor.
-        rounding: The part of ½ tr(I) that is allowed in addition.
-        centered: Whether to take the mean in the middle of the box instead of where it is.
-    """
-    tensor, mass = inertial.inertia, inertial.mass
-    if box is None or tensor is None or not mass or mass < 0:
-        return 0.0, 0
-    pose = pose_of(inertial.origin)
-    xx, _, _, yy, _, zz = turned(
-        (tensor.ixx, tensor.ixy, tensor.ixz, tensor.iyy, tensor.iyz, tensor.izz), pose.rotation
-    )
-    half_trace = (xx + yy + zz) / 2
-    worst = (0.0, 0)
-    for i, moment in enumerate((xx, yy, zz)):
-        low, high = box[0][i], box[1][i]
-        centre = (low + high) / 2 if centered else pose.translation[i]
-        room = (high - centre) * (centre - low) * mass + rounding * half_trace
-        if low < centre < high and room > 0:
-            worst = max(worst, ((half_trace - moment) / room, i))
-    return worst

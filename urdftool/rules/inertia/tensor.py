@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
-from ...model.elements import Inertial, Robot, Vector
+from ...model.attached import is_fixed_to_world
+from ...model.elements import Inertial, Link, Robot, Vector
+from ...model.kinematics import MOVABLE, limits_of, link_poses
+from ...model.pose import Pose
 from ...model.tensor3 import Six
 from ...source.location import Place
 from ..rule import ERROR, INFO, WARNING, Problem, rule
-from .bodies import bodies, mass_of
+from .bodies import bodies, body_inertia, mass_of
+from .joint_inertia import joint_inertia
 from .proposals import remedy_text
 from .slips import slip_of
 from .solids import solid_text
-from .tensors import SIX, is_positive, is_zero, moments_of, tensors
+from .tensors import SIX, is_positive, is_zero, moments_of, six_of, tensors
 
 _REJECTED = {
     "gz, gazebo-classic": "reject the model (Error 18)",
@@ -130,21 +135,32 @@ def inertia_triangle_inequality_rounding(
     of_motion=True,
     group="robot",
 )
-def zero_inertia(robot: Robot) -> Iterator[Problem]:
-    """A link has a mass and no inertia: all six numbers are 0.
+def zero_inertia(robot: Robot, *, part: float = 0.25) -> Iterator[Problem]:
+    """A rigid body has a mass and no inertia: all six numbers are 0.
 
-    That is a point. The slightest torque turns it infinitely fast, so a joint that turns it shakes
-    or blows up. What is below the mass times (10 µm)² is rounding, and counts as 0.
+    That is a point, and the slightest torque about it turns it infinitely fast. What counts is the
+    body: a point mass that is fixed to a link with an inertia is added to it, which does no harm,
+    and one that is fixed to the world never turns. A link that makes up at least ``part`` of the
+    mass of such a body is a remark, as its body then turns too easily. What is below the mass times
+    (10 µm)² is rounding, and counts as 0.
     """
-    for link, inertial, six in tensors(robot):
-        if is_zero(six, link.mass):
-            nothing = "as good as zero" if any(six) else "zero"
-            yield Problem(
-                link,
-                f"inertia of link '{link.name}' is {nothing}, though it weighs {link.mass:g} kg"
-                f"{solid_text(link) or '; urdftool inertia computes it'}",
-                at=inertial.inertia,
-            )
+    zero = [found for found in tensors(robot) if is_zero(found[2], found[0].mass)]
+    if not zero:
+        return
+    whole = {link.name: links for links in bodies(robot).values() for link in links}
+    for link, inertial, six in zero:
+        links = whole.get(link.name, [link])
+        is_part = len(links) > 1 and not body_inertia(robot, links).is_thin
+        if (is_part and link.mass < part * mass_of(links)) or is_fixed_to_world(robot, link):
+            continue
+        nothing = "as good as zero" if any(six) else "zero"
+        yield Problem(
+            link,
+            f"inertia of link '{link.name}' is {nothing}, though it weighs {link.mass:g} kg"
+            f"{solid_text(link) or '; urdftool inertia computes it'}",
+            at=inertial.inertia,
+            severity=INFO if is_part else None,
+        )
 
 
 @rule(
@@ -158,11 +174,13 @@ def zero_inertia(robot: Robot) -> Iterator[Problem]:
     group="robot",
 )
 def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Problem]:
-    """An inertia tensor is zero about one axis.
+    """A rigid body's inertia tensor is zero about one axis.
 
     Only an infinitely thin rod is like that. About this axis the slightest torque accelerates the
-    link beyond all bounds.
+    body beyond all bounds. A thin part that is fixed to a link with an inertia is not reported, nor
+    one that is fixed to the world.
     """
+    whole: dict[str, list[Link]] | None = None
     for link, inertial, six in tensors(robot):
         moments = low, middle, high = moments_of(six)
         if (
@@ -173,6 +191,15 @@ def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Proble
         ):
             continue
         if low + middle < high * 0.99:
+            continue
+        if whole is None:
+            whole = {one.name: links for links in bodies(robot).values() for one in links}
+        links = whole.get(link.name, [link])
+        if len(links) > 1:
+            least, _, most = moments_of(body_inertia(robot, links).tensor)
+            if least > smallest * most:
+                continue
+        if is_fixed_to_world(robot, link):
             continue
         yield Problem(
             link,
@@ -190,37 +217,77 @@ def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Proble
     },
 )
 def tiny_moving_inertia(
-    robot: Robot, *, smallest: float = 1e-7, lightest: float = 1e-3
+    robot: Robot,
+    targets: frozenset[str],
+    *,
+    smallest: float = 1e-7,
+    lightest: float = 1e-3,
+    step: float = 0.001,
 ) -> Iterator[Problem]:
-    """A joint moves a body with next to no inertia.
+    """A joint moves next to no inertia, with a damping or an effort that is far too large for it.
 
-    A simulator steps in milliseconds. What the smallest force throws over the stop within one step
-    shakes, and shakes the robot with it.
+    A small inertia alone does no harm: PyBullet and MuJoCo ran a link of 1e-13 kg·m² for two
+    seconds against its stops, at steps of 1 ms and 4 ms, and position motors hold it. Two things
+    make it diverge. PyBullet integrates damping explicitly and begins to oscillate at
+    I = d·Δt/2 (measured at d = 0.001 to 0.1 and 1 to 5 ms, within 1 %); MuJoCo does not, except
+    with RK4, at I = 0.36·d·Δt. A torque E moves the joint by E·Δt²/I within a step; a
+    controller that sets the torque at each step and reaches E at an error of 0.1 rad settles where
+    that is 0.01 rad and oscillates where it is 0.1 rad, in both.
+
+    I is the inertia about the axis of all that the joint carries, with all that carries it in
+    series; for a prismatic joint the mass. Reported are joints below ``smallest`` [kg·m²] or
+    ``lightest`` [kg] whose effort limit moves them over their whole range, or a turn, within one
+    ``step`` [s], and with the target pybullet those whose damping is too large.
     """
-    tensor_of = {link.name: (inertial, six) for link, inertial, six in tensors(robot)}
-    for name, links in bodies(robot).items():
-        joint = robot.tree.parent_joint(name)
-        if joint is None or joint.is_fixed:
+    poses: dict[str, Pose] | None = None
+    whole: dict[str, list[Link]] = {}
+    for joint in robot.joints:
+        if joint.type not in MOVABLE or joint.child not in robot.link:
             continue
-        mass = mass_of(links)
-        weighty = [link for link in links if link.mass > 0]
-        if len(weighty) != 1 or weighty[0].name not in tensor_of:
+        slides = joint.type == "prismatic"
+        most = lightest if slides else smallest
+        if poses is None:
+            whole = bodies(robot)
+        links = whole.get(joint.child, [])
+        if not any(link.mass > 0 for link in links) or not _may_be_below(links, most, slides):
             continue
-        link = weighty[0]
-        inertial, six = tensor_of[link.name]
-        low = moments_of(six)[0]
-        if mass < lightest:
-            what = f"weighs {mass:g} kg"
-        elif 0 < low < smallest:
-            what = f"has a moment of {low:.2g} kg·m²"
+        poses = poses or link_poses(robot)
+        inertia = joint_inertia(robot, joint, poses) if joint.child in poses else 0.0
+        if not 0 < inertia < most:
+            continue
+        damping = (joint.dynamics.damping or 0.0) if joint.dynamics is not None else 0.0
+        effort = (joint.limit.effort or 0.0) if joint.limit is not None else 0.0
+        lower, upper = limits_of(joint)
+        reach = min(upper - lower, math.inf if slides else 2 * math.pi)
+        unit, force, way = ("kg", "N", "m") if slides else ("kg·m²", "N·m", "rad")
+        thrown = effort * step**2 / inertia
+        if "pybullet" in targets and damping * step > 2 * inertia:
+            least = damping * step / 2
+            why = f"its damping of {damping:g} makes it oscillate in PyBullet at {step * 1e3:g} ms"
+        elif 0 < reach < thrown:
+            least = effort * step**2 / reach
+            why = (
+                f"its effort limit of {effort:g} {force} moves it by {thrown:.2g} {way} within a "
+                f"step of {step * 1e3:g} ms"
+            )
         else:
             continue
+        link = next(link for link in links if link.mass > 0)
         yield Problem(
             link,
-            f"link '{link.name}' is moved by joint '{joint.name}' and {what}, too little for a "
-            f"simulator; write at least {lightest:g} kg and {smallest:g} kg·m²",
-            at=inertial.inertia,
+            f"joint '{joint.name}' moves an inertia of only {inertia:.2g} {unit}, and {why}. "
+            f"Raise the inertia of link '{link.name}' above {least:.2g} {unit}, or lower the other",
+            at=(link.inertial.inertia or link.inertial) if link.inertial is not None else None,
         )
+
+
+def _may_be_below(links: list[Link], most: float, slides: bool) -> bool:
+    """Whether the body of a joint's child may have so little inertia, judged without its axis."""
+    if slides:
+        return mass_of(links) < most
+    tensors_of = [link.inertial.inertia for link in links if link.inertial is not None]
+    lows = [moments_of(six_of(one))[0] for one in tensors_of if one is not None]
+    return min(lows, default=0.0) < most
 
 
 def _shown(moments: Vector) -> str:

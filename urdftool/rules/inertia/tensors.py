@@ -13,7 +13,7 @@ SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 def six_of(inertia: Inertia) -> Six:
     """Its six numbers."""
-    return inertia.ixx, inertia.ixy, inertia.ixz, inertia.iyy, inertia.iyz, inertia.izz
+    return inertia.six
 
 
 def tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, Six]]:

@@ -10,10 +10,10 @@ from ..unexpanded import is_unexpanded
 from ..xml.vocabulary_table import meant
 
 _ELSEWHERE = {
-    "spherical": "PyBullet alone has it; three revolute joints do the same",
-    "ball": "Drake alone has it; three revolute joints do the same",
-    "universal": "Drake alone has it; two revolute joints do the same",
-    "screw": "Drake and SDF alone have it",
+    "spherical": "only MuJoCo and PyBullet have it; three revolute joints do the same",
+    "ball": "only SDF and Drake's <drake:joint> have it; three revolute joints do the same",
+    "universal": "only SDF and Drake's <drake:joint> have it; two revolute joints do the same",
+    "screw": "only SDF and Drake's <drake:joint> have it",
     "hinge": "write revolute, or continuous without limits",
     "slide": "write prismatic",
     "linear": "write prismatic",
@@ -31,11 +31,11 @@ _ELSEWHERE = {
         "mujoco, pybullet, drake": "reject it, except that MuJoCo and PyBullet know 'spherical'",
     },
 )
-def unknown_joint_type(robot: Robot) -> Iterator[Problem]:
+def unknown_joint_type(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A joint has no type, or one that URDF does not have.
 
-    There are revolute, continuous, prismatic, fixed, floating and planar. Readers refuse the robot
-    for any other word.
+    There are revolute, continuous, prismatic, fixed, floating and planar. Readers reject the robot
+    for any other word; MuJoCo and PyBullet load ``spherical`` nevertheless.
     """
     for joint in robot.joints:
         kind = joint.type
@@ -52,7 +52,10 @@ def unknown_joint_type(robot: Robot) -> Iterator[Problem]:
             continue
         else:
             message = f"joint '{joint.name}' has no type; write type=\"…\""
-        yield Problem(joint, message, at=element.attribute_place("type"))
+        loads = kind == "spherical" and targets and targets <= {"mujoco", "pybullet"}
+        yield Problem(
+            joint, message, at=element.attribute_place("type"), severity=INFO if loads else None
+        )
 
 
 @rule(

@@ -19,20 +19,39 @@ from ..rule import ERROR, INFO, WARNING, Problem, rule
         "drake": "aborts",
     },
 )
-def lower_above_upper(robot: Robot) -> Iterator[Problem]:
+def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A joint's lower limit is above its upper one.
 
-    No position lies between them. Gazebo swaps the two, MuJoCo drops them, PyBullet keeps the empty
-    range, MoveIt plans nothing.
+    No position lies between them, and each reader makes something else of it: PyBullet and MuJoCo
+    take the joint as unlimited, Gazebo swaps the two, Drake aborts, MoveIt plans nothing. In
+    PyBullet's own models ``lower="1" upper="-1"`` is the way to say that there is no limit; there,
+    for no other target, it is a remark. So the two are not swapped where they are whole numbers of
+    that size: a revolute joint without limits is ``continuous``.
     """
     for joint, limit, lower, upper in _bounded(robot):
         if lower > upper:
+            if says_unlimited(lower, upper):
+                so = "PyBullet and MuJoCo take it as unlimited, other readers reject or swap them; "
+                so += (
+                    "make the joint continuous, or write lower below upper"
+                    if joint.type == "revolute"
+                    else "write lower below upper"
+                )
+            else:
+                so = "PyBullet and MuJoCo ignore such limits; swap them"
+            meant = says_unlimited(lower, upper) and targets and targets <= {"pybullet", "mujoco"}
             yield Problem(
                 joint,
-                f"lower limit {lower:g} of joint '{joint.name}' is above the upper {upper:g}; "
-                "swap them",
+                f"lower limit {lower:g} of joint '{joint.name}' is above its upper limit "
+                f"{upper:g}; {so}",
                 at=limit.element.attribute_place("lower"),
+                severity=INFO if meant else None,
             )
+
+
+def says_unlimited(lower: float, upper: float) -> bool:
+    """Whether limits are those by which PyBullet's models say that there is none, as 1 and -1."""
+    return lower in (0.0, 1.0) and upper in (-1.0, 0.0) and lower > upper
 
 
 @rule(

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from ...inputs import Remembered
-from ...model.bounds import Bounds, bounds_of
+from ...model.attached import Attached, attached_links
+from ...model.bounds import Bounds, bounds_at, bounds_of
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
-from ...model.pose import pose_of
+from ...model.pose import IDENTITY, Pose, pose_of
 from ...source.description import GltfUp
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
 if TYPE_CHECKING:
     from ...meshes.outline import Outline
+
+ShapeKind = Literal["visuals", "collisions", "all"]
 
 LARGEST = 10.0  # [m] a mesh that is longer is in millimetres
 SMALLEST = 0.001
@@ -37,10 +40,11 @@ def _outline(key: tuple[Stamp, GltfUp]) -> Outline | None:
     return outline(Path(path), gltf_up)
 
 
-def box_of(use: MeshUse) -> Bounds | None:
-    """The box around a mesh as scaled, in the frame of its link [m]."""
+def box_of(use: MeshUse, pose: Pose = IDENTITY) -> Bounds | None:
+    """The box around a mesh as scaled [m], in the frame in which its link has the given pose."""
     found = outline_of(use)
-    return None if found is None else Bounds(*found.box(use.mesh.scale, *pose_of(use.shape.origin)))
+    at = pose @ pose_of(use.shape.origin)
+    return None if found is None else Bounds(*found.box(use.mesh.scale, *at))
 
 
 class Reaches:
@@ -52,6 +56,7 @@ class Reaches:
         self._uses: dict[int, MeshUse] | None = None
         self._boxes: dict[int, Bounds | None] = {}
         self._links: dict[int, Bounds | None] = {}
+        self._attached: dict[int, Attached] = {}
 
     def use_of(self, shape: Visual | Collision) -> MeshUse | None:
         """The file of a shape that is a mesh."""
@@ -88,16 +93,80 @@ class Reaches:
         return box
 
     def link(self, link: Link) -> Bounds | None:
-        """The box around all that is seen of a link or touches; None where it is not known."""
+        """The box around all that is seen of a link or touches; None where it is not known.
+
+        It is not known either where the two do not meet, so that one of them is at a wrong place.
+        """
         if id(link) not in self._links:
             self._links[id(link)] = self._link(link)
         return self._links[id(link)]
+
+    def attached(self, link: Link) -> Attached:
+        """Return a link and all that is rigidly attached to it, with poses in its frame."""
+        if id(link) not in self._attached:
+            self._attached[id(link)] = attached_links(self.robot, link)
+        return self._attached[id(link)]
+
+    def meant(self, link: Link, box: Bounds) -> Bounds | None:
+        """Return the box around the shapes that a link's inertial may be written for.
+
+        These are its own and those of attached links that hardly have a mass of their own.
+
+        Args:
+            link: The link.
+            box: That around its own shapes.
+
+        Returns:
+            The box [m]; None where that of an attached link is not known.
+        """
+        for other, at in self.attached(link)[1:]:
+            if other.mass > 0.1 * link.mass or not (other.visuals or other.collisions):
+                continue
+            more = self.body(link, "all", [(other, at)])
+            if more is None:
+                return None
+            box = box.joined(more)
+        return box
+
+    def body(
+        self, link: Link, part: ShapeKind = "all", members: Attached | None = None
+    ) -> Bounds | None:
+        """Return the box around the shapes of a link and of all that is rigidly attached to it.
+
+        Args:
+            link: The link in whose frame the box is.
+            part: Which shapes count: ``visuals``, ``collisions`` or ``all``.
+            members: The links that count, with their poses; all that are attached if None.
+
+        Returns:
+            The box [m]; None where there is no such shape, or the box of one is not known.
+        """
+        box: Bounds | None = None
+        for member, pose in self.attached(link) if members is None else members:
+            shapes: list[Visual | Collision] = []
+            shapes += member.visuals if part != "collisions" else ()
+            shapes += member.collisions if part != "visuals" else ()
+            for shape in shapes:
+                other = self._at(shape, pose)
+                if other is None:
+                    return None
+                box = other if box is None else box.joined(other)
+        return box if box is not None and any(box.size) else None
+
+    def _at(self, shape: Visual | Collision, pose: Pose) -> Bounds | None:
+        """Return the box around a shape whose link has a pose."""
+        if pose is IDENTITY:
+            return self.shape(shape)
+        if not isinstance(shape.geometry, Mesh):
+            return bounds_at(shape.geometry, pose @ pose_of(shape.origin))
+        use = self.use_of(shape)
+        return None if use is None or self.shape(shape) is None else box_of(use, pose)
 
     def _link(self, link: Link) -> Bounds | None:
         boxes = [self.shapes(part) for part in (link.visuals, link.collisions) if part]
         box: Bounds | None = None
         for other in boxes:
-            if other is None:
+            if other is None or (box is not None and not box.meets(other)):
                 return None
             box = other if box is None else box.joined(other)
         return box if box is not None and any(box.size) else None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 import struct
 from collections.abc import Iterator
 from pathlib import Path
@@ -52,10 +51,6 @@ def _sample(path: Path) -> tuple[float, float, float] | None:
     return spans[0], spans[1], spans[2]
 
 
-_POSITIONS = re.compile(
-    rb"<float_array\b[^>]*?id\s*=\s*[\"'][^\"']*pos[^\"']*[\"'][^>]*>([^<]*)", re.IGNORECASE
-)
-_METER = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']([^\"']+)[\"']")
 _LOOKED_AT = 400_000  # bytes
 
 
@@ -71,15 +66,9 @@ def rough_size(use: MeshUse) -> float | None:
     try:
         if use.path.stat().st_size > _LOOKED_AT:
             return None
-        data = use.path.read_bytes()
-        unit = float(match[1]) if (match := _METER.search(data)) else 1.0
-        values = [float(word) for part in _POSITIONS.findall(data) for word in part.split()]
-    except (OSError, ValueError):
+    except OSError:
         return None
-    if not values:
-        return None
-    spans = (max(values[axis::3]) - min(values[axis::3]) for axis in range(3))
-    return max(abs(s) * unit * length for s, length in zip(use.mesh.scale, spans, strict=True))
+    return _largest(use)
 
 
 def _largest(use: MeshUse, whole: bool = False) -> float | None:
@@ -124,6 +113,7 @@ def mesh_in_millimetres(
             if not robot.moving_joints and not use.uri.lower().endswith(".stl"):
                 continue
             told.add(use.uri)
+            length = _largest(use, whole=True) or length  # a sample is at least so large
             right = "" if use.mesh.element.get("scale") else '; write scale="0.001 0.001 0.001"'
             yield Problem(
                 use.link,

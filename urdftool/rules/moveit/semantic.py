@@ -126,7 +126,7 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
 
 
 @rule(
-    ERROR,
+    WARNING,
     on=_ON,
     effects={
         "moveit": "logs that the SRDF is for another robot, and goes on",
@@ -135,7 +135,8 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
 def srdf_robot_name(robot: Robot, description: Description) -> Iterator[Problem]:
     """The SRDF is for a robot of another name.
 
-    MoveIt takes it for that of another robot and does not load it.
+    MoveIt logs at every start that the semantic description is not for the same robot, and uses it
+    nevertheless. Either one of the names was not changed, or the file is that of another robot.
     """
     for document in semantics(robot, description):
         name = document.root.get("name") or ""

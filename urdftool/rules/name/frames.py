@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Robot, Sensor
-from ...model.pose import pose_of, rotation_of_rpy
+from ...model.pose import IDENTITY, dot, pose_of, rotation_of_rpy
+from ..gazebo.sensors import pose_in_link
 from ..rule import GAZEBO, INFO, WARNING, Problem, rule
 
 _OPTICAL = rotation_of_rpy((-math.pi / 2, 0.0, -math.pi / 2))
@@ -39,8 +40,8 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
     """An optical frame is not turned against its camera's frame as it has to be.
 
     A camera looks along x, with z up; its optical frame has z forward and x to the right (REP 103).
-    Between the two lies ``rpy="-1.5708 0 -1.5708"``. Otherwise images and point clouds lie on their
-    side.
+    Between the two lies ``rpy="-1.5708 0 -1.5708"``. Otherwise point clouds are turned by the angle
+    that the message gives: a quarter turn, half a turn, or 120° where the rotation was forgotten.
     """
     for joint in robot.joints:
         if not joint.is_fixed or not _is_optical_of(joint):
@@ -52,10 +53,12 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
             for a, b in zip(row, wanted, strict=True)
         )
         if off > tolerance:
+            turns = sum(dot(row, wanted) for row, wanted in zip(rotation, _OPTICAL, strict=True))
+            angle = math.degrees(math.acos(max(-1.0, min(1.0, (turns - 1) / 2))))
             yield Problem(
                 joint,
-                f"optical frame '{joint.child}' is not turned against '{joint.parent}' as a camera "
-                'looks; write rpy="-1.5708 0 -1.5708"',
+                f"optical frame '{joint.child}' is turned by {angle:.3g}° from how the camera "
+                f"'{joint.parent}' looks; write rpy=\"-1.5708 0 -1.5708\"",
                 at=joint.origin,
             )
 
@@ -86,7 +89,8 @@ def camera_sensor_not_optical(robot: Robot) -> Iterator[Problem]:
         for sensor in block.sensors:
             if sensor.type not in _CAMERAS or block.reference is None:
                 continue
-            frames = {joint.child for joint in robot.tree.child_joints(block.reference)}
+            joints = robot.tree.child_joints(block.reference)
+            frames = {joint.child for joint in joints if _is_at(joint, sensor)}
             optical = next((name for name in sorted(frames) if "_optical" in name), None)
             written = _frames_of(sensor)
             if optical is None or not written or any("optical" in text for text in written):
@@ -96,6 +100,17 @@ def camera_sensor_not_optical(robot: Robot) -> Iterator[Problem]:
                 f"camera '{sensor.name}' publishes in '{written[0]}'; "
                 f"its optical frame is '{optical}'",
             )
+
+
+def _is_at(joint: Joint, sensor: Sensor) -> bool:
+    """Whether the child of a joint may be the frame of a sensor of its parent.
+
+    A sensor with a ``<pose>`` of its own is not where the frames of its link are.
+    """
+    pose = pose_in_link(sensor)
+    if pose is None or pose is IDENTITY:
+        return pose is not None
+    return math.dist(pose_of(joint.origin).translation, pose.translation) < 1e-3
 
 
 def _frames_of(sensor: Sensor) -> list[str]:

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 
 from ...model.elements import Joint, Robot
 from ...source.document import Element
-from ..rule import ERROR, GAZEBO, INFO, Problem, rule
+from ..gazebo.lumping import is_lumped
+from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean
+from ..words import did_you_mean, nearest
 from ..xml.vocabulary_table import misspelt_children
 
 
@@ -89,18 +90,23 @@ def duplicate_joint_name(robot: Robot) -> Iterator[Problem]:
     },
     group="robot",
 )
-def link_joint_name_clash(robot: Robot) -> Iterator[Problem]:
+def link_joint_name_clash(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A link and a joint have the same name.
 
     In SDF, links and joints are siblings that share one space of names, so Gazebo refuses the model
-    that everything else loads.
+    that everything else loads. A fixed joint is merged with its link: sdformat 12.3 then writes
+    neither name, and versions that write frames for them (from 9.9 and 13 on) write both, so there
+    it is a warning.
     """
+    in_gazebo = not targets.isdisjoint(GAZEBO)
     for name, joint in robot.joint.items():
         if name in robot.link and name.strip():
+            merged = joint.child in robot.link and is_lumped(robot, joint.child)
             yield Problem(
                 joint,
                 f"joint '{name}' has the name of a link; call it '{name}_joint'",
                 at=joint.element.attribute_place("name"),
+                severity=WARNING if in_gazebo and merged else None,
             )
 
 
@@ -142,19 +148,37 @@ def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
 def unknown_child_link(robot: Robot) -> Iterator[Problem]:
     """A joint's child is no link of the robot.
 
-    There is nothing for the joint to move, and readers refuse the robot.
+    There is nothing for the joint to move, and readers refuse the robot. A link that is the child
+    of no joint, and not above this one, is probably the one that was meant.
     """
     stripped = {name.strip() for name in robot.link}
-    for joint in robot.joints:
-        name = joint.child
-        if name in robot.link or name.strip() in stripped or is_unexpanded(name):
-            continue
-        if name.strip() and joint.child_element is not None:
+    missing = [
+        joint
+        for joint in robot.joints
+        if joint.child.strip()
+        and joint.child_element is not None
+        and joint.child not in robot.link
+        and joint.child.strip() not in stripped
+        and not is_unexpanded(joint.child)
+    ]
+    for joint in missing:
+        if joint.child_element is not None:
+            name, orphans = joint.child, _orphans(robot, joint)
+            meant = orphans[0] if len(orphans) == len(missing) == 1 else nearest(name, orphans, 0.6)
+            right = _remedy(name, robot)
+            if meant:
+                right = f"; did you mean '{meant}'? It is the child of no joint"
             yield Problem(
                 joint,
-                f"child '{name}' of joint '{joint.name}' is no link{_remedy(name, robot)}",
+                f"child '{name}' of joint '{joint.name}' is no link{right}",
                 at=joint.child_element.attribute_place("link"),
             )
+
+
+def _orphans(robot: Robot, joint: Joint) -> list[str]:
+    """List the links that no joint has as its child, and that are not above a joint."""
+    above = {joint.parent, *robot.tree.ancestors(joint.parent)}
+    return [link.name for link in robot.tree.roots if link.name not in above]
 
 
 def _remedy(name: str, robot: Robot) -> str:

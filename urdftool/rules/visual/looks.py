@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 from ...errors import PackageNotFound
+from ...model.attached import attached_links
 from ...model.elements import Material, Robot
 from ...source.description import Description
 from ...source.packages import shown_path
@@ -26,12 +27,15 @@ _ON_PURPOSE = re.compile(r"transparent|invisible|virtual|dummy|hidden|none", re.
     },
 )
 def missing_visual(robot: Robot) -> Iterator[Problem]:
-    """A link collides and is not seen.
+    """A rigid body has a collision and no visual.
 
-    It is there and cannot be seen to be, except where collisions are shown.
+    It is there and cannot be seen, except where collisions are shown. A link that only collides is
+    not reported where it is fixed to one with a visual.
     """
     for link in robot.links:
-        if link.collisions and not link.visuals:
+        if not link.collisions or link.visuals:
+            continue
+        if not any(one.visuals for one, _ in attached_links(robot, link)):
             yield Problem(link, f"link '{link.name}' has a collision and no visual")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Robot
+from ...source.document import Element
 from ..rule import ERROR, WARNING, Problem, rule
 from .owner import owner
 from .vocabulary_table import VOCABULARY, census, misspelt_children
@@ -43,30 +44,44 @@ def repeated_element(robot: Robot) -> Iterator[Problem]:
                     seen.add(child.tag)
 
 
+def shapes_in(geometry: Element) -> list[Element]:
+    """List the shapes of a ``<geometry>``, without elements of URDF that belong elsewhere."""
+    return [
+        child
+        for child in geometry.children
+        if child.tag in VOCABULARY["geometry"].children
+        or not (child.tag in VOCABULARY or ":" in child.tag)
+    ]
+
+
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+        "urdfdom, gz, gazebo-classic, pybullet, pinocchio": (
             "take the first shape and drop the others"
         ),
+        "mujoco": "takes a box before a cylinder before a sphere, and drops the others",
+        "drake": "takes a box before a sphere before a cylinder, and drops the others",
     },
 )
 def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
     """A ``<geometry>`` holds more than one shape.
 
-    Every reader takes the first and drops the rest without a word, so half of the body is not drawn
-    or does not touch. Each shape needs a ``<visual>`` or ``<collision>`` of its own; a link may
-    have as many as it likes.
+    Every reader takes one and drops the rest silently, and not all take the same one: urdfdom the
+    first, MuJoCo and Drake a box wherever it stands. So half of the body is not drawn or has no
+    contact. Each shape needs a ``<visual>`` or ``<collision>`` of its own; a link may have as many
+    as it likes.
     """
     for geometry in census(robot.element).known["geometry"]:
-        if len(geometry.children) > 1:
-            second = geometry.children[1]
+        shapes = shapes_in(geometry)
+        if len(shapes) > 1 and geometry.children[0] is shapes[0]:
+            first, second = shapes[:2]
             around = geometry.parent.tag if geometry.parent is not None else "visual"
             yield Problem(
                 second,
-                f"the <{second.tag}> in a {around} of {owner(second)} is dropped, as a <geometry> "
-                "holds one shape; "
-                f"give it a <{around}> of its own",
+                f"a {around} of {owner(second)} has a <{second.tag}> next to its <{first.tag}>, "
+                "and readers take only one of them; "
+                f"give each shape a <{around}> of its own",
             )
 
 

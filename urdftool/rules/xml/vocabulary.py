@@ -35,6 +35,8 @@ _ELSEWHERE = {
     ("visual", "pose"): "it is SDF; URDF has <origin>",
     ("visual", "color"): "write it inside <material>",
     ("visual", "texture"): "write it inside <material>",
+    ("geometry", "material"): "write it one level up, in <visual>",
+    ("geometry", "origin"): "write it one level up, next to <geometry>",
     ("collision", "pose"): "it is SDF; URDF has <origin>",
     ("collision", "surface"): "it is SDF; for URDF, "
     'write mu1, mu2, kp and kd inside <gazebo reference="the link">',
@@ -149,7 +151,9 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
     mere: dict[tuple[str, str], list[Element]] = {}
     for element in strangers:
         parent = element.parent
-        if parent is None or parent.tag in ("geometry", "dynamics") or element.tag in of_xacro:
+        if parent is None or parent.tag == "dynamics" or element.tag in of_xacro:
+            continue
+        if parent.tag == "geometry" and not _is_misplaced(element, parent):
             continue
         word = meant(element.tag, VOCABULARY[parent.tag].children)
         instead = _ELSEWHERE.get((parent.tag, element.tag))
@@ -165,6 +169,11 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
         lost = kind not in _NOT_LOST
         why = _ELSEWHERE.get(kind, "URDF readers pass over it")
         yield Problem(elements[0], f"{what}; {why}", severity=WARNING if lost else INFO)
+
+
+def _is_misplaced(element: Element, geometry: Element) -> bool:
+    """Whether a stranger in a ``<geometry>`` is not taken for its shape by any reader."""
+    return element.tag in VOCABULARY and element is not geometry.children[0]
 
 
 @rule(

@@ -1,0 +1,207 @@
+"""About which line a wheel turns: what its joint, shapes, inertia and place say, and who is odd."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from ...model.attached import Attached, attached_links
+from ...model.body_inertia import combined_inertia
+from ...model.elements import Collision, Cylinder, Joint, Link, Mesh, Robot, Vector, Visual
+from ...model.kinematics import limits_of
+from ...model.pose import dot, norm, pose_of, rotate, transpose
+from ...model.read import numbers
+from ..inertia.tensors import moments_of
+from ..mesh.outlines import reaches
+from ..sides import sides
+
+_WHEEL = re.compile(r"wheel|tire|tyre|caster", re.IGNORECASE)
+_STEERS = re.compile(r"steer|swivel|rotation|yaw", re.IGNORECASE)
+PLACE = "its place opposite its twin"
+VISUAL = "its visual"
+_ROUND = 0.05
+"""Part by which two lengths or moments of a wheel may differ that are about its axle."""
+
+
+class Saying(NamedTuple):
+    """What says about which line a wheel turns.
+
+    Attributes:
+        what: Which, in words.
+        along: The line, of length 1, in the frame of the wheel's link.
+    """
+
+    what: str
+    along: Vector
+
+
+class Wheel(NamedTuple):
+    """A wheel with one cylinder to roll on.
+
+    Attributes:
+        joint: That turns it.
+        link: The link of the cylinder.
+        shape: The cylinder.
+        kind: The visual or collision of the cylinder.
+        axis: What the joint says.
+        cylinder: What the cylinder says.
+        others: What else says something.
+    """
+
+    joint: Joint
+    link: Link
+    shape: Cylinder
+    kind: Visual | Collision
+    axis: Saying
+    cylinder: Saying
+    others: list[Saying]
+
+
+def wheel_of_joint(robot: Robot, joint: Joint) -> Wheel | None:
+    """Look at a joint that turns a wheel; None where it turns none, or nothing can be compared."""
+    link = robot.link.get(joint.child)
+    if link is None or not _turns_round(joint) or _STEERS.search(link.name + joint.name):
+        return None
+    if joint.axis is not None and numbers(joint.axis.element.get("xyz"), 3) is None:
+        return None  # it could not be read, so that the default stands for it
+    members = attached_links(robot, link)
+    if not any(_WHEEL.search(member.name + joint.name) for member, _ in members):
+        return None
+    axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+    discs = [
+        (member, shape, collision, rotate((pose @ pose_of(collision.origin)).rotation, _Z))
+        for member, pose in members
+        for collision in member.collisions
+        if isinstance(shape := collision.geometry, Cylinder)
+    ]
+    if norm(axis) < 1e-6 or len(discs) != 1 or sum(len(m.collisions) for m, _ in members) != 1:
+        return None
+    member, shape, collision, along = discs[0]
+    if shape.length > 4 * shape.radius:
+        return None
+    others = [_of_visual(robot, members), _of_inertia(members), _of_place(robot, joint)]
+    return Wheel(
+        joint,
+        member,
+        shape,
+        collision,
+        Saying(f"the axis of '{joint.name}'", _unit(axis)),
+        Saying("its collision", along),
+        [saying for saying in others if saying is not None],
+    )
+
+
+_Z: Vector = (0.0, 0.0, 1.0)
+
+
+def angle_between(one: Vector, other: Vector) -> float:
+    """Return the angle between two lines [degrees], at most 90."""
+    return math.degrees(math.acos(min(1.0, abs(dot(one, other)))))
+
+
+def agreeing(sayings: Sequence[Saying], along: Vector, within: float) -> list[Saying]:
+    """List those that say about the same line.
+
+    Args:
+        sayings: All of them.
+        along: The line.
+        within: The angle that is allowed [degrees].
+    """
+    return [saying for saying in sayings if angle_between(saying.along, along) <= within]
+
+
+def is_upright(robot: Robot, joint: Joint, along: Vector) -> bool:
+    """Whether a line of a joint's child points up in the frame of the root, all joints at zero."""
+    rotation = pose_of(joint.origin).rotation
+    line = rotate(rotation, along)
+    name, seen = joint.parent, {joint.child}
+    above = robot.tree.parent_joint(name)
+    while above is not None and name not in seen:
+        seen.add(name)
+        line = rotate(pose_of(above.origin).rotation, line)
+        name = above.parent
+        above = robot.tree.parent_joint(name)
+    return abs(line[2]) > 0.9
+
+
+def _turns_round(joint: Joint) -> bool:
+    """Whether a joint turns without end, also one that only lacks its limits."""
+    if joint.type == "continuous":
+        return True
+    if joint.type != "revolute":
+        return False
+    limit = joint.limit
+    if limit is None or limit.lower is None or limit.upper is None:
+        return True
+    lower, upper = limits_of(joint)
+    return upper <= lower or upper - lower >= 2 * math.pi
+
+
+def _of_visual(robot: Robot, members: Attached) -> Saying | None:
+    """What the one visual of a wheel says: a cylinder, or a mesh that is round."""
+    shown = [(member, pose, visual) for member, pose in members for visual in member.visuals]
+    discs = [one for one in shown if isinstance(one[2].geometry, Cylinder)]
+    if len(discs) == 1:
+        _, pose, visual = discs[0]
+        assert isinstance(visual.geometry, Cylinder)
+        if visual.geometry.length > 4 * visual.geometry.radius:
+            return None
+        return Saying(VISUAL, rotate((pose @ pose_of(visual.origin)).rotation, _Z))
+    if len(shown) != 1 or not isinstance(shown[0][2].geometry, Mesh):
+        return None
+    member, pose, _ = shown[0]
+    box = reaches(robot).shapes(member.visuals)
+    axis = _odd_length(box.size, 0.8) if box is not None else None
+    return None if axis is None else Saying(VISUAL, rotate(pose.rotation, _unit_of(axis)))
+
+
+def _of_inertia(members: Attached) -> Saying | None:
+    """What the inertia of a wheel says: two moments are equal, and the third is the largest."""
+    body = combined_inertia(members)
+    six = body.tensor
+    if not body.mass or max(map(abs, (six[1], six[2], six[4]))) > _ROUND * max(moments_of(six)):
+        return None
+    x, y, z = six[0], six[3], six[5]
+    if min(x, y, z) <= 0:
+        return None
+    axis = _odd_length((1 / x, 1 / y, 1 / z), 0.9)
+    return None if axis is None else Saying("its inertia", _unit_of(axis))
+
+
+def _of_place(robot: Robot, joint: Joint) -> Saying | None:
+    """What the wheel on the other side says: the axle goes from one to the other."""
+    known = sides(robot)
+    for pair in known.pairs:
+        if joint.child not in (pair.left.name, pair.right.name):
+            continue
+        if pair.left.name not in known.poses or pair.right.name not in known.poses:
+            return None
+        a, b = (known.poses[one.name].translation for one in (pair.left, pair.right))
+        apart = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
+        length = norm(apart)
+        if length < 1e-3 or max(map(abs, apart)) < 0.95 * length:
+            return None
+        turn = transpose(known.poses[joint.child].rotation)
+        return Saying(PLACE, _unit(rotate(turn, apart)))
+    return None
+
+
+def _odd_length(lengths: Vector, most: float) -> int | None:
+    """Return the axis of the one length that is less than two others that are equal."""
+    for axis, length in enumerate(lengths):
+        one, other = (value for i, value in enumerate(lengths) if i != axis)
+        if abs(one - other) <= _ROUND * max(one, other) and length < most * min(one, other):
+            return axis
+    return None
+
+
+def _unit(vector: Vector) -> Vector:
+    length = norm(vector)
+    x, y, z = vector
+    return x / length, y / length, z / length
+
+
+def _unit_of(axis: int) -> Vector:
+    return float(axis == 0), float(axis == 1), float(axis == 2)
