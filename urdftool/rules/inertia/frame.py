@@ -91,6 +91,8 @@ def about_com(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> S
         if _distance(right, solid) <= UNIFORM * size and _distance(six, solid) >= 0.3 * size:
             return right
     whole = mass / 12 * sum(length * length for length in box.size)
+    if whole <= 0:  # of numbers so small that their product is none
+        return None
     written, meant = (sum(one[i] for i in (0, 3, 5)) / 2 / whole for one in (tensor, shifted))
     if written < max(HOLLOW, 2 * meant) or not PLAUSIBLE[0] <= meant <= PLAUSIBLE[1]:
         return None

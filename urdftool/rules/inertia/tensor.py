@@ -212,9 +212,6 @@ def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Proble
 @rule(
     WARNING,
     on=("gazebo-classic", "gz", "mujoco", "pybullet"),
-    effects={
-        "pybullet": "a force of 1 N·m makes the joint's state invalid at a step of a millisecond",
-    },
 )
 def tiny_moving_inertia(
     robot: Robot,
