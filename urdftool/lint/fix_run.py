@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 
 from ..errors import UrdftoolError
 from ..finding import Finding, Remake, Severity
+from ..rules.fix_table import FIX_FILE
 from ..rules.fixes.remakes import remade
 from ..source.document import reading_instead
 from ..source.nearby import bytes_of
@@ -248,18 +249,28 @@ class _Round:
         """Apply what can be applied; fixes with no description in common do not meet.
 
         Those that reveal what is wrong with what was ignored come by themselves: with one of them,
-        more findings are no reason to take the others back. What was wrong with a fix in another
-        description, such as a variant of the robot, is likely to be wrong with its like.
+        more findings are no reason to take the others back. So do new names, after which findings
+        are of other subjects. What was wrong with a fix in another description, such as a variant
+        of the robot, is likely to be wrong with its like.
         """
         for part in self._apart(chosen):
             self.kept = []
             groups: dict[object, list[_Wanted]] = {}
             for one in part:
-                like = _likeness(one.finding)
-                key = like if like in self.doubted else one.finding.rule in REVEALING
+                key: object = _likeness(one.finding)
+                if key not in self.doubted:
+                    key = one.finding.rule in REVEALING, FIX_FILE[one.finding.rule] == "renames"
                 groups.setdefault(key, []).append(one)
             for some in sorted(groups.values(), key=len, reverse=True):
-                self._halve(some)
+                self._halve(self._current(some))
+
+    def _current(self, some: Sequence[_Wanted]) -> list[_Wanted]:
+        """The fixes whose findings are as they were; of others the next round knows more."""
+        there = {
+            number: set(map(_key, self.result.reports[number].findings))
+            for number in {one.number for one in some}
+        }
+        return [one for one in some if _key(one.finding) in there[one.number]]
 
     def _apart(self, chosen: Sequence[_Wanted]) -> list[list[_Wanted]]:
         """Sort fixes so that those in two lists concern no description in common."""
@@ -284,6 +295,8 @@ class _Round:
 
         What has become worse is mostly what a fix was of; where it is not, they are halved.
         """
+        if not chosen:
+            return
         wrong = self._attempt(chosen)
         if wrong is None:
             return
@@ -298,11 +311,15 @@ class _Round:
         others = [one for one in chosen if _subject(one.finding) not in wrong.subjects]
         if suspects and others:
             self._halve(others)
-            self._halve(suspects)
+            self._halve(self._current(suspects))
+            return
+        if len({_subject(one.finding) for one in suspects}) == len(chosen):
+            for one in suspects:  # each has become worse itself
+                self._halve(self._current([one]))
             return
         middle = _middle(chosen)
         self._halve(chosen[:middle])
-        self._halve(chosen[middle:])
+        self._halve(self._current(chosen[middle:]))
 
     def _attempt(self, some: Sequence[_Wanted]) -> _Wrong | None:
         """Apply fixes beside those that are kept; gives what is worse, None where they are kept."""
@@ -463,8 +480,9 @@ def _worse(before: Report, after: Report, chosen: Sequence[Finding]) -> _Wrong |
     for level in (Severity.ERROR, Severity.WARNING):
         now, then = _counted(after, level), _counted(before, level)
         more = frozenset(subject for subject, count in now.items() if count > then[subject])
-        # among many, one that brings more than it takes away is not seen in the sum
-        if sum(now.values()) > sum(then.values()) or (more and len(chosen) > 1):
+        # among many, one that brings as much as it takes away is not seen in the sum
+        gone = sum(one.severity >= level for one in chosen) if more and len(chosen) > 1 else 0
+        if sum(now.values()) > sum(then.values()) - gone:
             new = [f for f in after.findings if f.severity >= level and not there[_key(f)]]
             what = f"then {new[0].message} [{new[0].rule}]" if new else ""
             return _Wrong(what or "there would be more findings", subjects=more)

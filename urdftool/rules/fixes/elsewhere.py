@@ -5,9 +5,11 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Collection, Iterator
+from itertools import islice
 from pathlib import Path
 
 from ...inputs import Remembered
+from ...source.document import copy_of
 from ...source.nearby import bytes_of
 from ...source.packages import own_package, shown_path
 from .proposal import Around, RefusedError
@@ -30,23 +32,65 @@ def check_alone(around: Around, word: str, *, robots: bool, but: Collection[str]
     Raises:
         RefusedError: One does.
     """
-    pattern = re.compile(rb"(?<![\w-])" + re.escape(word.encode()) + rb"(?![\w-])")
     mine = {os.path.realpath(file.path) for file in around.description.files}
     mine.update(map(os.path.realpath, but))
-    for number, path in enumerate(_files(around)):
+    for number, file in enumerate(around.nearby(_files)):
         if number >= _MOST_FILES:
             raise RefusedError(
                 f"there are too many files around it to know that none names '{word}'"
             )
+        path = file.path
         named = path.endswith(_USES) or (path.endswith(DESCRIPTIONS) and robots)
-        if not named or os.path.realpath(path) in mine:
-            continue
-        try:
-            found = pattern.search(bytes_of(path)[:_MOST_BYTES])
-        except OSError:
-            continue
-        if found is not None:
+        if named and file.names(word) and os.path.realpath(path) not in mine:
             raise RefusedError(f"{shown_path(path)} names '{word}', too")
+
+
+_PLAIN = re.compile(rb"[\w-]+")
+_MOST_WORDS = 3_000_000
+_words: dict[tuple[str, int, int], frozenset[bytes]] = {}
+
+
+class _File:
+    """A file around the description, and its words, which are looked up once."""
+
+    __slots__ = ("_found", "path")
+
+    def __init__(self, path: str) -> None:
+        """Read nothing yet."""
+        self.path = path
+        self._found: frozenset[bytes] | None = None
+
+    def names(self, word: str) -> bool:
+        """Tell whether a word is in the file."""
+        sought = word.encode()
+        try:
+            if _PLAIN.fullmatch(sought) is not None:
+                if self._found is None:
+                    self._found = _words_of(self.path)
+                return sought in self._found
+            data = bytes_of(self.path)[:_MOST_BYTES]
+        except OSError:
+            return False
+        pattern = rb"(?<![\w-])" + re.escape(sought) + rb"(?![\w-])"
+        return sought in data and re.search(pattern, data) is not None
+
+
+def _words_of(path: str) -> frozenset[bytes]:
+    """List the words of a file, which are kept as long as the file is the same.
+
+    Raises:
+        OSError: It cannot be read.
+    """
+    copy = copy_of(path)
+    if copy is not None:
+        return frozenset(_PLAIN.findall(copy[:_MOST_BYTES]))
+    status = os.stat(path)
+    key = path, status.st_mtime_ns, status.st_size
+    if key not in _words:
+        if sum(map(len, _words.values())) > _MOST_WORDS:
+            _words.clear()
+        _words[key] = frozenset(_PLAIN.findall(bytes_of(path)[:_MOST_BYTES]))
+    return _words[key]
 
 
 _INCLUDE = re.compile(rb"<(?:\w+:)?include\b[^>]*?filename\s*=\s*[\"']([^\"']*)[\"']")
@@ -102,10 +146,11 @@ def _included(folder: str) -> dict[str, list[tuple[str, str]]]:
     return found
 
 
-def _files(around: Around) -> Iterator[str]:
-    """The files of the description's package, or of its folder."""
+def _files(around: Around) -> list[_File]:
+    """The files of the description's package, or of its folder, as many as are looked at."""
     own = own_package(around.description.packages.file)
-    yield from _below(own[1] if own is not None else around.description.packages.file.parent)
+    root = own[1] if own is not None else around.description.packages.file.parent
+    return list(map(_File, islice(_below(root), _MOST_FILES + 1)))
 
 
 def _below(root: str | Path) -> Iterator[str]:

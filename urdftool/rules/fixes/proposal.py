@@ -7,7 +7,7 @@ be, is worked out from what the elements know of their origin.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
@@ -101,6 +101,14 @@ class Around:
     document: Document | None = None
     weigh: Weigh | None = None
     severity: Severity = Severity.ERROR
+
+    _nearby: list[Any] | None = None
+
+    def nearby(self, look: Callable[[Around], list[Any]]) -> list[Any]:
+        """The files around the description, listed once."""
+        if self._nearby is None:
+            self._nearby = look(self)
+        return self._nearby
 
     @cached_property
     def texts(self) -> str:
