@@ -79,6 +79,16 @@ def test_descriptions_that_share_a_file_are_linted_once_each(write, lints):
     assert not any(report.findings for report in done.reports)
 
 
+def test_what_keeps_several_from_being_read_is_fixed_once(write, urdftool):
+    write("part.xacro", XACRO.format(PART.replace("<dynamics/>", "<!-- a -- b --><dynamics/>")))
+    paths = [write(f"r{n}.urdf.xacro", XACRO.format(USES)) for n in range(3)]
+    words = ("--select", "not-well-formed,empty-dynamics", "--fix", "--no-cache", "--exit-zero")
+    result = urdftool("lint", *paths, *words)
+    fixed_part = PART.replace("<dynamics/>", "<!-- a - - b -->")
+    assert Path("part.xacro").read_text() == XACRO.format(fixed_part)
+    assert result.err.startswith("Fixed 2 in 1 file: ")
+
+
 def _broken_for(monkeypatch, wrong):
     """A fix of empty dynamics that writes nonsense for some joints."""
     from urdftool.rules.fixes import joint as fixes

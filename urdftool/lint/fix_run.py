@@ -13,56 +13,21 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ..errors import UrdftoolError
-from ..finding import Finding, Remake, Severity
+from ..finding import Finding, Remake
 from ..rules.fix_table import FIX_FILE
 from ..rules.fixes.remakes import remade
 from ..source.document import reading_instead
 from ..source.nearby import bytes_of
+from .fix_proof import REVEALING, Key, Wrong, key_of, likeness, subject_of, worse
 from .outcome import Options, Report
 from .run import lint_file
 
 MAX_ROUNDS = 200
-
-REVEALING = frozenset(
-    (
-        "not-well-formed",
-        "content-before-declaration",
-        "missing-xmlns",
-        "unknown-macro",
-        "undeclared-arg",
-        "include-not-found",
-        "non-boolean-conditional",
-        "unprefixed-xacro-tag",
-        "bad-substitution-command",
-        "unknown-element",
-        "unknown-attribute",
-        "wrong-case-keyword",
-        "unexpanded-expression",
-        "not-a-number",
-        "wrong-arity",
-        "unknown-extension",
-        "dangling-reference",
-        "misplaced-extension",
-        "padded-reference",
-        "unknown-joint-type",
-        "classic-plugin-in-gz",
-        "ros2-control-nested",
-        "several-shapes-in-geometry",
-        "unknown-parent-link",
-        "unknown-child-link",
-        "missing-limit",
-        "empty-geometry",
-        "repeated-element",
-    )
-)
-"""Rules whose fix lets readers see what they passed over, with what is wrong in it."""
-
-_Key = tuple[Any, ...]
 
 
 @dataclass
@@ -151,7 +116,7 @@ def apply_fixes(
         ConfigError: The configuration is wrong.
     """
     result = FixResult(list(reports))
-    banned, doubted = set[_Key](), set[_Key]()
+    banned, doubted = set[Key](), set[Key]()
     for _ in range(MAX_ROUNDS):
         chosen = _choose(result.reports, banned, unsafe=unsafe, meshes=meshes)
         if not chosen:
@@ -174,7 +139,7 @@ class _Wanted(NamedTuple):
 
 
 def _choose(
-    reports: Sequence[Report], banned: set[_Key], *, unsafe: bool, meshes: bool
+    reports: Sequence[Report], banned: set[Key], *, unsafe: bool, meshes: bool
 ) -> list[_Wanted]:
     """Findings whose fixes do not overlap; what several of them do alike is done once."""
     chosen: list[_Wanted] = []
@@ -184,7 +149,7 @@ def _choose(
             fix = finding.fix
             if fix is None or not (fix.safe or unsafe) or (fix.remakes and not meshes):
                 continue
-            if _key(finding) in banned:
+            if key_of(finding) in banned:
                 continue
             spans = [(r.place.path, r.place.start, r.place.end, r.data) for r in fix.replacements]
             spans += [(r.path, 0, _ALL, r.how.encode()) for r in fix.remakes]
@@ -209,25 +174,11 @@ def _meets(taken: Sequence[tuple[int, int, bytes]], start: int, end: int, data: 
     return False
 
 
-class _Wrong(NamedTuple):
-    """Why fixes are not kept.
-
-    Attributes:
-        text: What is worse.
-        of_a_file: Whether that is a file that they are made of.
-        subjects: What has more findings than before, or those that were to be gone: kind and name.
-    """
-
-    text: str
-    of_a_file: bool = False
-    subjects: frozenset[tuple[str, str]] = frozenset()
-
-
 class _Round:
     """Fixes of one choice, all of them in bytes as they are before the first is applied."""
 
     def __init__(
-        self, result: FixResult, options: Options, banned: set[_Key], doubted: set[_Key]
+        self, result: FixResult, options: Options, banned: set[Key], doubted: set[Key]
     ) -> None:
         """Start with nothing applied."""
         self.result = result
@@ -242,7 +193,7 @@ class _Round:
             self._index(number, report)
 
     def _index(self, number: int, report: Report) -> None:
-        for path in _paths(report) if report.checked else ():
+        for path in _paths(report) if report.error is None and not report.skipped else ():
             self.concerned.setdefault(path, set()).add(number)
 
     def prove(self, chosen: Sequence[_Wanted]) -> None:
@@ -257,7 +208,7 @@ class _Round:
             self.kept = []
             groups: dict[object, list[_Wanted]] = {}
             for one in part:
-                key: object = _likeness(one.finding)
+                key: object = likeness(one.finding)
                 if key not in self.doubted:
                     key = one.finding.rule in REVEALING, FIX_FILE[one.finding.rule] == "renames"
                 groups.setdefault(key, []).append(one)
@@ -267,10 +218,10 @@ class _Round:
     def _current(self, some: Sequence[_Wanted]) -> list[_Wanted]:
         """The fixes whose findings are as they were; of others the next round knows more."""
         there = {
-            number: set(map(_key, self.result.reports[number].findings))
+            number: set(map(key_of, self.result.reports[number].findings))
             for number in {one.number for one in some}
         }
-        return [one for one in some if _key(one.finding) in there[one.number]]
+        return [one for one in some if key_of(one.finding) in there[one.number]]
 
     def _apart(self, chosen: Sequence[_Wanted]) -> list[list[_Wanted]]:
         """Sort fixes so that those in two lists concern no description in common."""
@@ -302,18 +253,18 @@ class _Round:
             return
         if len(chosen) == 1:
             finding = chosen[0].finding
-            self.banned.add(_key(finding))
-            self.doubted.add(_likeness(finding))
+            self.banned.add(key_of(finding))
+            self.doubted.add(likeness(finding))
             kind = self.result.unmade if wrong.of_a_file else self.result.broken
             kind.setdefault(finding.rule, f"{finding.place}: {wrong.text}")
             return
-        suspects = [one for one in chosen if _subject(one.finding) in wrong.subjects]
-        others = [one for one in chosen if _subject(one.finding) not in wrong.subjects]
+        suspects = [one for one in chosen if subject_of(one.finding) in wrong.subjects]
+        others = [one for one in chosen if subject_of(one.finding) not in wrong.subjects]
         if suspects and others:
             self._halve(others)
             self._halve(self._current(suspects))
             return
-        if len({_subject(one.finding) for one in suspects}) == len(chosen):
+        if len({subject_of(one.finding) for one in suspects}) == len(chosen):
             for one in suspects:  # each has become worse itself
                 self._halve(self._current([one]))
             return
@@ -321,13 +272,13 @@ class _Round:
         self._halve(chosen[:middle])
         self._halve(self._current(chosen[middle:]))
 
-    def _attempt(self, some: Sequence[_Wanted]) -> _Wrong | None:
+    def _attempt(self, some: Sequence[_Wanted]) -> Wrong | None:
         """Apply fixes beside those that are kept; gives what is worse, None where they are kept."""
         result = self.result
         try:
             before, edited = self._edited([*self.kept, *some])
         except _UnmadeError as error:
-            return _Wrong(str(error), True)
+            return Wrong(str(error), True)
         after = {**result.after, **edited}
         own = dict.fromkeys(one.number for one in some)
         changed = [path for path, data in edited.items() if result.after.get(path) != data]
@@ -337,7 +288,7 @@ class _Round:
             old = result.reports[number]
             with reading_instead(after):
                 new = lint_file(old.path, self.options)
-            wrong = _worse(old, new, [one.finding for one in some if one.number == number])
+            wrong = worse(old, new, [one.finding for one in some if one.number == number])
             if wrong:
                 return wrong
             fresh[number] = new
@@ -442,63 +393,6 @@ def _spliced(data: bytes, spans: Sequence[tuple[int, int, bytes]]) -> bytes:
     return b"".join([*parts, data[position:]])
 
 
-def _key(finding: Finding) -> _Key:
-    """What stands for a finding, also when bytes above it have changed."""
-    place = finding.place
-    key: _Key = (finding.rule, place.path, finding.kind, finding.name, finding.message)
-    return (*key, place.start) if finding.kind == "file" else key
-
-
-def _likeness(finding: Finding) -> _Key:
-    """What a finding has in common with its like in another description."""
-    return finding.rule, finding.kind, finding.name, finding.message
-
-
-def _subject(finding: Finding) -> tuple[str, str]:
-    return finding.kind, finding.name
-
-
-def _worse(before: Report, after: Report, chosen: Sequence[Finding]) -> _Wrong | None:
-    """What is worse after some fixes; None where nothing is."""
-    if after.error is not None and before.error is None:
-        return _Wrong(f"the file could not be read: {after.error.message}")
-    if after.skipped and not before.skipped:
-        return _Wrong(f"the file would not be checked: {after.skipped}")
-    broke = after.failed_rules.keys() - before.failed_rules.keys()
-    if broke:
-        return _Wrong(f"the rule {min(broke)} breaks")
-    stops = [_stops(before), _stops(after)]
-    if len(stops[1]) > len(stops[0]) or (stops[1] and not stops[0]):
-        return _Wrong(f"the file could not be read: {stops[1][0].message}")
-    left = Counter(map(_key, after.findings))
-    there = Counter(map(_key, before.findings))
-    still = [finding for finding in chosen if left[_key(finding)] >= there[_key(finding)]]
-    if still:
-        return _Wrong("the finding is still there", subjects=frozenset(map(_subject, still)))
-    if stops[0] or any(finding.rule in REVEALING for finding in chosen):
-        return None
-    for level in (Severity.ERROR, Severity.WARNING):
-        now, then = _counted(after, level), _counted(before, level)
-        more = frozenset(subject for subject, count in now.items() if count > then[subject])
-        # among many, one that brings as much as it takes away is not seen in the sum
-        gone = sum(one.severity >= level for one in chosen) if more and len(chosen) > 1 else 0
-        if sum(now.values()) > sum(then.values()) - gone:
-            new = [f for f in after.findings if f.severity >= level and not there[_key(f)]]
-            what = f"then {new[0].message} [{new[0].rule}]" if new else ""
-            return _Wrong(what or "there would be more findings", subjects=more)
-    return None
-
-
-def _stops(report: Report) -> list[Finding]:
-    """What keeps the robot from being known."""
-    return [f for f in report.findings if f.kind == "file" and f.severity is Severity.ERROR]
-
-
-def _counted(report: Report, level: Severity) -> Counter[tuple[str, str]]:
-    """How many findings there are of each subject, from a severity on."""
-    return Counter(_subject(f) for f in report.findings if f.severity >= level)
-
-
 def concerns(report: Report, paths: Iterable[str]) -> bool:
     """Whether a description, or a fix of it, is of any of these files."""
     return not _paths(report).isdisjoint(paths)
@@ -506,8 +400,3 @@ def concerns(report: Report, paths: Iterable[str]) -> bool:
 
 def _paths(report: Report) -> set[str]:
     return set(report.files).union(*(f.fix.paths for f in report.findings if f.fix is not None))
-
-
-def changed(before: Mapping[str, bytes | None], after: Mapping[str, bytes]) -> list[str]:
-    """Paths of the files whose bytes differ."""
-    return [path for path, data in after.items() if data != before.get(path)]

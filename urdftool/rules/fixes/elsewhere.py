@@ -12,6 +12,7 @@ from ...inputs import Remembered
 from ...source.document import copy_of
 from ...source.nearby import bytes_of
 from ...source.packages import own_package, shown_path
+from ..mesh.uses import Stamp, stamp
 from .proposal import Around, RefusedError
 
 DESCRIPTIONS = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf")
@@ -47,7 +48,7 @@ def check_alone(around: Around, word: str, *, robots: bool, but: Collection[str]
 
 _PLAIN = re.compile(rb"[\w-]+")
 _MOST_WORDS = 3_000_000
-_words: dict[tuple[str, int, int], frozenset[bytes]] = {}
+_words: dict[Stamp, frozenset[bytes]] = {}
 
 
 class _File:
@@ -84,8 +85,7 @@ def _words_of(path: str) -> frozenset[bytes]:
     copy = copy_of(path)
     if copy is not None:
         return frozenset(_PLAIN.findall(copy[:_MOST_BYTES]))
-    status = os.stat(path)
-    key = path, status.st_mtime_ns, status.st_size
+    key = stamp(Path(path))
     if key not in _words:
         if sum(map(len, _words.values())) > _MOST_WORDS:
             _words.clear()
