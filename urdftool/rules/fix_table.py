@@ -1,8 +1,11 @@
 """Which rules have fixes, and where: what may be known of them without importing them.
 
-A fix is *safe* where everything that reads the robot sees the same kinematics, masses, collisions
-and control afterwards, or could not read it before. All others are *unsafe*: they invent or remove
-physics, guess what was meant, or take comments away. Some rules have both, depending on the case.
+A fix is *safe* if everything that reads the robot has the same kinematics, masses, inertia,
+collision shapes, limits and control afterwards, or could not read them before;
+``tests/lint/test_fix_safe.py`` loads robots before and after. All others are *unsafe*: they invent
+or remove physics, guess what was meant, change what one reader loads, or take comments away. Some
+rules have both, depending on the case. Rules of the file ``mesh_files`` write meshes, which an
+option of its own asks for.
 """
 
 from __future__ import annotations
