@@ -27,7 +27,14 @@ MENU = {
     ),
     "To look up": (
         *("rules/index", "configuration", "formats/sdf", "formats/mjcf", "python", "completion"),
-        *("benchmarks", "fidelity", "robustness", "simulate-robots", "inertia-vendors"),
+        *(
+            "benchmarks",
+            "fidelity",
+            "robustness",
+            "simulate-robots",
+            "inertia-vendors",
+            "lint-precision",
+        ),
     ),
     "For contributors": ("house", "contributing"),
 }

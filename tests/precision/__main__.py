@@ -1,13 +1,14 @@
 """``python -m tests.precision``: draw findings of real robots by rule, for a person to judge.
 
     python -m tests.precision [--seed N] [--count N]     draws, and prints them as JSON lines
-    python -m tests.precision --page VERDICTS.jsonl      writes docs/lint-precision.md
+    python -m tests.precision --page                     writes docs/lint-precision.md
 
 The descriptions of example-robot-data, pybullet_data and the corpus, where they are installed, are
 checked with the defaults. Rules are shuffled and gone through in turn; each time one of the rule's
 findings that were not drawn yet is drawn, at most one of a robot and rule. A verdict is a line as
 drawn with ``verdict`` (useful, noise or wrong) and ``reason``, written by somebody who read the
-finding beside the source and, where it speaks of a reader, asked that reader.
+finding beside the source and, where it speaks of a reader, asked that reader. They are kept in
+``verdicts.jsonl``.
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ from urdftool.lint.outcome import Options
 from urdftool.lint.parallel import lint_files
 
 PAGE = ROOT / "docs" / "lint-precision.md"
+KEPT = Path(__file__).with_name("verdicts.jsonl")
+SEED = 2026
 VERDICTS = ("useful", "noise", "wrong")
 
 
@@ -88,19 +91,27 @@ def _record(number: int, name: str, path: str, finding: Finding) -> dict[str, An
     }
 
 
-def page(judged: list[dict[str, Any]], seed: int) -> str:
+def judged() -> list[dict[str, Any]]:
+    """Read the verdicts."""
+    text = KEPT.read_text("utf-8")
+    return [json.loads(line) for line in text.splitlines() if line.strip()]
+
+
+def page(rows: list[dict[str, Any]], seed: int) -> str:
     """Write the page: the counts, and a row for each finding."""
-    counts = Counter(row["verdict"] for row in judged)
-    share = {verdict: counts[verdict] / len(judged) for verdict in VERDICTS}
+    counts = Counter(row["verdict"] for row in rows)
+    share = {verdict: counts[verdict] / len(rows) for verdict in VERDICTS}
     lines = [
         "# How precise lint is",
         "",
-        f"{len(judged)} findings of real robots (example-robot-data, pybullet_data, descriptions",
+        f"{len(rows)} findings of real robots (example-robot-data, pybullet_data, descriptions",
         "of public repositories), drawn by rule with",
         f"`python -m tests.precision --seed {seed}`, were each read beside the source, and what",
         "they say of a reader was compared with what that reader does. *Useful*: a maintainer",
         "would change the file or wants to know. *Noise*: true, but nobody would act on it.",
-        "*Wrong*: not true, or its advice makes the robot worse.",
+        "*Wrong*: not true, or its advice makes the robot worse, or a sentence about any reader is",
+        "false in this case. Each rule counts the same here, however rare its findings are. The",
+        "findings are those before what was learned from them was changed in the rules.",
         "",
         "| verdict | findings | share |",
         "|---|---:|---:|",
@@ -109,7 +120,7 @@ def page(judged: list[dict[str, Any]], seed: int) -> str:
         "| # | robot | rule | finding | verdict | why |",
         "|---:|---|---|---|---|---|",
     ]
-    for row in judged:
+    for row in rows:
         assert row["verdict"] in VERDICTS, row
         place = f"{row['robot']}:{row['line']}"
         message = _cell(f"{row['severity']}: {row['message']}")
@@ -127,14 +138,12 @@ def _cell(text: str) -> str:
 def main(words: list[str]) -> int:
     """Draw, or write the page."""
     parser = argparse.ArgumentParser(prog="python -m tests.precision")
-    parser.add_argument("--seed", type=int, default=2026)
+    parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--count", type=int, default=120)
-    parser.add_argument("--page", metavar="VERDICTS", help="write docs/lint-precision.md of these")
+    parser.add_argument("--page", action="store_true", help="write docs/lint-precision.md")
     arguments = parser.parse_args(words)
     if arguments.page:
-        text = Path(arguments.page).read_text("utf-8")
-        judged = [json.loads(line) for line in text.splitlines() if line.strip()]
-        PAGE.write_text(page(judged, arguments.seed), "utf-8")
+        PAGE.write_text(page(judged(), arguments.seed), "utf-8")
         return 0
     for row in draw(arguments.seed, arguments.count):
         print(json.dumps(row, ensure_ascii=False))
