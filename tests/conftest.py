@@ -25,7 +25,7 @@ settings.load_profile("urdftool")
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-MOST_SKIPPED = 50
+MOST_SKIPPED = 60
 """How many tests may be skipped where the corpus is present; see test_few_tests_are_skipped."""
 
 ABSENT = re.compile(r"requires (a physics engine|\w+), (?:which is not|and none is) installed: pip")
