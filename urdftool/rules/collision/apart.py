@@ -25,6 +25,9 @@ from ..mesh.outlines import Reaches, ShapeKind, reaches
 _ALIKE = 0.25
 """Part by which the lengths of two shapes may differ that stand for one body."""
 
+_SMALL = 0.05
+"""Diagonal of a visual [m] that may be apart from its collision by twice as much."""
+
 _CLEAR = 0.25
 """Part of the distance within which the third of three agrees with one of the other two."""
 
@@ -95,12 +98,9 @@ def compare_places(robot: Robot, link: Link, part: float) -> Apart | None:
         return None
     distance, diagonal = math.dist(seen.centre, touches.centre), norm(seen.size)
     larger = all(a > 2 * b for a, b in zip(touches.size, seen.size, strict=True))
-    if (
-        diagonal <= 0.05
-        or norm(touches.size) <= 0.01
-        or larger
-        or (seen.meets(touches) and distance <= part * diagonal)
-    ):
+    if larger or (seen.meets(touches) and distance <= part * diagonal):
+        return None
+    if min(diagonal, 5 * norm(touches.size)) <= _SMALL and distance <= 2 * _SMALL:
         return None
     sizes = zip(sorted(seen.size), sorted(touches.size), strict=True)
     alike = all(abs(a - b) <= _ALIKE * max(a, b) for a, b in sizes)
