@@ -74,15 +74,16 @@ def unknown_joint_type(robot: Robot, targets: frozenset[str]) -> Iterator[Proble
 def planar_or_floating(robot: Robot) -> Iterator[Problem]:
     """A joint is planar or floating.
 
-    The two types are in the specification and hardly any reader has them. sdformat drops the joint
-    and keeps a pose relative to it, so Gazebo loads nothing; elsewhere the joint is fixed.
+    sdformat drops the joint and keeps a pose relative to it, so Gazebo rejects the model.
+    robot_state_publisher publishes no transform for a floating joint and a fixed one for a planar
+    joint. MuJoCo has both types, Drake has planar joints.
     """
     for joint in robot.joints:
         if joint.type in ("planar", "floating"):
             yield Problem(
                 joint,
-                f"joint '{joint.name}' is {joint.type}, which few readers have; "
-                "use revolute and prismatic joints, or leave the root free",
+                f"joint '{joint.name}' is {joint.type}, which Gazebo rejects and "
+                "robot_state_publisher does not move; use revolute and prismatic joints, or leave the root free",
                 at=joint.element.attribute_place("type"),
             )
 
