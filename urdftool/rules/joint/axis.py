@@ -72,9 +72,10 @@ def axis_omitted(robot: Robot) -> Iterator[Problem]:
     """A moving joint has no ``<axis>``.
 
     The default is x (1 0 0). Many expect z; whoever means x helps the next reader by writing it.
+    Planar joints are left out: Pinocchio ignores their axis, and sdformat rejects them.
     """
     for joint in robot.joints:
-        if joint.has_axis and joint.axis is None:
+        if joint.has_axis and joint.axis is None and joint.type != "planar":
             yield Problem(
                 joint,
                 f"joint '{joint.name}' has no <axis>, so it is 1 0 0; write it down",
