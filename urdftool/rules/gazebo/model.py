@@ -150,12 +150,13 @@ def root_not_anchored(robot: Robot) -> Iterator[Problem]:
     """An arm is not fixed to the world.
 
     The root of a robot lies loose in Gazebo. An arm without wheels or legs falls over with its
-    first movement; a link called ``world`` and a fixed joint hold it.
+    first movement; a link called ``world`` and a fixed joint hold it. A robot whose root is
+    ``base_footprint``, or with a link or joint named wheel or caster, is mobile and left out.
     """
     root = robot.tree.root
     if root is None or root.name == "world" or any(j.type == "floating" for j in robot.joints):
         return
-    if any(joint.type == "continuous" and _wheel(joint.child) for joint in robot.joints):
+    if root.name == "base_footprint" or any(map(_is_wheel, (*robot.link, *robot.joint))):
         return
     if any(is_true(block.value("static")) for block in robot.gazebo if not block.reference):
         return
@@ -173,5 +174,5 @@ def root_not_anchored(robot: Robot) -> Iterator[Problem]:
         )
 
 
-def _wheel(name: str) -> bool:
-    return "wheel" in name.lower()
+def _is_wheel(name: str) -> bool:
+    return any(word in name.lower() for word in ("wheel", "caster", "castor"))
