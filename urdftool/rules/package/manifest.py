@@ -57,10 +57,11 @@ def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterat
 
     ``package://NAME/`` and ``$(find NAME)`` want that package to be installed, and ``package.xml``
     does not say so. It works where the package happens to be. Where that package depends on this
-    one, ``dependency-circle`` says so instead.
+    one, ``dependency-circle`` says so instead. Descriptions in a folder ``test`` or ``tests`` of
+    the package are left out: no robot needs them.
     """
     own = own_package(description.packages.file)
-    if own is None:
+    if own is None or _is_in_tests(description.packages.file, own[1]):
         return
     declared = _declared(own[1])
     for name, subject, at in _used_packages(robot, description, own):
@@ -112,6 +113,12 @@ def dependency_circle(robot: Robot, description: Description) -> Iterator[Proble
                 "Move the files that are used",
                 at=at,
             )
+
+
+def _is_in_tests(file: Path, folder: Path) -> bool:
+    """Tell whether a file is in a folder ``test`` or ``tests`` of its package."""
+    relative = Path(os.path.relpath(os.path.realpath(file), os.path.realpath(folder)))
+    return not {"test", "tests"}.isdisjoint(relative.parts[:-1])
 
 
 def _declared(folder: Path) -> set[str]:

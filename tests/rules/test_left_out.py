@@ -1,0 +1,46 @@
+"""Robots that a rule leaves out, and remedies that it does not propose."""
+
+import pytest
+
+from urdftool.lint.run import check
+
+
+def _messages(path, rule, *targets):
+    return [finding.message for finding in check(path, select=[rule], targets=targets)]
+
+
+@pytest.mark.parametrize(
+    ("folder", "count"), [("urdf", 1), ("test", 0), ("tests/data", 0), ("contest", 1)]
+)
+def test_descriptions_of_tests_need_no_dependency(tmp_path, folder, count):
+    package = tmp_path / "tests" / "arm_description"
+    file = package / folder / "arm.urdf"
+    file.parent.mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>arm_description</name></package>")
+    file.write_text(
+        '<robot name="arm"><link name="base"><visual><geometry>'
+        '<mesh filename="package://arm_meshes/arm.stl"/></geometry></visual></link></robot>'
+    )
+    assert len(_messages(file, "undeclared-mesh-dependency", "ros2")) == count
+
+
+def test_a_planar_joint_is_reported_with_who_does_not_move_it(tmp_path):
+    file = tmp_path / "robot.urdf"
+    file.write_text(
+        '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="planar">'
+        '<parent link="a"/><child link="b"/></joint></robot>'
+    )
+    assert _messages(file, "planar-or-floating") == [
+        "joint 'j' is planar, which Gazebo rejects and robot_state_publisher does not move; "
+        "use revolute and prismatic joints, or leave the root free"
+    ]
+
+
+@pytest.mark.parametrize(("kind", "count"), [("planar", 0), ("continuous", 1)])
+def test_the_axis_of_a_planar_joint_may_be_omitted(tmp_path, kind, count):
+    file = tmp_path / "robot.urdf"
+    file.write_text(
+        f'<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="{kind}">'
+        '<parent link="a"/><child link="b"/></joint></robot>'
+    )
+    assert len(_messages(file, "axis-omitted")) == count
