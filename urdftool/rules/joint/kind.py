@@ -83,7 +83,8 @@ def planar_or_floating(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 joint,
                 f"joint '{joint.name}' is {joint.type}, which Gazebo rejects and "
-                "robot_state_publisher does not move; use revolute and prismatic joints, or leave the root free",
+                "robot_state_publisher does not move; use revolute and prismatic joints, or "
+                "leave the root free",
                 at=joint.element.attribute_place("type"),
             )
 
