@@ -33,9 +33,9 @@ def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
             if says_unlimited(lower, upper):
                 so = "PyBullet and MuJoCo take it as unlimited, other readers reject or swap them; "
                 so += (
-                    "make the joint continuous, or write lower below upper"
+                    "make the joint continuous if it is unlimited, or else write lower below upper"
                     if joint.type == "revolute"
-                    else "write lower below upper"
+                    else "write lower below upper, as far apart as the joint may slide"
                 )
             else:
                 so = "PyBullet and MuJoCo ignore such limits; swap them"
