@@ -30,7 +30,10 @@ _REJECTED = {
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
+        "gz, gazebo-classic": (
+            "reject the model (sdformat 12.3: Error 18), unless a fixed joint lumps the link into "
+            "one that makes it possible"
+        ),
         "mujoco": "rejects the file",
         "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
         "urdfdom, KDL, pinocchio": "accept it without a message",
@@ -60,7 +63,10 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
+        "gz, gazebo-classic": (
+            "reject the model (sdformat 12.3: Error 18), unless a fixed joint lumps the link into "
+            "one that makes it possible"
+        ),
         "mujoco": "rejects the file: inertia must satisfy A + B >= C",
         "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
         "urdfdom, KDL, pinocchio": "accept it without a message",
@@ -166,9 +172,8 @@ def zero_inertia(robot: Robot, *, part: float = 0.25) -> Iterator[Problem]:
 @rule(
     WARNING,
     effects={
-        "gz, gazebo-classic, pybullet, pinocchio, drake": (
-            "accept it: nothing resists a turn about that axis"
-        ),
+        "gz, gazebo-classic, pinocchio, drake": "accept it: nothing resists a turn about that axis",
+        "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, keeps the zero",
         "mujoco": "rejects the file: inertia must have positive eigenvalues",
     },
     group="robot",
@@ -288,7 +293,8 @@ def _may_be_below(links: list[Link], most: float, slides: bool) -> bool:
 
 
 def _shown(moments: Vector) -> str:
-    return ", ".join(f"{moment:.4g}" for moment in moments)
+    least = 1e-12 * max(map(abs, moments))  # below it is what computing the moments leaves over
+    return ", ".join(f"{moment if abs(moment) > least else 0.0:.4g}" for moment in moments)
 
 
 def _component(inertial: Inertial, six: Six, moment: float) -> Place | None:

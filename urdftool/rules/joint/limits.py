@@ -120,14 +120,14 @@ def _is_empty(limit: Limit) -> bool:
     effects={
         "gz, gazebo-classic, pybullet, pinocchio": "ignore the bounds",
         "urdfdom, drake": "pass them on",
-        "mujoco": "3.3 enforces them, 4.0 ignores them",
+        "mujoco": "3.3 enforces them unless both are 0, 4.0 ignores them",
     },
 )
 def continuous_with_bounds(robot: Robot) -> Iterator[Problem]:
     """A continuous joint has a lower or upper limit.
 
     A continuous joint turns without end and most readers pass over the bounds; MuJoCo 3.3 keeps to
-    them, so the same file is two robots. A joint with stops is ``revolute``.
+    them unless both are 0, so the same file is two robots. A joint with stops is ``revolute``.
     """
     for joint in robot.joints:
         limit = joint.limit
