@@ -175,6 +175,7 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
         "moveit": "takes the limit as written for the bound of the joint",
     },
     group="robot",
+    default=False,
 )
 def limit_rounded_outward(
     robot: Robot, *, smallest: float = 1e-7, largest: float = 1e-3
