@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ...model.convex import Convex
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import MOVABLE, limits_of, motion_of
-from ...model.pose import IDENTITY, Pose, pose_of, rotate, transpose
+from ...model.pose import IDENTITY, Pose, dot, pose_of, rotate, transpose
 from ..rule import GAZEBO, INFO, WARNING, Problem, rule
 from ..words import some_of
 from .pieces import Pieces, pieces
@@ -145,7 +145,9 @@ def link_inside_parent(
     """A link sits in the middle of the one it hangs on.
 
     Neighbours overlap where a joint joins them, not with their middles. Mostly the ``<origin>`` of
-    the joint was lost, so that the child stands at the frame of its parent. It is told where the
+    the joint was lost, so that the child stands at the frame of its parent. A joint whose
+    ``<origin>`` says where it is, be it ``0 0 0``, is not reported, nor is one at right angles to
+    the joint before it, as in a wrist. It is told where the
     middle of the child's collision is deeper inside the parent's than ``core`` of the parent's
     half width, and both are of a size; more than ``together`` such joints are one finding.
     """
@@ -153,6 +155,10 @@ def link_inside_parent(
     found = []
     for joint in robot.joints:
         if joint.type not in MOVABLE or joint.child not in known.poses:
+            continue
+        if joint.origin is not None and "xyz" in joint.origin.element.attributes:
+            continue
+        if _is_across(known, joint):
             continue
         depth, parent = _depth_of_middle(known, joint, IDENTITY)
         if depth > core and parent is not None:
@@ -166,6 +172,20 @@ def link_inside_parent(
             f"does it lack its <origin>?{f' So do {names}' if many else ''}",
             at=joint.origin or joint,
         )
+
+
+def _is_across(known: Pieces, joint: Joint) -> bool:
+    """Whether a joint's axis is at right angles to that of the moving joint before it."""
+    before = known.robot.tree.parent_joint(joint.parent)
+    while before is not None and before.is_fixed:
+        before = known.robot.tree.parent_joint(before.parent)
+    if before is None or before.child not in known.poses:
+        return False
+    one, other = (
+        rotate(known.poses[each.child].rotation, each.axis.xyz if each.axis else (1.0, 0.0, 0.0))
+        for each in (before, joint)
+    )
+    return abs(dot(one, other)) < 0.1 * math.hypot(*one) * math.hypot(*other)
 
 
 def _depth_of_middle(known: Pieces, joint: Joint, moved: Pose) -> tuple[float, Link | None]:
