@@ -196,7 +196,9 @@ def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Probl
 
     A link collides with the mesh that is seen, or left and right share one, and the factors differ:
     one of them was forgotten, or lost a power of ten. Signs do not count, as mirrored parts have
-    them.
+    them. A mesh stretched to several shapes, as a cube that is the top and the legs of a table, is
+    not reported: unless a link shows one and collides with the other, two scales count where both
+    are uniform or differ by a power of ten.
     """
     uses: dict[str, list[MeshUse]] = {}
     for use in mesh_uses(robot, description):
@@ -207,6 +209,9 @@ def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Probl
         for use, scale in zip(same, scales, strict=True):
             if all(math.isclose(a, b, rel_tol=0.02) for a, b in zip(scale, usual, strict=True)):
                 continue
+            stretched = not (_is_uniform(scale) and _is_uniform(usual))
+            if stretched and not _is_power_of_ten(scale, usual) and not _is_pair(use, same):
+                continue
             yield Problem(
                 use.link,
                 f"mesh '{uri}' of link '{use.link.name}' is scaled by {_words(scale)}, and "
@@ -215,6 +220,24 @@ def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Probl
                 if "scale" in use.mesh.element.attributes
                 else use.mesh.element,
             )
+
+
+def _is_uniform(scale: tuple[float, ...]) -> bool:
+    return math.isclose(min(scale), max(scale), rel_tol=0.02)
+
+
+def _is_power_of_ten(scale: tuple[float, ...], usual: tuple[float, ...]) -> bool:
+    """Whether one scale is a power of ten times the other, along each axis."""
+    if not (min(scale) > 0 and min(usual) > 0):
+        return False
+    powers = [math.log10(a / b) for a, b in zip(scale, usual, strict=True)]
+    return max(powers) - min(powers) < 0.01 and abs(powers[0] - round(powers[0])) < 0.01
+
+
+def _is_pair(use: MeshUse, same: list[MeshUse]) -> bool:
+    """Whether a link shows the mesh once and collides with it once."""
+    kinds = [other.collides for other in same if other.link is use.link]
+    return sorted(kinds) == [False, True]
 
 
 def _words(scale: tuple[float, ...]) -> str:
