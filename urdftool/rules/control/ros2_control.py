@@ -211,11 +211,17 @@ def command_without_state(robot: Robot) -> Iterator[Problem]:
     configure a joint of which it commands the velocity without its position and velocity. The
     wheels of a drive are different: ``diff_drive_controller`` commands their velocity and reads
     their position, or their velocity with ``position_feedback: false``. A joint that turns without
-    end is therefore right with either state.
+    end is therefore right with either state. The state may be in another ``<ros2_control>`` block,
+    as that of a sensor is.
     """
+    given: dict[str, set[str]] = {}
     for control in robot.ros2_controls:
         for joint in control.joints:
-            states = {interface.name for interface in joint.state_interfaces}
+            states = given.setdefault(joint.name, set())
+            states.update(interface.name for interface in joint.state_interfaces)
+    for control in robot.ros2_controls:
+        for joint in control.joints:
+            states = set(given[joint.name])
             written = robot.joint.get(joint.name)
             if written is not None and written.type == "continuous" and "position" in states:
                 states.add("velocity")

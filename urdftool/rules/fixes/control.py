@@ -201,7 +201,13 @@ def command_without_state(problem: Problem, around: Around) -> Proposal | None:
     joint = interface.parent if interface is not None else None
     if joint is None:
         return None
-    states = {state.get("name") for state in joint.all("state_interface")}
+    states = {
+        state.name
+        for control in around.robot.ros2_controls
+        for other in control.joints
+        if other.name == (joint.get("name") or "")
+        for state in other.state_interfaces
+    }
     names = [command.get("name") or "" for command in joint.all("command_interface")]
     missing = [name for name in names if name in ("position", "velocity") and name not in states]
     lines = tuple((f'<state_interface name="{name}"/>',) for name in dict.fromkeys(missing))

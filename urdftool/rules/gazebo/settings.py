@@ -26,8 +26,12 @@ def deprecated_cfm_damping(robot: Robot) -> Iterator[Problem]:
     """
     for block in robot.gazebo:
         for child in block.element.all("cfmDamping"):
+            has_both = block.element.child("implicitSpringDamper") is not None
+            remedy = "which is written as well; remove it" if has_both else "write that"
             yield Problem(
-                block.element, "cfmDamping is now called implicitSpringDamper; write that", at=child
+                block.element,
+                f"cfmDamping is now called implicitSpringDamper{',' if has_both else ';'} {remedy}",
+                at=child,
             )
 
 

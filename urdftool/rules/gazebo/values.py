@@ -100,10 +100,11 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
 
     Rubber on concrete has a coefficient of 1. Below zero there is none (an error), above
     ``highest`` it is a slip in the number more often than meant, and a contact with a stiffness
-    ``kp`` of 0 does not hold anything.
+    ``kp`` of 0 does not hold anything. What is wrong with both frictions of a block is one finding.
     """
     told: set[tuple[str, float]] = set()
     for block in robot.gazebo:
+        found: dict[str, Problem] = {}
         for child in block.element.children:
             if child.tag not in ("mu1", "mu2", "kp"):
                 continue
@@ -111,12 +112,22 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
             if value is None or (child.tag, value) in told:
                 continue
             told.add((child.tag, value))
+            wrong = f"{child.tag} is {value:g}"
             if value < 0:
-                wrong = f"{child.tag} is {value:g}; it cannot be below 0"
+                why = (
+                    "it cannot be below 0" if child.tag == "kp" else "a friction cannot be below 0"
+                )
             elif child.tag == "kp" and value == 0:
-                wrong = "kp is 0, so that nothing carries the link; Gazebo's own is 1e12"
+                wrong, why = "kp is 0, so that nothing carries the link", "Gazebo's own is 1e12"
             elif child.tag != "kp" and value > highest:
-                wrong = f"{child.tag} is {value:g}; rubber on concrete has about 1"
+                why = "rubber on concrete has about 1"
             else:
                 continue
-            yield Problem(block.element, wrong, at=child, severity=ERROR if value < 0 else None)
+            if why in found:
+                found[why].message += f" and {wrong}"
+            else:
+                severity = ERROR if value < 0 else None
+                found[why] = Problem(block.element, wrong, at=child, severity=severity)
+        for why, problem in found.items():
+            problem.message += f"; {why}"
+            yield problem

@@ -27,6 +27,7 @@ from .solids import centre_of_solids, solid_moments, solid_text
 from .tensors import is_positive, is_zero, moments_of, six_of, tensors
 
 _SIZE_IN_DOUBT = ("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line")
+_SINGULAR = 1e-9  # the part of the largest moment that counts as zero
 _CENTER = ("com-outside-geometry", "inertial-not-at-com-suspect")
 
 
@@ -300,13 +301,18 @@ def _is_off_centre(link: Link, box: Bounds, far: float) -> bool:
     of_motion=True,
 )
 def radius_of_gyration(
-    robot: Robot, *, largest: float = 1.0, smallest: float = 1e-3, heavy: float = 0.01
+    robot: Robot,
+    *,
+    largest: float = 1.0,
+    smallest: float = 1e-3,
+    heavy: float = 0.01,
 ) -> Iterator[Problem]:
     """A link's inertia does not go with its mass.
 
     The root of the one over the other is how far from its centre the mass sits on average. A metre
     is more than most robots are long, a millimetre is a pinhead. Square millimetres for square
-    metres are the usual cause. Links whose size is known are left to ``inertia-exceeds-geometry``.
+    metres are the usual cause. Links whose size is known are left to ``inertia-exceeds-geometry``. A tensor that is
+    zero or negative about an axis has a finding of its own.
     """
     reach = reaches(robot)
     for link, inertial, six in tensors(robot):
@@ -315,8 +321,8 @@ def radius_of_gyration(
             continue
         if inertial.mass is None or reach.link(link) is not None:
             continue
-        high = moments_of(six)[2]
-        if high <= 0:
+        low, _, high = moments_of(six)
+        if high <= 0 or low <= _SINGULAR * high:
             continue
         radius = math.sqrt(high / mass)
         around = reach.body(link)

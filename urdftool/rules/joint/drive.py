@@ -117,11 +117,12 @@ def implausible_velocity(
     """A joint's velocity limit is faster than arms and slides are.
 
     In most cases it is in degrees or turns per minute, or a large number that means "none".
-    Planners time trajectories by it. One number at more than ``together`` joints is one finding.
+    Planners time trajectories by it. One number at more than ``together`` joints is one finding. A
+    joint whose two limits are equal does not move, and is let be.
     """
     found = []
     for joint, limit in _driven(robot):
-        if joint.type == "continuous" or limit.velocity is None:
+        if joint.type == "continuous" or limit.velocity is None or _is_locked(joint):
             continue
         fastest = fastest_slide if joint.type == "prismatic" else fastest_turn
         if limit.velocity > fastest:
@@ -277,8 +278,13 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
 
     Nothing takes energy out of them: a limp joint swings for ever, and one under position control
     swings for long. Real bearings and gears have both. The robot's joints are named once, together.
+    A joint whose two limits are equal does not swing, and is let be.
     """
-    free = [joint for joint in robot.joints if joint.type in _MOVING and _is_undamped(joint)]
+    free = [
+        joint
+        for joint in robot.joints
+        if joint.type in _MOVING and not _is_locked(joint) and _is_undamped(joint)
+    ]
     if free:
         names = quoted(joint.name for joint in free)
         verb = "has" if len(free) == 1 else "have"
@@ -290,6 +296,14 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
 
 
 _MOVING = ("revolute", "continuous", "prismatic")
+
+
+def _is_locked(joint: Joint) -> bool:
+    """Whether a joint's two limits are written and equal, so that it cannot move."""
+    limit = joint.limit
+    if limit is None or not joint.is_limited or limit.lower is None:
+        return False
+    return limit.lower == limit.upper
 
 
 def _is_undamped(joint: Joint) -> bool:

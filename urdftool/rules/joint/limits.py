@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.elements import Limit, Robot
+from ...model.elements import JOINT_TYPES, Limit, Robot
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
 
@@ -41,20 +41,22 @@ def missing_limit(robot: Robot) -> Iterator[Problem]:
     effects={
         "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot (urdfdom 3, 4 and 6)",
         "pybullet": "takes 0",
-        "mujoco, drake": "load it without the limit",
+        "mujoco": "loads it: an effort that is not written has no limit, a velocity is not read",
+        "drake": "loads it: a velocity that is not written has no limit",
     },
 )
 def limit_without_effort_or_velocity(robot: Robot) -> Iterator[Problem]:
     """A ``<limit>`` lacks its effort or velocity.
 
     urdfdom refuses the robot, on a fixed or continuous joint too, unless it says version 1.2.
-    MuJoCo and Drake load it, so the fault only shows when ROS does.
+    MuJoCo and Drake load it, so the fault only shows when ROS does. A joint of an unknown type has a
+    finding of its own.
     """
     if _version(robot) >= 1.2:
         return
     for joint in robot.joints:
         limit = joint.limit
-        if limit is None:
+        if limit is None or joint.type.lower() not in JOINT_TYPES:
             continue
         attributes = limit.element.attributes
         missing = [name for name in ("effort", "velocity") if name not in attributes]

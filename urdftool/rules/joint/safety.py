@@ -86,14 +86,24 @@ def soft_limits_outside_hard(robot: Robot, *, tolerance: float = 1e-6) -> Iterat
             continue
         if low >= limit.upper or high <= limit.lower:
             continue
-        if low < limit.lower - tolerance or high > limit.upper + tolerance:
-            name = "soft_lower_limit" if low < limit.lower - tolerance else "soft_upper_limit"
-            yield Problem(
-                joint,
+        below, above = low < limit.lower - tolerance, high > limit.upper + tolerance
+        if below and above:
+            what = (
                 f"soft limits {low:g} to {high:g} of joint '{joint.name}' are beyond its limits "
-                f"{limit.lower:g} to {limit.upper:g}, so they do nothing",
-                at=safety.element.attribute_place(name),
+                f"{limit.lower:g} to {limit.upper:g}, so they do nothing"
             )
+        elif below or above:
+            word, soft, hard = (
+                ("lower", low, limit.lower) if below else ("upper", high, limit.upper)
+            )
+            what = (
+                f"soft {word} limit {soft:g} of joint '{joint.name}' is beyond its {word} limit "
+                f"{hard:g}, so it does nothing"
+            )
+        else:
+            continue
+        name = "soft_lower_limit" if below else "soft_upper_limit"
+        yield Problem(joint, what, at=safety.element.attribute_place(name))
 
 
 @rule(

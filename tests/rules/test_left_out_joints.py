@@ -1,0 +1,121 @@
+"""What a rule leaves out: another says it, or nothing is wrong."""
+
+import pytest
+
+from urdftool.lint.outcome import Options
+from urdftool.lint.run import lint_file
+from urdftool.lint.settings import Settings
+
+ARM = '<link name="base"/><link name="arm"/>'
+JOINT = """<joint name="swing" type="{kind}">
+  <parent link="base"/><child link="arm"/><axis xyz="0 1 0"/>{more}
+</joint>"""
+
+
+def _messages(tmp_path, inside, rule, *targets):
+    path = tmp_path / "r.urdf"
+    path.write_text(f'<robot name="r">{inside}</robot>')
+    settings = Settings(select=(rule,), targets=frozenset(targets))
+    return [finding.message for finding in lint_file(path, Options(settings)).findings]
+
+
+def _joint(kind="revolute", more=""):
+    return ARM + JOINT.format(kind=kind, more=more)
+
+
+@pytest.mark.parametrize("rule", ["missing-dynamics", "implausible-velocity"])
+def test_a_joint_that_its_limits_lock_does_not_move(tmp_path, rule):
+    limit = '<limit lower="{}" upper="0.5" effort="2" velocity="3000"/>'
+    assert len(_messages(tmp_path, _joint(more=limit.format(0.4)), rule, "pybullet")) == 1
+    assert not _messages(tmp_path, _joint(more=limit.format(0.5)), rule, "pybullet")
+
+
+def test_of_two_soft_limits_the_one_beyond_is_named(tmp_path):
+    def said(low, high):
+        limit = '<limit lower="-1.5" upper="1.5" effort="2" velocity="3"/>'
+        soft = f'soft_lower_limit="{low}" soft_upper_limit="{high}" k_velocity="10"'
+        more = f"{limit}<safety_controller {soft}/>"
+        return _messages(tmp_path, _joint(more=more), "soft-limits-outside-hard")
+
+    assert said(-1.6, 1.4) == [
+        "soft lower limit -1.6 of joint 'swing' is beyond its lower limit -1.5, so it does nothing"
+    ]
+    assert said(-1.4, 1.7) == [
+        "soft upper limit 1.7 of joint 'swing' is beyond its upper limit 1.5, so it does nothing"
+    ]
+    (both,) = said(-1.6, 1.7)
+    assert both.endswith("are beyond its limits -1.5 to 1.5, so they do nothing")
+
+
+@pytest.mark.parametrize(
+    ("least", "rule"),
+    [
+        ("200", "radius-of-gyration"),
+        ("0", "singular-inertia"),
+        ("-200", "inertia-not-positive-definite"),
+    ],
+)
+def test_a_tensor_that_no_body_has_is_said_once(tmp_path, least, rule):
+    inertia = f'ixx="13400" ixy="0" ixz="0" iyy="13400" iyz="0" izz="{least}"'
+    inertial = f'<inertial><mass value="1"/><inertia {inertia}/></inertial>'
+    inside = _joint("continuous").replace(
+        '<link name="arm"/>', f'<link name="arm">{inertial}</link>'
+    )
+    for one in ("radius-of-gyration", "singular-inertia", "inertia-not-positive-definite"):
+        assert len(_messages(tmp_path, inside, one)) == (one == rule)
+
+
+def test_a_joint_of_an_unknown_type_is_not_asked_for_its_effort(tmp_path):
+    rule = "limit-without-effort-or-velocity"
+    limit = '<limit lower="-1" upper="1" effort="2"/>'
+    for kind in ("revolute", "continuous", "fixed"):
+        assert len(_messages(tmp_path, _joint(kind, limit), rule)) == 1
+    assert not _messages(tmp_path, _joint("spherical", limit), rule)
+    assert _messages(tmp_path, _joint("spherical", limit), "unknown-joint-type")
+
+
+def test_both_frictions_of_a_block_are_one_finding(tmp_path):
+    def said(inside):
+        block = f'<gazebo reference="arm">{inside}</gazebo>'
+        rule = "implausible-friction"
+        return _messages(tmp_path, _joint("continuous") + block, rule, "gazebo-classic")
+
+    assert said("<mu1>100</mu1><mu2>50</mu2>") == [
+        "mu1 is 100 and mu2 is 50; rubber on concrete has about 1"
+    ]
+    assert said("<mu1>1</mu1><mu2>50</mu2>") == ["mu2 is 50; rubber on concrete has about 1"]
+    assert said("<mu1>-1</mu1><mu2>50</mu2><kp>0</kp>") == [
+        "mu1 is -1; a friction cannot be below 0",
+        "mu2 is 50; rubber on concrete has about 1",
+        "kp is 0, so that nothing carries the link; Gazebo's own is 1e12",
+    ]
+
+
+def test_an_old_name_beside_the_new_one_is_to_be_removed(tmp_path):
+    def said(inside):
+        block = f'<gazebo reference="swing"><cfmDamping>1</cfmDamping>{inside}</gazebo>'
+        rule = "deprecated-cfm-damping"
+        return _messages(tmp_path, _joint("continuous") + block, rule, "gazebo-classic")
+
+    assert said("") == ["cfmDamping is now called implicitSpringDamper; write that"]
+    assert said("<implicitSpringDamper>1</implicitSpringDamper>") == [
+        "cfmDamping is now called implicitSpringDamper, which is written as well; remove it"
+    ]
+
+
+def test_the_state_of_a_command_may_be_in_another_block(tmp_path):
+    def said(state):
+        blocks = ""
+        for kind, inside in (
+            ("actuator", '<command_interface name="position"/>'),
+            ("sensor", f'<state_interface name="{state}"/>'),
+        ):
+            plugin = "<hardware><plugin>a/B</plugin></hardware>"
+            joint = f'<joint name="swing">{inside}</joint>'
+            blocks += f'<ros2_control name="{kind}" type="{kind}">{plugin}{joint}</ros2_control>'
+        return _messages(tmp_path, _joint("continuous") + blocks, "command-without-state", "ros2")
+
+    assert not said("position")
+    assert said("velocity") == [
+        "joint 'swing' has the command 'position' and not the state of that name"
+    ]
