@@ -172,8 +172,12 @@ def zero_inertia(robot: Robot, *, part: float = 0.25) -> Iterator[Problem]:
 @rule(
     WARNING,
     effects={
-        "gz, gazebo-classic, pinocchio, drake": "accept it: nothing resists a turn about that axis",
-        "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, keeps the zero",
+        "gz, gazebo-classic, pinocchio, drake": (
+            "accept it: nothing resists a turn about that axis"
+        ),
+        "pybullet": (
+            "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, keeps the zero"
+        ),
         "mujoco": "rejects the file: inertia must have positive eigenvalues",
     },
     group="robot",

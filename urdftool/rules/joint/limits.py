@@ -49,8 +49,8 @@ def limit_without_effort_or_velocity(robot: Robot) -> Iterator[Problem]:
     """A ``<limit>`` lacks its effort or velocity.
 
     urdfdom refuses the robot, on a fixed or continuous joint too, unless it says version 1.2.
-    MuJoCo and Drake load it, so the fault only shows when ROS does. A joint of an unknown type has a
-    finding of its own.
+    MuJoCo and Drake load it, so the fault only shows when ROS does. A joint of an unknown type has
+    a finding of its own.
     """
     if _version(robot) >= 1.2:
         return
