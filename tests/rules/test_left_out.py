@@ -44,3 +44,37 @@ def test_the_axis_of_a_planar_joint_may_be_omitted(tmp_path, kind, count):
         '<parent link="a"/><child link="b"/></joint></robot>'
     )
     assert len(_messages(file, "axis-omitted")) == count
+
+
+LINKS = '<link name="a"/><link name="b"/><link name="c"/>'
+DRAKE = '<drake:joint name="j" type="ball"><parent link="{}"/><child link="{}"/></drake:joint>'
+
+
+@pytest.mark.parametrize(
+    ("joints", "expected"),
+    [
+        (
+            DRAKE.format("a", "b") + DRAKE.format("b", "c"),
+            [
+                "links 'b' and 'c' are roots, because only Drake reads the <drake:joint> that "
+                "joins them; write <joint> for the other readers"
+            ],
+        ),
+        (
+            DRAKE.format("a", "b"),
+            [
+                "link 'b' is a root, because only Drake reads the <drake:joint> that joins it; "
+                "write <joint> for the other readers",
+                "link 'c' is the child of no joint, as is 'a'; join them by joints",
+            ],
+        ),
+        (
+            DRAKE.format("world", "a"),
+            ["links 'b', 'c' are children of no joint, as is 'a'; join them by joints"],
+        ),
+    ],
+)
+def test_a_joint_of_drake_joins_links_for_drake_alone(tmp_path, joints, expected):
+    file = tmp_path / "robot.urdf"
+    file.write_text(f'<robot name="r" xmlns:drake="drake">{LINKS}{joints}</robot>')
+    assert _messages(file, "multiple-roots") == expected

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from ...model.elements import Link, Robot
 from ..rule import ERROR, Problem, rule
 from ..unexpanded import is_unexpanded
+from ..words import quoted
 from ..xml.vocabulary_table import misspelt_children
 
 _SHOWN = 6
@@ -18,20 +19,25 @@ _SHOWN = 6
         "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot: two root links found",
         "mujoco": "welds every root to the world",
         "pybullet": "crashes",
-        "drake": "loads each root as a free body",
+        "drake": "loads each root that no <drake:joint> joins as a free body",
     },
 )
 def multiple_roots(robot: Robot) -> Iterator[Problem]:
     """More than one link hangs on no joint.
 
     A robot is one tree with one root. urdfdom refuses several, MuJoCo welds each to the world, and
-    PyBullet crashes. Mostly a joint was forgotten.
+    PyBullet crashes. Mostly a joint was forgotten. A ``<drake:joint>`` joins links for Drake alone.
     """
     roots = robot.tree.roots
     if len(roots) < 2 or "joint" in misspelt_children(robot.element).values():
         return
     main = _main(robot)
-    others = [link for link in roots if link is not main]
+    joined = _joined_in_drake(robot)
+    if joined:
+        yield _of_drake([link for link in roots if link.name in joined])
+    others = [link for link in roots if link is not main and link.name not in joined]
+    if main.name in joined:
+        others = others[1:]
     lost = sum(1 for joint in robot.joints if joint.child not in robot.link)
     if len(others) <= lost or any(is_unexpanded(link.name) for link in others):
         return
@@ -42,6 +48,27 @@ def multiple_roots(robot: Robot) -> Iterator[Problem]:
     else:
         message = f"links {names}{more} are children of no joint, as is '{main.name}'; join them"
     yield Problem(others[0], f"{message} by joints")
+
+
+def _joined_in_drake(robot: Robot) -> set[str]:
+    """Find the roots that a ``<drake:joint>`` joins to another link."""
+    roots = {link.name for link in robot.tree.roots}
+    found = set()
+    for joint in robot.element.all("drake:joint"):
+        parent, child = joint.child("parent"), joint.child("child")
+        if parent is not None and child is not None and parent.get("link") in robot.link:
+            found.add(child.get("link") or "")
+    return found & roots
+
+
+def _of_drake(links: list[Link]) -> Problem:
+    names = quoted((link.name for link in links), _SHOWN)
+    what = f"link {names} is a root" if len(links) == 1 else f"links {names} are roots"
+    return Problem(
+        links[0],
+        f"{what}, because only Drake reads the <drake:joint> that joins "
+        f"{'it' if len(links) == 1 else 'them'}; write <joint> for the other readers",
+    )
 
 
 def _main(robot: Robot) -> Link:
