@@ -164,3 +164,17 @@ def test_followers_that_are_fixed_are_one_finding(write):
     text = text.replace("</robot>", LINK.format("end") + lead + "</robot>")
     (finding,) = check(write("r.urdf", text), select=("mimic-dof-mismatch",))
     assert "'jl0' is fixed and follows another; so are 'jl1', 'jl2', 'jl3'" in finding.message
+
+
+@pytest.mark.parametrize(("joints", "count"), [("a", 1), ("ab", 0)])
+def test_transmissions_of_several_joints_have_no_first_interface(write, joints, count):
+    interfaces = (
+        "<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>" * 2
+    )
+    inner = "".join(f'<joint name="{name}">{interfaces}</joint>' for name in joints)
+    path = write(
+        "r.urdf",
+        f"<robot name='r'><link name='l'/><transmission name='t'>{inner}</transmission></robot>",
+    )
+    found = check(path, select=("several-hardware-interfaces",), targets=("ros1",))
+    assert len(found) == count

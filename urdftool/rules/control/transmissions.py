@@ -176,13 +176,19 @@ def several_hardware_interfaces(robot: Robot) -> Iterator[Problem]:
     """A joint of a transmission has several hardware interfaces.
 
     Real hardware may offer them all; ``gazebo_ros_control`` takes the first and says so. One
-    finding names the joints.
+    finding names the joints. It skips transmissions of several joints, and another
+    ``<robotSimType>`` than ``DefaultRobotHWSim`` may take all interfaces: these are not reported.
     """
+    if any(
+        kind.text.strip() and kind.text.strip().rpartition("/")[2] != "DefaultRobotHWSim"
+        for plugin in robot.plugins
+        for kind in plugin.element.all("robotSimType")
+    ):
+        return
     found = [
-        (transmission, joint)
+        (transmission, transmission.joints[0])
         for transmission in robot.transmissions
-        for joint in transmission.joints
-        if len(joint.hardware_interfaces) > 1
+        if len(transmission.joints) == 1 and len(transmission.joints[0].hardware_interfaces) > 1
     ]
     if found:
         (transmission, joint), *rest = found
