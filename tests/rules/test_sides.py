@@ -83,3 +83,41 @@ def test_links_in_a_circle_end_the_search(write):
     parts += [("ring", "hoop", "0 0 0"), ("hoop", "ring", "0 0 0")]
     path = write("circle.urdf", robot(*((*part, "revolute", "0 1 0") for part in parts)))
     assert check(path, select=("axis-against-others", "com-not-mirrored")) == []
+
+
+@pytest.mark.parametrize(
+    ("names", "kind", "count"),
+    [
+        (("left_c", "right_c"), "revolute", 1),
+        (("left_c", "right_c"), "fixed", 0),
+        (("left_l", "left_r"), "revolute", 0),  # two side words, and no place tells which counts
+    ],
+)
+def test_a_joint_that_may_lie_elsewhere_is_not_reported(write, names, kind, count):
+    parts = [
+        (f"{side}_{limb}", "base", f"{x} {sign}0.2 0", "revolute", "0 1 0")
+        for side, sign in (("left", ""), ("right", "-"))
+        for limb, x in (("a", 0.3), ("b", -0.3), ("d", 0.1))
+    ]
+    for name, place in zip(names, ("0 0.2 0", "0.05 -0.2 0"), strict=True):
+        parts.append((name, "base", place, kind, "0 1 0"))
+        parts.append((f"{name}_tip", name, "0 0 0.1", "revolute", "0 1 0"))
+    found = check(write("r.urdf", robot(*parts)), select=("joint-not-mirrored",))
+    assert len(found) == count
+
+
+def test_of_two_pairings_the_places_choose(write):
+    """Two claws, each with a left and a right jaw, which mirror in their own claw."""
+    parts = []
+    for side, sign in (("left", ""), ("right", "-")):
+        parts.append((f"{side}_claw", "base", f"0 {sign}0.2 0", "revolute", "0 1 0"))
+        for jaw, x in (("left", "0.02"), ("right", "-0.05")):
+            name = f"{side}_{jaw}_jaw"
+            parts.append((name, f"{side}_claw", f"{x} 0 0.1", "revolute", "0 1 0"))
+    found = sides(load(write("claws.urdf", robot(*parts))))
+    assert {(pair.left.name, pair.right.name) for pair in found.pairs} == {
+        ("left_claw", "right_claw"),
+        ("left_left_jaw", "right_left_jaw"),
+        ("left_right_jaw", "right_right_jaw"),
+    }
+    assert found.off == []

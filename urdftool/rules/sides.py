@@ -26,17 +26,33 @@ _END = re.compile(r"(?i)front|rear|back|hind|middle|mid|[flrhbm]{1,2}(?![a-z])|l
 
 def twin_of(name: str, names: dict[str, Link] | dict[str, Joint]) -> str | None:
     """The name of the right one to a left one's, if there is one of that name."""
+    return next(iter(twins_of(name, names)), None)
+
+
+def twins_of(name: str, names: dict[str, Link] | dict[str, Joint]) -> list[str]:
+    """The names that may be that of the right one to a left one's, the likeliest first.
+
+    A name with two side words has several: front_leftL may be the mirror image of front_rightR.
+    """
     matches = list(_WORD.finditer(name))
+    found: list[str] = []
     if len(matches) > 1:  # front_leftL: its mirror image has the other of both, front_rightR
         all_turned = _WORD.sub(lambda match: _OTHER.get(match[0]) or _BACK[match[0]], name)
         if all_turned in names:
-            return all_turned if matches[0][0] in _OTHER else None
+            if matches[0][0] not in _OTHER:
+                return []
+            found.append(all_turned)
     for match in matches:
         if match[0] in _OTHER:
             other = name[: match.start()] + _OTHER[match[0]] + name[match.end() :]
-            if other in names:
-                return other
-    return None
+            if other in names and other not in found:
+                found.append(other)
+    return found
+
+
+def is_clear(name: str) -> bool:
+    """Whether a name has one side word, so that it can be paired in one way only."""
+    return len(_WORD.findall(name)) < 2
 
 
 class Pair(NamedTuple):
@@ -79,6 +95,7 @@ class Sides:
             self.normal = None
             self.off = [found for pair, a, b in long if (found := _nearly(pair, a, b))]
         self.off += _stacked(both, 1 if self.normal is None else self.normal)
+        self.off = [found for found in self.off if is_clear(found[0].left.name)]
 
     def _steps(self, pair: Pair) -> tuple[Vector, Vector] | None:
         """From each one's parent to it, in the frame of the root [m]."""
@@ -129,7 +146,14 @@ class Sides:
 
 def _pairs(robot: Robot) -> Iterator[Pair]:
     links = robot.link
-    twins = {name: other for name in links if (other := twin_of(name, links))}
+    several = {name: others for name in links if (others := twins_of(name, links))}
+    twins = {name: others[0] for name, others in several.items() if len(others) == 1}
+    if len(twins) < len(several):
+        poses = link_poses(robot)
+        for name, others in several.items():
+            right = [one for one in others if _mirrored(robot, poses, name, one)]
+            if len(others) > 1 and right:
+                twins[name] = right[0]
     rights = set(twins.values())  # R_rf is that of L_rf; R_lf, a finger, is not its left one
     twins = {name: other for name, other in twins.items() if name not in rights}
     for name, other in twins.items():
@@ -138,6 +162,25 @@ def _pairs(robot: Robot) -> Iterator[Pair]:
             continue
         if left.parent == right.parent or twins.get(left.parent) == right.parent:
             yield Pair(links[name], links[other], left, right)
+
+
+def _mirrored(robot: Robot, poses: dict[str, Pose], name: str, other: str) -> bool:
+    """Whether two links are each other's mirror images by their steps from their parents."""
+    steps: list[Vector] = []
+    for link in (name, other):
+        above = robot.tree.parent_joint(link)
+        if above is None or link not in poses or above.parent not in poses:
+            return False
+        (a, b, c), (d, e, f) = poses[above.parent].translation, poses[link].translation
+        steps.append((d - a, e - b, f - c))
+    one, two = steps
+    return any(
+        all(
+            abs(b + a if i == normal else b - a) <= _slack(one)
+            for i, (a, b) in enumerate(zip(one, two, strict=True))
+        )
+        for normal in (1, 0, 2)
+    )
 
 
 def _moves(robot: Robot, pair: Pair) -> bool:

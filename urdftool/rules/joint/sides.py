@@ -22,12 +22,15 @@ from ..words import quoted
 def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
     """A joint is not where the mirror image of its twin is.
 
-    Left and right are told by the names of the links. It is said of robots of which most such pairs
+    Left and right are told by the names of the links, and nothing is said of names with two such
+    words that may be paired in several ways. It is said of robots of which most such pairs
     mirror each other, of joints that move, and of the first from which a limb is off, not of those
     below.
     """
     for pair, gap in sides(robot).off:
         right = pair.right_joint
+        if right.is_fixed:
+            continue
         yield Problem(
             right,
             f"joint '{right.name}' is {gap * 1000:.3g} mm from where '{pair.left_joint.name}' has "
