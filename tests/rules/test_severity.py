@@ -195,3 +195,20 @@ def test_only_robots_for_gazebo_are_asked_for_its_tags(write):
     assert levels(path, "missing-gazebo-tags", targets=("gz",)) == [("left_wheel", "warning")]
     assert "missing-gazebo-tags" not in {f.rule for f in check(path)}
     assert levels(path, "missing-gazebo-tags", targets=("mujoco",)) == []
+
+
+@pytest.mark.parametrize(
+    ("plane", "targets", "severity"),
+    [
+        ('<plane normal="0 0 1"/>', ("pybullet",), "info"),
+        ('<plane normal="0 0 1"/>', ("pybullet", "gz"), "error"),
+        ('<plane normal="0 0 1"/>', (), "warning"),
+        ("<plane/>", ("pybullet",), "error"),
+    ],
+)
+def test_a_plane_is_an_extension_of_pybullet(write, plane, targets, severity):
+    text = f"<robot name='r'><link name='l'><collision><geometry>{plane}</geometry></collision>"
+    path = write("r.urdf", f"{text}</link></robot>")
+    (finding,) = check(path, select=("unsupported-shape",), targets=targets)
+    assert finding.severity.label == severity
+    assert ("only PyBullet reads" in finding.message) == ("normal" in plane)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Collision, Robot, UnknownShape
 from ...model.read import number, numbers
-from ..rule import ERROR, WARNING, Problem, rule
+from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..words import did_you_mean
 from ..xml.vocabulary_table import VOCABULARY
 
@@ -77,15 +77,18 @@ _INSTEAD = {
             "load the link without its visuals and collisions, also the right ones, with an "
             "error in the log"
         ),
-        "pybullet, drake": "reject the file",
+        "pybullet": "rejects the file, except for a <plane> with a normal, which it loads",
+        "drake": "rejects the file",
         "mujoco": "rejects the file for a collision; ignores a visual",
     },
 )
-def unsupported_shape(robot: Robot) -> Iterator[Problem]:
+def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A geometry is of a shape that URDF does not have.
 
     URDF has box, cylinder, sphere and mesh (and capsule from version 1.1). urdfdom says one line,
-    goes on, and leaves out every visual and collision of that link.
+    goes on, and leaves out every visual and collision of that link. A ``<plane>`` with a normal is
+    an extension of PyBullet: it is a remark where PyBullet is the only target, a warning where no
+    target is known, and an error for all others.
     """
     for link, shape in robot.shapes:
         geometry = shape.geometry
@@ -98,6 +101,16 @@ def unsupported_shape(robot: Robot) -> Iterator[Problem]:
                     f"<geometry> in a {kind} of link '{link.name}' begins with <{tag}>, which "
                     "urdfdom takes for its shape; move it out of <geometry>",
                     at=geometry,
+                )
+                continue
+            if tag == "plane" and numbers(geometry.element.get("normal"), 3):
+                others = targets - {"pybullet"}
+                yield Problem(
+                    link,
+                    f"link '{link.name}' has a <plane>, which only PyBullet reads; "
+                    f"write {_INSTEAD[tag]} for other readers",
+                    at=geometry,
+                    severity=ERROR if others else INFO if targets else WARNING,
                 )
                 continue
             near = did_you_mean(tag, _KNOWN)
