@@ -151,9 +151,9 @@ def _pairs(robot: Robot) -> Iterator[Pair]:
     if len(twins) < len(several):
         poses = link_poses(robot)
         for name, others in several.items():
-            right = [one for one in others if _mirrored(robot, poses, name, one)]
-            if len(others) > 1 and right:
-                twins[name] = right[0]
+            fitting = [one for one in others if _mirrored(robot, poses, name, one)]
+            if len(others) > 1 and fitting:
+                twins[name] = fitting[0]
     rights = set(twins.values())  # R_rf is that of L_rf; R_lf, a finger, is not its left one
     twins = {name: other for name, other in twins.items() if name not in rights}
     for name, other in twins.items():
