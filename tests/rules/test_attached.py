@@ -173,3 +173,18 @@ def test_bodies_that_mirror_each_other_are_not_asymmetric(tmp_path):
     assert rules(tmp_path, *parts, select="left-right-asymmetry") == []
     parts = (link("base"), side("left", (2, 1)), side("right", (1, 1)))
     assert rules(tmp_path, *parts, select="left-right-asymmetry") == ["left-right-asymmetry"]
+
+
+@pytest.mark.parametrize(("place", "count"), [("0 0 0.3", 0), ("0 0 1", 1)])
+def test_spheres_of_the_parent_hold_the_visual_of_a_head(write, place, count):
+    """Their middles lie outside of the head, and that of the head outside of their box."""
+    path = write(
+        "r.urdf",
+        "<robot name='r'><link name='base'><collision><origin xyz='0 0 -0.3'/><geometry>"
+        "<sphere radius='0.4'/></geometry></collision></link><link name='head'>"
+        "<visual><geometry><box size='0.6 0.6 0.6'/></geometry></visual>"
+        "<collision><geometry><sphere radius='0.01'/></geometry></collision></link>"
+        "<joint name='j' type='fixed'><parent link='base'/><child link='head'/>"
+        f"<origin xyz='{place}'/></joint></robot>",
+    )
+    assert len(check(path, select=("collision-much-smaller-than-visual",))) == count

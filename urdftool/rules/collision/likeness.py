@@ -10,7 +10,7 @@ from ...model.bounds import Bounds
 from ...model.elements import Cylinder, Link, Robot, Sphere
 from ...model.gltf_axes import is_gltf
 from ...source.description import Description
-from ..mesh.outlines import reaches
+from ..mesh.outlines import Reaches, reaches
 from ..mesh.uses import Stamp, mesh_uses, stamp
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from .apart import compare_places, measured, with_attached
@@ -194,7 +194,8 @@ def collision_much_smaller_than_visual(robot: Robot, *, ratio: float = 4.0) -> I
 
     Usually a unit is wrong, or a scale. It is reported where the box around the visuals is more
     than ``ratio`` times as long as that around the collisions along each of its sides; collisions
-    at that place of links that are fixed to this one count as well.
+    at that place of links that are fixed to this one count as well, and what reaches into the box
+    from others of the same rigid body.
     """
     reach = reaches(robot)
     for link in robot.links:
@@ -202,7 +203,7 @@ def collision_much_smaller_than_visual(robot: Robot, *, ratio: float = 4.0) -> I
         if seen is None or touches is None or not _smaller(touches, seen, ratio):
             continue
         around = with_attached(reach, link, "collisions", touches, seen)
-        if around is None or not _smaller(around, seen, ratio):
+        if around is None or not _smaller(_with_held(reach, link, around, seen), seen, ratio):
             continue
         a, b = max(seen.size), max(touches.size)
         yield Problem(
@@ -211,6 +212,17 @@ def collision_much_smaller_than_visual(robot: Robot, *, ratio: float = 4.0) -> I
             "scale right?",
             at=link.collisions[0].geometry or link.collisions[0],
         )
+
+
+def _with_held(reach: Reaches, link: Link, own: Bounds, seen: Bounds) -> Bounds:
+    """Join a box with the parts of attached collisions that lie in the box around the visuals."""
+    for member, at in reach.attached(link)[1:]:
+        box = reach.body(link, "collisions", [(member, at)]) if member.collisions else None
+        if box is not None and box.meets(seen):
+            low = tuple(map(max, box.low, seen.low))
+            high = tuple(map(min, box.high, seen.high))
+            own = own.joined(Bounds(low, high))  # type: ignore[arg-type]
+    return own
 
 
 def _smaller(touches: Bounds, seen: Bounds, ratio: float) -> bool:
