@@ -39,22 +39,39 @@ def faces_of(path: Path | None) -> int:
     return _faces[key]
 
 
+def _is_small(path: Path | None, least: float) -> bool:
+    """Whether an OBJ, or an STL of text, is known to have few triangles."""
+    word = {".obj": b"f", ".stl": b"facet"}.get(path.suffix.lower()) if path else None
+    if path is None or word is None:
+        return False
+    try:
+        if path.stat().st_size > 400 * least:
+            return False
+        lines = [line.split() for line in path.read_bytes().splitlines()]
+    except OSError:
+        return False
+    corners = [len(line) - 1 if word == b"f" else 3 for line in lines if line[:1] == [word]]
+    return 0 < sum(count - 2 for count in corners) < least
+
+
 @rule(
     INFO,
     effects={
         "moveit": "builds the collision shape from all triangles of the mesh",
-        "mujoco, pybullet": "take the convex hull",
+        "mujoco": "takes the convex hull",
+        "pybullet": "takes the convex hull; of an OBJ of several objects, a hull of each",
     },
 )
 def visual_mesh_as_collision(
-    robot: Robot, description: Description, *, dense: float = 5000
+    robot: Robot, description: Description, *, dense: float = 5000, least: float = 200
 ) -> Iterator[Problem]:
     """A link collides with the mesh it is seen as.
 
     What is drawn has every screw; what touches needs the outline. Planning scenes have become sixty
     times faster with simpler shapes. Where the mesh is known to have more than ``dense`` triangles
-    it is a warning. One finding for the robot names the links with such meshes, and one counts the
-    others.
+    it is a warning; one of an STL or OBJ of fewer than ``least`` is as simple as a shape made for
+    contact, and is not reported. One finding for the robot names the links with such meshes, and
+    one counts the others.
     """
     seen: dict[str, set[str]] = {}
     plain, heavy = [], []
@@ -67,7 +84,7 @@ def visual_mesh_as_collision(
         faces = faces_of(use.path) if use.exists else 0
         if faces > dense:
             heavy.append((use, faces))
-        elif faces == 0 or faces > dense / 10:
+        elif faces > dense / 10 or (faces == 0 and not (use.exists and _is_small(use.path, least))):
             plain.append(use)
     if heavy:
         names = list(dict.fromkeys(use.link.name for use, _ in heavy))
