@@ -311,8 +311,8 @@ def radius_of_gyration(
 
     The root of the one over the other is how far from its centre the mass sits on average. A metre
     is more than most robots are long, a millimetre is a pinhead. Square millimetres for square
-    metres are the usual cause. Links whose size is known are left to ``inertia-exceeds-geometry``. A tensor that is
-    zero or negative about an axis has a finding of its own.
+    metres are the usual cause. Links whose size is known are left to ``inertia-exceeds-geometry``;
+    a tensor that is zero or negative about an axis has a finding of its own.
     """
     reach = reaches(robot)
     for link, inertial, six in tensors(robot):
