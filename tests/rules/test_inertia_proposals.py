@@ -89,3 +89,18 @@ def test_noise_is_no_inertia(tmp_path, size):
 @pytest.mark.parametrize("size", ["1e-110", "1e110", "1e300"])
 def test_numbers_of_no_robot(tmp_path, size):
     of_link(tmp_path, size, size, 0, size, 0, "-" + size)
+
+
+def test_what_computing_the_moments_leaves_over_is_shown_as_zero(tmp_path):
+    found = of_link(tmp_path, 0.034, -0.003, -0.005, 0.026, -0.015, 0.01)  # a thin rod
+    assert "is zero about one axis (0, 0.035, 0.035)" in found["singular-inertia"]
+
+
+def test_a_dummy_is_not_told_to_take_an_inertia_of_next_to_nothing(tmp_path):
+    shape = '<sphere radius="0.001"/>'
+    assert "placeholder-inertia" not in of_link(tmp_path, 0.1, 0, 0, 0.1, 0, 0.1, shape=shape)
+    text = of_link(tmp_path, 1, 0, 0, 1, 0, 1, shape=shape)["placeholder-inertia"]
+    assert "a solid sphere" not in text
+    shape = '<sphere radius="0.01"/>'
+    text = of_link(tmp_path, 0.1, 0, 0, 0.1, 0, 0.1, shape=shape)["placeholder-inertia"]
+    assert "a solid sphere of 2 kg has ixx 8e-05" in text

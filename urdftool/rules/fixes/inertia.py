@@ -12,7 +12,7 @@ from ...model.tensor3 import Six, eigenvalues, turned
 from ..inertia.frame import about_com
 from ..inertia.proposals import proposal_of
 from ..inertia.slips import slip_of
-from ..inertia.solids import _only_shape, box_of, solid_tensor, solid_volume
+from ..inertia.solids import _only_shape, box_of, is_dummy, solid_tensor, solid_volume
 from ..inertia.tensors import SIX, is_zero, six_of
 from ..mesh.outlines import reaches
 from ..rule import INFO, Problem
@@ -271,8 +271,8 @@ def singular_inertia(problem: Problem, around: Around) -> Proposal | None:
 
 
 def placeholder_inertia(problem: Problem, around: Around) -> Proposal | None:
-    """What its shapes have."""
-    return _recomputed(problem, around)
+    """What its shapes have, unless they are those of a dummy, which have next to nothing."""
+    return None if is_dummy(around.link(problem)) else _recomputed(problem, around)
 
 
 def inertia_triangle_inequality_rounding(problem: Problem, around: Around) -> Proposal | None:

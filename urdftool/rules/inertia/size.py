@@ -23,7 +23,7 @@ from ..rule import INFO, WARNING, Problem, rule
 from .density import outlier
 from .frame import about_com
 from .proposals import remedy_text
-from .solids import centre_of_solids, solid_moments, solid_text
+from .solids import centre_of_solids, is_dummy, solid_moments, solid_text
 from .tensors import is_positive, is_zero, moments_of, six_of, tensors
 
 _SIZE_IN_DOUBT = ("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line")
@@ -45,7 +45,8 @@ def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
     """An inertia is the same power of ten about every axis, such as 1 or 1e-3.
 
     Nobody measured that. 1 kg·m² on a link of 100 g puts its mass 3 m from its centre: the arm
-    turns like a flywheel and its motors look too weak.
+    turns like a flywheel and its motors look too weak. A link of a few millimeters is a dummy whose
+    inertia is made up to keep a simulation stable; only one that turns like a flywheel is reported.
     """
     for link, inertial, six in tensors(robot):
         if not _is_placeholder(link, six):
@@ -53,14 +54,17 @@ def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
         moment = six[0]
         radius = math.sqrt(moment / inertial.mass) if inertial.mass and inertial.mass > 0 else 0.0
         large = moment == 1.0 or radius > 1.0
+        dummy = is_dummy(link)
+        if dummy and not large:
+            continue
         far = f", as if its {link.mass:g} kg were {radius:.2g} m from the centre" if large else ""
         yield Problem(
             link,
             f"inertia of link '{link.name}' is a placeholder, {moment:g} about every axis{far}"
-            f"{solid_text(link)}",
+            f"{'' if dummy else solid_text(link)}",
             at=inertial.inertia,
             severity=WARNING if large else INFO,
-            hint="'urdftool inertia' computes it",
+            hint="" if dummy else "'urdftool inertia' computes it",
             group="inertia of {count} links is a placeholder, the same power of ten about every "
             "axis: {names}",
         )

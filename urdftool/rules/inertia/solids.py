@@ -125,6 +125,15 @@ def _moments(geometry: Geometry | None, mass: float) -> Vector | None:
     return None
 
 
+def is_dummy(link: Link, *, largest: float = 0.005) -> bool:
+    """Whether a link's shapes are only a few millimeters large, as those of a stand-in are.
+
+    The inertia of a solid of that size is so small that no joint should move it alone.
+    """
+    box = box_of(link)
+    return box is not None and max(box.size) <= largest
+
+
 def solid_text(link: Link) -> str:
     """What to write: ``; a solid box of that mass has ixx 1, iyy 2, izz 3``, or nothing."""
     moments, shape = solid_moments(link), _only_shape(link)
