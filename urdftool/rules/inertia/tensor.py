@@ -172,13 +172,9 @@ def zero_inertia(robot: Robot, *, part: float = 0.25) -> Iterator[Problem]:
 @rule(
     WARNING,
     effects={
-<<<<<<< HEAD
         "gz, gazebo-classic, pinocchio, drake": (
             "accept it: nothing resists a turn about that axis"
         ),
-=======
-        "gz, gazebo-classic, pinocchio, drake": "accept it: nothing resists a turn about that axis",
->>>>>>> 4726aaf (lint: no inertia is proposed for a dummy of a few millimeters; leftover of moments is 0)
         "pybullet": (
             "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, keeps the zero"
         ),
