@@ -78,3 +78,56 @@ def test_a_joint_of_drake_joins_links_for_drake_alone(tmp_path, joints, expected
     file = tmp_path / "robot.urdf"
     file.write_text(f'<robot name="r" xmlns:drake="drake">{LINKS}{joints}</robot>')
     assert _messages(file, "multiple-roots") == expected
+
+
+@pytest.mark.parametrize(
+    ("names", "remedy"),
+    [
+        (("elbwo",), "; did you mean 'elbow'?"),
+        (("elbow", "elbwo"), ""),
+        (("finger_3",), ""),
+        (("fingr_2",), "; did you mean 'finger_2'?"),
+    ],
+)
+def test_a_transmission_is_not_for_a_joint_that_has_one_or_another_number(tmp_path, names, remedy):
+    file = tmp_path / "robot.urdf"
+    joints = "".join(
+        f'<link name="l_{name}"/><joint name="{name}" type="continuous"><parent link="a"/>'
+        f'<child link="l_{name}"/></joint>'
+        for name in ("elbow", "finger_1", "finger_2")
+    )
+    transmissions = "".join(
+        f'<transmission name="t_{name}"><joint name="{name}"/></transmission>' for name in names
+    )
+    file.write_text(f'<robot name="r"><link name="a"/>{joints}{transmissions}</robot>')
+    assert _messages(file, "transmission-unknown-joint") == [
+        f"transmission 't_{names[-1]}' names joint '{names[-1]}', which is not there{remedy}"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("kind", "inside", "remedy"),
+    [
+        (
+            "fixed",
+            "<provideFeedback>true</provideFeedback>",
+            "remove it, because joint 'j' is fixed and lumped",
+        ),
+        ("fixed", "<preserveFixedJoint>true</preserveFixedJoint>", "write it at joint 'j'"),
+        (
+            "fixed",
+            '<preserveFixedJoint value="false"/><stopCfm>1</stopCfm>',
+            "remove them, because joint 'j' is fixed and lumped",
+        ),
+        ("continuous", "<provideFeedback>true</provideFeedback>", "write it at joint 'j'"),
+    ],
+)
+def test_what_would_do_nothing_at_a_lumped_joint_is_to_be_removed(tmp_path, kind, inside, remedy):
+    file = tmp_path / "robot.urdf"
+    file.write_text(
+        f'<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="{kind}">'
+        '<parent link="a"/><child link="b"/></joint>'
+        f'<gazebo reference="b">{inside}</gazebo></robot>'
+    )
+    (message,) = _messages(file, "misplaced-extension", "gazebo-classic")
+    assert message.partition("; ")[2] == remedy

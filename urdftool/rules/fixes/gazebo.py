@@ -7,6 +7,7 @@ from ...model.read import numbers
 from ...source.document import Element
 from ..gazebo.contact import contact_role
 from ..gazebo.keywords import JOINT_KEYWORDS, LINK_KEYWORDS, NOT_IN_GZ, SURFACE
+from ..gazebo.lumping import is_lumped, keeps_joint
 from ..gazebo.sensors import Frameless, without_frame
 from ..gazebo.tags import _colours, _shows_colour
 from ..rule import Problem
@@ -58,7 +59,7 @@ def unknown_extension(problem: Problem, around: Around) -> Proposal | None:
 
 
 def misplaced_extension(problem: Problem, around: Around) -> Proposal | None:
-    """At the joint or link that it is about."""
+    """At the joint or link that it is about; gone where that joint is fixed and lumped."""
     block, name = problem.element, problem.element.get("reference") or ""
     robot = around.robot
     if name in robot.link:
@@ -66,6 +67,9 @@ def misplaced_extension(problem: Problem, around: Around) -> Proposal | None:
         if joint is None or is_computed(joint.element):
             return None
         right, wrong = joint.name, JOINT_KEYWORDS
+        children = [child for child in block.children if child.tag in wrong]
+        if children and is_lumped(robot, name) and not any(map(keeps_joint, children)):
+            return _emptied(block, JOINT_KEYWORDS)
     elif name in robot.joint:
         right, wrong = robot.joint[name].child, LINK_KEYWORDS
         if right not in robot.link or is_computed(robot.link[right].element):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import GazeboExtension, Joint, Robot
+from ...source.document import Element
 from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
 from ..words import quoted
 from .keywords import JOINT_KEYWORDS, SURFACE, is_true
@@ -16,6 +17,11 @@ def is_kept(robot: Robot, joint: Joint) -> bool:
     """Whether a fixed joint stays a joint in Gazebo."""
     blocks = robot.extensions.get(joint.name, [])
     return any(is_true(block.value(word)) for block in blocks for word in _KEEPERS)
+
+
+def keeps_joint(element: Element) -> bool:
+    """Tell whether an element of a joint's block keeps a fixed joint in Gazebo."""
+    return element.tag in _KEEPERS and is_true(element.get("value") or element.text)
 
 
 def is_lumped(robot: Robot, link: str) -> bool:

@@ -10,6 +10,7 @@ from ..rule import ERROR, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import did_you_mean, quoted
 from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS
+from .lumping import is_lumped, keeps_joint
 
 
 @rule(
@@ -77,7 +78,8 @@ def misplaced_extension(robot: Robot) -> Iterator[Problem]:
     Friction, contact, colour and gravity belong to links; springs, stops, feedback and
     ``preserveFixedJoint`` to joints. At the other kind, or in a block without a reference, they
     are dropped: a fixed joint preserved at its link is lumped all the same. So is a sensor that no
-    reference hangs on a link.
+    reference hangs on a link. Where the joint is fixed and lumped, Gazebo has no joint that the
+    word could be written at, and the remedy is to remove it.
     """
     for block in robot.gazebo:
         name = block.reference or ""
@@ -109,9 +111,13 @@ def _misplaced(
         joint = robot.tree.parent_joint(name)
         right = f"joint '{joint.name}'" if joint is not None else right
     verb = "does" if len(children) == 1 else "do"
+    remedy = f"write it at {right}"
+    if name in robot.link and is_lumped(robot, name) and not any(map(keeps_joint, children)):
+        remedy = f"remove {'it' if len(children) == 1 else 'them'}, because {right} is fixed"
+        remedy += " and lumped"
     return Problem(
         block.element,
-        f"{tags} {verb} nothing {belongs}; write it at {right}",
+        f"{tags} {verb} nothing {belongs}; {remedy}",
         at=children[0],
     )
 
