@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from functools import lru_cache
+
+_NUMBER = re.compile(r"([0-9]+)")
 
 
 def nearest(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
     """The known name nearest to a wrong one; empty if none is near.
 
-    Names that differ only in case, ``_`` and ``-`` are nearest.
+    Names that differ only in case, ``_`` and ``-`` are nearest. Names that differ only by a number
+    are not near: ``joint_1`` is not a slip of ``joint_2``.
     """
     return _nearest(name, tuple(dict.fromkeys(known)), cutoff)
 
@@ -23,8 +27,17 @@ def _nearest(name: str, known: tuple[str, ...], cutoff: float) -> str:
     for other in names:
         if fold(other) == folded:
             return other
+    names = [other for other in names if not _differ_by_number(folded, fold(other))]
     near = get_close_matches(name, names, 1, cutoff)
     return near[0] if near else ""
+
+
+def _differ_by_number(name: str, other: str) -> bool:
+    """Tell whether two names have the same text around numbers that are not the same."""
+    texts, others = _NUMBER.split(name), _NUMBER.split(other)
+    if texts[::2] != others[::2]:
+        return False
+    return [int(text) for text in texts[1::2]] != [int(text) for text in others[1::2]]
 
 
 def did_you_mean(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:

@@ -27,13 +27,15 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
     ``gazebo_ros_control`` looks every joint up and gives up at the first that it does not find, so
     one misspelt name leaves the whole robot limp. Drivers of real hardware do much the same.
     """
+    driven = {joint.name for transmission in robot.transmissions for joint in transmission.joints}
+    idle = [name for name in robot.joint if name not in driven]
     for transmission in robot.transmissions:
         for joint in transmission.joints:
             if joint.name and joint.name not in robot.joint and not is_unexpanded(joint.name):
                 yield Problem(
                     transmission.element,
                     f"{called(transmission)} names joint '{joint.name}', "
-                    f"which is not there{did_you_mean(joint.name, robot.joint)}",
+                    f"which is not there{did_you_mean(joint.name, idle)}",
                     at=joint.element.attribute_place("name"),
                 )
 
