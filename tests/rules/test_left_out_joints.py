@@ -119,3 +119,15 @@ def test_the_state_of_a_command_may_be_in_another_block(tmp_path):
     assert said("velocity") == [
         "joint 'swing' has the command 'position' and not the state of that name"
     ]
+
+
+def test_a_robot_without_elements_needs_no_name(tmp_path):
+    def said(text):
+        path = tmp_path / "part.urdf"
+        path.write_text(text)
+        found = lint_file(path, Options(Settings(select=("missing-name",)))).findings
+        return [finding.message for finding in found]
+
+    assert not said("<robot/>")
+    assert not said("<robot><!-- later --></robot>")
+    assert said('<robot><link name="a"/></robot>') == ['<robot> has no name; write name="…"']

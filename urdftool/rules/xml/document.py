@@ -87,11 +87,14 @@ def missing_name(description: Description) -> Iterator[Problem]:
     """A robot, link, joint or transmission has no name.
 
     Everything refers to links and joints by name. urdfdom refuses the robot; others take the empty
-    name, and two such links are then one.
+    name, and two such links are then one. A ``<robot>`` without elements is a placeholder that
+    another file includes: it needs no name.
     """
     root = description.document.root
     named = ("link", "joint", "transmission")
-    elements = [root, *(child for child in root.children if child.tag in named)]
+    elements = [child for child in root.children if child.tag in named]
+    if root.children:
+        elements.insert(0, root)
     for element in elements:
         if element.tag in ("robot", *named) and not (element.get("name") or "").strip():
             at = element.attribute_place("name") if "name" in element.attributes else None
