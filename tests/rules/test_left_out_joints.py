@@ -131,3 +131,18 @@ def test_a_robot_without_elements_needs_no_name(tmp_path):
     assert not said("<robot/>")
     assert not said("<robot><!-- later --></robot>")
     assert said('<robot><link name="a"/></robot>') == ['<robot> has no name; write name="…"']
+
+
+@pytest.mark.parametrize("link", ["base", "arm"])
+def test_a_slide_on_a_beam_of_its_length_is_in_meters(tmp_path, link):
+    def said(length):
+        limit = '<limit lower="0" upper="40" effort="2" velocity="3"/>'
+        inside = _joint("prismatic", limit)
+        for name in ("base", "arm"):
+            size = f"{length if name == link else 0.1} 0.1 0.1"
+            shape = f'<visual><geometry><box size="{size}"/></geometry></visual>'
+            inside = inside.replace(f'<link name="{name}"/>', f'<link name="{name}">{shape}</link>')
+        return _messages(tmp_path, inside, "prismatic-in-millimetres")
+
+    assert not said(42)
+    assert len(said(0.1)) == 1

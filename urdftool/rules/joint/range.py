@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Limit, Link, Robot
+from ..mesh.outlines import reaches
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 
 
@@ -141,11 +142,12 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
     """A prismatic joint's limit, or the place of a joint, is more than ten metres.
 
     Lengths are in metres. Numbers of a drawing in millimetres make a thousandfold robot. A joint
-    that moves a mere frame, one of several that stand for a robot that moves freely, is let be.
+    that moves a mere frame, one of several that stand for a robot that moves freely, is let be, and
+    so is a range that is about as long as a shape of the robot: a gantry on its beam.
     """
     for joint, limit, lower, upper in _bounded(robot):
         if joint.type == "prismatic" and max(abs(lower), abs(upper)) > largest:
-            if _moves_a_frame(robot, joint):
+            if _moves_a_frame(robot, joint) or _has_shape_as_long(robot, upper - lower):
                 continue
             name = "upper" if abs(upper) > largest else "lower"
             value = upper if name == "upper" else lower
@@ -264,6 +266,13 @@ def _moves_a_frame(robot: Robot, joint: Joint) -> bool:
             return True
         joint = above
     return False
+
+
+def _has_shape_as_long(robot: Robot, length: float) -> bool:
+    """Whether a shape is between half and twice as long as a range, as the rail of a slide is."""
+    reach = reaches(robot)
+    boxes = (reach.shape(shape) for _, shape in robot.shapes)
+    return any(box is not None and 0.5 <= max(box.size) / length <= 2 for box in boxes if length)
 
 
 def _is_body(link: Link) -> bool:
