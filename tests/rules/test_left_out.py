@@ -131,3 +131,58 @@ def test_what_would_do_nothing_at_a_lumped_joint_is_to_be_removed(tmp_path, kind
     )
     (message,) = _messages(file, "misplaced-extension", "gazebo-classic")
     assert message.partition("; ")[2] == remedy
+
+
+PLUGIN = (
+    '<gazebo><plugin name="m" filename="libroboticsgroup_gazebo_mimic_joint_plugin.so">'
+    "<joint>lead</joint><mimicJoint>{}</mimicJoint></plugin></gazebo>"
+)
+IN_BOTH = "joint 'one' and 1 more: mimic joints hang free in {}; add a constraint"
+
+
+@pytest.mark.parametrize(
+    ("targets", "plugged", "expected"),
+    [
+        (("gazebo-classic",), ("one", "two"), []),
+        (
+            ("gazebo-classic",),
+            ("one",),
+            [
+                "joint 'two': a mimic joint hangs free where <mimic> is not simulated; "
+                "add a plugin or a constraint"
+            ],
+        ),
+        (
+            ("gazebo-classic", "pybullet"),
+            ("one", "two"),
+            [IN_BOTH.format("PyBullet, which does not load Gazebo's plugin")],
+        ),
+        (
+            ("mujoco", "pybullet"),
+            ("one", "two"),
+            [IN_BOTH.format("MuJoCo before 4.0 and PyBullet, which do not load Gazebo's plugin")],
+        ),
+        (
+            ("gazebo-classic",),
+            (),
+            [
+                "joint 'one' and 1 more: mimic joints hang free where <mimic> is not simulated; "
+                "add a plugin or a constraint"
+            ],
+        ),
+    ],
+)
+def test_a_mimic_plugin_moves_its_joints_in_gazebo_classic(tmp_path, targets, plugged, expected):
+    file = tmp_path / "robot.urdf"
+    joints = "".join(
+        f'<link name="l_{name}"/><joint name="{name}" type="continuous"><parent link="a"/>'
+        f'<child link="l_{name}"/>{mimic}</joint>'
+        for name, mimic in (
+            ("lead", ""),
+            ("one", '<mimic joint="lead"/>'),
+            ("two", '<mimic joint="lead"/>'),
+        )
+    )
+    plugins = "".join(map(PLUGIN.format, plugged))
+    file.write_text(f'<robot name="r"><link name="a"/>{joints}{plugins}</robot>')
+    assert _messages(file, "mimic-not-simulated", *targets) == expected

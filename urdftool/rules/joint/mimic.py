@@ -214,23 +214,37 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
         "mujoco": "3.3 ignores it, 4.0 makes it a constraint",
     },
 )
-def mimic_not_simulated(robot: Robot) -> Iterator[Problem]:
+def mimic_not_simulated(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """The robot has mimic joints, and the simulator does not simulate them.
 
     The follower is then a free joint that hangs where gravity takes it. Gazebo Classic needs a
-    plugin for it, MuJoCo before 4.0 an ``<equality>``, PyBullet a gear constraint.
+    plugin for it, MuJoCo before 4.0 an ``<equality>``, PyBullet a gear constraint. Joints that a
+    Gazebo plugin names in ``<mimicJoint>`` are reported for MuJoCo and PyBullet alone.
     """
-    mimics = list(_mimics(robot))
-    if mimics:
-        joint, mimic = mimics[0]
-        more = f" and {len(mimics) - 1} more" if len(mimics) > 1 else ""
-        are = "mimic joints hang" if more else "a mimic joint hangs"
-        yield Problem(
-            joint,
-            f"joint '{joint.name}'{more}: {are} free where <mimic> is not simulated; "
-            "add a plugin or a constraint",
-            at=mimic,
+    plugged = {
+        child.text.strip() for plugin in robot.plugins for child in plugin.element.all("mimicJoint")
+    }
+    free = [pair for pair in _mimics(robot) if pair[0].name not in plugged]
+    if free:
+        yield _hanging(free, "where <mimic> is not simulated; add a plugin or a constraint")
+    moved = [pair for pair in _mimics(robot) if pair[0].name in plugged]
+    readers = [name for target, name in _WITHOUT_PLUGINS.items() if target in targets]
+    if moved and readers:
+        read = "do" if len(readers) > 1 else "does"
+        yield _hanging(
+            moved,
+            f"in {' and '.join(readers)}, which {read} not load Gazebo's plugin; add a constraint",
         )
+
+
+_WITHOUT_PLUGINS = {"mujoco": "MuJoCo before 4.0", "pybullet": "PyBullet"}
+
+
+def _hanging(mimics: list[tuple[Joint, Mimic]], where: str) -> Problem:
+    joint, mimic = mimics[0]
+    more = f" and {len(mimics) - 1} more" if len(mimics) > 1 else ""
+    are = "mimic joints hang" if more else "a mimic joint hangs"
+    return Problem(joint, f"joint '{joint.name}'{more}: {are} free {where}", at=mimic)
 
 
 @rule(
