@@ -95,6 +95,7 @@ def bent(parts):
     return found
 
 
+@pytest.mark.slow
 def test_joins_go_on_beyond_the_distance_until_the_triangles_are_few_enough(monkeypatch):
     boxes = bent(12)
     corners = np.concatenate([box.corners for box in boxes])
@@ -142,6 +143,7 @@ def test_a_piece_that_buries_a_slot_is_cut_again(monkeypatch):
     assert cutter._mended([whole], 0.06) == [whole]
 
 
+@pytest.mark.slow
 def test_auto_takes_coarse_cuts_where_finer_ones_are_too_many(monkeypatch):
     boxes = bent(12)
     corners = np.concatenate([box.corners for box in boxes])
@@ -156,6 +158,7 @@ def test_auto_takes_coarse_cuts_where_finer_ones_are_too_many(monkeypatch):
     assert found[0].measures.error < measure(target, [mesh_piece(*hull(surface.vertices))]).error
 
 
+@pytest.mark.slow
 def test_all_runs_on_a_mesh_share_one_time_limit(monkeypatch):
     surface, whole, _ = slotted()
     limits: list[float] = []

@@ -98,6 +98,7 @@ def test_a_corner_and_a_bulge_are_no_hollow(mesh, piece):
     assert hollow is None
 
 
+@pytest.mark.slow
 def test_it_is_said_and_told_as_json(urdftool, write):
     mesh = write("cup.stl", stl(*SHEET))
     words = ("collision", "mesh", mesh, "--method", "hull", "--no-cache")
@@ -126,6 +127,7 @@ def test_auto_takes_the_plain_hull_where_pieces_fill_the_same(urdftool, write):
     assert part["hollow"]["error"] <= 0.01
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "shape", ['<cylinder radius="0.1" length="0.2"/>', '<mesh filename="cup.stl"/>']
 )

@@ -230,6 +230,7 @@ def test_check_says_how_good_collisions_are(urdftool, write, box):
     assert (link["within"], link["concave_meshes"], link["hull_error"]) == (False, 0, None)
 
 
+@pytest.mark.slow
 def test_check_says_what_engines_touch_of_a_concave_mesh(urdftool, write, bracket, tmp_path):
     links = [(name, "meshes/bracket.stl", "") for name in "abc"]
     both = robot(*links).replace("  </link>", "{}  </link>")
@@ -271,6 +272,7 @@ def test_a_check_of_nothing_is_no_pass(urdftool, write):
     assert "of the links that were asked for, none has a visual" in done.err
 
 
+@pytest.mark.slow
 def test_a_part_beyond_the_error_is_said_with_what_helps(urdftool, write):
     open_sphere = noisy("sphere", (0.1,), noise=0.0)
     half = open_sphere[1][(open_sphere[0][open_sphere[1]][:, :, 2] > 0).all(axis=1)]
