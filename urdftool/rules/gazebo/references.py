@@ -78,7 +78,7 @@ def misplaced_extension(robot: Robot) -> Iterator[Problem]:
     Friction, contact, colour and gravity belong to links; springs, stops, feedback and
     ``preserveFixedJoint`` to joints. At the other kind, or in a block without a reference, they
     are dropped: a fixed joint preserved at its link is lumped all the same. So is a sensor that no
-    reference hangs on a link. Where the joint is fixed and lumped, Gazebo has no joint that the
+    reference is on a link. Where the joint is fixed and lumped, Gazebo has no joint that the
     word could be written at, and the remedy is to remove it.
     """
     for block in robot.gazebo:

@@ -118,7 +118,7 @@ def implausible_velocity(
 
     In most cases it is in degrees or turns per minute, or a large number that means "none".
     Planners time trajectories by it. One number at more than ``together`` joints is one finding. A
-    joint whose two limits are equal does not move, and is let be.
+    joint whose two limits are equal does not move, and is not reported.
     """
     found = []
     for joint, limit in _driven(robot):
@@ -278,7 +278,7 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
 
     Nothing takes energy out of them: a limp joint swings for ever, and one under position control
     swings for long. Real bearings and gears have both. The robot's joints are named once, together.
-    A joint whose two limits are equal does not swing, and is let be.
+    A joint whose two limits are equal does not swing, and is not reported.
     """
     free = [
         joint
