@@ -168,7 +168,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "odd-link-without-collision",
             "massive-link-without-collision",
         ),
-        "shapes": ("non-positive-dimension", "unsupported-shape"),
+        "shapes": ("non-positive-dimension", "unsupported-shape", "shape-in-millimetres"),
         "likeness": (
             "visual-mesh-as-collision",
             "collision-mesh-too-dense",

@@ -131,6 +131,7 @@ FIXES: dict[str, dict[str, str]] = {
         "collision-off-visual": UNSAFE,
         "collision-mesh-displaced": UNSAFE,
         "unsupported-shape": UNSAFE,
+        "shape-in-millimetres": UNSAFE,
         "wheel-cylinder-axis": UNSAFE,
         "caster-height-mismatch": UNSAFE,
         "invalid-color": UNSAFE,

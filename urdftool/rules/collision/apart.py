@@ -32,6 +32,10 @@ _CLEAR = 0.25
 """Part of the distance within which the third of three agrees with one of the other two."""
 
 
+_PRIMITIVE = 0.2
+"""Part of its diagonal by which a primitive may be off one of the same size."""
+
+
 class Apart(NamedTuple):
     """A link whose visual and collision are apart.
 
@@ -98,6 +102,8 @@ def compare_places(robot: Robot, link: Link, part: float) -> Apart | None:
         return None
     distance, diagonal = math.dist(seen.centre, touches.centre), norm(seen.size)
     larger = all(a > 2 * b for a, b in zip(touches.size, seen.size, strict=True))
+    if _is_one_primitive(link):
+        part = min(part, _PRIMITIVE)
     if larger or (seen.meets(touches) and distance <= part * diagonal):
         return None
     if min(diagonal, 5 * norm(touches.size)) <= _SMALL and distance <= 2 * _SMALL:
@@ -119,6 +125,14 @@ def compare_places(robot: Robot, link: Link, part: float) -> Apart | None:
         xyz = right.translation if right.rotation == wrong.rotation else (x, y, z)
     same = xyz is not None and _is_same(link.visuals[0].geometry, link.collisions[0].geometry)
     return Apart(distance, alike, odd, why, xyz, same)
+
+
+def _is_one_primitive(link: Link) -> bool:
+    """Whether a link has one visual and one collision, which are a primitive of the same size."""
+    if len(link.visuals) != 1 or len(link.collisions) != 1:
+        return False
+    one, other = link.visuals[0].geometry, link.collisions[0].geometry
+    return not isinstance(one, Mesh) and _is_same(one, other)
 
 
 def _is_same(one: Geometry | None, other: Geometry | None) -> bool:

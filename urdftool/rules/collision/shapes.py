@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Collision, Robot, UnknownShape
+from ...model.millimeters import shapes_in_millimeters
 from ...model.read import number, numbers
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..words import did_you_mean
@@ -121,3 +122,39 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                 + (near or f"; write {right}"),
                 at=geometry,
             )
+
+
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic, pybullet": "take the numbers as meters",
+        "mujoco": "takes the numbers of a collision as meters; ignores a visual by default",
+    },
+)
+def shape_in_millimetres(robot: Robot) -> Iterator[Problem]:
+    """A primitive shape is a thousand times too large: its lengths are in millimeters.
+
+    URDF has lengths in meters. A shape of more than ten meters may be meant; it is reported where
+    another shape of the link has a thousandth of its lengths, or where the mass of the link is that
+    of a body of a thousandth of the lengths, and in meters it would be thinner than air.
+    """
+    for link in robot.links:
+        for shape in shapes_in_millimeters(link):
+            if shape.geometry is None:
+                continue
+            element = shape.geometry.element
+            kind = "collision" if isinstance(shape, Collision) else "visual"
+            names = _SIZES[element.tag]
+            lengths = " and ".join(f"{name} {element.get(name)} m" for name in names)
+            right = " ".join(f'{name}="{thousandth(element.get(name))}"' for name in names)
+            yield Problem(
+                link,
+                f"<{element.tag}> in a {kind} of link '{link.name}' has {lengths}, as if in "
+                f"millimeters; write {right}",
+                at=shape.geometry,
+            )
+
+
+def thousandth(text: str | None) -> str:
+    """Write numbers divided by a thousand."""
+    return " ".join(f"{float(word) / 1000:.12g}" for word in (text or "").split())

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ...model.bounds import size_of
 from ...model.elements import Box, Joint, Robot, Vector
+from ...model.millimeters import shapes_in_millimeters
 from ..rule import INFO, WARNING, Problem, rule
 from .axle import PLACE, VISUAL, Wheel, agreeing, angle_between, is_upright, wheel_of_joint
 
@@ -126,6 +127,8 @@ def caster_height_mismatch(
 
     from .casters import axle_of, casters_of
 
+    if any(any(shapes_in_millimeters(link)) for link in robot.links):
+        return
     axle = axle_of(robot)
     found = list(casters_of(robot, axle)) if axle is not None else []
     found = [caster for caster in found if abs(caster.ahead) > 0.005]

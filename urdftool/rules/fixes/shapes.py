@@ -9,6 +9,7 @@ from ...model.elements import Box, Collision, Cylinder, Joint, Mesh, Sphere, Vis
 from ...model.pose import norm
 from ...model.read import numbers
 from ..collision.displaced import displaced
+from ..collision.shapes import thousandth
 from ..mesh.outlines import reaches
 from ..rule import INFO, Problem
 from ..xml.vocabulary_table import VOCABULARY
@@ -165,6 +166,19 @@ def unsupported_shape(problem: Problem, around: Around) -> Proposal | None:
     if element is None or not name:
         return None
     return unsafe(f"write <{name}>", retag(element, name))
+
+
+def shape_in_millimetres(problem: Problem, around: Around) -> Proposal | None:
+    """The lengths in meters."""
+    element = element_at(problem)
+    if element is None or is_computed(element):
+        return None
+    changes = [
+        put(element, name, thousandth(element.get(name)))
+        for name in ("size", "radius", "length")
+        if name in element.attributes
+    ]
+    return unsafe("write the lengths in meters", *changes)
 
 
 def wheel_cylinder_axis(problem: Problem, around: Around) -> Proposal | None:

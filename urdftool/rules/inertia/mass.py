@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
+from ...model.millimeters import shapes_in_millimeters
 from ...source.document import Element
 from ..mesh.outlines import Reaches, reaches
 from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
@@ -222,6 +223,8 @@ def implausible_density(
     remarks: list[tuple[Problem, float]] = []
     for link, mass, element in _masses(robot):
         density, in_box = _density(reach.link(link), link, mass)
+        if any(shapes_in_millimeters(link)):
+            continue
         if density is None or least <= density <= (most_of_box if in_box else most):
             continue
         if in_box and least_possible <= density < least:

@@ -9,6 +9,7 @@ from ...inputs import Remembered
 from ...model.attached import Attached, attached_links
 from ...model.bounds import Bounds, bounds_at, bounds_of
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
+from ...model.millimeters import shapes_in_millimeters
 from ...model.pose import IDENTITY, Pose, pose_of
 from ...source.description import GltfUp
 from .uses import MeshUse, Stamp, mesh_uses, stamp
@@ -57,6 +58,9 @@ class Reaches:
         self._boxes: dict[int, Bounds | None] = {}
         self._links: dict[int, Bounds | None] = {}
         self._attached: dict[int, Attached] = {}
+        self._in_millimeters = {
+            id(shape) for link in robot.links for shape in shapes_in_millimeters(link)
+        }
 
     def use_of(self, shape: Visual | Collision) -> MeshUse | None:
         """The file of a shape that is a mesh."""
@@ -68,6 +72,8 @@ class Reaches:
 
     def shape(self, shape: Visual | Collision) -> Bounds | None:
         """The box around one shape, in the frame of its link; None where it is not known."""
+        if id(shape) in self._in_millimeters:
+            return None
         if not isinstance(shape.geometry, Mesh):
             return bounds_of(shape)
         if id(shape) not in self._boxes:
@@ -157,6 +163,8 @@ class Reaches:
         """Return the box around a shape whose link has a pose."""
         if pose is IDENTITY:
             return self.shape(shape)
+        if id(shape) in self._in_millimeters:
+            return None
         if not isinstance(shape.geometry, Mesh):
             return bounds_at(shape.geometry, pose @ pose_of(shape.origin))
         use = self.use_of(shape)
