@@ -39,6 +39,8 @@ REVEALING = frozenset(
         "missing-limit",
         "empty-geometry",
         "repeated-element",
+        "missing-collision",
+        "odd-link-without-collision",
     )
 )
 """Rules whose fix lets readers see what they passed over, with what is wrong in it."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -11,11 +10,9 @@ from ...model.attached import attached_links
 from ...model.convex import Convex
 from ...model.elements import Collision, Joint, Link, Robot, Sphere, Vector
 from ...model.pose import Pose, dot, pose_of, rotate, transpose
-from ..gazebo.contact import is_wheel
-from ..gazebo.drive_wheels import drives
+from ..gazebo.wheel_pair import CASTER, driven_joints
 from .pieces import Pieces, pieces
 
-CASTER = re.compile(r"caster|castor|ball_wheel|ball_link$|ball_joint$", re.IGNORECASE)
 _UP = (0.0, 0.0, 1.0)
 
 
@@ -61,7 +58,7 @@ def axle_of(robot: Robot) -> Axle | None:
     """The one axle that is driven; None where there is none, or it is not known how low it is."""
     found = pieces(robot)
     lows = []
-    wheels = _driven(robot)
+    wheels = driven_joints(robot)
     for joint in wheels:
         low = _lowest(found, _body(robot, joint.child))
         if low is None or not _hangs_rigidly(robot, joint.parent):
@@ -86,27 +83,6 @@ def axle_of(robot: Robot) -> Axle | None:
 def _body(robot: Robot, name: str) -> set[str]:
     """The names of a link and of all that is rigidly attached to it."""
     return {link.name for link, _ in attached_links(robot, robot.link[name])}
-
-
-def _driven(robot: Robot) -> list[Joint]:
-    """The joints of the wheels that a drive names, or of the two that there are."""
-    named = {
-        wheel.joint.name: wheel.joint
-        for drive in drives(robot)
-        for pair in drive.pairs
-        for wheel in pair
-    }
-    if named:
-        return list(named.values())
-    found = []
-    for joint in robot.joints:
-        link = robot.link.get(joint.child)
-        if joint.type != "continuous" or link is None or not is_wheel(robot, link):
-            continue
-        above = [joint.name, joint.child, *robot.tree.ancestors(joint.child)]
-        if not any(CASTER.search(name) for name in above):
-            found.append(joint)
-    return found if len(found) == 2 else []
 
 
 def casters_of(robot: Robot, axle: Axle) -> Iterator[Caster]:

@@ -261,10 +261,11 @@ def collision_off_visual(
 
     One of the two has the wrong ``<origin>``. It is reported where the boxes around visuals and
     collisions do not meet, or their middles are further apart than ``apart`` of the visual's
-    diagonal; a fifth of it where both are a primitive of the same size. Two of three decide which one is wrong: visual, collision and center of mass. Where
-    these do not, it is the one whose origin repeats that of the joint. Shapes of different sizes
-    are a remark, as a simple shape may be at another place on purpose; one that the visual of a
-    joined or attached link covers is not reported.
+    diagonal; a fifth of it where both are a primitive of the same size. Two of three decide which
+    one is wrong: visual, collision and center of mass. Where these do not, it is the one whose
+    origin repeats that of the joint. Shapes of different sizes are a remark, as a simple shape may
+    be at another place on purpose; one that the visual of a joined or attached link covers is not
+    reported.
     """
     for link in robot.links:
         found = compare_places(robot, link, apart)

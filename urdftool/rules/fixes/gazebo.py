@@ -10,6 +10,7 @@ from ..gazebo.keywords import JOINT_KEYWORDS, LINK_KEYWORDS, NOT_IN_GZ, SURFACE
 from ..gazebo.lumping import is_lumped, keeps_joint
 from ..gazebo.sensors import Frameless, without_frame
 from ..gazebo.tags import _colours, _shows_colour
+from ..gazebo.wheel_pair import wheel_pair
 from ..rule import Problem
 from .elsewhere import check_not_included
 from .proposal import (
@@ -324,7 +325,8 @@ def root_not_anchored(problem: Problem, around: Around) -> Proposal | None:
 def missing_control_plugin(problem: Problem, around: Around) -> Proposal | None:
     """Add one that reports the joints in new Gazebo; that of ros_control in Gazebo Classic.
 
-    An end effector that another robot includes is driven by the plugin of that robot.
+    A pair of wheels on one axle gets a differential drive in new Gazebo. An end effector that
+    another robot includes is driven by the plugin of that robot.
     """
     if {"gz", "gazebo-classic"} <= around.targets:
         return None
@@ -335,13 +337,25 @@ def missing_control_plugin(problem: Problem, around: Around) -> Proposal | None:
         control = '\t<plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so"/>'
         lines = ("<gazebo>", control, "</gazebo>")
         return unsafe("add that of ros_control", insert(around.robot.element, *lines))
-    lines = (
-        "<gazebo>",
+    report = (
         '\t<plugin filename="gz-sim-joint-state-publisher-system"'
-        ' name="gz::sim::systems::JointStatePublisher"/>',
-        "</gazebo>",
+        ' name="gz::sim::systems::JointStatePublisher"/>'
     )
-    return unsafe("add a joint state publisher", insert(around.robot.element, *lines))
+    reported = any("joint-state-publisher" in one.filename for one in around.robot.plugins)
+    pair = wheel_pair(around.robot)
+    systems = [] if reported else [report]
+    what = "" if reported else "a joint state publisher"
+    if pair is not None:
+        systems += [
+            '\t<plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive">',
+            f"\t\t<left_joint>{quote(pair.left.name)}</left_joint>",
+            f"\t\t<right_joint>{quote(pair.right.name)}</right_joint>",
+            f"\t\t<wheel_separation>{pair.separation:.6g}</wheel_separation>",
+            f"\t\t<wheel_radius>{pair.radius:.6g}</wheel_radius>",
+            "\t</plugin>",
+        ]
+        what = " and ".join(filter(None, ("a differential drive", what)))
+    return unsafe(f"add {what}", insert(around.robot.element, "<gazebo>", *systems, "</gazebo>"))
 
 
 def unknown_sensor_type(problem: Problem, around: Around) -> Proposal | None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import product
 
-from ...model.bounds import Bounds
 from ...model.elements import Robot, Vector
 from ...model.kinematics import link_poses
 from ...model.pose import dot, norm
@@ -14,6 +13,7 @@ from ..rule import GAZEBO, ROS, WARNING, Problem, rule
 from ..sides import sides
 from .contact import is_wheel
 from .drive_wheels import Drive, Pair, Told, Wheel, drives, wheel_of
+from .wheel_pair import radius_about
 
 _SLIP = 2.5  # a base that skids is often told of a wider track, since it turns less than it rolls
 
@@ -161,7 +161,7 @@ def _radius(robot: Robot, drive: Drive, told: Told, wheel: Wheel, part: float) -
     reach = reaches(robot)
     kinds: tuple[ShapeKind, ...] = ("collisions", "visuals")
     boxes = [reach.body(link, kind) for kind in kinds]
-    found = [radius for box in boxes if box and (radius := _radius_about(box, axis))]
+    found = [radius for box in boxes if box and (radius := radius_about(box, axis))]
     if not found:
         return
     # a hub may be covered by a hub cap, or carry something that is not round
@@ -169,7 +169,7 @@ def _radius(robot: Robot, drive: Drive, told: Told, wheel: Wheel, part: float) -
     for member in members if len(members) > 1 else ():
         for kind in kinds:
             box = reach.body(link, kind, [member])
-            radius = _radius_about(box, axis) if box is not None else None
+            radius = radius_about(box, axis) if box is not None else None
             found += [] if radius is None else [radius]
     said = {told.value / per_radius, told.meant / per_radius}
     if any(abs(one - radius) <= part * radius for radius in found for one in said):
@@ -197,12 +197,3 @@ def _span(robot: Robot, wheel: Wheel, along: Vector) -> tuple[float, float] | No
     corners = product((a, d), (b, e), (c, f))
     places = [dot(along, wheel.pose.transform(corner)) for corner in corners]
     return min(places), max(places)
-
-
-def _radius_about(box: Bounds, axis: Vector) -> float | None:
-    """Half of how large a box is across an axis [m]; None where it is not round, or lies askew."""
-    along = max(range(3), key=lambda i: abs(axis[i]))
-    if abs(axis[along]) < 0.99 * norm(axis):
-        return None
-    one, other = (size for i, size in enumerate(box.size) if i != along)
-    return (one + other) / 4 if abs(one - other) <= 0.1 * max(one, other) else None

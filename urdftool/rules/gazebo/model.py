@@ -9,6 +9,7 @@ from ...model.elements import Joint, Link, Robot
 from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
 from ..words import quoted
 from .keywords import is_true
+from .wheel_pair import wheel_pair
 
 
 @rule(
@@ -103,6 +104,8 @@ _DRIVES = re.compile(
     re.IGNORECASE,
 )
 
+_REPORTS = re.compile(r"joint[-_]?state", re.IGNORECASE)
+
 
 @rule(
     WARNING,
@@ -113,11 +116,13 @@ _DRIVES = re.compile(
         ),
     },
 )
-def missing_control_plugin(robot: Robot) -> Iterator[Problem]:
+def missing_control_plugin(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """Joints move, and no plugin drives or reports them.
 
     In Gazebo a joint without a plugin swings freely: the arm collapses as soon as it is spawned.
-    And nobody publishes joint states, so that RViz has no transforms past the first joint.
+    And nobody publishes joint states, so that RViz has no transforms past the first joint. Of a
+    robot with two wheels on one axle that turn about its y axis, the numbers of a differential
+    drive are given.
     """
     joints = [
         joint
@@ -126,17 +131,31 @@ def missing_control_plugin(robot: Robot) -> Iterator[Problem]:
     ]
     if not joints:
         return
-    for block in robot.gazebo:
-        for plugin in block.plugins:
-            if _DRIVES.search(plugin.filename) or _DRIVES.search(plugin.name):
-                return
+    plugins = [
+        f"{plugin.filename} {plugin.name}" for block in robot.gazebo for plugin in block.plugins
+    ]
+    acting = [text for text in plugins if _DRIVES.search(text)]
+    reported = any(_REPORTS.search(text) for text in acting)
+    if any(not _REPORTS.search(text) for text in acting):
+        return
+    pair = wheel_pair(robot) if "gz" in targets else None
+    if reported and pair is None:
+        return
+    if pair is not None:
+        joints = [pair.left, pair.right]
     names = quoted(joint.name for joint in joints)
     verb = "move" if len(joints) > 1 else "moves"
-    yield Problem(
-        robot,
-        f"{names} {verb} and no Gazebo plugin drives or reports any joint; add one, such as "
-        "ros2_control's or a joint state publisher",
-    )
+    if pair is None:
+        remedy = "one, such as ros2_control's or a joint state publisher"
+    else:
+        remedy = (
+            f"gz-sim-diff-drive-system with <left_joint>{pair.left.name}</left_joint>, "
+            f"<right_joint>{pair.right.name}</right_joint>, "
+            f"<wheel_separation>{pair.separation:.4g}</wheel_separation> and "
+            f"<wheel_radius>{pair.radius:.4g}</wheel_radius>"
+        )
+    acts = "drives them" if reported else "drives or reports any joint"
+    yield Problem(robot, f"{names} {verb} and no Gazebo plugin {acts}; add {remedy}")
 
 
 @rule(

@@ -1,0 +1,91 @@
+"""The wheels of a differential drive: which are driven, how far apart and how large they are."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from ...model.bounds import Bounds
+from ...model.elements import Joint, Robot, Vector
+from ...model.kinematics import link_poses
+from ...model.pose import norm
+from ..mesh.outlines import reaches
+from .contact import is_wheel
+from .drive_wheels import drives, wheel_of
+
+CASTER = re.compile(r"caster|castor|ball_wheel|ball_link$|ball_joint$", re.IGNORECASE)
+
+
+class WheelPair(NamedTuple):
+    """Two wheels on one axle, where all joints are at zero.
+
+    Attributes:
+        left: The joint of the wheel on the side of the root's positive y axis.
+        right: The joint of the other.
+        separation: The distance of the two joints [m].
+        radius: The radius of the left wheel [m].
+    """
+
+    left: Joint
+    right: Joint
+    separation: float
+    radius: float
+
+
+def driven_joints(robot: Robot) -> list[Joint]:
+    """Find the joints of the wheels that a drive names, or of the only two wheels."""
+    named = {
+        wheel.joint.name: wheel.joint
+        for drive in drives(robot)
+        for pair in drive.pairs
+        for wheel in pair
+    }
+    if named:
+        return list(named.values())
+    found = []
+    for joint in robot.joints:
+        link = robot.link.get(joint.child)
+        if joint.type != "continuous" or link is None or not is_wheel(robot, link):
+            continue
+        above = [joint.name, joint.child, *robot.tree.ancestors(joint.child)]
+        if not any(CASTER.search(name) for name in above):
+            found.append(joint)
+    return found if len(found) == 2 else []
+
+
+def wheel_pair(robot: Robot) -> WheelPair | None:
+    """Find the two wheels that a differential drive would turn.
+
+    None unless a robot has exactly two wheels beside casters, both turn about the positive y axis
+    of the root, at the same x and z, and are round.
+    """
+    joints = driven_joints(robot)
+    if len(joints) != 2:
+        return None
+    poses = link_poses(robot)
+    wheels = [wheel for joint in joints if (wheel := wheel_of(robot, poses, joint.name))]
+    if len(wheels) != 2 or any(wheel.axis[1] < 0.999 for wheel in wheels):
+        return None
+    right, left = sorted(wheels, key=lambda wheel: wheel.pose.translation[1])
+    (ahead, y, z), (other_ahead, other_y, other_z) = left.pose.translation, right.pose.translation
+    separation = y - other_y
+    if separation < 0.01 or max(abs(ahead - other_ahead), abs(z - other_z)) > 0.01 * separation:
+        return None
+    reach = reaches(robot)
+    link = robot.link[left.name]
+    axis = left.joint.axis.xyz if left.joint.axis is not None else (1.0, 0.0, 0.0)
+    box = reach.body(link, "collisions") or reach.body(link, "visuals")
+    radius = radius_about(box, axis) if box is not None else None
+    return None if radius is None else WheelPair(left.joint, right.joint, separation, radius)
+
+
+def radius_about(box: Bounds, axis: Vector) -> float | None:
+    """Return half of the length of a box across an axis [m].
+
+    None where the box is not as wide as high, or the axis is not along one of its sides.
+    """
+    along = max(range(3), key=lambda i: abs(axis[i]))
+    if abs(axis[along]) < 0.99 * norm(axis):
+        return None
+    one, other = (size for i, size in enumerate(box.size) if i != along)
+    return (one + other) / 4 if abs(one - other) <= 0.1 * max(one, other) else None
