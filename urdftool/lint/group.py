@@ -117,7 +117,8 @@ def _key(finding: Finding, robots: Mapping[Any, int]) -> Any:
     if finding.group.by == "repository":
         where = repository(os.path.dirname(os.path.abspath(finding.place.path)))
     same = finding.group.sentence or _QUOTED_OR_NUMBER.sub("", finding.message)
-    return finding.rule, finding.severity, same, finding.variants, where
+    effects = tuple(finding.effects.items())
+    return finding.rule, finding.severity, same, effects, finding.variants, where
 
 
 _QUOTED_OR_NUMBER = re.compile(r"'[^']*'|(?<![\w<])-?\d[\d.]*(?:e[-+]?\d+)?")

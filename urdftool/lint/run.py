@@ -332,6 +332,9 @@ def _problems(
     try:
         arguments = [subjects[name] for name in rule.needs]
         found.extend(rule.check(*arguments, **settings.thresholds.get(rule.name, {})))
+        unknown = {key for problem in found for key in problem.effects or ()} - rule.effects.keys()
+        if unknown:
+            raise LookupError(f"no effect on {sorted(unknown)}")
     except Exception as error:
         library = missing_library(error)
         if library is None:
@@ -349,7 +352,8 @@ def _finding(
     robot: Robot | None,
 ) -> Finding:
     severity = settings.severity.get(rule.name)
-    effects = dict(rule.effects)
+    holding = problem.effects
+    effects = {k: says for k, says in rule.effects.items() if holding is None or k in holding}
     if severity is None:
         severity = problem.severity or rule.severity_for(targets)
         if rule.of_motion and severity is not Severity.ERROR:

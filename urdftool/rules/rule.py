@@ -37,7 +37,7 @@ Two arguments of the decorator say how findings are reported together:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from types import FunctionType
 from typing import Any
@@ -70,9 +70,21 @@ class Problem:
             that groups them; see the module's docstring.
         cause: The element that a finding which explains this one is about; None for the subject.
         caused_by: Instead of the rule's, where it depends on the case.
+        effects: Which of the rule's effects hold, by their keys, where that depends on the case;
+            None for all of them.
     """
 
-    __slots__ = ("at", "cause", "caused_by", "group", "hint", "message", "severity", "subject")
+    __slots__ = (
+        "at",
+        "cause",
+        "caused_by",
+        "effects",
+        "group",
+        "hint",
+        "message",
+        "severity",
+        "subject",
+    )
 
     def __init__(
         self,
@@ -85,6 +97,7 @@ class Problem:
         group: str = "",
         cause: Part | Element | None = None,
         caused_by: tuple[str, ...] | None = None,
+        effects: Collection[str] | None = None,
     ) -> None:
         """Keep what was found; the place is worked out when it is reported."""
         self.subject = subject
@@ -95,6 +108,7 @@ class Problem:
         self.group = group
         self.cause = cause
         self.caused_by = caused_by
+        self.effects = effects
 
     @property
     def place(self) -> Place:

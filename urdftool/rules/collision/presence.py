@@ -12,6 +12,7 @@ from ...model.elements import Link, Mesh, Robot
 from ..gazebo.contact import axis_up
 from ..inertia.bodies import bodies, mass_of
 from ..mesh.outlines import reaches
+from ..mujoco import keeps_visuals
 from ..rule import INFO, WARNING, Problem, rule
 from ..sides import family_of
 from ..words import some_of
@@ -19,6 +20,8 @@ from ..xml.vocabulary_table import misspelt_children
 
 _FRAME = re.compile(r"optical|(^|_)frame$")
 _CONTACT = re.compile(r"wheel|caster|(^|_)(foot|feet)(_|\d|$)", re.IGNORECASE)
+_LOAD = "gz, gazebo-classic, pybullet, pinocchio, drake"
+_PASS = "gz, gazebo-classic, pybullet"
 _MARKER = 0.1  # [m] a marker of a frame is no larger
 
 
@@ -26,9 +29,7 @@ _MARKER = 0.1  # [m] a marker of a frame is no larger
     INFO,
     raised=dict.fromkeys(("gazebo-classic", "gz", "mujoco", "pybullet", "moveit"), WARNING),
     effects={
-        "gz, gazebo-classic, pybullet, pinocchio, drake": (
-            "load the link without a collision: it touches nothing"
-        ),
+        _LOAD: "load the link without a collision: it touches nothing",
         "moveit": "plans straight through it; MoveIt 2 warns",
         "mujoco": "loads the body without a geom: visuals of a URDF are discarded",
     },
@@ -53,6 +54,7 @@ def missing_collision(
     ghosts = [link for link in seen if not link.collisions]
     sizes = _sizes(robot, ghosts)
     odd = {link.name for link, _ in _odd_links(robot)}
+    discarded = not keeps_visuals(robot)
     for link in ghosts:
         if link.name in odd:
             continue
@@ -64,6 +66,7 @@ def missing_collision(
             link,
             f"link '{link.name}' has a visual and no collision; "
             "add a <collision>, best with a primitive shape",
+            effects=[_LOAD, "moveit", *["mujoco"] * discarded],
             severity=INFO if sizes[link.name] < small else None,
             group="{count} links have a visual and no collision: {names}; "
             "add a <collision> to each, best with a primitive shape",
@@ -73,7 +76,7 @@ def missing_collision(
 @rule(
     WARNING,
     effects={
-        "gz, gazebo-classic, pybullet": (
+        _PASS: (
             "load the link without a collision: it passes through the ground and through other "
             "bodies"
         ),
@@ -90,23 +93,19 @@ def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:
     other count as one body. A link with less than a hundredth of the mass of the others' median is
     ignored.
     """
+    discarded = not keeps_visuals(robot)
     for link, others in _odd_links(robot):
         yield Problem(
             link,
             f"link '{link.name}' has a visual, but no collision; {others} one; add a <collision>",
+            effects=[_PASS, "moveit", *["mujoco"] * discarded],
         )
-
-
-_odd: tuple[Robot, list[tuple[Link, str]]] | None = None
 
 
 def _odd_links(robot: Robot) -> list[tuple[Link, str]]:
     """Links without a collision whose likes have one, each with which have it."""
-    global _odd
-    if _odd is None or _odd[0] is not robot:
-        found = {link.name: others for link, others in (*_alone(robot), *_unlike(robot))}
-        _odd = robot, [(link, found[link.name]) for link in robot.links if link.name in found]
-    return _odd[1]
+    found = {link.name: others for link, others in (*_alone(robot), *_unlike(robot))}
+    return [(link, found[link.name]) for link in robot.links if link.name in found]
 
 
 def _unlike(robot: Robot) -> Iterator[tuple[Link, str]]:

@@ -7,10 +7,12 @@ from collections.abc import Iterator
 from ...model.elements import Collision, Robot, UnknownShape
 from ...model.millimeters import shapes_in_millimeters
 from ...model.read import number, numbers
+from ..mujoco import keeps_visuals
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..words import did_you_mean
 from ..xml.vocabulary_table import VOCABULARY
 
+_SILENT = "urdfdom, gz, gazebo-classic, pybullet, pinocchio"
 _SIZES = {
     "box": ("size",),
     "cylinder": ("radius", "length"),
@@ -22,9 +24,9 @@ _SIZES = {
 @rule(
     ERROR,
     effects={
-        "mujoco": "rejects the file for a collision: size must be positive; ignores a visual",
-        "drake": "aborts for a cylinder",
-        "urdfdom, gz, gazebo-classic, pybullet, pinocchio": "accept it without a message",
+        "mujoco": "rejects the file: size must be positive",
+        "drake": "aborts",
+        _SILENT: "accept it without a message",
     },
     group="robot",
 )
@@ -34,13 +36,9 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
     Often the 0 0 0 of a placeholder, or a subtraction in a macro that went below zero. Nothing of
     it has contact or is visible where it is accepted. MuJoCo rejects a robot with such a collision.
     It discards visuals, unless the robot says ``<compiler discardvisual="false"/>``; a visual is
-    otherwise a warning.
+    otherwise a warning. Drake takes a sphere of radius 0 and no other.
     """
-    keeps = any(
-        (compiler.get("discardvisual") or "").strip() == "false"
-        for mujoco in robot.element.all("mujoco")
-        for compiler in mujoco.all("compiler")
-    )
+    keeps = keeps_visuals(robot)
     for link, shape in robot.shapes:
         if shape.geometry is None:
             continue
@@ -53,15 +51,18 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
             if values is None or min(values) > 0:
                 continue
             rejected = kind == "collision" or keeps
+            aborts = element.tag != "sphere" or min(values) < 0
             yield Problem(
                 link,
                 f"{name} of a <{element.tag}> in a {kind} of link '{link.name}' is {text}; "
                 "every length must be above 0",
                 at=element.attribute_place(name),
                 severity=ERROR if rejected else WARNING,
+                effects=[*["mujoco"] * rejected, *["drake"] * aborts, _SILENT],
             )
 
 
+_UNKNOWN_SHAPE = "urdfdom, gz, gazebo-classic, pinocchio"
 _KNOWN = ("box", "cylinder", "sphere", "mesh")
 _INSTEAD = {
     "plane": "a flat <box>",
@@ -74,13 +75,13 @@ _INSTEAD = {
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic, pinocchio": (
+        _UNKNOWN_SHAPE: (
             "load the link without its visuals and collisions, also the right ones, with an "
             "error in the log"
         ),
         "pybullet": "rejects the file, except for a <plane> with a normal, which it loads",
         "drake": "rejects the file",
-        "mujoco": "rejects the file for a collision; ignores a visual",
+        "mujoco": "rejects the file",
     },
 )
 def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
@@ -91,10 +92,13 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     an extension of PyBullet: it is a remark where PyBullet is the only target, a warning where no
     target is known, and an error for all others.
     """
+    keeps = keeps_visuals(robot)
     for link, shape in robot.shapes:
         geometry = shape.geometry
         if isinstance(geometry, UnknownShape) and ":" not in geometry.element.tag:
             tag = geometry.element.tag
+            rejected = keeps or isinstance(shape, Collision)
+            effects = [_UNKNOWN_SHAPE, "pybullet", "drake", *["mujoco"] * rejected]
             if tag in VOCABULARY:
                 kind = shape.element.tag
                 yield Problem(
@@ -102,6 +106,7 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                     f"<geometry> in a {kind} of link '{link.name}' begins with <{tag}>, which "
                     "urdfdom takes for its shape; move it out of <geometry>",
                     at=geometry,
+                    effects=effects,
                 )
                 continue
             if tag == "plane" and numbers(geometry.element.get("normal"), 3):
@@ -112,6 +117,7 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                     f"write {_INSTEAD[tag]} for other readers",
                     at=geometry,
                     severity=ERROR if others else INFO if targets else WARNING,
+                    effects=effects,
                 )
                 continue
             near = did_you_mean(tag, _KNOWN)
@@ -121,6 +127,7 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                 f"link '{link.name}' has a <{tag}>, which URDF does not know"
                 + (near or f"; write {right}"),
                 at=geometry,
+                effects=effects,
             )
 
 

@@ -16,12 +16,14 @@ from ...model.elements import Robot
 from ...source.description import Description
 from ...source.nearby import stand_in
 from ...source.packages import own_package, shown_path
+from ..mujoco import keeps_visuals
 from ..rule import ERROR, Problem, rule
 from ..words import nearest
 from .uris import malformation
 from .uses import MeshUse, actual_case, mesh_uses
 
 _MAX_FILES = 5000
+_WITHOUT_FILE = ("rviz", "gz", "pybullet, drake", "urdfdom, gz, gazebo-classic")
 
 
 @rule(
@@ -30,7 +32,7 @@ _MAX_FILES = 5000
         "rviz": "shows nothing there, and reports 'Could not load mesh resource'",
         "gz": "shows nothing there",
         "pybullet, drake": "reject the robot",
-        "mujoco": "rejects the robot for a collision; ignores a visual",
+        "mujoco": "rejects the robot",
         "urdfdom, gz, gazebo-classic": "load the robot without opening the file (sdformat 12.3)",
     },
 )
@@ -54,6 +56,7 @@ def mesh_not_found(
     folders: dict[Path, list[Path]] = {}
     for path in wanted:
         folders.setdefault(_missing_folder(path), []).append(path)
+    keeps = keeps_visuals(robot)
     for folder, paths in folders.items():
         if len(paths) > together and not os.path.exists(folder):
             first = wanted[paths[0]][0]
@@ -62,6 +65,7 @@ def mesh_not_found(
                 f"the folder '{shown_path(folder)}' is not there, and {len(paths)} meshes are "
                 f"wanted from it, first '{first.uri}'",
                 at=first.mesh.element.attribute_place("filename"),
+                effects=_of_missing(keeps, [use for path in paths for use in wanted[path]]),
             )
             continue
         for path in paths:
@@ -71,7 +75,14 @@ def mesh_not_found(
                 f"mesh '{first.uri}' of link '{first.link.name}' is not there: "
                 f"no file '{shown_path(path)}'{_elsewhere(path)}",
                 at=first.mesh.element.attribute_place("filename"),
+                effects=_of_missing(keeps, wanted[path]),
             )
+
+
+def _of_missing(keeps: bool, uses: list[MeshUse]) -> list[str]:
+    """The effects of a missing file: MuJoCo opens that of a visual only where it keeps visuals."""
+    opened = keeps or any(use.collides for use in uses)
+    return [*_WITHOUT_FILE, *["mujoco"] * opened]
 
 
 def _is_in_own_package(use: MeshUse, description: Description) -> bool:

@@ -6,10 +6,11 @@ import os
 import re
 from collections.abc import Iterator
 
-from ...model.elements import Mesh, Robot
+from ...model.elements import Collision, Mesh, Robot
 from ...source.description import Description
 from ...source.document import Element
 from ...source.packages import own_package
+from ..mujoco import keeps_visuals
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_attributes
 from .uses import MeshUse, mesh_uses
@@ -62,15 +63,18 @@ def folder_of(use: MeshUse) -> str:
     return use.uri.replace("\\", "/").rstrip("/").rpartition("/")[0]
 
 
+_URDFDOM = "urdfdom, gz, gazebo-classic, pinocchio"
+
+
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic, pinocchio": (
+        _URDFDOM: (
             "load the link without its visuals and collisions (the collisions alone where it "
             "is in one), with an error in the log"
         ),
         "pybullet, drake": "reject the robot",
-        "mujoco": "rejects the file for a collision; ignores a visual",
+        "mujoco": "rejects the file",
     },
 )
 def mesh_without_filename(robot: Robot) -> Iterator[Problem]:
@@ -79,6 +83,7 @@ def mesh_without_filename(robot: Robot) -> Iterator[Problem]:
     urdfdom stops reading the link at that point and keeps what it has: a visual without a file
     takes the collisions of the link with it, and ``check_urdf`` reports success.
     """
+    keeps = keeps_visuals(robot)
     for link, shape in robot.shapes:
         if not isinstance(shape.geometry, Mesh):
             continue
@@ -90,6 +95,10 @@ def mesh_without_filename(robot: Robot) -> Iterator[Problem]:
             f"a <mesh> of link '{link.name}' has no filename; name the file, "
             f"or remove the <{shape.element.tag}>",
             at=element,
+            effects=[
+                *(_URDFDOM, "pybullet, drake"),
+                *["mujoco"] * (keeps or isinstance(shape, Collision)),
+            ],
         )
 
 
@@ -167,7 +176,7 @@ def malformation(use: MeshUse) -> str:
         "gz": "downloads from Fuel servers alone",
         "pybullet, drake": "reject the robot",
         "pinocchio": "rejects the shapes of the robot",
-        "mujoco": "4.0 rejects the file for a collision; ignores a visual",
+        "mujoco": "rejects the file (4.0)",
     },
 )
 def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[Problem]:
@@ -178,6 +187,7 @@ def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[P
     same tomorrow, and does not load without a network. Of a scheme that no reader knows the shape
     is missing in all of them; that is an error. One finding names the files of a server.
     """
+    keeps = keeps_visuals(robot)
     found: dict[str, list[MeshUse]] = {}
     for use in mesh_uses(robot, description):
         scheme, separator, rest = use.uri.partition("://")
@@ -198,6 +208,11 @@ def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[P
             f"mesh '{first.uri}'{more}: {what}",
             at=first.mesh.element.attribute_place("filename"),
             severity=None if known else ERROR,
+            effects=[
+                *(["rviz", "gz"] if known else []),
+                *("pybullet, drake", "pinocchio"),
+                *["mujoco"] * (keeps or any(use.collides for use in uses)),
+            ],
         )
 
 
@@ -313,8 +328,7 @@ def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Prob
     ``collision/arm.stl`` are both ``arm``. Visuals count where the robot's ``<compiler>`` keeps
     them.
     """
-    compilers = [m.child("compiler") for m in robot.element.all("mujoco")]
-    all_of_them = any(c is not None and c.get("discardvisual") == "false" for c in compilers)
+    all_of_them = keeps_visuals(robot)
     first: dict[str, str] = {}
     found: dict[str, MeshUse] = {}
     for use in mesh_uses(robot, description):
