@@ -352,8 +352,7 @@ def _finding(
     robot: Robot | None,
 ) -> Finding:
     severity = settings.severity.get(rule.name)
-    holding = problem.effects
-    effects = {k: says for k, says in rule.effects.items() if holding is None or k in holding}
+    effects = rule.effects_in(problem.effects)
     if severity is None:
         severity = problem.severity or rule.severity_for(targets)
         if rule.of_motion and severity is not Severity.ERROR:

@@ -152,7 +152,8 @@ class Rule:
         severity: How much it matters where no target says otherwise.
         on: Targets it is on for; None means always.
         raised: Severity by target, where it matters more there.
-        effects: What a reader does with the defect, by target or reader.
+        effects: What a reader does with the defect, by target or reader, with a case in
+            parentheses where another case of the same reader differs.
         default: Whether it is on without being selected.
         needs: The names of the parameters it wants.
         thresholds: Its thresholds with their defaults.
@@ -180,6 +181,11 @@ class Rule:
     def fact(self) -> str:
         """The first line of its page."""
         return (self.check.__doc__ or "").partition("\n")[0].strip()
+
+    def effects_in(self, keys: Collection[str] | None) -> dict[str, str]:
+        """Select the effects with these keys, or all, and leave the case out of their keys."""
+        held = {k: says for k, says in self.effects.items() if keys is None or k in keys}
+        return {key.partition(" (")[0]: says for key, says in held.items()}
 
     def severity_for(self, targets: frozenset[str]) -> Severity:
         """How much it matters for a set of targets."""
