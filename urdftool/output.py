@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 
 from .errors import OutputError
@@ -59,7 +60,7 @@ def check_target(target: str | Path, *, inputs: Iterable[str | Path] = ()) -> No
         inputs: Files that are read for it, which it must not overwrite.
 
     Raises:
-        OutputError: It is an input, a folder, read-only, or in a folder that is not there.
+        OutputError: It is an input, a folder, read-only, or its folder cannot be made.
     """
     for source in inputs:
         if _same_file(source, target):
@@ -69,10 +70,63 @@ def check_target(target: str | Path, *, inputs: Iterable[str | Path] = ()) -> No
     path = Path(os.path.realpath(target))
     if path.is_dir():
         raise OutputError("is a folder; the name of a file is wanted", path=target)
-    if not path.parent.is_dir():
-        raise OutputError(f"the folder {path.parent} does not exist", path=target)
+    check_folder(path.parent, target)
     if path.is_file() and not os.access(path, os.W_OK):
         raise OutputError("may not be written (it is read-only)", path=target)
+
+
+def check_folder(folder: Path, target: str | Path) -> None:
+    """Refuse an output whose folder neither exists nor can be made.
+
+    Args:
+        folder: The folder of the output, as a real path.
+        target: The output, for the message.
+
+    Raises:
+        OutputError: A part of the path is a file, or its last existing folder is read-only.
+    """
+    if folder.is_dir():
+        return
+    above = folder
+    while not os.path.lexists(above):
+        above = above.parent
+    if not above.is_dir():
+        raise OutputError(
+            f"the folder {folder} cannot be made: {above} is not a folder", path=target
+        )
+    if not os.access(above, os.W_OK):
+        raise OutputError(f"the folder {folder} cannot be made: {above} is read-only", path=target)
+
+
+def make_folders(folder: Path) -> list[Path]:
+    """Make a folder and the missing folders above it.
+
+    Returns:
+        The folders that were made, outermost first, for ``remove_empty`` after a failure.
+
+    Raises:
+        OSError: One of them cannot be made; those made before are removed.
+    """
+    missing: list[Path] = []
+    while not folder.exists():
+        missing.insert(0, folder)
+        folder = folder.parent
+    made: list[Path] = []
+    try:
+        for place in missing:
+            place.mkdir(exist_ok=True)
+            made.append(place)
+    except OSError:
+        remove_empty(made)
+        raise
+    return made
+
+
+def remove_empty(folders: Iterable[Path]) -> None:
+    """Remove the folders that are empty, innermost first."""
+    for folder in reversed(list(folders)):
+        with suppress(OSError):
+            folder.rmdir()
 
 
 def check_targets(
@@ -120,7 +174,10 @@ def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] 
             raise OutputError(f"cannot be written: {error.strerror}", path=target) from None
         return
     neighbour = path.parent / f".{path.name}.{os.getpid()}.tmp"
+    made: list[Path] = []
+    done = False
     try:
+        made = make_folders(path.parent)
         try:
             mode = path.stat().st_mode & 0o777
         except FileNotFoundError:
@@ -132,10 +189,14 @@ def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] 
         if mode is not None:
             os.chmod(neighbour, mode)
         os.replace(neighbour, path)
+        done = True
     except OSError as error:
         raise OutputError(f"cannot be written: {error.strerror or error}", path=target) from None
     finally:
-        neighbour.unlink(missing_ok=True)
+        with suppress(OSError):
+            neighbour.unlink(missing_ok=True)
+        if not done:
+            remove_empty(made)
 
 
 def rewrite(before: Mapping[str, bytes | None], after: Mapping[str, bytes]) -> None:

@@ -84,6 +84,20 @@ def test_one_file_with_its_companions(tmp_path):
         write_beside(tmp_path / "x.xml", files, main="a.xml")
 
 
-def test_a_parent_that_is_not_there(tmp_path):
-    with pytest.raises(OutputError, match="does not exist"):
-        write_directory(tmp_path / "no" / "out", {"a.xml": MODEL}, main="a.xml")
+def test_missing_parents_are_made(tmp_path):
+    write_directory(tmp_path / "no" / "such" / "out", {"a.xml": MODEL}, main="a.xml")
+    write_beside(tmp_path / "none" / "either" / "b.xml", {"a.xml": MODEL}, main="a.xml")
+    assert (tmp_path / "no" / "such" / "out" / "a.xml").read_bytes() == MODEL
+    assert (tmp_path / "none" / "either" / "b.xml").read_bytes() == MODEL
+
+
+def test_a_parent_that_is_a_file(tmp_path):
+    (tmp_path / "file").touch()
+    with pytest.raises(OutputError, match="cannot be made"):
+        write_directory(tmp_path / "file" / "out", {"a.xml": MODEL}, main="a.xml")
+
+
+def test_folders_made_for_a_failed_export_are_removed(tmp_path):
+    with pytest.raises(OutputError, match="cannot be written"):
+        write_directory(tmp_path / "no" / "out", {"a.xml": tmp_path / "gone"}, main="a.xml")
+    assert not (tmp_path / "no").exists()

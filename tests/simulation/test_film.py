@@ -108,7 +108,7 @@ BARE = """<robot name="bare"><link name="a"><inertial><mass value="1"/>
     [
         (["--picture", "a.jpg"], "--picture wants a name that ends in .png"),
         (["--video", "a.png"], "--video wants a name that ends in .gif"),
-        (["--plot", "none/a.png"], "the folder of none/a.png does not exist"),
+        (["--plot", "bare.urdf/a.png"], "bare.urdf is not a folder"),
         (["--plot", "folder.png"], "is a folder"),
         (["--plot", "a.png", "--picture", "./a.png"], "want a file each"),
         (["--video", "a.gif"], "bare.urdf:1:1: the robot has nothing that could be drawn"),

@@ -173,12 +173,13 @@ def test_one_robot_is_a_junit_case_too(urdftool):
         (["--fleet", "a.urdf", "--plot", "a.png"], "are of one robot, not a --fleet"),
         (["a.urdf", "b.urdf"], "one robot is wanted, not 2"),
         (["--fleet", "empty"], "no .urdf or .urdf.xacro below empty"),
-        (["a.urdf", "--junit", "none/a.xml"], "the folder of none/a.xml does not exist"),
+        (["a.urdf", "--junit", "file/a.xml"], "file is not a folder"),
     ],
 )
 def test_a_wrong_call_is_said(urdftool, tmp_path, monkeypatch, arguments, said):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "empty").mkdir()
+    (tmp_path / "file").touch()
     result = urdftool("simulate", "--engine", "mujoco", *arguments)
     assert result.code == 2
     assert said in result.err

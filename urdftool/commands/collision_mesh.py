@@ -136,10 +136,6 @@ def _write(file: str, result: Result, output: str | None, overwrite: bool) -> tu
             files[path] = mesh_bytes([piece], suffix)
             names.append(str(path))
     files[target] = mesh_bytes(result.pieces, suffix)
-    if not target.resolve().parent.is_dir():
-        from ..errors import OutputError
-
-        raise OutputError(f"the folder {target.parent} does not exist", path=output)
     write_all(files, overwrite=overwrite, inputs=[file])
     return tuple(names)
 

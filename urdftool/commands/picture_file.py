@@ -17,8 +17,9 @@ def checked_picture(picture: str | None, option: str = "--picture") -> None:
         return
     if not picture.lower().endswith(".png"):
         raise click.UsageError(f"{option} wants a name that ends in .png, not {picture}")
-    if not Path(picture).resolve().parent.is_dir():
-        raise click.UsageError(f"the folder of {picture} does not exist")
+    from ..output import check_folder
+
+    check_folder(Path(picture).resolve().parent, picture)
 
 
 def check_picture(picture: str | None, robot: Robot) -> None:

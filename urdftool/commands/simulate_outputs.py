@@ -117,14 +117,16 @@ def check_output(option: str, path: str, ending: str) -> None:
 
     Raises:
         UsageError: With the reason.
+        OutputError: Its folder cannot be made.
     """
     if ending and not path.lower().endswith(ending):
         raise click.UsageError(f"{option} wants a name that ends in {ending}, not {path}")
+    from ..output import check_folder
+
     file = Path(path)
-    folder = file.resolve().parent
-    if not folder.is_dir():
-        raise click.UsageError(f"the folder of {path} does not exist")
+    check_folder(file.resolve().parent, path)
     if file.is_dir():
         raise click.UsageError(f"{path} is a folder; the name of a file is wanted")
-    if not os.access(file if file.exists() else folder, os.W_OK):
+    folder = file.resolve().parent
+    if folder.is_dir() and not os.access(file if file.exists() else folder, os.W_OK):
         raise click.UsageError(f"{path} may not be written")

@@ -16,6 +16,7 @@ from pathlib import Path
 
 from .. import __version__
 from ..errors import OutputError
+from ..output import check_folder, make_folders, remove_empty
 from .written import Written
 
 _MARK = re.compile(rb"<!-- Exported by urdftool [^;]*; ([0-9a-f]{12}) -->\n?")
@@ -76,7 +77,9 @@ def write_directory(
         )
     _check_files(folder, files, overwrite, inputs)
     staged = folder.parent / f".{folder.name}.{os.getpid()}.tmp"
+    made: list[Path] = []
     try:
+        made = make_folders(folder.parent)
         _stage(staged, files)
         if folder.is_dir():
             _keep_others(folder, staged)
@@ -85,6 +88,7 @@ def write_directory(
         raise OutputError(f"cannot be written: {_reason(error)}", path=target) from None
     finally:
         shutil.rmtree(staged, ignore_errors=True)
+        remove_empty(made)
 
 
 def write_beside(
@@ -114,7 +118,9 @@ def write_beside(
     named = {path.name if name == main else name: content for name, content in files.items()}
     _check_files(path.parent, named, overwrite, inputs)
     staged = path.parent / f".{path.name}.{os.getpid()}.tmp"
+    made: list[Path] = []
     try:
+        made = make_folders(path.parent)
         _stage(staged, named)
         for name in sorted(named, key=lambda name: (name == path.name, name)):
             place = path.parent / name
@@ -124,6 +130,7 @@ def write_beside(
         raise OutputError(f"cannot be written: {_reason(error)}", path=target) from None
     finally:
         shutil.rmtree(staged, ignore_errors=True)
+        remove_empty(made)
 
 
 def write_export(
@@ -151,8 +158,7 @@ def write_export(
 
 
 def _check_place(path: Path, shown: str | Path) -> None:
-    if not path.parent.is_dir():
-        raise OutputError(f"the folder {path.parent} does not exist", path=shown)
+    check_folder(path.parent, shown)
     if path.exists() and not (path.is_dir() or path.is_file()):
         raise OutputError("is neither a file nor a folder", path=shown)
 
