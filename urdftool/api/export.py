@@ -90,6 +90,7 @@ def export_mjcf(
     srdf: str | Path | None = None,
     fix_inertia: FixInertia = "none",
     decompose: bool = False,
+    keep_locked_joints: bool = False,
     mesh_dir: str = "assets",
     force: bool = False,
     verify: bool = False,
@@ -107,6 +108,8 @@ def export_mjcf(
         srdf: A MoveIt SRDF whose disabled collisions are taken over.
         fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` mends tensors that no rigid body has.
         decompose: Whether to cut meshes that collide and are not convex into pieces.
+        keep_locked_joints: Whether to keep joints with equal limits, held by an equality, where
+            their links would be welded.
         mesh_dir: The folder of the meshes, relative to the model.
         force: Whether to go on past errors where a robot is left.
         verify: Whether to compile the result in MuJoCo and compare it; ``checks`` has what was
@@ -134,6 +137,7 @@ def export_mjcf(
         mesh_dir="" if mesh_dir == "." else mesh_dir,
         file=name if Path(name).suffix.lower() in FILES else "",
         cutter=partial(cut_meshes, gltf_up=_gltf_up(robot)) if decompose else None,
+        keep_locked_joints=keep_locked_joints,
     )
     written = write(robot, options)
     if verify:

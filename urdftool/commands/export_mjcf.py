@@ -37,6 +37,11 @@ from .read_strict import read_strict, say_gltf
 )
 @click.option("--scene", is_flag=True, help="Write also scene.xml, with a floor and light.")
 @click.option("--srdf", metavar="FILE", type=Path, help="Take over an SRDF's disabled collisions.")
+@click.option(
+    "--keep-locked-joints",
+    is_flag=True,
+    help="Keep joints with lower = upper, held by an equality; without it their links are welded.",
+)
 @fix_inertia_option
 @click.option(
     "--decompose", is_flag=True, help="Cut meshes that collide and are not convex into pieces."

@@ -42,7 +42,6 @@ def test_limits_effort_and_dynamics(write):
         ('<limit lower="-1" effort="1" velocity="1"/>', "revolute", "-1 0", None),
         ("", "revolute", None, "lossy-limit-missing"),
         ('<limit lower="-1" upper="1"/>', "continuous", None, "lossy-limit-unused"),
-        ('<limit lower="1" upper="1"/>', "prismatic", None, "lossy-limit-equal"),
         ('<limit lower="0" upper="1" effort="0"/>', "prismatic", "0 1", "lossy-effort"),
     ],
 )
@@ -55,12 +54,48 @@ def test_limits_at_the_edge(write, inside, kind, range_, rule):
 @pytest.mark.parametrize(
     ("limit", "value"), [('<limit lower="0.5" upper="0.5"/>', "0.5"), ("<limit effort='1'/>", "0")]
 )
-def test_equal_limits_are_an_equality(write, limit, value):
-    written, _ = exported(write, limit)
+def test_a_locked_joint_that_is_kept_is_an_equality(write, limit, value):
+    written, _ = exported(write, limit, keep_locked_joints=True)
     (equality,) = tree(written).find("equality")
     assert equality.get("joint1") == "j"
     assert equality.get("joint2") is None
     assert equality.get("polycoef") == f"{value} 0 0 0 0"
+
+
+@pytest.mark.parametrize(
+    ("limit", "kind", "pose", "rule"),
+    [
+        ('<limit lower="0" upper="0"/>', "revolute", ("0 0 2", None), "lossy-limit-equal"),
+        ("<limit effort='1'/>", "revolute", ("0 0 2", None), "lossy-limit-missing"),
+        ('<limit lower="1" upper="1"/>', "prismatic", ("0 0 3", None), "lossy-limit-equal"),
+        (
+            '<limit lower="3.141592653589793" upper="3.141592653589793"/>',
+            "revolute",
+            ("0 0 2", "0 0 0 1"),
+            "lossy-limit-equal",
+        ),
+    ],
+)
+def test_a_locked_joint_is_welded_at_its_position(write, limit, kind, pose, rule):
+    text = two(f'<origin xyz="0 0 2"/><axis xyz="0 0 1"/>{limit}', kind)
+    written = export(write("r.urdf", text))
+    model = tree(written)
+    body = find(model, "body", "b")
+    assert (body.get("pos"), body.get("quat")) == pose
+    assert find(model, "site", "j").getparent() is body
+    assert list(model.find("worldbody").iter("joint")) == []
+    assert rules(written) == [rule]
+
+
+def test_what_mimics_a_locked_joint_is_held_where_it_leads(write):
+    text = robot(
+        link("a"), link("b"), link("c"),
+        joint("lead", "a", "b", inside='<limit lower="0.5" upper="0.5"/>'),
+        joint("follow", "a", "c", inside='<limit lower="-9" upper="9"/>'
+              '<mimic joint="lead" multiplier="2" offset="0.1"/>'),
+    )  # fmt: skip
+    (equality,) = tree(export(write("r.urdf", text))).find("equality")
+    assert equality.get("polycoef") == "1.1 0 0 0 0"
 
 
 def test_mimic_has_its_follower_first(write):

@@ -11,6 +11,7 @@ from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load
 
 from .goldens import FOLDER, GOLDENS
+from .robots import joint, link, robot
 
 pytest.importorskip("mujoco")
 
@@ -57,6 +58,45 @@ def test_a_change_is_found(old, new, failing, tmp_path):
         return changed
 
     checks = verified("gripper", tmp_path, Options(), change)
+    assert failing in [check.name for check in checks if check.verdict == "differs"]
+
+
+LOCKED = robot(
+    link("a"), link("b"), link("c"), link("d"),
+    joint("turned", "a", "b", inside='<origin xyz="1 0 0" rpy="0.3 0 1"/>'
+          '<axis xyz="1 1 0"/><limit lower="0.7" upper="0.7" effort="3" velocity="2"/>'),
+    joint("slid", "b", "c", "prismatic", '<axis xyz="0 0 1"/><limit lower="-1" upper="-1"/>'),
+    joint("moves", "c", "d"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("keep", [False, True])
+def test_locked_joints_are_equal(write, urdftool, keep):
+    write("r.urdf", LOCKED)
+    done = urdftool(
+        *("export", "mjcf", "r.urdf", "-o", "out", "--verify"), *["--keep-locked-joints"] * keep
+    )
+    assert done.code == 0, done.out
+    assert "announced" not in done.out
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "failing"),
+    [
+        (r'(<body name="b" pos=")1', r"\g<1>1.001", "frames"),
+        (r'<site name="turned"', '<site name="other"', "tree"),
+        (r"(?s)<joint name=\"moves\".*?/>", "", "tree"),
+    ],
+)
+def test_a_change_of_a_welded_joint_is_found(write, tmp_path, old, new, failing):
+    robot = load(write("r.urdf", LOCKED))
+    written = write_mjcf(robot, Options())
+    text, count = re.subn(old, new, written.files[written.main].decode())
+    assert count
+    written.files[written.main] = text.encode()
+    write_directory(tmp_path / "m", written.files, main=written.main)
+    again = write_mjcf(robot, Options())
+    checks = verify(robot, written, tmp_path / "m" / written.main, again)
     assert failing in [check.name for check in checks if check.verdict == "differs"]
 
 

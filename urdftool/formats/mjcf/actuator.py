@@ -15,9 +15,9 @@ from ...model.elements import Joint, Robot
 from ..numbers import number_text, numbers_text
 from ..written import Written
 from .equality import follows
-from .joint import bounds, effort_of, locked_at
+from .joint import effort_of
 from .options import Actuators
-from .structure import Structure
+from .structure import Structure, bounds, locked_at
 
 POSITION_GAIN = {"hinge": 10.0, "slide": 100.0}
 """Gain of a position servo over its joint's effort [1/rad or 1/m]: all of it at 0.1 rad or 1 cm."""

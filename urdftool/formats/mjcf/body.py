@@ -12,7 +12,7 @@ from .frame import set_origin, set_pose
 from .gazebo import link_friction, link_is_weightless
 from .geom import collision_geoms, visual_geoms
 from .inertials import massless_leaves
-from .joint import joint_elements
+from .joint import joint_elements, locked_site
 from .link_inertia import LinkInertia, inertial_element
 from .material import Materials
 from .meshes import Assets
@@ -48,7 +48,10 @@ def body_tree(structure: Structure, model: str, written: Written) -> tuple[etree
             if not structure.is_static(joint.parent):
                 _say_torn(joint, written)
         else:
-            set_origin(body, joint.origin)
+            if structure.locked.get(joint.name):
+                set_pose(body, structure.joint_pose(joint))
+            else:
+                set_origin(body, joint.origin)
             parent.append(body)
         bodies[joint.child] = body
     for body in world:
@@ -91,6 +94,8 @@ def _joints(
     joint = structure.robot.tree.parent_joint(link)
     if joint is None:
         return [etree.Element("freejoint", name=f"{link}_freejoint")] if structure.free else []
+    if joint.name in structure.locked:
+        return [locked_site(joint, written)]
     if structure.kind(joint) == "weld":
         return []
     return joint_elements(structure, joint, written, leaf=structure.group[link] in leaves)

@@ -53,7 +53,12 @@ def serialise(root: etree._Element) -> bytes:
 
 def note_losses(losses: Iterable[Finding], bodies: Bodies) -> None:
     """Write what was lost of a link or joint as a comment where it would stand."""
-    joints = {j.get("name"): j for body in bodies.values() for j in body.iterchildren("joint")}
+    joints = {
+        element.get("name"): element
+        for tag in ("site", "joint")  # a locked joint is a site
+        for body in bodies.values()
+        for element in body.iterchildren(tag)
+    }
     for loss in losses:
         if loss.severity is Severity.INFO:
             continue

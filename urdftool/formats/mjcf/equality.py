@@ -8,9 +8,8 @@ from ...finding import Severity
 from ...model.elements import Joint
 from ..numbers import numbers_text
 from ..written import Written
-from .joint import locked_at
 from .loops import STIFF, loop_equalities
-from .structure import Structure
+from .structure import Structure, locked_at
 
 
 def equality_section(structure: Structure, written: Written) -> etree._Element | None:
@@ -43,11 +42,11 @@ def _follow(structure: Structure, joint: Joint, section: etree._Element, written
     if leader is None or leader is joint or structure.kind(joint) not in ("hinge", "slide"):
         _lose(joint, "it is free to move", written)
     elif structure.kind(leader) == "weld":
-        _hold(joint, mimic.offset, section)
+        held = mimic.offset + mimic.multiplier * structure.locked.get(leader.name, 0.0)
+        _hold(joint, held, section)
         written.lose(
             "mimic-fixed",
-            f"joint '{joint.name}' mimics '{mimic.joint}', which is fixed; it is held at the "
-            f"offset, {mimic.offset:g}",
+            f"joint '{joint.name}' mimics '{mimic.joint}', which is fixed; it is held at {held:g}",
             mimic.place,
             kind="joint",
             name=joint.name,

@@ -13,10 +13,13 @@ from ...model.read import number
 from ..numbers import number_text, numbers_text
 from ..written import Written
 from .inertials import LEAF_ARMATURE
-from .structure import Structure
+from .structure import Structure, bounds, locked_at
 
 PLANAR_SUFFIXES = ("_TX", "_TY", "_RZ")
 """What follows the joint's name in the two slides and the hinge of a planar joint."""
+
+SITE = {"size": "0.005", "group": "5"}
+"""Size [m] and group of a site, which is drawn only where one asks for it."""
 
 UNIT: Vector = (1.0, 0.0, 0.0)
 
@@ -55,20 +58,13 @@ def axis_of(joint: Joint) -> Vector:
     return UNIT if joint.axis is None else joint.axis.xyz
 
 
-def bounds(joint: Joint) -> tuple[float, float] | None:
-    """Lower and upper limit [rad or m]; None for a joint without.
-
-    A limit that is not written counts as zero, as the specification has it.
-    """
-    if not joint.is_limited or joint.limit is None:
-        return None
-    return joint.limit.lower or 0.0, joint.limit.upper or 0.0
-
-
-def locked_at(joint: Joint) -> float | None:
-    """The position that equal limits leave to a joint; None if it can move."""
-    limits = bounds(joint)
-    return limits[0] if limits is not None and limits[0] == limits[1] else None
+def locked_site(joint: Joint, written: Written) -> etree._Element:
+    """Make the site at a joint whose limits are equal, and report that its link is welded."""
+    assert joint.limit is not None
+    for what, text, severity in _bound_losses(joint, joint.limit, welded=True):
+        place = joint.limit.place
+        written.lose(what, text, place, kind="joint", name=joint.name, severity=severity)
+    return etree.Element("site", name=joint.name, **SITE)
 
 
 def effort_of(joint: Joint) -> float | None:
@@ -104,7 +100,7 @@ def _limit_losses(joint: Joint) -> Iterator[tuple[str, str, Severity]]:
                 Severity.WARNING,
             )
         return
-    yield from _bound_losses(joint, limit)
+    yield from _bound_losses(joint, limit, welded=False)
     if limit.effort == 0:
         yield (
             "effort",
@@ -121,7 +117,9 @@ def _limit_losses(joint: Joint) -> Iterator[tuple[str, str, Severity]]:
         )
 
 
-def _bound_losses(joint: Joint, limit: Limit) -> Iterator[tuple[str, str, Severity]]:
+def _bound_losses(
+    joint: Joint, limit: Limit, *, welded: bool
+) -> Iterator[tuple[str, str, Severity]]:
     if not joint.is_limited:
         if limit.lower or limit.upper:
             text = f"joint '{joint.name}' is continuous; its lower and upper limit are not used"
@@ -129,14 +127,21 @@ def _bound_losses(joint: Joint, limit: Limit) -> Iterator[tuple[str, str, Severi
         return
     lower, upper = limit.lower or 0.0, limit.upper or 0.0
     if limit.lower is None and limit.upper is None:
+        held = "its link is welded there" if welded else "an equality holds it there"
         yield (
             "limit-missing",
-            f"joint '{joint.name}' has no lower and upper limit, which count as zero: it is locked "
-            "there; write them, or the type continuous",
+            f"joint '{joint.name}' has no lower and upper limit, which count as zero: {held}; "
+            "write them, or the type continuous",
             Severity.WARNING,
         )
     elif lower == upper:
-        text = f"limits of joint '{joint.name}' are equal; an equality holds it at {lower:g}"
+        unit = "m" if joint.type == "prismatic" else "rad"
+        held = (
+            "its link is welded there (--keep-locked-joints keeps the joint)"
+            if welded
+            else "an equality holds it there"
+        )
+        text = f"both limits of joint '{joint.name}' are {lower:g} {unit}; {held}"
         yield "limit-equal", text, Severity.INFO
     elif lower > upper:
         yield (

@@ -75,7 +75,11 @@ ROBOT: tuple[Row, ...] = (
 JOINT: tuple[Row, ...] = (
     ("`joint@name`, `origin`, `axis`", EXACT, "`joint@name`, pose of the body, `axis`"),
     ("`limit@lower`, `@upper`", EXACT, "`range`; absent ones count as 0, as URDF defines"),
-    ("`limit` with lower = upper", EXACT, "`equality`, as MuJoCo takes an equal range for none"),
+    (
+        "`limit` with lower = upper",
+        EXACT,
+        "the body is welded there, the name is a `site`; `--keep-locked-joints`: `equality`",
+    ),
     ("no `limit`", CLOSE, "no `range`"),
     ("`limit@effort`", EXACT, "`actuatorfrcrange`; 0 cannot be written and is said"),
     ("`limit@velocity`", CLOSE, "number `NAME_velocity_limit` in `custom`"),

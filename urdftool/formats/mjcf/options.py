@@ -33,6 +33,8 @@ class Options:
         mesh_dir: Folder of the meshes, relative to the model.
         file: Name of the model's file; empty for the robot's with ``scene.xml`` beside it.
         cutter: Cuts meshes that collide and are not convex into pieces; None leaves them whole.
+        keep_locked_joints: Keep a joint with equal limits, held by an equality, where its link
+            would be welded.
     """
 
     actuators: Actuators = "auto"
@@ -44,3 +46,4 @@ class Options:
     mesh_dir: str = "assets"
     file: str = ""
     cutter: Cutter | None = None
+    keep_locked_joints: bool = False

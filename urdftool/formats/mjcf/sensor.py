@@ -15,12 +15,11 @@ from ..numbers import number_text, numbers_text
 from ..written import Written
 from .body import Bodies
 from .frame import set_pose
+from .joint import SITE
 from .names import Names
 
 MAX_RAYS = 36
 """Rays of a scanner up to which each becomes a rangefinder."""
-
-SITE_SIZE = "0.005"
 
 CAMERA_TURN = Pose(rotation_of_quaternion((0.5, 0.5, -0.5, -0.5)))
 """Gazebo's cameras look along x with z up, MuJoCo's along -z with y up."""
@@ -42,7 +41,8 @@ SCANNERS = ("ray", "gpu_ray", "lidar", "gpu_lidar", "sonar")
 def sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Element | None:
     """``<sensor>``, or None where nothing is measured; sites and cameras go into the bodies."""
     section = etree.Element("sensor")
-    sites, cameras, taken = Names(), Names(), Names()
+    there = (site.get("name", "") for body in bodies.values() for site in body.iterchildren("site"))
+    sites, cameras, taken = Names(there), Names(), Names()
     for block in robot.gazebo:
         link = _link_of(robot, block.reference)
         for sensor in block.sensors:
@@ -93,7 +93,7 @@ def _pose(element: Element) -> Pose:
 
 
 def _site(name: str, pose: Pose, body: etree._Element, sites: Names) -> str:
-    element = etree.Element("site", name=sites.take(name), size=SITE_SIZE, group="5")
+    element = etree.Element("site", name=sites.take(name), **SITE)
     set_pose(element, pose)
     _insert(body, element)
     return element.get("name", "")

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...model.elements import Joint, Link, Robot
+from ...model.kinematics import motion_of
 from ...model.pose import IDENTITY, Pose, norm, pose_of
 from .options import Base
 
@@ -45,12 +46,14 @@ class Structure:
         root: Its root link.
         free: Whether the root moves freely.
         reason: Why it does or does not, in words.
+        keep_locked: Whether a joint with equal limits stays a joint, held by an equality.
     """
 
     robot: Robot
     root: Link
     free: bool
     reason: str
+    keep_locked: bool = False
 
     @property
     def in_world(self) -> bool:
@@ -59,9 +62,23 @@ class Structure:
 
     def kind(self, joint: Joint) -> str:
         """What a joint becomes: one of the values of ``KINDS``."""
+        if joint.name in self.locked:
+            return "weld"
         if joint.has_axis and joint.axis is not None and norm(joint.axis.xyz) < 1e-6:
             return "weld"
         return KINDS.get(joint.type, "weld")
+
+    @cached_property
+    def locked(self) -> dict[str, float]:
+        """The position [rad or m] of each joint that is welded because its limits are equal."""
+        if self.keep_locked:
+            return {}
+        positions = ((joint.name, locked_at(joint)) for joint in self.robot.joints)
+        return {name: position for name, position in positions if position is not None}
+
+    def joint_pose(self, joint: Joint) -> Pose:
+        """Compute the pose of a joint's child in its parent: at the joint's lock, or at zero."""
+        return pose_of(joint.origin) @ motion_of(joint, self.locked.get(joint.name, 0.0))
 
     @cached_property
     def joints(self) -> list[Joint]:
@@ -101,7 +118,7 @@ class Structure:
         while link != top:
             joint = self.robot.tree.parent_joint(link)
             assert joint is not None
-            pose, link = pose_of(joint.origin) @ pose, joint.parent
+            pose, link = self.joint_pose(joint) @ pose, joint.parent
         return pose
 
     def pose_at_zero(self, link: str) -> Pose:
@@ -109,7 +126,7 @@ class Structure:
         pose = IDENTITY
         joint = self.robot.tree.parent_joint(link)
         while joint is not None:
-            pose = pose_of(joint.origin) @ pose
+            pose = self.joint_pose(joint) @ pose
             joint = self.robot.tree.parent_joint(joint.parent)
         return pose
 
@@ -126,17 +143,36 @@ class Structure:
         return found
 
 
-def structure_of(robot: Robot, base: Base, virtual_joint: str | None = None) -> Structure:
+def bounds(joint: Joint) -> tuple[float, float] | None:
+    """Lower and upper limit [rad or m]; None for a joint without.
+
+    A limit that is not written counts as zero, as the specification has it.
+    """
+    if not joint.is_limited or joint.limit is None:
+        return None
+    return joint.limit.lower or 0.0, joint.limit.upper or 0.0
+
+
+def locked_at(joint: Joint) -> float | None:
+    """The position that equal limits leave to a joint; None if it can move."""
+    limits = bounds(joint)
+    return limits[0] if limits is not None and limits[0] == limits[1] else None
+
+
+def structure_of(
+    robot: Robot, base: Base, virtual_joint: str | None = None, *, keep_locked: bool = False
+) -> Structure:
     """The structure of a robot with one root.
 
     Args:
         robot: The robot.
         base: Held, free, or what the description says.
         virtual_joint: Type of the joint to the world in an SRDF, if there is one.
+        keep_locked: Whether joints with equal limits stay joints.
     """
     root = robot.tree.roots[0]
     free, reason = _base(robot, root, base, virtual_joint)
-    return Structure(robot, root, free, reason)
+    return Structure(robot, root, free, reason, keep_locked)
 
 
 def _base(robot: Robot, root: Link, base: Base, virtual_joint: str | None) -> tuple[bool, str]:

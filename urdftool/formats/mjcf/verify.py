@@ -59,7 +59,7 @@ def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[
     repeat = Check("repeats", "a second export has the same bytes", 0)
     for name in sorted(written.files.keys() | again.files.keys()):
         repeat.compare(0 if written.files.get(name) == again.files.get(name) else math.inf, name)
-    configurations = list(_configurations(mechanics))
+    configurations = list(_configurations(mechanics, compiled))
     checks = [
         _tree(robot, compiled, said),
         _frames(mechanics, compiled, configurations, said),
@@ -76,9 +76,15 @@ def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[
     return [clean, *checks]
 
 
-def _configurations(mechanics: Mechanics) -> Iterator[dict[str, float]]:
-    """All joints at zero, then within their limits at random."""
-    yield dict.fromkeys((joint.name for joint in mechanics.joints), 0.0)
+def _configurations(mechanics: Mechanics, compiled: Compiled) -> Iterator[dict[str, float]]:
+    """All joints at zero, then within their limits at random; welded ones always at theirs."""
+    welded = {
+        joint.name: position
+        for joint in mechanics.joints
+        if compiled.id("JOINT", joint.name) < 0
+        if (position := _locked(joint)) is not None
+    }
+    yield {joint.name: welded.get(joint.name, 0.0) for joint in mechanics.joints}
     random = np.random.default_rng(0)
     for _ in range(CONFIGURATIONS):
         positions = {}
@@ -89,7 +95,15 @@ def _configurations(mechanics: Mechanics) -> Iterator[dict[str, float]]:
                 written = joint.limit.lower or 0.0, joint.limit.upper or 0.0
                 low, high = written if written[0] < written[1] else (low, high)
             positions[joint.name] = float(random.uniform(max(low, -1e3), min(high, 1e3)))
-        yield positions
+        yield positions | welded
+
+
+def _locked(joint: Joint) -> float | None:
+    """The only position that the limits of a joint allow [rad or m]; None if it can move."""
+    if joint.type not in ("revolute", "prismatic") or joint.limit is None:
+        return None
+    lower, upper = joint.limit.lower or 0.0, joint.limit.upper or 0.0
+    return lower if lower == upper else None
 
 
 def _tree(robot: Robot, compiled: Compiled, said: Said) -> Check:
@@ -122,6 +136,11 @@ def _tree(robot: Robot, compiled: Compiled, said: Said) -> Check:
         if joint.type not in kinds:
             continue
         number = compiled.id("JOINT", joint.name)
+        if number < 0 and _locked(joint) is not None and not model.body_jntnum[body]:
+            here = compiled.id("SITE", joint.name)
+            right = here >= 0 and model.site_bodyid[here] == body
+            check.compare(0 if right else math.inf, f"site of welded joint '{joint.name}'")
+            continue
         freedom += {0: 6, 1: 3}.get(kinds[joint.type], 1)
         right = number >= 0 and model.jnt_type[number] == kinds[joint.type]
         right = right and model.jnt_bodyid[number] == body

@@ -57,7 +57,12 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         refuse(found, force=options.force)
     packages = robot.source.packages if robot.source is not None else None
     srdf = read_srdf(options.srdf, robot, written, packages) if options.srdf else None
-    structure = structure_of(robot, options.base, srdf.virtual_joint if srdf else None)
+    structure = structure_of(
+        robot,
+        options.base,
+        srdf.virtual_joint if srdf else None,
+        keep_locked=options.keep_locked_joints,
+    )
     found += _too_deep(structure)
     masses, wrong = inertials(structure, options.fix_inertia, written, force=options.force)
     assets, missing = mesh_assets(robot, written, options)
