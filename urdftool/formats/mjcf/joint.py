@@ -13,7 +13,7 @@ from ...model.read import number
 from ..numbers import number_text, numbers_text
 from ..written import Written
 from .inertials import LEAF_ARMATURE
-from .structure import Structure, bounds, locked_at
+from .structure import Structure, bounds
 
 PLANAR_SUFFIXES = ("_TX", "_TY", "_RZ")
 """What follows the joint's name in the two slides and the hinge of a planar joint."""
@@ -64,7 +64,7 @@ def locked_site(joint: Joint, written: Written) -> etree._Element:
     for what, text, severity in _bound_losses(joint, joint.limit, welded=True):
         place = joint.limit.place
         written.lose(what, text, place, kind="joint", name=joint.name, severity=severity)
-    return etree.Element("site", name=joint.name, **SITE)
+    return etree.Element("site", {"name": joint.name, **SITE})
 
 
 def effort_of(joint: Joint) -> float | None:

@@ -93,7 +93,7 @@ def _pose(element: Element) -> Pose:
 
 
 def _site(name: str, pose: Pose, body: etree._Element, sites: Names) -> str:
-    element = etree.Element("site", name=sites.take(name), **SITE)
+    element = etree.Element("site", {"name": sites.take(name), **SITE})
     set_pose(element, pose)
     _insert(body, element)
     return element.get("name", "")

@@ -78,12 +78,7 @@ def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[
 
 def _configurations(mechanics: Mechanics, compiled: Compiled) -> Iterator[dict[str, float]]:
     """All joints at zero, then within their limits at random; welded ones always at theirs."""
-    welded = {
-        joint.name: position
-        for joint in mechanics.joints
-        if compiled.id("JOINT", joint.name) < 0
-        if (position := _locked(joint)) is not None
-    }
+    welded = _welded(mechanics, compiled)
     yield {joint.name: welded.get(joint.name, 0.0) for joint in mechanics.joints}
     random = np.random.default_rng(0)
     for _ in range(CONFIGURATIONS):
@@ -96,6 +91,16 @@ def _configurations(mechanics: Mechanics, compiled: Compiled) -> Iterator[dict[s
                 low, high = written if written[0] < written[1] else (low, high)
             positions[joint.name] = float(random.uniform(max(low, -1e3), min(high, 1e3)))
         yield positions | welded
+
+
+def _welded(mechanics: Mechanics, compiled: Compiled) -> dict[str, float]:
+    """The position [rad or m] of each joint that cannot move and that MuJoCo does not have."""
+    return {
+        joint.name: position
+        for joint in mechanics.joints
+        if compiled.id("JOINT", joint.name) < 0
+        if (position := _locked(joint)) is not None
+    }
 
 
 def _locked(joint: Joint) -> float | None:
@@ -189,10 +194,11 @@ def _dynamics(
     """Mass matrix and gravity over the joints, with the root held."""
     inertia = Check("mass matrix", "over all joints, the root held", compiled.tensor_rounding)
     gravity = Check("gravity", "force at every joint that holds the robot", FORCE)
+    welded = _welded(mechanics, compiled)
     names = [joint.name for joint in mechanics.joints]
     dofs = compiled.dofs(names)
     present = [index for index, dof in enumerate(dofs) if dof >= 0]
-    if names and not present:
+    if len(names) > len(welded) and not present:
         inertia.compare(math.inf, "no joint is there")
     for positions in configurations if present else ():
         compiled.pose(positions)
