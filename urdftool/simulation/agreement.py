@@ -248,6 +248,20 @@ def _tries(robot: Robot, one: Verdict, other: Verdict) -> Iterator[_Try]:
             "takes and MuJoCo does not",
             bodies=_plain_surfaces,
         )
+    lifted = [b.name for b in bodies.bodies if b.weightless is not None]
+    if lifted:
+        yield _Try(
+            f"gravity flags: gravity does not act on {_names('link', lifted)}, which engines "
+            "compensate in different ways",
+            bodies=_with_gravity,
+        )
+    sprung = [joint.name for joint in bodies.joints if joint.stiffness]
+    if sprung:
+        yield _Try(
+            f"springs: {_names('joint', sprung)} is sprung, which engines integrate in different "
+            "ways",
+            bodies=_without_springs,
+        )
     for what, names in _joints_at_bounds(one, other):
         yield _Try(what, robot=partial(_unbound, names=names))
     losing = [j.name for j in bodies.joints if j.damping or j.friction]
@@ -362,3 +376,14 @@ def _plain_surfaces(bodies: Bodies) -> Bodies:
             for body in bodies.bodies
         ),
     )
+
+
+def _with_gravity(bodies: Bodies) -> Bodies:
+    return replace(bodies, bodies=tuple(replace(b, weightless=None) for b in bodies.bodies))
+
+
+def _without_springs(bodies: Bodies) -> Bodies:
+    def stiff(body: Body) -> Body:
+        return body if body.joint is None else replace(body, joint=replace(body.joint, stiffness=0))
+
+    return replace(bodies, bodies=tuple(stiff(body) for body in bodies.bodies))

@@ -8,14 +8,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..formats.mjcf.gazebo import joint_spring, link_is_weightless
 from ..inertia.lump import placed as moved
 from ..inertia.tensor import MassProperties, combine, tensor_from_six
 from ..model.elements import Joint, Link, Robot
 from ..model.kinematics import limits_of, link_poses, movable_joints, with_mimics
-from ..model.pose import IDENTITY, Pose, pose_of, rotation_of_rpy
+from ..model.pose import IDENTITY, Pose, pose_of
 from .control import NONE
+from .recording import Array
 from .settings import Settings
 from .shapes import Shape, shapes_of
+from .spawn import spawn_pose
 from .surface import Surface, surface_of
 
 ROOTED = "world"
@@ -38,6 +41,8 @@ class JointOf:
         leader: The joint that it mimics; None where it follows none.
         multiplier: Of the leader's position.
         offset: Added to that [rad, m].
+        stiffness: Of Gazebo's spring [N·m/rad, N/m]; 0 where there is none.
+        spring_rest: Where that spring is at rest [rad, m].
     """
 
     name: str
@@ -51,6 +56,8 @@ class JointOf:
     leader: str | None = None
     multiplier: float = 1.0
     offset: float = 0.0
+    stiffness: float = 0.0
+    spring_rest: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +74,7 @@ class Body:
         parent: Index of the body above; -1 for the root.
         origin: The joint's frame in the parent's body frame.
         surface: How it touches.
+        weightless: Of that, the part on which gravity does not act; None where it acts on all.
     """
 
     name: str
@@ -78,11 +86,28 @@ class Body:
     parent: int
     origin: Pose
     surface: Surface
+    weightless: MassProperties | None = None
 
     @property
     def mass(self) -> float:
         """What it weighs [kg]."""
         return self.properties.mass if self.properties else 0.0
+
+    @property
+    def weight(self) -> tuple[float, Array]:
+        """The mass on which gravity acts [kg], and its center in the body's frame [m].
+
+        The center is zero where that mass is.
+        """
+        if self.properties is None:
+            return 0.0, np.zeros(3)
+        if self.weightless is None:
+            return self.properties.mass, self.properties.com
+        mass = self.properties.mass - self.weightless.mass
+        if mass <= 1e-9 * self.properties.mass:
+            return 0.0, np.zeros(3)
+        moment = self.properties.mass * self.properties.com
+        return mass, (moment - self.weightless.mass * self.weightless.com) / mass
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,6 +142,13 @@ class Bodies:
         """Of the whole robot [kg]."""
         return math.fsum(body.mass for body in self.bodies)
 
+    def spring_energy(self, positions: Array) -> float:
+        """What the springs of the joints store [J], with each joint at a position, shape (j,)."""
+        joints = self.joints
+        stiffness = np.array([joint.stiffness for joint in joints])
+        rest = np.array([joint.spring_rest for joint in joints])
+        return 0.5 * float(stiffness @ (positions - rest) ** 2)
+
 
 def bodies_of(robot: Robot, settings: Settings) -> Bodies:
     """A sound robot as rigid bodies, put above the plane.
@@ -129,9 +161,11 @@ def bodies_of(robot: Robot, settings: Settings) -> Bodies:
     nailed = settings.fixed_base or _is_world(robot.link[top])
     positions, clamped = start_positions(robot, settings)
     positions = {b.joint.name: positions[b.joint.name] for b in made if b.joint is not None}
-    start, size = _spawn(
-        robot, made, positions, settings, nailed and _is_world(robot.link[top]), top
-    )
+    poses = link_poses(robot, positions)
+    back = poses[top].inverse()
+    shapes = [(back @ poses[body.name], body.shapes) for body in made]
+    at_origin = nailed and _is_world(robot.link[top])
+    start, size = spawn_pose(shapes, settings, fixed=nailed, at_origin=at_origin)
     return Bodies(
         tuple(made), nailed, start, positions, held_joints(robot, made, settings), size, clamped
     )
@@ -187,6 +221,11 @@ def _lumps(robot: Robot, settings: Settings, top: str) -> list[Body]:
                 parent,
                 origin,
                 surface_of(robot, links),
+                _properties(
+                    robot,
+                    {n: at for n, at in places.items() if link_is_weightless(robot, n)},
+                    settings.payloads,
+                ),
             )
         )
     return bodies
@@ -236,6 +275,7 @@ def joint_of(joint: Joint, robot: Robot) -> JointOf:
     effort = joint.limit.effort if joint.limit is not None else None
     dynamics = joint.dynamics
     mimic = joint.mimic
+    stiffness, spring_rest = joint_spring(robot, joint.name) or (0.0, 0.0)
     return JointOf(
         joint.name,
         joint.type,
@@ -248,6 +288,8 @@ def joint_of(joint: Joint, robot: Robot) -> JointOf:
         mimic.joint if mimic is not None and mimic.joint in movable_joints(robot) else None,
         mimic.multiplier if mimic is not None else 1.0,
         mimic.offset if mimic is not None else 0.0,
+        stiffness,
+        spring_rest,
     )
 
 
@@ -293,40 +335,3 @@ def held_joints(robot: Robot, bodies: list[Body], settings: Settings) -> tuple[s
         driven = actuated_joints(robot)
         return tuple(name for name in names if name in driven)
     return tuple(names)
-
-
-GAP = 1e-4
-"""How far above the plane the lowest point starts [m]."""
-
-
-def _spawn(
-    robot: Robot,
-    bodies: list[Body],
-    positions: Mapping[str, float],
-    settings: Settings,
-    rooted: bool,
-    top: str,
-) -> tuple[Pose, float]:
-    poses = link_poses(robot, positions)
-    back = poses[top].inverse()
-    turn = Pose(rotation_of_rpy(settings.start_rpy))
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    for body in bodies:
-        if not body.shapes:
-            continue
-        pose = turn @ back @ poses[body.name]
-        rotation, at = np.array(pose.rotation), np.array(pose.translation)
-        for axis in range(3):
-            along = rotation.T @ np.eye(3)[axis]
-            low[axis] = min(low[axis], at[axis] - max(s.reach(-along) for s in body.shapes))
-            high[axis] = max(high[axis], at[axis] + max(s.reach(along) for s in body.shapes))
-    size = float((high - low).max()) if np.isfinite(low).all() else 0.0
-    if settings.height is not None:
-        height = settings.height
-    elif not math.isfinite(low[2]):
-        height = 0.0
-    elif rooted:  # where the file puts it, or higher where it would start in the floor
-        height = max(0.0, GAP - float(low[2]))
-    else:
-        height = GAP - float(low[2])
-    return Pose(turn.rotation, (0.0, 0.0, height)), size

@@ -18,6 +18,7 @@ from ..errors import ModelError
 from ..extras import missing
 from .bodies import Bodies
 from .bullet_contacts import Touches
+from .bullet_forces import Forces
 from .bullet_motors import Motors
 from .bullet_read import read_back
 from .bullet_rolling import NEARING, forget_contacts, is_lying, round_part
@@ -78,6 +79,8 @@ class World:
         link_of: The engine's link of each body; -1 is the root.
         touches: What touches what.
         motors: What holds the joints.
+        forces: What else acts on bodies and joints.
+        gravity: In the world [m/s²].
     """
 
     def __init__(self, p: Any, bodies: Bodies, settings: Settings, folder: Path) -> None:
@@ -99,6 +102,8 @@ class World:
         self._make_dynamics()
         self.touches = Touches(p, self.robot, self.plane, bodies, self.link_of)
         self.motors = Motors(p, self.robot, bodies, settings, self.indices)
+        self.forces = Forces(p, self.robot, bodies, self.indices, self.touches.frame)
+        self.gravity = settings.gravity_at(0.0)
         self.capped = self.motors.capped
         self.name = f"PyBullet {p.getAPIVersion()}"
         self._rolling: list[int] = []
@@ -193,10 +198,12 @@ class World:
         """Set gravity, and see which links may roll."""
         self._rolling = self._round_links(poses)
         self.p.setGravity(*gravity)
+        self.gravity = gravity
 
     def step(self) -> None:
         """One timestep."""
         self.motors.drive()
+        self.forces.apply(self.gravity)
         forget_contacts(self.p, self.robot, self.plane, self._rolling)
         self.p.stepSimulation()
 
@@ -239,6 +246,8 @@ class World:
         else:
             joints = np.zeros((0, 3))
         kinetic, potential = self._energy(coms, velocities)
+        potential -= self._weightless_energy(poses)
+        potential += self.bodies.spring_energy(joints[:, 0])
         touching = p.getContactPoints(bodyA=self.robot, bodyB=self.plane)
         return {
             "times": time,
@@ -266,6 +275,18 @@ class World:
         kinetic = 0.5 * float(self._masses @ (velocities[:, :3] ** 2).sum(axis=1))
         kinetic += 0.5 * float((self._moments * local**2).sum())
         return kinetic, float(self._masses @ (coms[:, :3] @ self._up))
+
+    def _weightless_energy(self, poses: Array) -> float:
+        """The potential energy [J] that bodies do not have because gravity does not act on them."""
+        up, total = -np.array(self.settings.gravity_at(math.inf)), 0.0
+        for body, pose in zip(self.bodies.bodies, poses, strict=True):
+            part = body.weightless
+            if part is not None:
+                center, _ = self.p.multiplyTransforms(
+                    pose[:3].tolist(), pose[3:].tolist(), tuple(part.com), (0, 0, 0, 1)
+                )
+                total += part.mass * float(np.array(center) @ up)
+        return total
 
 
 def quaternion(rotation: Any) -> tuple[float, float, float, float]:

@@ -46,7 +46,7 @@ class Touches:
         body = self.bodies.bodies[number]
         if len({shape.link for shape in body.shapes}) < 2:
             return body.shapes[0].link if body.shapes else body.name
-        where, turn = self._frame(number)
+        where, turn = self.frame(number)
         local, _ = self.p.multiplyTransforms(*self.p.invertTransform(where, turn), at, (0, 0, 0, 1))
 
         def distance(shape: Any) -> float:
@@ -56,7 +56,8 @@ class Touches:
 
         return min(body.shapes, key=distance).link
 
-    def _frame(self, number: int) -> tuple[Any, Any]:
+    def frame(self, number: int) -> tuple[Any, Any]:
+        """The position [m] and quaternion x, y, z, w of a body's link frame in the world."""
         if number:
             state = self.p.getLinkState(self.robot, self.link_of[number])
             return state[4], state[5]

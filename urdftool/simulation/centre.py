@@ -11,7 +11,7 @@ from .run import Run
 
 
 def centre_of(run: Run, numbers: Iterable[int], moment: int) -> tuple[float, float, float] | None:
-    """The centre of mass of some bodies in the world [m]; None where nothing of them weighs.
+    """The centre of what of some bodies gravity acts on, in the world [m]; None without any.
 
     Args:
         run: A run.
@@ -20,14 +20,14 @@ def centre_of(run: Run, numbers: Iterable[int], moment: int) -> tuple[float, flo
     """
     total, summed = 0.0, np.zeros(3)
     for number in numbers:
-        body = run.bodies.bodies[number]
-        if body.properties is None:
+        mass, center = run.bodies.bodies[number].weight
+        if not mass:
             continue
         pose = run.recording.poses[moment, number]
         x, y, z, w = pose[3:].tolist()
         turn = np.array(rotation_of_quaternion((w, x, y, z)))
-        summed += body.mass * (pose[:3] + turn @ body.properties.com)
-        total += body.mass
+        summed += mass * (pose[:3] + turn @ center)
+        total += mass
     if not total or not np.isfinite(summed).all():
         return None
     a, b, c = (summed / total).tolist()

@@ -155,8 +155,9 @@ def _why_idle(run: Run, column: int) -> str:
 def needed_effort(run: Run, column: int) -> float | None:
     """What a joint needs to hold what hangs on it where the run began [N·m, N].
 
-    The static balance of weights: each body beyond the joint pulls at its centre of mass. None
-    where something beyond the joint touches the plane, which then carries a part.
+    The static balance of weights: each body beyond the joint pulls at its center of mass, and its
+    spring where it is at rest. None where something beyond the joint touches the plane, which then
+    carries a part.
     """
     bodies, recording = run.bodies.bodies, run.recording
     first = column + 1
@@ -173,13 +174,11 @@ def needed_effort(run: Run, column: int) -> float | None:
     joint = bodies[first].joint
     assert joint is not None
     axis = turn @ np.array(joint.axis)
-    total = 0.0
+    total = joint.stiffness * (float(recording.positions[0, column]) - joint.spring_rest)
     for number in beyond:
-        body = bodies[number]
-        if body.properties is None:
-            continue
-        centre = pose[number, :3] + _rotation(pose[number]) @ body.properties.com
-        weight = body.mass * gravity
+        mass, center = bodies[number].weight
+        centre = pose[number, :3] + _rotation(pose[number]) @ center
+        weight = mass * gravity
         if joint.kind == "prismatic":
             total -= float(axis @ weight)
         else:

@@ -91,6 +91,7 @@ class World:
         self.plane = self._id("GEOM", PLANE)
         self.read_back = read_back(self.model, bodies, self.number_of, self.joints)
         self._set_options()
+        self._set_forces()
         self._make_contacts()
         self._place()
         self.touches = Touches(mj, self.model, self.data, bodies, self.number_of, self.plane)
@@ -122,6 +123,15 @@ class World:
         option.disableflags = mj.mjtDisableBit.mjDSBL_AUTORESET
         option.enableflags = 0
         option.gravity = self.settings.gravity_at(0.0)
+
+    def _set_forces(self) -> None:
+        """Leave out gravity compensation and springs that the bodies do without."""
+        for body in self.bodies.bodies:
+            if body.weightless is None:
+                self.model.body_gravcomp[[self.number_of[link] for link in body.links]] = 0.0
+        for joint, number in zip(self.bodies.joints, self.joints, strict=True):
+            if number >= 0:
+                self.model.jnt_stiffness[number] = joint.stiffness
 
     def _make_contacts(self) -> None:
         """Friction as the file or the settings say; who touches whom."""
@@ -251,7 +261,8 @@ class World:
             "rates": np.array(rates),
             "efforts": np.array(efforts),
             "kinetic": float(data.energy[1]),
-            "potential": float(model.body_mass @ (data.xipos @ up)),
+            "potential": float(model.body_mass * (1 - model.body_gravcomp) @ (data.xipos @ up))
+            + self.bodies.spring_energy(np.array(positions)),
             "depths": self.touches.deepest(),
         }
 

@@ -80,6 +80,19 @@ def link_is_weightless(robot: Robot, link: str) -> bool:
     return weightless
 
 
+def joint_spring(robot: Robot, joint: str) -> tuple[float, float] | None:
+    """The stiffness [N·m/rad, N/m] of a joint's spring and where it is at rest [rad, m].
+
+    None where Gazebo says nothing of a spring, or a stiffness of zero.
+    """
+    found = None
+    for block in robot.extensions.get(joint, ()):
+        stiffness = number(block.value("springStiffness"))
+        if stiffness:
+            found = stiffness, number(block.value("springReference")) or 0.0
+    return found
+
+
 def gazebo_defects(robot: Robot) -> Iterator[Finding]:
     """Numbers of extensions that are none."""
     for block in robot.gazebo:

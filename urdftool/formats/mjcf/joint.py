@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from lxml import etree
 
 from ...finding import Severity
-from ...model.elements import GazeboExtension, Joint, Limit, Vector
+from ...model.elements import Joint, Limit, Vector
 from ...model.pose import cross, norm
-from ...model.read import number
 from ..numbers import number_text, numbers_text
 from ..written import Written
+from .gazebo import joint_spring
 from .inertials import LEAF_ARMATURE
 from .structure import Structure, bounds
 
@@ -48,8 +48,7 @@ def joint_elements(
         _set_dynamics(element, joint)
         if leaf:
             element.set("armature", number_text(LEAF_ARMATURE))
-        for block in structure.robot.extensions.get(joint.name, ()):
-            _set_spring(element, block)
+        _set_spring(element, joint_spring(structure.robot, joint.name))
     return elements
 
 
@@ -196,11 +195,11 @@ def _set_dynamics(element: etree._Element, joint: Joint) -> None:
         element.set("frictionloss", number_text(dynamics.friction))
 
 
-def _set_spring(element: etree._Element, block: GazeboExtension) -> None:
+def _set_spring(element: etree._Element, spring: tuple[float, float] | None) -> None:
     """Gazebo's spring: stiffness [N·m/rad or N/m] and where it is at rest."""
-    stiffness = number(block.value("springStiffness"))
-    if stiffness:
-        element.set("stiffness", number_text(stiffness))
-        reference = number(block.value("springReference"))
-        if reference and element.get("type", "hinge") != "ball":
-            element.set("springref", number_text(reference))
+    if spring is None:
+        return
+    stiffness, reference = spring
+    element.set("stiffness", number_text(stiffness))
+    if reference and element.get("type", "hinge") != "ball":
+        element.set("springref", number_text(reference))
