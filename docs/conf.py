@@ -50,6 +50,7 @@ exclude_patterns = ["pictures/*.py"]
 myst_enable_extensions = ["colon_fence"]
 myst_heading_anchors = 4
 nitpicky = True
+smartquotes = False  # "--fix" stays what is typed
 
 html_theme = "furo"
 html_title = "urdftool"

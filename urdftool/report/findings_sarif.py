@@ -66,11 +66,11 @@ def _rule(name: str) -> dict[str, Any]:
         }
     if name not in FAMILY_OF:
         return record
-    from .rule_pages import page
+    from .rule_pages import page, plain
 
     rule = get_rule(name)
     return record | {
-        "shortDescription": {"text": rule.fact},
+        "shortDescription": {"text": plain(rule.fact)},
         "help": {"text": page(name)},
         "defaultConfiguration": {"level": _LEVELS[rule.severity], "enabled": rule.default},
         "properties": {"tags": [rule.family]},

@@ -23,7 +23,8 @@ def rule_list() -> str:
             lines.append(f"{family}:")
         off = "" if rule.default else " (off)"
         fix = f" [fix: {FIXABLE[rule.name]}]" if rule.name in FIXABLE else ""
-        lines.append(f"  {rule.name:<{width}}  {rule.severity.label:<7}  {rule.fact}{off}{fix}")
+        fact = plain(rule.fact)
+        lines.append(f"  {rule.name:<{width}}  {rule.severity.label:<7}  {fact}{off}{fix}")
     return "\n".join(lines) + "\n"
 
 
@@ -36,7 +37,8 @@ def page(name: str) -> str:
     if name not in FAMILY_OF:
         raise ConfigError(f"no rule is called '{name}'{nearest_rule(name)}")
     rule = get_rule(name)
-    lines = [f"{rule.name} ({rule.family})", "", inspect.cleandoc(rule.check.__doc__ or ""), ""]
+    text = plain(inspect.cleandoc(rule.check.__doc__ or ""))
+    lines = [f"{rule.name} ({rule.family})", "", text, ""]
     lines.extend(f"{label}: {value}" for label, value in facts(rule))
     if rule.effects:
         lines.append("What readers do:")
@@ -45,6 +47,11 @@ def page(name: str) -> str:
             if known := effect_source(rule.name, readers):
                 lines.append(f"    [{known}]")
     return "\n".join(lines) + "\n"
+
+
+def plain(text: str) -> str:
+    """Remove the marks of code from a docstring."""
+    return text.replace("``", "")
 
 
 def facts(rule: Rule) -> list[tuple[str, str]]:
