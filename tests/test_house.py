@@ -65,6 +65,7 @@ BELOW = {
         "meshes",
         "inertia",
         "output",
+        "store",
         "extras",
         "extras",
         "errors",

@@ -112,8 +112,8 @@ def export_mjcf(
             their links would be welded.
         mesh_dir: The folder of the meshes, relative to the model.
         force: Whether to go on past errors where a robot is left.
-        verify: Whether to compile the result in MuJoCo and compare it; ``checks`` has what was
-            found.
+        verify: Whether to compare the result, compiled in MuJoCo, with the robot; ``checks`` has
+            what was found. It is compiled in any case where MuJoCo is installed.
         overwrite: Whether to replace also what urdftool did not write.
 
     Raises:
@@ -122,6 +122,7 @@ def export_mjcf(
         OutputError: A file cannot be written, or MuJoCo does not compile it; what was there is as
             it was.
     """
+    from ..formats.mjcf.compiled import compile_copy
     from ..formats.mjcf.options import FILES, Options
     from ..formats.mjcf.verify import verify_copy
     from ..formats.mjcf.write import write
@@ -142,6 +143,8 @@ def export_mjcf(
     written = write(robot, options)
     if verify:
         written.checks = verify_copy(robot, options, written)
+    else:
+        compile_copy(written)
     if output is not None:
         more = [] if srdf is None else [str(srdf)]
         _put(robot, written, output, bool(options.file), overwrite, more)

@@ -77,6 +77,7 @@ def command(
     from ..api.export import cut_meshes
     from ..formats import said
     from ..formats.defects import Refused
+    from ..formats.mjcf.compiled import compile_copy
     from ..formats.mjcf.options import FILES, Options
     from ..formats.mjcf.verify import verify_copy
     from ..formats.mjcf.write import write
@@ -99,6 +100,8 @@ def command(
     except Refused as refused:
         return say_refused(refused.findings, as_json=as_json)
     checks = verify_copy(model, options, written) if verified else []
+    if not verified:
+        compile_copy(written)
     inputs = sorted(sources(model))
     inputs += [str(options.srdf)] if options.srdf is not None else []
     target = output or "-"

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import os
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...errors import OutputError
+from ...errors import MissingDependency, OutputError
 from ...extras import missing
+from ..directory import write_directory
 from ..mechanics import GRAVITY, Array
+from ..written import Written
+from .options import FILES
 
 
 def mujoco_module() -> Any:
@@ -24,6 +30,69 @@ def mujoco_module() -> Any:
     except ImportError as error:
         raise missing("mujoco", "--verify") from error
     return mujoco
+
+
+def compile_file(path: Path) -> tuple[Any, list[str]]:
+    """Compile a file.
+
+    Returns:
+        MuJoCo's model, and what the compiler warned of.
+
+    Raises:
+        MissingDependency: MuJoCo is not installed.
+        OutputError: It does not compile.
+    """
+    import warnings
+
+    mujoco = mujoco_module()
+    said: list[str] = []
+    mujoco.set_mju_user_warning(said.append)  # without it a log is written to the folder
+    try:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            model = mujoco.MjModel.from_xml_path(str(path))
+    except ValueError as error:
+        reason = " ".join(str(error).replace(f"{path.parent}{os.sep}", "").split())
+        raise OutputError(
+            f"MuJoCo does not compile the export, so nothing is written: {reason}", path=path.name
+        ) from None
+    said += [str(warning.message) for warning in caught]
+    return model, list(dict.fromkeys(" ".join(text.split()) for text in said))
+
+
+def compile_copy(written: Written) -> None:
+    """Compile a copy of an export, where MuJoCo is installed, before a file of the user changes.
+
+    Raises:
+        OutputError: The model, or the scene around it, does not compile.
+    """
+    try:
+        mujoco_module()
+    except MissingDependency:
+        return
+    with copied(written) as folder:
+        compile_all(written, folder)
+
+
+def compile_all(written: Written, folder: Path) -> None:
+    """Compile the model and the scene of an export that lies in a folder.
+
+    Raises:
+        MissingDependency: MuJoCo is not installed.
+        OutputError: One of them does not compile.
+    """
+    for name, content in written.files.items():
+        if isinstance(content, bytes) and Path(name).suffix.lower() in FILES:
+            compile_file(folder / name)
+
+
+@contextmanager
+def copied(written: Written) -> Iterator[Path]:
+    """Write a copy of an export to a temporary folder."""
+    with tempfile.TemporaryDirectory(prefix="urdftool-") as place:
+        folder = Path(os.path.realpath(place)) / "model"
+        write_directory(folder, written.files, main=written.main)
+        yield folder
 
 
 class Compiled:
@@ -49,21 +118,10 @@ class Compiled:
             MissingDependency: MuJoCo is not installed.
             OutputError: It does not compile.
         """
-        import warnings
-
         self.mujoco = mujoco_module()
         self._renamed = dict(renamed or {})
-        self.warnings: list[str] = []
-        self.mujoco.set_mju_user_warning(self._warn)  # without it a log is written to the folder
-        try:
-            with warnings.catch_warnings(record=True) as caught:
-                warnings.simplefilter("always")
-                self.model = self.mujoco.MjModel.from_xml_path(str(path))
-        except ValueError as error:
-            reason = " ".join(str(error).split())
-            raise OutputError(f"MuJoCo does not compile the export: {reason}", path=path) from None
-        for warning in caught:
-            self._warn(str(warning.message))
+        self.model, self.warnings = compile_file(path)
+        self.mujoco.set_mju_user_warning(self._warn)
         self.model.opt.gravity = GRAVITY
         self.data = self.mujoco.MjData(self.model)
         self.root = max(self.body(root), 0)

@@ -1,42 +1,127 @@
-"""Images as PNG, the one image format that every MuJoCo reads."""
+"""Images as PNG, the one image format that every MuJoCo reads.
+
+MuJoCo refuses a PNG for an ancillary chunk of a wrong length, which libpng and Pillow ignore, so
+none is left in a file that is written.
+"""
 
 from __future__ import annotations
 
-import zlib
+from collections.abc import Iterator
+from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
+from zlib import crc32
 
 from ...extras import missing
+from ...store import Store, cache_folder
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
+COMPRESSION = 4
+"""zlib's level: 7 % larger than Pillow's 6 on 19 photographs of robots, in 70 % of its time."""
 
-def png(image: Path | bytes) -> Path | bytes | None:
-    """An image as a PNG: itself, or converted; None without Pillow or for no image."""
-    return image if _is_png(image) else _png_bytes(image)
+CACHE_BYTES = 1_000_000_000
+CACHE_DAYS = 90.0
+
+_VERSION = 1
+
+_COLOR_TYPES = (0, 2, 3, 4, 6)
+"""Gray, RGB, palette, gray with alpha, RGBA."""
 
 
-def _is_png(image: Path | bytes) -> bool:
-    """Whether it is a PNG by its bytes, whatever its name says, with sums that are right."""
+def png(image: Path | bytes) -> bytes | None:
+    """Return an image as a PNG without ancillary chunks, converted where it is another format.
+
+    A conversion is kept in the user's cache for the next export.
+
+    Returns:
+        The PNG; None for a file that is not an image.
+
+    Raises:
+        MissingDependency: It has to be converted, and Pillow is not installed.
+    """
     try:
         data = image if isinstance(image, bytes) else image.read_bytes()
     except OSError:
-        return False
+        return None
+    return _plain(data) or _converted(data)
+
+
+def _plain(data: bytes) -> bytes | None:
+    """Return a sound PNG without its ancillary chunks but for ``sRGB``; None for other data.
+
+    MuJoCo takes the color space of a texture from ``sRGB``.
+    """
     if not data.startswith(SIGNATURE):
-        return False
+        return None
+    chunks = list(_chunks(data))
+    if not chunks or chunks[0][0] != b"IHDR" or chunks[-1][0] != b"IEND":
+        return None
+    header = chunks[0][1]
+    if len(header) != 13 or header[9] not in _COLOR_TYPES:
+        return None
+    color = header[9]
+    parts: dict[bytes, list[bytes]] = {}
+    for kind, content in chunks:
+        parts.setdefault(kind, []).append(content)
+    palette, clear = parts.get(b"PLTE", []), parts.get(b"tRNS", [])
+    if len(palette) > 1 or any(len(p) % 3 or not 3 <= len(p) <= 768 for p in palette):
+        return None
+    if (color == 3) > len(palette):
+        return None
+    if color in (0, 4):
+        palette = []
+    most = len(palette[0]) // 3 if palette else 0
+    right = {0: (2, 2), 2: (6, 6), 3: (1, most)}.get(color)
+    clear = [c for c in clear[:1] if right is not None and right[0] <= len(c) <= right[1]]
+    standard = [c for c in parts.get(b"sRGB", [])[:1] if len(c) == 1 and c[0] < 4]
+    kept = [(b"IHDR", header)]
+    kept += [(b"sRGB", content) for content in standard]
+    kept += [(b"PLTE", content) for content in palette]
+    kept += [(b"tRNS", content) for content in clear]
+    kept += [(b"IDAT", content) for content in parts.get(b"IDAT", [])]
+    kept.append((b"IEND", b""))
+    return SIGNATURE + b"".join(_chunk(kind, content) for kind, content in kept)
+
+
+def _chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
+    """Read the chunks of a PNG up to ``IEND``, or up to the first whose checksum is wrong."""
     start, kind = len(SIGNATURE), b""
     while kind != b"IEND":
         length = int.from_bytes(data[start : start + 4], "big")
         kind = data[start + 4 : start + 8]
         end = start + 8 + length
-        checksum = zlib.crc32(data[start + 4 : end]).to_bytes(4, "big")
+        checksum = crc32(data[start + 4 : end]).to_bytes(4, "big")
         if len(kind) < 4 or checksum != data[end : end + 4]:
-            return False
+            return
+        yield kind, data[start + 8 : end]
         start = end + 4
-    return True
 
 
-def _png_bytes(image: Path | bytes) -> bytes | None:
+def _chunk(kind: bytes, content: bytes) -> bytes:
+    checksum = crc32(kind + content).to_bytes(4, "big")
+    return len(content).to_bytes(4, "big") + kind + content + checksum
+
+
+def _converted(data: bytes) -> bytes | None:
+    """Convert an image in any format that Pillow reads, or take it from the cache.
+
+    Raises:
+        MissingDependency: Pillow is not installed.
+    """
+    store = Store(cache_folder("mjcf-textures"))
+    key = sha256(f"{_VERSION} {COMPRESSION} ".encode() + data).hexdigest()
+    found = store.get(key)
+    if found is not None:
+        return found
+    made = _png_bytes(data)
+    if made is not None:
+        store.put(key, made)
+        store.trim(days=CACHE_DAYS, most=CACHE_BYTES)
+    return made
+
+
+def _png_bytes(data: bytes) -> bytes | None:
     """Convert an image in any format that Pillow reads to PNG; None if it is not an image.
 
     Raises:
@@ -47,10 +132,13 @@ def _png_bytes(image: Path | bytes) -> bytes | None:
     except ImportError as error:
         raise missing("PIL", "converting a texture to PNG") from error
     try:
-        with Image.open(BytesIO(image) if isinstance(image, bytes) else image) as picture:
+        with Image.open(BytesIO(data)) as picture:
             target = BytesIO()
-            picture.convert("RGBA").save(target, "PNG")
+            see_through = "A" in picture.getbands() or "transparency" in picture.info
+            plain = picture.convert("RGBA" if see_through else "RGB")
+            plain.info.clear()  # color profiles and the like would become chunks
+            plain.save(target, "PNG", compress_level=COMPRESSION)
     # image readers meet damaged files with whatever their arithmetic raises
     except Exception:
         return None
-    return target.getvalue()
+    return _plain(target.getvalue())

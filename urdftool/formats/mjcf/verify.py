@@ -7,7 +7,6 @@ differs is allowed only where the export said so, of that very link or joint.
 from __future__ import annotations
 
 import math
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -16,11 +15,10 @@ import numpy as np
 from ...model.elements import Joint, Robot
 from ...model.world import with_world
 from ..check import Check
-from ..directory import write_directory
 from ..mechanics import Mechanics
 from ..written import Written
 from .announced import EFFORT, INERTIA, LIMITS, TORN, TREE, Said
-from .compiled import Compiled
+from .compiled import Compiled, compile_all, copied
 from .options import Options
 from .verify_loops import compare_loops
 from .verify_shapes import collision_check, visual_check
@@ -33,10 +31,9 @@ POSE, FORCE, MASS = 1e-9, 1e-8, 1e-12
 
 def verify_copy(robot: Robot, options: Options, written: Written) -> list[Check]:
     """Compile and compare a copy of an export, before anything of the user's is touched."""
-    with tempfile.TemporaryDirectory(prefix="urdftool-") as folder:
-        copy = Path(folder) / "model"
-        write_directory(copy, written.files, main=written.main)
-        return verify(robot, written, copy / written.main, write(robot, options))
+    with copied(written) as folder:
+        compile_all(written, folder)
+        return verify(robot, written, folder / written.main, write(robot, options))
 
 
 def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[Check]:
