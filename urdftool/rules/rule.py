@@ -71,7 +71,7 @@ class Problem:
         cause: The element that a finding which explains this one is about; None for the subject.
         caused_by: Instead of the rule's, where it depends on the case.
         effects: Which of the rule's effects hold, by their keys, where that depends on the case;
-            None for all of them.
+            None for those whose key names no case.
     """
 
     __slots__ = (
@@ -183,9 +183,13 @@ class Rule:
         return (self.check.__doc__ or "").partition("\n")[0].strip()
 
     def effects_in(self, keys: Collection[str] | None) -> dict[str, str]:
-        """Select the effects with these keys, or all, and leave the case out of their keys."""
-        held = {k: says for k, says in self.effects.items() if keys is None or k in keys}
-        return {key.partition(" (")[0]: says for key, says in held.items()}
+        """Select the effects with these keys, and leave the case out of them.
+
+        Args:
+            keys: Keys of the effects; None for all that hold in every case.
+        """
+        held = keys if keys is not None else [key for key in self.effects if " (" not in key]
+        return {k.partition(" (")[0]: says for k, says in self.effects.items() if k in held}
 
     def severity_for(self, targets: frozenset[str]) -> Severity:
         """How much it matters for a set of targets."""

@@ -34,8 +34,11 @@ UNIFORM = 0.1
 @rule(
     WARNING,
     effects={
-        "mujoco, pybullet, pinocchio": "take it as the tensor about the center of mass: a joint "
-        "then moves mass × distance² twice",
+        "mujoco, pinocchio": (
+            "take it as the tensor about the center of mass: a joint then moves mass × distance² "
+            "twice"
+        ),
+        "pybullet": "does so with URDF_USE_INERTIA_FROM_FILE, and computes its own otherwise",
     },
 )
 def inertia_about_link_frame(robot: Robot) -> Iterator[Problem]:

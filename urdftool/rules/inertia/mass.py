@@ -17,17 +17,25 @@ from .solids import solid_volume
 from .tensors import six_of
 
 _SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_AS_PART = ("gz, gazebo-classic, pinocchio (part)", "mujoco (part)", "drake (part)")
+_AS_ROOT = ("gz, gazebo-classic (root)", "pybullet (root)")
 
 
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic, pinocchio": (
+        "urdfdom, pinocchio": (
             "load the link without its visuals and collisions, with an error in the log"
         ),
+        "gz, gazebo-classic (with a mass)": "load the link without its visuals and collisions",
+        "gz, gazebo-classic (without a mass)": (
+            "take 0 kg and drop its visuals and collisions; leave out a body without mass, and "
+            "all below it"
+        ),
         "check_urdf": "reports success nevertheless",
-        "mujoco": "rejects the file: required attribute missing",
-        "pybullet, drake": "take 0 for a missing product of inertia",
+        "mujoco": "rejects the file",
+        "pybullet (no element)": "rejects the robot",
+        "pybullet, drake (a number)": "take 0 for a missing number",
     },
 )
 def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
@@ -45,7 +53,20 @@ def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
                 link,
                 f"<inertial> of link '{link.name}' has no {', '.join(missing)}; write it",
                 at=at,
+                effects=_effects_of(link.inertial),
             )
+
+
+def _effects_of(inertial: Inertial) -> set[str]:
+    mass, inertia = inertial.element.child("mass"), inertial.element.child("inertia")
+    has_mass = mass is not None and "value" in mass.attributes
+    has = "with" if has_mass else "without"
+    keys = {"urdfdom, pinocchio", f"gz, gazebo-classic ({has} a mass)", "check_urdf", "mujoco"}
+    if mass is None or inertia is None:
+        keys.add("pybullet (no element)")
+    elif has_mass:
+        keys.add("pybullet, drake (a number)")
+    return keys
 
 
 def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
@@ -74,12 +95,15 @@ def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
 @rule(
     WARNING,
     effects={
-        "gz, gazebo-classic": (
-            "leave out the link and all below it; a link fixed to one with mass is merged into "
-            "it (sdformat 12.3)"
+        "gz, gazebo-classic": "leave out the link and all below it (sdformat 12.3)",
+        "gz, gazebo-classic (root)": (
+            "load nothing: a model must have at least one link (sdformat 12.3)"
         ),
-        "mujoco": "rejects a moving body; merges a fixed one",
-        "pybullet": "fixes a base to the world",
+        "gz, gazebo-classic, pinocchio (part)": "add the inertia to the body that it is fixed to",
+        "mujoco": "rejects the file: mass of moving bodies must be positive",
+        "mujoco (part)": "ignores the inertia",
+        "drake (part)": "makes the link weigh 1 kg, with a warning",
+        "pybullet (root)": "fixes the root link to the world",
     },
     group="robot",
 )
@@ -112,6 +136,7 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
                     f"mass of link '{link.name}' is 0 and its inertia is not; write its mass, or "
                     "an inertia of zeros",
                     at=at,
+                    effects=_AS_PART,
                 )
             continue
         if link is not next(one for one in links if one in zero):
@@ -124,11 +149,18 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         elif moved:
             severity, so = ERROR if link.collisions else WARNING, "a body that moves has a mass"
         elif robot.moving_joints and targets != {"pybullet"}:
-            severity, so = INFO, "PyBullet takes the robot as static, and Gazebo removes it"
+            severity, so = INFO, "PyBullet fixes it to the world, and Gazebo loads nothing"
+            if joint is not None:
+                so = "Gazebo removes the link and everything attached to it"
         else:
             continue
+        keys = {"gz, gazebo-classic", *(("mujoco",) if moved else ())}
         yield Problem(
-            link, f"mass of link '{link.name}' is 0; {so}. Write its mass", at=at, severity=severity
+            link,
+            f"mass of link '{link.name}' is 0; {so}. Write its mass",
+            at=at,
+            severity=severity,
+            effects=_AS_ROOT if joint is None else keys,
         )
 
 

@@ -20,12 +20,12 @@ _REMOVED = "Gazebo removes it and everything attached to it"
     WARNING,
     raised=dict.fromkeys(("gazebo-classic", "gz", "mujoco", "pybullet"), ERROR),
     effects={
-        "gz, gazebo-classic": (
-            "leave out the link and all below it, without a message; a link fixed to one with "
-            "mass is merged into it"
-        ),
+        "gz, gazebo-classic": "leave out the link and all below it, without a message",
+        "gz, gazebo-classic (root)": "load nothing: a model must have at least one link",
+        "gz, gazebo-classic (part)": "merge it into the link with mass that it is fixed to",
         "pybullet": "assumes 1 kg, and with URDF_USE_INERTIA_FROM_FILE 1 kg·m² about each axis",
-        "mujoco": "assumes the mass of water in the shape of its collisions",
+        "mujoco (collisions)": "assumes the mass of water in the shape of its collisions",
+        "mujoco (no mass)": "rejects the file: mass of moving bodies must be positive",
         "pinocchio, KDL, drake": "take 0 kg",
     },
     group="robot",
@@ -80,7 +80,24 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             hint="'urdftool inertia' computes one from its shapes",
             severity=severity,
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
+            effects=_effects_without_inertial(robot, link, lumped=link.name in heavy),
         )
+
+
+def _effects_without_inertial(robot: Robot, link: Link, *, lumped: bool) -> set[str]:
+    """Select what readers do with a link without mass; MuJoCo welds the root to the world."""
+    body = [one for one, _ in attached_links(robot, link)]
+    tops = [robot.tree.parent_joint(one.name) for one in body]
+    in_gazebo = "part" if lumped else "root" if robot.tree.parent_joint(link.name) is None else ""
+    keys = {"pybullet", "pinocchio, KDL, drake"}
+    keys.add("gz, gazebo-classic" + (f" ({in_gazebo})" if in_gazebo else ""))
+    if None in tops or is_fixed_to_world(robot, link):
+        return keys
+    if link.collisions:
+        keys.add("mujoco (collisions)")
+    elif not any(one.mass > 0 or (one.inertial is None and one.collisions) for one in body):
+        keys.add("mujoco (no mass)")
+    return keys
 
 
 def _is_marker(link: Link) -> bool:

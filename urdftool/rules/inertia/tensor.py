@@ -19,13 +19,6 @@ from .slips import slip_of
 from .solids import solid_text
 from .tensors import SIX, is_positive, is_zero, moments_of, six_of, tensors
 
-_REJECTED = {
-    "gz, gazebo-classic": "reject the model (Error 18)",
-    "mujoco": "rejects the file",
-    "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
-    "urdfdom, KDL, pinocchio": "take it silently",
-}
-
 
 @rule(
     ERROR,
@@ -102,6 +95,7 @@ def inertia_triangle_inequality(
     effects={
         "mujoco": "rejects the file",
         "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
+        "gz, gazebo-classic (part)": "accept it: the body that it is a part of has no such inertia",
         "pybullet": "takes zero with URDF_USE_INERTIA_FROM_FILE",
         "drake": "warns, and takes another inertia",
         "urdfdom, pinocchio": "accept it without a message",
@@ -116,15 +110,24 @@ def inertia_triangle_inequality_rounding(
     For a flat plate the largest moment equals the sum of the others, and a few digits too few push
     it above. Gazebo and MuJoCo allow nothing for that.
     """
+    whole: dict[str, list[Link]] | None = None
     for link, inertial, six in tensors(robot):
         low, middle, high = moments_of(six)
         excess = high - low - middle
         if low >= 0 and tolerance * high < excess <= rounding * high:
+            whole = whole or {one.name: body for body in bodies(robot).values() for one in body}
+            links = whole.get(link.name, [link])
+            least, between, most = moments_of(body_inertia(robot, links).tensor)
+            is_accepted = len(links) > 1 and least + between >= most
             yield Problem(
                 link,
                 f"principal moment {high:.9g} of link '{link.name}' is larger than the sum of the "
                 f"others by {excess:.1g}; write the moments with more digits, or lower the largest",
                 at=inertial.inertia,
+                effects=(
+                    "gz, gazebo-classic" + (" (part)" if is_accepted else ""),
+                    *("mujoco", "pybullet", "drake", "urdfdom, pinocchio"),
+                ),
             )
 
 
