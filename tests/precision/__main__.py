@@ -1,11 +1,11 @@
-"""``python -m tests.precision``: draw findings of real robots by rule, for a person to judge.
+"""``python -m tests.precision``: draw findings of real robots, for a person to judge.
 
-    python -m tests.precision [--seed N] [--count N]     draws, and prints them as JSON lines
-    python -m tests.precision --page                     writes docs/lint-precision.md
+    python -m tests.precision [--by finding|rule] [--seed N] [--count N]    prints JSON lines
+    python -m tests.precision --page                                        writes the page
 
 The descriptions of example-robot-data, pybullet_data and the corpus, where they are installed, are
-checked with the defaults. Rules are shuffled and gone through in turn; each time one of the rule's
-findings that were not drawn yet is drawn, at most one of a robot and rule. A verdict is a line as
+checked with the defaults. Findings are drawn from all, or from the rules in turn, at most one of a
+robot and rule. A verdict is a line as
 drawn with ``verdict`` (useful, noise or wrong) and ``reason``, written by somebody who read the
 finding beside the source and, where it speaks of a reader, asked that reader. They are kept in
 ``verdicts.jsonl``.
@@ -18,18 +18,32 @@ import json
 import random
 import sys
 from collections import Counter
+from collections.abc import Iterator
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
 from tests.benchmarks.robots import CORPUS, ROOT, bullet_robots, example_folder, example_robots
 from urdftool.finding import Finding
 from urdftool.lint.discover import find_descriptions
+from urdftool.lint.group import group
 from urdftool.lint.outcome import Options
 from urdftool.lint.parallel import lint_files
 
 PAGE = ROOT / "docs" / "lint-precision.md"
 KEPT = Path(__file__).with_name("verdicts.jsonl")
-SEED = 2026
+HEAD = """\
+# How precise lint is
+
+Findings of real robots (example-robot-data, pybullet_data, descriptions of public repositories)
+were each read beside the source, and what they say of a reader was compared with what that reader
+does. *Useful*: a maintainer would change the file or wants to know. *Noise*: true, but nobody would
+act on it. *Wrong*: not true, or its advice makes the robot worse, or a sentence about any reader is
+false in this case. `python -m tests.precision` draws a sample: `--by finding` from all findings, as
+a user meets them; `--by rule` from the rules in turn, so that rare rules weigh as much as common
+ones. At most one finding of a rule and robot is drawn. The findings are those before what was
+learned from them was changed in the rules.
+"""
 VERDICTS = ("useful", "noise", "wrong")
 
 
@@ -49,34 +63,41 @@ def descriptions() -> dict[str, str]:
     return found
 
 
-def draw(seed: int, count: int) -> list[dict[str, Any]]:
-    """Draw findings, the same for the same seed, rules and robots."""
+def draw(seed: int, count: int, by: str = "finding") -> list[dict[str, Any]]:
+    """Draw findings as ``lint`` prints them, the same for the same seed, rules and robots."""
     named = descriptions()
-    by_rule: dict[str, list[tuple[str, Finding]]] = {}
+    found: list[tuple[str, Finding]] = []
     reports = lint_files(list(named.values()), Options())
     for name, report in zip(named, reports, strict=True):
-        for finding in report.findings:
-            by_rule.setdefault(finding.rule, []).append((name, finding))
+        found += [(name, finding) for finding in group(report.findings)]
     chance = random.Random(seed)
+    found = list(_by_rule(found, chance) if by == "rule" else chance.sample(found, len(found)))
+    firsts = {(finding.rule, name): finding for name, finding in reversed(found)}
+    drawn = [(name, f) for name, f in found if firsts[f.rule, name] is f][:count]
+    return [
+        _record(number, f"{by} {seed}", name, named[name], finding)
+        for number, (name, finding) in enumerate(drawn, 1)
+    ]
+
+
+def _by_rule(
+    found: list[tuple[str, Finding]], chance: random.Random
+) -> Iterator[tuple[str, Finding]]:
+    """Shuffle rules and the findings of each, and go through the rules in turn."""
+    by_rule: dict[str, list[tuple[str, Finding]]] = {}
+    for name, finding in found:
+        by_rule.setdefault(finding.rule, []).append((name, finding))
     rules = sorted(by_rule)
     chance.shuffle(rules)
     for rule in rules:
         chance.shuffle(by_rule[rule])
-    drawn: list[dict[str, Any]] = []
-    seen: set[tuple[str, str]] = set()
-    while len(drawn) < count and any(by_rule.values()):
-        for rule in rules:
-            while by_rule[rule]:
-                name, finding = by_rule[rule].pop()
-                if (rule, name) not in seen:
-                    seen.add((rule, name))
-                    drawn.append(_record(len(drawn) + 1, name, named[name], finding))
-                    break
-    return drawn[:count]
+    for turn in zip_longest(*(by_rule[rule] for rule in rules)):
+        yield from (one for one in turn if one is not None)
 
 
-def _record(number: int, name: str, path: str, finding: Finding) -> dict[str, Any]:
+def _record(number: int, sample: str, name: str, path: str, finding: Finding) -> dict[str, Any]:
     return {
+        "sample": sample,
         "number": number,
         "robot": name,
         "path": path,
@@ -97,38 +118,43 @@ def judged() -> list[dict[str, Any]]:
     return [json.loads(line) for line in text.splitlines() if line.strip()]
 
 
-def page(rows: list[dict[str, Any]], seed: int) -> str:
-    """Write the page: the counts, and a row for each finding."""
-    counts = Counter(row["verdict"] for row in rows)
-    share = {verdict: counts[verdict] / len(rows) for verdict in VERDICTS}
+def page(rows: list[dict[str, Any]]) -> str:
+    """Write the page: the counts of each sample, and a row for each finding."""
+    samples = list(dict.fromkeys(row["sample"] for row in rows))
     lines = [
-        "# How precise lint is",
-        "",
-        f"{len(rows)} findings of real robots (example-robot-data, pybullet_data, descriptions",
-        "of public repositories), drawn by rule with",
-        f"`python -m tests.precision --seed {seed}`, were each read beside the source, and what",
-        "they say of a reader was compared with what that reader does. *Useful*: a maintainer",
-        "would change the file or wants to know. *Noise*: true, but nobody would act on it.",
-        "*Wrong*: not true, or its advice makes the robot worse, or a sentence about any reader is",
-        "false in this case. Each rule counts the same here, however rare its findings are. The",
-        "findings are those before what was learned from them was changed in the rules.",
-        "",
-        "| verdict | findings | share |",
-        "|---|---:|---:|",
-        *(f"| {v} | {counts[v]} | {share[v]:.1%} |" for v in VERDICTS),
-        "",
-        "| # | robot | rule | finding | verdict | why |",
-        "|---:|---|---|---|---|---|",
+        HEAD,
+        "| sample | findings | useful | noise | wrong |",
+        "|---|---:|---:|---:|---:|",
     ]
-    for row in rows:
-        assert row["verdict"] in VERDICTS, row
-        place = f"{row['robot']}:{row['line']}"
-        message = _cell(f"{row['severity']}: {row['message']}")
+    for sample in samples:
+        counts = Counter(row["verdict"] for row in rows if row["sample"] == sample)
+        shares = (f"{counts[v]} ({counts[v] / counts.total():.1%})" for v in VERDICTS)
+        by, seed = sample.split()
         lines.append(
-            f"| {row['number']} | {_cell(place)} | [{row['rule']}](rules/{row['rule']}.md) "
-            f"| {message} | {row['verdict']} | {_cell(row['reason'])} |"
+            f"| [by {by}, seed {seed}](#by-{by}-seed-{seed}) | {counts.total()} "
+            f"| {' | '.join(shares)} |"
         )
+    for sample in samples:
+        by, seed = sample.split()
+        lines += [
+            "",
+            f"## By {by}, seed {seed}",
+            "",
+            "| # | robot | rule | finding | verdict | why |",
+            "|---:|---|---|---|---|---|",
+        ]
+        lines += [_row(row) for row in rows if row["sample"] == sample]
     return "\n".join(lines) + "\n"
+
+
+def _row(row: dict[str, Any]) -> str:
+    assert row["verdict"] in VERDICTS, row
+    place = f"{row['robot']}:{row['line']}"
+    message = _cell(f"{row['severity']}: {row['message']}")
+    return (
+        f"| {row['number']} | {_cell(place)} | [{row['rule']}](rules/{row['rule']}.md) "
+        f"| {message} | {row['verdict']} | {_cell(row['reason'])} |"
+    )
 
 
 def _cell(text: str) -> str:
@@ -138,14 +164,15 @@ def _cell(text: str) -> str:
 def main(words: list[str]) -> int:
     """Draw, or write the page."""
     parser = argparse.ArgumentParser(prog="python -m tests.precision")
-    parser.add_argument("--seed", type=int, default=SEED)
+    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=120)
+    parser.add_argument("--by", choices=("finding", "rule"), default="finding")
     parser.add_argument("--page", action="store_true", help="write docs/lint-precision.md")
     arguments = parser.parse_args(words)
     if arguments.page:
-        PAGE.write_text(page(judged(), arguments.seed), "utf-8")
+        PAGE.write_text(page(judged()), "utf-8")
         return 0
-    for row in draw(arguments.seed, arguments.count):
+    for row in draw(arguments.seed, arguments.count, arguments.by):
         print(json.dumps(row, ensure_ascii=False))
     return 0
 
