@@ -18,7 +18,7 @@ from .elements import Vector
 from .tensor3 import Six
 
 ALLOWED = 1.1
-"""By how much the variance may exceed what the box allows."""
+"""By how much the variance may exceed what the box allows; twice as much of a mesh."""
 
 CERTAIN = 10.0
 """By how much it has to exceed the box around a mesh, which may leave out what is heavy."""
@@ -108,12 +108,13 @@ def misfit_of_spread(
         com: Center of mass [m].
         tensor: Inertia about the center of mass, along the axes of the box [kg·m²].
         has_mesh: Whether a shape of it is a mesh.
-        allowed: By how much the variance may exceed what the box allows.
+        allowed: By how much the variance may exceed what the box allows; twice that of a mesh,
+            which may leave out what sticks out.
         certain: By how much it has to exceed the box of a mesh to be wrong.
         rounding: As for :func:`spread_ratio`.
     """
     ratio, axis = spread_ratio(box, mass, com, tensor, rounding)
-    if ratio <= allowed:
+    if ratio <= allowed * (2 if has_mesh else 1):
         return None
     low, high = box[0][axis], box[1][axis]
     moments = tensor[0], tensor[3], tensor[5]
