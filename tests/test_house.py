@@ -72,8 +72,8 @@ BELOW = {
     ),
     "graph": ("finding", "model", "source", "extras", "extras", "errors"),
     "simulation": (
-        *("drawing", "formats", "finding", "meshes", "inertia", "model", "source", "workers"),
-        *("store", "extras", "errors"),
+        *("drawing", "formats", "finding", "meshes", "inertia", "model", "rules", "source"),
+        *("workers", "store", "extras", "errors"),
     ),
     "report": (
         *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),

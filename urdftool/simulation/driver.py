@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Callable, Mapping
 from time import perf_counter
 from typing import Any, Protocol
@@ -12,7 +13,7 @@ import numpy as np
 from .bodies import Bodies
 from .recording import Array, Contact, ReadBack, Recording
 from .settings import Settings
-from .stillness import PATIENCE, Stillness
+from .stillness import PATIENCE, WINDOW, Stillness
 
 SAMPLE = 1 / 30
 """Time between samples, as near as the timestep allows [s]."""
@@ -72,6 +73,7 @@ def settle(engine: Engine, tell: Tell = lambda _: None) -> Recording:
     every = max(1, round(SAMPLE / settings.timestep))
     steps = max(1, round(settings.duration / settings.timestep))
     watch = Stillness(bodies.size, every * settings.timestep)
+    late: deque[list[Contact]] = deque(maxlen=max(1, round(WINDOW / (every * settings.timestep))))
     start_contacts = engine.overlaps()
     samples = [engine.sample(0.0)]
     tell((samples[0]["poses"], start_contacts))
@@ -88,6 +90,7 @@ def settle(engine: Engine, tell: Tell = lambda _: None) -> Recording:
         if engine.is_broken() or not _is_sane(sample, bodies):
             ended = "lost"
             break
+        late.append([touch for touch in engine.contacts() if touch.force > 0])
         still = watch.add(sample["times"], sample["poses"], sample["positions"])
         if still is not None and sample["times"] > PATIENCE:
             ended = "still"
@@ -103,6 +106,10 @@ def settle(engine: Engine, tell: Tell = lambda _: None) -> Recording:
         targets=_targets(bodies.positions, bodies.held),
         start_contacts=start_contacts,
         contacts=engine.contacts() + engine.overlaps(ground=False),
+        carrying=[touch for some in late for touch in some],
+        carried=sum(touch.force for some in late for touch in some) / len(late)
+        if late
+        else math.nan,
         read_back=engine.read_back,
         capped=engine.capped,
         still_since=still,

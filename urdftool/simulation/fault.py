@@ -10,7 +10,7 @@ from ..source.location import Place
 FALLEN = frozenset(
     {
         *("nothing-touches", "blew-up", "fell-through", "not-settled", "tipped-over", "leans"),
-        *("slid", "sank-in", "sags", "collapsed", "unstable-gains"),
+        *("slid", "sank-in", "sags", "collapsed", "unstable-gains", "unsupported"),
     }
 )
 """Kinds of what is seen to go wrong; the others are errors in the file of a robot that stands."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .recording import GROUND, Array
+from .recording import Array
 from .run import Run
 from .shapes import Shape, lowest
 
@@ -19,7 +19,7 @@ robot's size."""
 
 def footprint(run: Run) -> Array:
     """Points of the plane at the end that carry the robot [m], shape (n, 2)."""
-    touching = [c for c in run.recording.contacts if c.other == GROUND and c.force > 0]
+    touching = run.recording.carrying
     found = [np.array([contact.point[:2] for contact in touching]).reshape(-1, 2)]
     links = {contact.one for contact in touching}
     for number, body in enumerate(run.bodies.bodies):
@@ -30,19 +30,15 @@ def footprint(run: Run) -> Array:
         turn, at = np.array(pose.rotation), np.array(pose.translation)
         highest = lowest(shapes, turn, at) + EVEN * run.bodies.size
         for shape in shapes:
-            corners = _corners(shape) @ turn.T + at
+            corners = _placed_corners(shape) @ turn.T + at
             found.append(corners[corners[:, 2] <= highest, :2])
     return np.concatenate(found)
 
 
-def _corners(shape: Shape) -> Array:
+def _placed_corners(shape: Shape) -> Array:
     """Corners of a shape in its body's frame, shape (n, 3); what is round has none."""
-    if shape.kind == "mesh":
-        corners = np.concatenate(shape.pieces)
-    elif shape.kind == "box":
-        signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-        corners = signs * np.array(shape.size) / 2
-    else:
+    if shape.kind not in ("mesh", "box"):
         return np.zeros((0, 3))
-    placed: Array = corners @ np.array(shape.pose.rotation).T + np.array(shape.pose.translation)
+    turned = shape.corners() @ np.array(shape.pose.rotation).T
+    placed: Array = turned + np.array(shape.pose.translation)
     return placed

@@ -9,6 +9,7 @@ import numpy as np
 from ..model.elements import Robot
 from .bodies import Bodies, Body
 from .fault import Fault
+from .mechanism import mechanism_of
 from .moment import Moment
 from .overlap import overlap
 from .recording import GROUND, Array, Contact
@@ -39,8 +40,10 @@ def look_inside(robot: Robot, start: Moment) -> None:
     """Find out of a start what :func:`judge_inside` will ask of it: an engine is waited for."""
     for contact in start.contacts:
         if contact.other != GROUND and contact.depth >= deep(start.bodies, INTO):
-            _depth(robot, start, start, contact)
+            depth = _depth(robot, start, start, contact)
             _misplaced(robot, start, start, contact)
+            if depth >= deep(start.bodies, INTO) and not _are_joined(start, contact):
+                _mechanism(robot, start, contact)
 
 
 def judge_inside(robot: Robot, run: Run) -> Iterator[Fault]:
@@ -68,6 +71,10 @@ def judge_inside(robot: Robot, run: Run) -> Iterator[Fault]:
         thin = min(_extents(bodies[number]).min() for number in numbers)
         brought = "" if joined or moment is run.start else _brought(run, numbers)
         fails = beside is not None or bool(not joined and depth > THICK * thin and not brought)
+        mechanism = ""
+        if fails and beside is None:
+            mechanism = _mechanism(robot, run.start, contact)
+            fails = not mechanism
         when = "at the start" if moment is run.start else "at rest"
         named = beside[0] if beside else contact.one
         yield Fault(
@@ -78,13 +85,36 @@ def judge_inside(robot: Robot, run: Run) -> Iterator[Fault]:
             named,
             beside[1]
             if beside
-            else "they are joined, so engines let them"
+            else _why_ignored(run, numbers)
             if joined
             else brought
+            or mechanism
             or "their collision shapes are too large or misplaced, or the pose is not free",
             "collision-off-visual" if fails else "",
             fails=fails,
         )
+
+
+def _mechanism(robot: Robot, start: Moment, contact: Contact) -> str:
+    """What mechanism two links belong to; empty where none is seen."""
+    links = contact.one, contact.other
+    numbers = start.body_of(contact.one), start.body_of(contact.other)
+    return start.once(
+        ("mechanism", *links), lambda: mechanism_of(robot, start, links, _between(start, numbers))
+    )
+
+
+def _why_ignored(run: Run, numbers: tuple[int, int]) -> str:
+    """Why links that overlap about their joint do not push each other in this run."""
+    count = len(_between(run.start, numbers))
+    if count < 2:
+        return "the links share a joint, so engines ignore this contact"
+    if run.settings.self_collision:
+        return f"{count} joints are between them, so they push each other with --self-collision"
+    return (
+        f"{count} joints are between them: engines that let the links of a robot collide push "
+        "them apart"
+    )
 
 
 def _brought(run: Run, numbers: tuple[int, int]) -> str:

@@ -7,6 +7,7 @@ Points of one surface that lie inside the other, by the winding number of its tr
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cached_property
 
 import numpy as np
@@ -40,13 +41,29 @@ def overlap(robot: Robot, moment: Moment, one: str, other: str, least: float = 0
     pairs = [robot.link[name].collisions for name in (one, other)]
     if not any(isinstance(shape.geometry, Mesh) for shapes in pairs for shape in shapes):
         return None
+    poses = {name: moment.link_pose(name) for name in (one, other)}
+    return triangle_overlap(robot, poses, one, other, least)
+
+
+def triangle_overlap(
+    robot: Robot, poses: Mapping[str, Pose], one: str, other: str, least: float = 0.0
+) -> float | None:
+    """How deep the triangles of two links are in each other [m]; None where some cannot be read.
+
+    Args:
+        robot: The robot, which finds its meshes.
+        poses: Of the two links, by name, in one frame.
+        one: A link.
+        other: Another.
+        least: What is not as deep may be said to be 0 [m], which is found out sooner.
+    """
     try:
         mine, others = (
             [
-                (_surface(robot, shape), moment.link_pose(name) @ pose_of(shape.origin))
-                for shape in shapes
+                (_surface(robot, shape), poses[name] @ pose_of(shape.origin))
+                for shape in robot.link[name].collisions
             ]
-            for shapes, name in zip(pairs, (one, other), strict=True)
+            for name in (one, other)
         )
     except UrdftoolError:
         return None

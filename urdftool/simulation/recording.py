@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -66,6 +67,9 @@ class Recording:
         targets: Where those are to be [rad, m].
         start_contacts: Contacts before the first step, also of links of one joint.
         contacts: Those of the last sample.
+        carrying: Contacts with the plane that carried a load in the last half second, each sample's
+            in turn: an engine may leave one out at any moment.
+        carried: What these carried together, on average [N]; nan where nothing was sampled.
         read_back: What the engine took for other than it was given.
         capped: The damping that each joint had, where the timestep bears less than the file says
             [N·m·s/rad, N·s/m].
@@ -91,6 +95,8 @@ class Recording:
     targets: dict[str, float] = field(default_factory=dict)
     start_contacts: list[Contact] = field(default_factory=list)
     contacts: list[Contact] = field(default_factory=list)
+    carrying: list[Contact] = field(default_factory=list)
+    carried: float = math.nan
     read_back: list[ReadBack] = field(default_factory=list)
     capped: dict[str, float] = field(default_factory=dict)
     still_since: float | None = None

@@ -66,6 +66,21 @@ class Shape:
             return start + ends + radius
         return start + ends + radius * float(np.hypot(along[0], along[1]))
 
+    def corners(self) -> Array:
+        """Corners of a mesh or box in its own frame, of the box around what is round, (n, 3)."""
+        if self.kind == "mesh":
+            return np.concatenate(self.pieces)
+        if self.kind == "box":
+            edges = np.array(self.size)
+        else:
+            radius = self.size[0]
+            length = self.size[1] if self.kind != "sphere" else 0.0
+            ends = 0.0 if self.kind == "cylinder" else 2 * radius
+            edges = np.array([2 * radius, 2 * radius, length + ends])
+        signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+        corners: Array = signs * edges / 2
+        return corners
+
     def bounds(self) -> tuple[Array, Array]:
         """Two corners of the box around it, along the axes of its body."""
         return self._bounds

@@ -12,6 +12,7 @@ from .judge_contact import judge_contacts
 from .judge_control import judge_controls
 from .judge_joint import judge_joints
 from .judge_rest import Rest, judge_rest, rest_of
+from .judge_support import judge_support
 from .judge_sweep import judge_sweep
 from .run import Run
 
@@ -52,6 +53,7 @@ def judge(robot: Robot, run: Run) -> Verdict:
 def _faults(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
     yield from judge_bodies(robot, run)
     yield from judge_rest(robot, run, rest)
+    yield from judge_support(robot, run, rest)
     yield from judge_contacts(robot, run, rest)
     yield from judge_joints(robot, run, rest)
     yield from judge_controls(robot, run)

@@ -1,0 +1,118 @@
+"""What carries a robot: the ground below its center of mass, and wheels where it has some."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.simulation.robots import body, inertial, kinds, runs
+from urdftool.model.load import load
+from urdftool.simulation.judge_rest import rest_of
+from urdftool.simulation.judge_support import judge_support
+from urdftool.simulation.recording import Contact
+from urdftool.simulation.run import Run, simulate
+from urdftool.simulation.settings import Settings
+from urdftool.simulation.verdict import judge
+
+BOX = body('<box size="0.4 0.4 0.1"/>', 4, (0.06, 0.06, 0.1))
+WHEEL = (
+    '<link name="{side}_wheel"><inertial><mass value="0.3"/><inertia ixx="2e-4" ixy="0" ixz="0" '
+    'iyy="3.7e-4" iyz="0" izz="2e-4"/></inertial><collision><origin rpy="1.5708 0 0"/><geometry>'
+    '<cylinder radius="0.05" length="0.02"/></geometry></collision></link>'
+    '<joint name="{side}_wheel_joint" type="continuous"><origin xyz="-0.05 {y} {z}"/>'
+    '<parent link="base_link"/><child link="{side}_wheel"/><axis xyz="0 1 0"/></joint>'
+)
+
+
+def _rover(wheels, caster, chassis=0.1):
+    """A base of two wheels and a caster, which ends as high as said above the axles' plane [m]."""
+    parts = "".join(
+        WHEEL.format(side=side, y=y, z=0.05 + wheels)
+        for side, y in (("left", 0.14), ("right", -0.14))
+    )
+    return (
+        f'<robot name="rover"><link name="base_link">{inertial(3, 0.03, 0.04, 0.05, "0 0 0.08")}'
+        f'<collision><origin xyz="0 0 {chassis}"/><geometry><box size="0.3 0.2 0.1"/></geometry>'
+        f"</collision></link>"
+        '<link name="caster"><inertial><mass value="0.05"/><inertia ixx="1e-5" ixy="0" ixz="0" '
+        'iyy="1.1e-5" iyz="0" izz="1.2e-5"/></inertial><collision><geometry>'
+        '<sphere radius="0.02"/></geometry></collision></link><joint name="caster_joint" '
+        f'type="fixed"><origin xyz="0.1 0 {0.02 + caster}"/><parent link="base_link"/>'
+        f'<child link="caster"/></joint>{parts}</robot>'
+    )
+
+
+def _judged(write, text, **settings):
+    robot = load(write("robot.urdf", text))
+    (run,) = simulate(robot, Settings(**settings))
+    return judge(robot, run)
+
+
+def _support(run, robot, **changes):
+    altered = Run(run.settings, run.bodies, replace(run.recording, **changes))
+    return list(judge_support(robot, altered, rest_of(altered)))
+
+
+def _moved(contacts, along):
+    """Contacts elsewhere, of a part that the file does not have."""
+    x, y = along
+    return [replace(c, point=(c.point[0] + x, c.point[1] + y, 0.0)) for c in contacts]
+
+
+@pytest.mark.parametrize("text", [BOX, _rover(0, 0)], ids=["box", "rover"])
+def test_the_ground_carries_the_whole_weight(write, text):
+    (run,) = runs(write("robot.urdf", text))
+    weight = 9.81 * run.bodies.mass
+    assert run.recording.carried == pytest.approx(weight, rel=0.02)
+    assert run.recording.carrying
+
+
+def test_a_robot_beside_its_support_is_not_supported(write):
+    path = write("ball.urdf", body('<sphere radius=".1"/>', 1, (0.004,) * 3))
+    (run,) = runs(path)
+    robot = load(path)
+    assert _support(run, robot) == []
+    far = _moved(run.recording.carrying, (0.05, 0.0))
+    (fault,) = _support(run, robot, carrying=far)
+    assert (fault.kind, fault.fails, fault.fell) == ("unsupported", True, True)
+    assert "50 mm outside the support polygon of 'a'" in fault.message
+
+
+def test_contacts_inside_the_robot_do_not_carry_it(write):
+    path = write("rover.urdf", _rover(0, 0))
+    (run,) = runs(path, self_collision=True)
+    inner = Contact("left_wheel", "base_link", 0.055, 0.0, (0.0, 0.0, 0.0))
+    changes = {"carried": 0.5 * run.recording.carried, "contacts": [inner]}
+    (fault,) = _support(run, load(path), **changes)
+    assert fault.kind == "unsupported"
+    assert "N of the" in fault.message
+    assert "'left_wheel' and 'base_link' (55 mm)" in fault.cause
+
+
+def test_wheels_in_the_air_are_reported(write):
+    verdict = _judged(write, _rover(0.02, 0, chassis=0.05))
+    assert kinds(verdict) == {"wheels-off-ground"}
+    (fault,) = [fault for fault in verdict.faults if fault.fails]
+    assert fault.what == "link"
+    assert "'base_link'" in fault.message
+    assert not verdict.fell
+
+
+def test_a_chassis_on_the_ground_is_a_remark(write):
+    verdict = _judged(write, _rover(0, 0, chassis=0.05))
+    (fault,) = [fault for fault in verdict.faults if fault.kind == "body-on-ground"]
+    assert (fault.name, fault.fails) == ("base_link", False)
+
+
+def test_a_rover_on_wheels_and_caster_has_neither(write):
+    verdict = _judged(write, _rover(0, 0))
+    assert not {"wheels-off-ground", "body-on-ground", "unsupported"} & {
+        fault.kind for fault in verdict.faults
+    }
+
+
+def test_without_gravity_nothing_need_carry(write):
+    more = '<gazebo reference="a"><turnGravityOff>1</turnGravityOff></gazebo></robot>'
+    verdict = _judged(write, BOX.replace("</robot>", more))
+    assert kinds(verdict) == set()
+    assert np.isfinite(verdict.run.recording.poses).all()

@@ -1,0 +1,141 @@
+"""Whether what touches the ground carries the robot, and whether it is what should."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..model.elements import Robot
+from ..rules.gazebo.contact import contact_role
+from .fault import Fault, listed
+from .judge_rest import TIPPED, Rest
+from .recording import GROUND, Contact
+from .run import Run
+from .shapes import lowest
+
+OUTSIDE = 0.05
+"""How far outside its support polygon the center of mass of a robot at rest may be, as a part of
+the robot's size: the polygon is known only as well as contacts are."""
+
+CARRIED = 0.8
+"""The least part of its weight that the ground carries of a robot at rest."""
+
+_LEAST = 0.005  # m
+_FEW = 2  # wheels or feet, of a robot that stands on them
+
+
+def judge_support(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
+    """What is to be said of what carries a robot that came to rest upright."""
+    bodies = run.bodies
+    if bodies.nailed or rest.fell or rest.settled is None or rest.tilt > TIPPED:
+        return
+    if not bodies.bodies[0].mass:
+        return  # which is reported; engines hold such a root in the air
+    yield from _unsupported(robot, run, rest)
+    yield from _wheels_in_the_air(robot, run, rest)
+    yield from _body_on_ground(robot, run)
+
+
+def _unsupported(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
+    """A robot at rest that nothing outside it could keep there."""
+    weight = run.settings.gravity * math.fsum(body.weight[0] for body in run.bodies.bodies)
+    carried = run.recording.carried
+    least = max(OUTSIDE * run.bodies.size, _LEAST)
+    root = robot.link[run.bodies.bodies[0].name]
+    names = listed(_carrying(run))
+    if weight > 0 and carried < CARRIED * weight:
+        what = f"the ground carries {carried:.3g} N of the {weight:.3g} N that the robot weighs"
+    elif rest.margin is not None and rest.margin < -least:
+        what = f"the center of mass is {-1000 * rest.margin:.0f} mm outside the support polygon"
+        what += f" of {names}"
+    else:
+        return
+    inner = _inner(run)
+    if inner:
+        pairs = ", ".join(f"'{c.one}' and '{c.other}' ({1000 * c.depth:.0f} mm)" for c in inner[:3])
+        why = f"contacts inside the robot carry it: {pairs} overlap"
+    else:
+        why = "no robot stands so; another --engine or a smaller --timestep may show how it falls"
+    yield Fault("unsupported", what, root.place, "link", root.name, why)
+
+
+def _inner(run: Run) -> list[Contact]:
+    """Overlaps of links that push each other, the deepest first."""
+    if not run.settings.self_collision:
+        return []
+    found = [c for c in run.recording.contacts if c.other != GROUND and c.depth > 0]
+    return sorted(found, key=lambda contact: -contact.depth)
+
+
+def _carrying(run: Run) -> list[str]:
+    """The links that carried the robot at the end, in the order of the file."""
+    touching = {contact.one for contact in run.recording.carrying}
+    return [name for body in run.bodies.bodies for name in body.links if name in touching]
+
+
+def _by_role(robot: Robot, run: Run, role: str) -> dict[int, str]:
+    """The bodies that touch the ground as a wheel or a foot, each with the link that does."""
+    found: dict[int, str] = {}
+    for number, body in enumerate(run.bodies.bodies):
+        for name in body.links if number else ():
+            if contact_role(robot, robot.link[name]) == role:
+                found.setdefault(number, name)
+    return found
+
+
+def _wheels_in_the_air(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
+    wheels = _by_role(robot, run, "wheel")
+    carrying = _carrying(run)
+    numbers = {run.start.body_of(name) for name in carrying}
+    if len(wheels) < _FEW or numbers & set(wheels) or not carrying:
+        return
+    name = next(iter(wheels.values()))
+    height = min(_height(run, number) for number in wheels)
+    yield Fault(
+        "wheels-off-ground",
+        f"no wheel carries the robot, which rests on {listed(carrying)}",
+        robot.link[name].place,
+        "link",
+        name,
+        f"the lowest wheel is {1000 * max(0.0, height):.1f} mm above the ground: the robot cannot "
+        "drive; lower the wheels, or raise what it rests on",
+        "caster-height-mismatch",
+    )
+
+
+def _height(run: Run, number: int) -> float:
+    """How high above the ground a body ends [m]."""
+    pose = run.end.pose(number)
+    shapes = run.bodies.bodies[number].shapes
+    return lowest(shapes, np.array(pose.rotation), np.array(pose.translation))
+
+
+def _body_on_ground(robot: Robot, run: Run) -> Iterator[Fault]:
+    """The chassis or trunk of a robot that has wheels or feet to stand on."""
+    wheels, feet = (_by_role(robot, run, role) for role in ("wheel", "foot"))
+    carrying = set(_carrying(run))
+    on_wheels = {run.start.body_of(name) for name in carrying} & set(wheels)
+    if not (len(wheels) >= _FEW and on_wheels) and len(feet) < _FEW:
+        return
+    root = run.bodies.bodies[0]
+    for name in root.links:
+        if name not in carrying or contact_role(robot, robot.link[name]):
+            continue
+        if all(shape.kind == "sphere" for shape in root.shapes if shape.link == name):
+            continue  # a caster
+        what = "wheels" if on_wheels else "feet"
+        yield Fault(
+            "body-on-ground",
+            f"the body rests on the ground with link '{name}', and not on its {what} alone",
+            robot.link[name].place,
+            "link",
+            name,
+            "its collision geometry reaches as low as the wheels; raise it, or give the robot a "
+            "caster"
+            if on_wheels
+            else "the legs do not lift it where the joints start; --pose gives them another start",
+            fails=False,
+        )
+        return

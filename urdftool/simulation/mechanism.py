@@ -1,0 +1,152 @@
+"""Whether two parts that overlap belong to a mechanism: a pin, a telescope, or a piston.
+
+URDF is a tree, so a mechanism that closes a loop is written as branches that follow one joint.
+Where the branches meet, in a pin or a cylinder, their parts overlap by design, and they do so
+wherever the joint is. Parts that are misplaced move into each other or apart.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..model.elements import Robot
+from ..model.kinematics import link_poses, with_mimics
+from .bodies import Body, JointOf
+from .moment import Moment
+from .overlap import triangle_overlap
+from .recording import Array
+
+SAME = 0.25
+"""By how much an overlap that stays the same may vary with the motion, as a part of the largest."""
+
+LONG = 2.0
+"""How much longer than wide a rod or a cylinder is."""
+
+ASKEW = math.radians(5)
+"""The angle between the axes of a rod and its cylinder."""
+
+OFF_AXIS = 0.25
+"""How far the middle of a rod is from the axis of its cylinder, as a part of the thinner one."""
+
+_STEPS = 5
+_WIDE = 1.0  # rad: how far a joint is moved to each side that has no limits
+_LEAST = 0.002  # m
+
+
+def mechanism_of(
+    robot: Robot, start: Moment, links: tuple[str, str], between: Sequence[int]
+) -> str:
+    """What mechanism two links belong to that overlap at the start; empty where none is seen.
+
+    Args:
+        robot: The robot, which finds its meshes.
+        start: Where its bodies are.
+        links: Two links of different bodies.
+        between: The bodies whose joints are between these two, as numbers.
+    """
+    bodies = start.bodies.bodies
+    ends = start.body_of(links[0]), start.body_of(links[1])
+    joints = [joint for number in between if (joint := bodies[number].joint) is not None]
+    if _is_serial(bodies, ends):
+        if _slides(start, between):
+            return "they slide in each other, as the parts of a telescope do"
+    elif _is_coaxial(start, ends):
+        return "they lie on a common axis, as a piston and its cylinder do"
+    if len(joints) > 1 and _keeps_overlap(robot, start, links, joints):
+        return "their overlap is the same wherever the joint is that moves both, as at a pin"
+    return ""
+
+
+def _is_serial(bodies: Sequence[Body], ends: tuple[int, int]) -> bool:
+    """Whether one of two bodies carries the other."""
+    for number, other in (ends, ends[::-1]):
+        while number >= 0:
+            if number == other:
+                return True
+            number = bodies[number].parent
+    return False
+
+
+def _slides(start: Moment, between: Sequence[int]) -> bool:
+    """Whether all joints between two bodies slide along one direction."""
+    axes = []
+    for number in between:
+        joint = start.bodies.bodies[number].joint
+        if joint is None or joint.kind != "prismatic":
+            return False
+        axes.append(np.array(start.pose(number).rotation) @ np.array(joint.axis))
+    return len(axes) > 1 and all(abs(float(axis @ axes[0])) > math.cos(ASKEW) for axis in axes)
+
+
+def _is_coaxial(start: Moment, ends: tuple[int, int]) -> bool:
+    """Whether two bodies are long, and lie on one axis."""
+    found = [_long_axis(start, number) for number in ends]
+    if found[0] is None or found[1] is None:
+        return False
+    (middle, along, width), (other, direction, thickness) = found[0], found[1]
+    if abs(float(along @ direction)) < math.cos(ASKEW):
+        return False
+    off = np.linalg.norm(np.cross(other - middle, along))
+    return bool(off < OFF_AXIS * min(width, thickness))
+
+
+def _long_axis(start: Moment, number: int) -> tuple[Array, Array, float] | None:
+    """The middle, long axis and width of what collides of a body, in the world [m].
+
+    None where it is not clearly longer than wide.
+    """
+    corners = []
+    for shape in start.bodies.bodies[number].shapes:
+        points = shape.corners()
+        turn, at = np.array(shape.pose.rotation), np.array(shape.pose.translation)
+        corners.append(points @ turn.T + at)
+    if not corners:
+        return None
+    points = np.concatenate(corners)
+    turn, at = np.array(start.pose(number).rotation), np.array(start.pose(number).translation)
+    points = points @ turn.T + at
+    _, axes = np.linalg.eigh(np.cov((points - points.mean(axis=0)).T))
+    low, high = (points @ axes).min(axis=0), (points @ axes).max(axis=0)
+    edges = high - low
+    longest = int(edges.argmax())
+    width = float(np.delete(edges, longest).max())
+    if edges[longest] < LONG * width:
+        return None
+    return axes @ ((low + high) / 2), axes[:, longest], width
+
+
+def _keeps_overlap(
+    robot: Robot, start: Moment, links: tuple[str, str], joints: Sequence[JointOf]
+) -> bool:
+    """Whether two links are as deep in each other wherever the one joint is that moves both."""
+    leaders = {_leader(start, joint).name for joint in joints}
+    if len(leaders) != 1:
+        return False
+    leader = _leader(start, joints[0])
+    here = start.bodies.positions[leader.name]
+    lower, upper = max(leader.lower, here - _WIDE), min(leader.upper, here + _WIDE)
+    if not lower < upper:
+        return False
+    depths = []
+    for value in (here, *np.linspace(lower, upper, _STEPS).tolist()):
+        positions = {**start.bodies.positions, leader.name: value}
+        for joint in start.bodies.joints:
+            if joint.leader is not None:
+                positions.pop(joint.name, None)  # which follow
+        poses = link_poses(robot, with_mimics(robot, positions))
+        depth = triangle_overlap(robot, poses, *links)
+        if depth is None:
+            return False
+        depths.append(depth)
+    return min(depths) > 0 and max(depths) - min(depths) <= max(SAME * max(depths), _LEAST)
+
+
+def _leader(start: Moment, joint: JointOf) -> JointOf:
+    """The joint at the end of a chain of mimics."""
+    known = {one.name: one for one in start.bodies.joints}
+    while joint.leader is not None and joint.leader in known:
+        joint = known[joint.leader]
+    return joint
