@@ -1,0 +1,240 @@
+"""Steps a compiled model at its home configuration and judges whether it holds still.
+
+Only the file that was written is read here: nothing is shared with the code that wrote it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..check import Check
+from ..mechanics import Array
+from .announced import Said
+from .compiled import mujoco_module
+
+TIMESTEPS = (0.002, 0.005)
+"""Physics time steps [s] at which a model must run: MuJoCo's default, and that of many trainings."""
+
+SECONDS = 2.0
+"""Simulated time [s]."""
+
+BEYOND = 0.01
+"""How far a joint may be outside its limits [rad or m]."""
+
+DRIFT = 0.01
+"""How far a free base may move from where it settles [m]."""
+
+SETTLED = 0.5
+"""Time [s] after which a free base must not move any more: before that, contacts and servos give."""
+
+STOP = 1e6
+"""Speed [rad/s or m/s] above which the simulation has diverged."""
+
+
+@dataclass
+class Trial:
+    """One run of a model.
+
+    Attributes:
+        timestep: Physics time step [s].
+        warnings: MuJoCo's warnings, each with the time [s] at which it came first.
+        beyond: How far a joint went outside its limits [rad or m], by name, where too far.
+        drift: How far the base moved after it settled [m]; infinite where numbers ran away.
+        speed: The highest speed of a joint at the end [rad/s or m/s].
+    """
+
+    timestep: float
+    warnings: dict[str, float] = field(default_factory=dict)
+    beyond: dict[str, float] = field(default_factory=dict)
+    drift: float = 0.0
+    speed: float = 0.0
+
+    @property
+    def faults(self) -> list[str]:
+        """List what is wrong, in words; empty for a model that runs."""
+        at = f"at {self.timestep * 1000:g} ms"
+        found = [
+            f"MuJoCo warns after {time:.3g} s: {text} ({at})"
+            for text, time in self.warnings.items()
+        ]
+        if not math.isfinite(self.drift):
+            found.append(f"the state is not finite ({at})")
+        elif self.drift > DRIFT:
+            found.append(f"the base drifts by {self.drift:.2g} m ({at})")
+        found += [
+            f"joint '{name}' leaves its limits by {amount:.2g} ({at})"
+            for name, amount in self.beyond.items()
+        ]
+        return found
+
+
+def runs_check(path: Path, said: Said) -> Check:
+    """Step a model at each time step.
+
+    Args:
+        path: The MJCF file.
+        said: The losses that were reported.
+
+    Returns:
+        The row ``runs`` of the comparison.
+    """
+    steps = " and ".join(f"{step * 1000:g}" for step in TIMESTEPS)
+    check = Check(
+        "runs", f"{SECONDS:g} s at home, {steps} ms: no warning, limits, base drift [m]", DRIFT
+    )
+    for timestep in TIMESTEPS:
+        trial = run_at_home(path, timestep)
+        check.compare(0.0 if trial.faults else trial.drift, "")
+        for fault in trial.faults:
+            check.compare(math.inf, fault, known=said.any("lossy-massless"))
+    return check
+
+
+def run_at_home(path: Path, timestep: float, seconds: float = SECONDS) -> Trial:
+    """Step a model from its key ``home``, or from zero within its limits, held by its actuators.
+
+    A free base gets a floor under the lowest point that collides, where the file has no plane.
+
+    Args:
+        path: The MJCF file.
+        timestep: Physics time step [s].
+        seconds: Simulated time [s].
+    """
+    mujoco = mujoco_module()
+    warned: list[str] = []
+    mujoco.set_mju_user_warning(lambda text: warned.append(" ".join(text.split())))
+    model = _on_floor(mujoco, path)
+    model.opt.timestep = timestep
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
+    data = mujoco.MjData(model)
+    _start(mujoco, model, data)
+    trial = Trial(timestep)
+    bases = [int(body) for body in np.flatnonzero(_free_bodies(mujoco, model))]
+    held = _held_joints(mujoco, model)
+    settled: Array | None = None
+    while data.time < seconds:
+        mujoco.mj_step(model, data)
+        for text in warned:
+            trial.warnings.setdefault(text.partition(" Time =")[0], float(data.time))
+        warned.clear()
+        if not np.isfinite(data.qpos).all() or abs(data.qvel).max(initial=0.0) > STOP:
+            trial.drift = math.inf
+            return trial
+        for joint, low, high in held:
+            value = float(data.qpos[model.jnt_qposadr[joint]])
+            amount = max(low - value, value - high)
+            if amount > BEYOND:
+                name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, joint) or str(joint)
+                trial.beyond[name] = max(amount, trial.beyond.get(name, 0.0))
+        if settled is None and data.time >= SETTLED:
+            settled = np.array(data.xpos[bases])
+    if bases and settled is not None:
+        trial.drift = float(np.linalg.norm(data.xpos[bases] - settled, axis=1).max())
+    trial.speed = float(abs(data.qvel).max(initial=0.0))
+    return trial
+
+
+def home_positions(mujoco: Any, model: Any) -> Array:
+    """Read the configuration of the key ``home``; without one, zero within the limits."""
+    key = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_KEY, "home")
+    if key >= 0:
+        return np.array(model.key_qpos[key])
+    positions = np.array(model.qpos0)
+    for joint in range(model.njnt):
+        if model.jnt_limited[joint] and model.jnt_type[joint] >= int(mujoco.mjtJoint.mjJNT_SLIDE):
+            low, high = model.jnt_range[joint]
+            address = model.jnt_qposadr[joint]
+            positions[address] = min(max(positions[address], low), high)
+    for number in range(model.neq):
+        one, other = int(model.eq_obj1id[number]), int(model.eq_obj2id[number])
+        if model.eq_type[number] == mujoco.mjtEq.mjEQ_JOINT:
+            lead = positions[model.jnt_qposadr[other]] if other >= 0 else 0.0
+            offset, slope = model.eq_data[number][:2]
+            positions[model.jnt_qposadr[one]] = offset + slope * lead
+    return positions
+
+
+def _start(mujoco: Any, model: Any, data: Any) -> None:
+    """Put the state to home, and the servos' targets with it."""
+    key = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_KEY, "home")
+    if key >= 0:
+        mujoco.mj_resetDataKeyframe(model, data, key)
+    else:
+        data.qpos[:] = home_positions(mujoco, model)
+        for actuator in range(model.nu):
+            joint = int(model.actuator_trnid[actuator][0])
+            is_servo = model.actuator_biasprm[actuator][1] != 0
+            on_joint = model.actuator_trntype[actuator] == mujoco.mjtTrn.mjTRN_JOINT
+            if is_servo and on_joint:
+                data.ctrl[actuator] = data.qpos[model.jnt_qposadr[joint]]
+    mujoco.mj_forward(model, data)
+
+
+def _free_bodies(mujoco: Any, model: Any) -> Array:
+    free = np.zeros(model.nbody, dtype=bool)
+    free[model.jnt_bodyid[model.jnt_type == mujoco.mjtJoint.mjJNT_FREE]] = True
+    return free
+
+
+def _held_joints(mujoco: Any, model: Any) -> list[tuple[int, float, float]]:
+    """List the joints with limits that an actuator or an equality holds, and the limits."""
+    driven = {
+        int(model.actuator_trnid[number][0])
+        for number in range(model.nu)
+        if model.actuator_trntype[number] == mujoco.mjtTrn.mjTRN_JOINT
+        and model.actuator_biasprm[number][1] != 0
+    }
+    driven |= {
+        int(model.eq_obj1id[number])
+        for number in range(model.neq)
+        if model.eq_type[number] == mujoco.mjtEq.mjEQ_JOINT
+    }
+    return [
+        (joint, *map(float, model.jnt_range[joint]))
+        for joint in sorted(driven)
+        if model.jnt_limited[joint]
+    ]
+
+
+def _on_floor(mujoco: Any, path: Path) -> Any:
+    """Compile a file; one with a free body and without a plane gets a floor under it."""
+    model = mujoco.MjModel.from_xml_path(str(path))
+    if (model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE).any():
+        return model
+    if not _free_bodies(mujoco, model).any():
+        return model
+    data = mujoco.MjData(model)
+    _start(mujoco, model, data)
+    spec = mujoco.MjSpec.from_file(str(path))
+    spec.worldbody.add_geom(
+        type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], pos=[0, 0, lowest_point(mujoco, model, data)]
+    )
+    return spec.compile()
+
+
+def lowest_point(mujoco: Any, model: Any, data: Any) -> float:
+    """Find the height [m] of the lowest point of the geoms that collide, in the world."""
+    lows = list(_low_points(mujoco, model, data))
+    return min(lows, default=0.0)
+
+
+def _low_points(mujoco: Any, model: Any, data: Any) -> Iterator[float]:
+    for geom in range(model.ngeom):
+        if not (model.geom_contype[geom] or model.geom_conaffinity[geom]):
+            continue
+        if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
+            mesh = int(model.geom_dataid[geom])
+            first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
+            points = model.mesh_vert[first : first + count]
+        else:
+            middle, half = model.geom_aabb[geom][:3], model.geom_aabb[geom][3:]
+            signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+            points = middle + signs * half
+        rotation = data.geom_xmat[geom].reshape(3, 3)
+        yield float((points @ rotation.T + data.geom_xpos[geom])[:, 2].min())
