@@ -114,6 +114,26 @@ def limits_of(joint: Joint) -> tuple[float, float]:
     return joint.limit.lower or 0.0, joint.limit.upper or 0.0
 
 
+def chain_of(joint: Joint, movable: Mapping[str, Joint]) -> tuple[str, float, float]:
+    """Follow the chain of ``<mimic>`` from a joint.
+
+    Args:
+        joint: A joint that has one position.
+        movable: The joints that have one, by name.
+
+    Returns:
+        The name of the joint at its end, and the factor and the offset [rad, m] by which the
+        position of ``joint`` follows from its position. A loop ends where it began.
+    """
+    scale, shift, seen = 1.0, 0.0, set[str]()
+    while (mimic := joint.mimic) is not None and mimic.joint in movable and joint.name not in seen:
+        seen.add(joint.name)
+        shift += scale * mimic.offset
+        scale *= mimic.multiplier
+        joint = movable[mimic.joint]
+    return joint.name, scale, shift
+
+
 def _follow(joint: Joint, movable: Mapping[str, Joint], positions: Mapping[str, float]) -> float:
     """The position of a joint that is not given, along its chain of mimics."""
     scale, shift, seen = 1.0, 0.0, set()

@@ -1,0 +1,66 @@
+"""Where the joints of a robot start: at zero, or as near to it as their limits allow."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from .elements import Joint, Robot
+from .kinematics import chain_of, limits_of, movable_joints, with_mimics
+
+
+def start_positions(
+    robot: Robot, wanted: Mapping[str, float] | None = None
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Choose a position for every joint that has one, consistent with ``<mimic>``.
+
+    A joint starts at zero, or at its limit that is nearest to zero; one that others mimic so that
+    these are within their limits too, where that is possible.
+
+    Args:
+        robot: The robot.
+        wanted: Positions of joints by name [rad, m], which are taken as they are.
+
+    Returns:
+        The positions [rad, m], and those of them that are not zero because of a limit.
+    """
+    given = dict(wanted or {})
+    clamped = {}
+    reaches = _reaches(robot)
+    for name, (lower, upper) in reaches.items():
+        if name not in given and lower <= upper and not lower <= 0.0 <= upper:
+            given[name] = clamped[name] = lower if lower > 0 else upper
+    found = with_mimics(robot, given)
+    for joint in robot.joints:
+        lower, upper = limits_of(joint)
+        if joint.mimic is not None and joint.name not in given and lower < upper:
+            found[joint.name] = min(max(found.get(joint.name, 0.0), lower), upper)
+    return found, clamped
+
+
+def allowed_positions(robot: Robot, name: str) -> tuple[float, float]:
+    """Return the lowest and highest position [rad, m] of a joint and of those that mimic it."""
+    return _reaches(robot).get(name, (-math.inf, math.inf))
+
+
+def _reaches(robot: Robot) -> dict[str, tuple[float, float]]:
+    """The limits [rad, m] of each joint that mimics none, narrowed by those that mimic it."""
+    movable = movable_joints(robot)
+    reaches = {joint.name: limits_of(joint) for joint in movable.values() if joint.mimic is None}
+    for joint in movable.values():
+        if joint.mimic is None or not _is_limited(joint):
+            continue
+        leader, scale, shift = chain_of(joint, movable)
+        if leader not in reaches or not scale:
+            continue
+        lower, upper = sorted((bound - shift) / scale for bound in limits_of(joint))
+        own = reaches[leader]
+        both = max(lower, own[0]), min(upper, own[1])
+        if both[0] <= both[1]:
+            reaches[leader] = both
+    return reaches
+
+
+def _is_limited(joint: Joint) -> bool:
+    lower, upper = limits_of(joint)
+    return joint.is_limited and lower < upper
