@@ -1,5 +1,7 @@
 """A finding names only the effects that hold in its case."""
 
+import re
+
 import pytest
 
 from urdftool.lint.outcome import Options
@@ -33,12 +35,17 @@ def _robot(arm="", *, base=HEAVY, mid=HEAVY, kind="revolute", limit=LIMIT, first
 """
 
 
-def effects_of(tmp_path, rule, text):
-    """Give the effects of the only finding of a rule."""
+def found(tmp_path, rule, text):
+    """Give the only finding of a rule."""
     path = tmp_path / "r.urdf"
     path.write_text(text)
     (finding,) = lint_file(path, Options(Settings(select=(rule,)))).findings
-    return finding.effects
+    return finding
+
+
+def effects_of(tmp_path, rule, text):
+    """Give the effects of the only finding of a rule."""
+    return found(tmp_path, rule, text).effects
 
 
 @pytest.mark.parametrize(
@@ -98,3 +105,80 @@ def test_rounded_moments_of_a_part(tmp_path, kind, accepted):
     effects = effects_of(tmp_path, "inertia-triangle-inequality-rounding", robot)
     assert effects["gz, gazebo-classic"].startswith("accept it" if accepted else "reject")
     assert effects["mujoco"] == "rejects the file"
+
+
+@pytest.mark.parametrize(("upper", "says"), [("90", "radians"), ("1e16", "never reached")])
+def test_limit_in_degrees(tmp_path, upper, says):
+    limit = LIMIT.replace('upper="1"', f'upper="{upper}"')
+    effects = effects_of(tmp_path, "limit-in-degrees", _robot(HEAVY + COLLISION, limit=limit))
+    (sentence,) = effects.values()
+    assert says in sentence
+
+
+@pytest.mark.parametrize(
+    ("first", "base", "urdfdom", "pybullet"),
+    [
+        (
+            '<material name="m"><color rgba="1 0 0 1"/></material>' * 2,
+            "",
+            "reject the robot",
+            "accepts it",
+        ),
+        (
+            '<material name="m"><color rgba="1 0 0 1"/></material>',
+            MATERIAL.format(box=BOX, rgba="0 1 0 1"),
+            "at the top level",
+            "at the visual",
+        ),
+        (
+            "",
+            MATERIAL.format(box=BOX, rgba="0 1 0 1") + MATERIAL.format(box=BOX, rgba="1 0 0 1"),
+            "first visual",
+            "last visual",
+        ),
+    ],
+    ids=["top level", "top level and visual", "visuals"],
+)
+def test_conflicting_material(tmp_path, first, base, urdfdom, pybullet):
+    robot = _robot(HEAVY, base=HEAVY + base, first=first)
+    effects = effects_of(tmp_path, "conflicting-material", robot)
+    said = {word: says for key, says in effects.items() for word in key.split(", ")}
+    assert re.search(urdfdom, said["urdfdom"])
+    assert pybullet in said["pybullet"]
+    assert said["drake"] == "rejects the file"
+
+
+@pytest.mark.parametrize("controlled", [True, False])
+def test_mimic_dof_mismatch(tmp_path, controlled):
+    block = '<ros2_control name="c" type="system"><joint name="swing"/></ros2_control>'
+    robot = _robot(
+        HEAVY, kind="fixed", limit='<mimic joint="turn"/>', first=block if controlled else ""
+    )
+    finding = found(tmp_path, "mimic-dof-mismatch", robot)
+    assert finding.effects.keys() == ({"moveit", "ros2_control"} if controlled else {"moveit"})
+    assert finding.severity.label == ("error" if controlled else "info")
+
+
+@pytest.mark.parametrize(
+    ("more", "reader"),
+    [
+        ('<joint name="$(arg j)" type="fixed"/>', {"urdfdom"}),
+        ('<gazebo reference="${x}"><mu1>1</mu1></gazebo>', {"gz, gazebo-classic"}),
+        ('<transmission name="${x}_trans"/>', set()),
+        (
+            '<gazebo><plugin name="p" filename="f"><a>$(find p)</a></plugin></gazebo>',
+            {"gz, gazebo-classic"},
+        ),
+    ],
+    ids=["joint", "reference", "transmission", "plugin"],
+)
+def test_unexpanded_expression(tmp_path, more, reader):
+    effects = effects_of(tmp_path, "unexpanded-expression", _robot(HEAVY, first=more))
+    assert effects.keys() == reader
+    assert ("plugin" in "".join(effects.values())) == ("plugin" in more)
+
+
+def test_a_brace_without_dollar_in_a_plain_urdf(tmp_path):
+    robot = _robot(HEAVY, first='<gazebo reference="wheel_{side}_link"><mu1>1</mu1></gazebo>')
+    message = found(tmp_path, "unexpanded-expression", robot).message
+    assert message.endswith("write what '{side}' stands for")

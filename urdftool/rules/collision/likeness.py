@@ -134,13 +134,15 @@ def collision_mesh_too_dense(
             other.uri == use.uri and not other.collides and other.link is use.link
             for other in mesh_uses(robot, description)
         )
-        if faces > mujoco or (faces > most and not shared):
+        is_too_many = faces > mujoco and use.uri.lower().endswith(".stl")
+        if is_too_many or (faces > most and (not shared or faces > mujoco)):
             yield Problem(
                 use.link,
                 f"collision mesh '{use.uri}' has {faces} triangles; simplify it to some thousand",
                 at=use.mesh.element.attribute_place("filename"),
                 hint=_SIMPLER,
-                severity=ERROR if faces > mujoco else None,
+                severity=ERROR if is_too_many else None,
+                effects=None if is_too_many else (),
             )
 
 

@@ -80,15 +80,16 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             hint="'urdftool inertia' computes one from its shapes",
             severity=severity,
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
-            effects=_effects_without_inertial(robot, link, lumped=link.name in heavy),
+            effects=_effects_without_inertial(
+                robot, link, "part" if link.name in heavy else "root" if joint is None else ""
+            ),
         )
 
 
-def _effects_without_inertial(robot: Robot, link: Link, *, lumped: bool) -> set[str]:
+def _effects_without_inertial(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
     """Select what readers do with a link without mass; MuJoCo welds the root to the world."""
     body = [one for one, _ in attached_links(robot, link)]
     tops = [robot.tree.parent_joint(one.name) for one in body]
-    in_gazebo = "part" if lumped else "root" if robot.tree.parent_joint(link.name) is None else ""
     keys = {"pybullet", "pinocchio, KDL, drake"}
     keys.add("gz, gazebo-classic" + (f" ({in_gazebo})" if in_gazebo else ""))
     if None in tops or is_fixed_to_world(robot, link):

@@ -168,7 +168,7 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
 @rule(
     ERROR,
     effects={
-        "moveit": "ignores it where the degrees of freedom differ",
+        "moveit": "ignores it: the degrees of freedom differ",
         "ros2_control": "stops with an exception for a fixed joint",
     },
 )
@@ -177,8 +177,10 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
 
     A fixed joint has no position to follow or to give, a floating or planar one has several. With a
     multiplier of 0 the joint stands still. Fixed followers are one finding, and so are all
-    followers of one leader.
+    followers of one leader. Only a remark is a fixed follower that is not in ``<ros2_control>``:
+    it does not move, which is what fixed says.
     """
+    controlled = {one.name for block in robot.ros2_controls for one in block.joints}
     alike: dict[tuple[str, str], list[tuple[Joint, Mimic]]] = {}
     for joint, mimic in _mimics(robot):
         leader = robot.joint.get(mimic.joint)
@@ -194,6 +196,7 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
                     f"joint '{joint.name}' follows '{leader.name}' with multiplier 0, so it never "
                     "moves; write how far it goes, or make it fixed",
                     at=mimic.element.attribute_place("multiplier"),
+                    effects=(),
                 )
     for (kind, leading), found in alike.items():
         (joint, mimic), names = found[0], [f"'{joint.name}'" for joint, _ in found]
@@ -202,7 +205,27 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
         else:
             what = f"{names[0]} is {kind} and follows another"
             what += f"; so are {', '.join(names[1:])}" if names[1:] else ""
-        yield Problem(joint, f"joint {what}; only a joint with one axis can", at=mimic)
+        keys = set()
+        if any(_differ(joint, robot.joint.get(mimic.joint)) for joint, mimic in found):
+            keys.add("moveit")
+        if kind == "fixed" and any(joint.name in controlled for joint, _ in found):
+            keys.add("ros2_control")
+        yield Problem(
+            joint,
+            f"joint {what}; only a joint with one axis can",
+            at=mimic,
+            severity=INFO if kind == "fixed" and not leading and keys <= {"moveit"} else None,
+            effects=keys,
+        )
+
+
+_VARIABLES = {"fixed": 0, "planar": 3, "floating": 7}
+"""Numbers that state a joint's position in MoveIt; of every other type one."""
+
+
+def _differ(joint: Joint, leader: Joint | None) -> bool:
+    """Whether two joints have positions of different sizes in MoveIt."""
+    return leader is not None and (_VARIABLES.get(joint.type, 1) != _VARIABLES.get(leader.type, 1))
 
 
 @rule(

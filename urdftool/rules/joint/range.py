@@ -87,6 +87,9 @@ def locked_by_limits(robot: Robot) -> Iterator[Problem]:
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
             "take radians: 90 is more than fourteen turns"
         ),
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake (none)": (
+            "keep it as a limit, which is never reached"
+        ),
     },
 )
 def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[Problem]:
@@ -110,7 +113,11 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
         what = f"{name} limit {value:g} of joint '{joint.name}'"
         if abs(value) >= 1e3:
             yield Problem(
-                joint, f"{what} means none; make the joint continuous", at=at, severity=INFO
+                joint,
+                f"{what} means none; make the joint continuous",
+                at=at,
+                severity=INFO,
+                effects=("urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake (none)",),
             )
         elif _looks_like_degrees(lower) and _looks_like_degrees(upper):
             low, high = math.radians(lower), math.radians(upper)

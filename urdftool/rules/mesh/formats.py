@@ -29,11 +29,14 @@ def _ending(use: MeshUse) -> str:
     return use.uri.rpartition("/")[2].rpartition(".")[2].lower() if "." in use.uri else ""
 
 
+_OF_PLY = ("mujoco, pybullet, drake (collision in PLY)", "pinocchio (collision in PLY)")
+
+
 @rule(
     ERROR,
     effects={
-        "mujoco, pybullet, drake": "reject a collision in PLY",
-        "pinocchio": "reads what assimp reads, PLY too",
+        "mujoco, pybullet, drake (collision in PLY)": "reject a collision in PLY",
+        "pinocchio (collision in PLY)": "reads what assimp reads, PLY too",
     },
 )
 def unsupported_mesh_format(
@@ -64,6 +67,7 @@ def unsupported_mesh_format(
                 f"mesh '{use.uri}'{more} is a format that {' and '.join(who)} cannot read; "
                 f"convert it, for instance to {READ_BY[who[0]][0]}",
                 at=use.mesh.element.attribute_place("filename"),
+                effects=_OF_PLY if ending == "ply" and any(u.collides for u in same) else (),
             )
 
 

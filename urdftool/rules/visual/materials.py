@@ -93,11 +93,15 @@ def _is_nameless(material: Material) -> bool:
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic, pinocchio": (
-            "reject the robot if both are at the top level; the one at the top level wins otherwise"
+        "urdfdom, gz, gazebo-classic, pinocchio (top level)": (
+            "reject the robot: material is not unique"
         ),
+        "urdfdom (visual)": "takes the color at the top level",
+        "urdfdom (visuals)": "takes the color in the first visual for all of them",
         "drake": "rejects the file",
-        "pybullet": "accepts it; a color at the visual wins",
+        "pybullet (top level)": "accepts it",
+        "pybullet (visual)": "takes the color at the visual",
+        "pybullet (visuals)": "takes the color in the last visual for all of them",
     },
 )
 def conflicting_material(robot: Robot) -> Iterator[Problem]:
@@ -117,8 +121,14 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
                 f"material '{material.name}' is defined at the top level for a second time "
                 f"(first in line {other.place.line}{_file_of(other, material)}); keep one",
                 at=material.element.attribute_place("name"),
+                effects=(
+                    "urdfdom, gz, gazebo-classic, pinocchio (top level)",
+                    "drake",
+                    "pybullet (top level)",
+                ),
             )
     told: set[tuple[str, _Look]] = set()
+    at_top = set(first)
     for link in robot.links:
         for visual in link.visuals:
             material_ = visual.material
@@ -129,12 +139,14 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
             if look == _look(other) or (material_.name, look) in told:
                 continue
             told.add((material_.name, look))
+            case = "visual" if material_.name in at_top else "visuals"
             yield Problem(
                 link,
                 f"material '{material_.name}' has another colour here than in "
                 f"line {other.place.line}{_file_of(other, material_)}; give it a name of its own",
                 at=material_.element.attribute_place("name"),
                 severity=WARNING,
+                effects=(f"urdfdom ({case})", "drake", f"pybullet ({case})"),
             )
 
 

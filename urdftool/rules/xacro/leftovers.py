@@ -18,10 +18,13 @@ _BRACED = re.compile(r"(?<!\$)\{(\w+)\}")
 @rule(
     ERROR,
     effects={
-        "urdfdom": "takes it as a name; where a number is required, the link loses its shapes",
-        "gz, gazebo-classic": (
+        "urdfdom (robot)": (
+            "takes it as a name; where a number is required, the link loses its shapes"
+        ),
+        "gz, gazebo-classic (block)": (
             "ignore a reference with it; a friction with it ends the process (sdformat 12.3)"
         ),
+        "gz, gazebo-classic (plugin)": "pass it to the plugin as it is written",
     },
 )
 def unexpanded_expression(description: Description) -> Iterator[Problem]:
@@ -39,13 +42,20 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
             element, text, place = found[0]
             # such a file is put through xacro by its launch file, more often than not
             meant = ".xacro" in description.path
-            more = f" (and in {len(found) - 1} other places)" if len(found) > 1 else ""
+            others = "place" if len(found) == 2 else "places"
+            more = f" (and in {len(found) - 1} other {others})" if len(found) > 1 else ""
+            braced = _BRACED.search(text)
+            if braced and "${" not in text and "$(" not in text:
+                remedy = f"write what '{braced[0]}' stands for"
+            else:
+                remedy = "if this is xacro, declare its namespace on <robot> and name the file "
+                remedy += ".urdf.xacro"
             yield Problem(
                 element,
-                f"'{_short(text)}' is not expanded{more}; if this is xacro, declare its namespace "
-                "on <robot> and name the file .urdf.xacro",
+                f"'{_short(text)}' is not expanded{more}; {remedy}",
                 at=place,
                 severity=WARNING if meant else None,
+                effects=_readers_of(element),
             )
         return
     if not found:
@@ -59,7 +69,10 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
         braced = _BRACED.search(text)
         if braced is None or "${" in text or "$(" in text:
             yield Problem(
-                element, f"'{_short(text)}' is not expanded; a doubled '$' escapes it", at=place
+                element,
+                f"'{_short(text)}' is not expanded; a doubled '$' escapes it",
+                at=place,
+                effects=_readers_of(element),
             )
         elif place is not None or braced[1] in names:
             yield Problem(
@@ -67,7 +80,22 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
                 f"'{_short(text)}' is not expanded: it lacks its '$'; "
                 f"write '${{{braced[1]}}}' for '{braced[0]}'",
                 at=place,
+                effects=_readers_of(element),
             )
+
+
+def _readers_of(element: Element) -> tuple[str, ...]:
+    """Select the effects by which readers look at an element."""
+    above: Element | None = element
+    tags = []
+    while above is not None and above.parent is not None:
+        tags.append(above.tag)
+        above = above.parent
+    if "plugin" in tags:
+        return ("gz, gazebo-classic (plugin)",)
+    if tags and tags[-1] == "gazebo":
+        return ("gz, gazebo-classic (block)",)
+    return ("urdfdom (robot)",) if not tags or tags[-1] in ("link", "joint", "material") else ()
 
 
 def _leftovers(element: Element) -> Iterator[tuple[Element, str, Place | None]]:
