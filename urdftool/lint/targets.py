@@ -6,19 +6,11 @@ from pathlib import Path
 
 from ..inputs import Remembered
 from ..model.elements import Robot
+from ..model.gazebo_plugins import is_for_gz
 from ..source.description import Description
 from ..source.packages import own_package
 
 _CLASSIC_PREFIXES = ("libgazebo_", "libhector_", "libroboticsgroup_", "librotors_gazebo_")
-_GZ_PREFIXES = (
-    "gz-sim",
-    "libgz-sim",
-    "ignition-gazebo",
-    "libignition-gazebo",
-    "gz_",
-    "libgz_",
-    "ign_",
-)
 _CLASSIC_DEPENDENCIES = ("gazebo_ros", "gazebo_plugins", "gazebo_ros_pkgs", "gazebo_ros_control")
 _GZ_DEPENDENCIES = (
     "ros_gz",
@@ -33,16 +25,20 @@ _GZ_DEPENDENCIES = (
 def infer_targets(robot: Robot, description: Description) -> frozenset[str]:
     """The targets a description shows signs of.
 
-    Plugins tell Gazebo Classic from gz; a ``<gazebo>`` tag that tells neither counts for the one
-    that the package's build type goes with. The package.xml tells ROS 1 from ROS 2.
+    Plugins tell Gazebo Classic from gz, those that an attribute names as in old versions too; a
+    ``<gazebo>`` tag that tells neither counts for the one that the package's build type goes with.
+    The package.xml tells ROS 1 from ROS 2.
     """
     targets = set(_of_package(description))
     for plugin in robot.plugins:
         name = plugin.filename.rpartition("/")[2]
-        if name.startswith(_GZ_PREFIXES) or plugin.name.startswith(("gz::sim", "ignition::gazebo")):
+        if is_for_gz(plugin.element):
             targets.add("gz")
         elif name.startswith(_CLASSIC_PREFIXES):
             targets.add("gazebo-classic")
+    libraries = (library.rpartition("/")[2] for library in robot.old_plugins)
+    if any(library.startswith(_CLASSIC_PREFIXES) for library in libraries):
+        targets.add("gazebo-classic")
     if robot.ros2_controls:
         targets.add("ros2")
         for control in robot.ros2_controls:

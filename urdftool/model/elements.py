@@ -445,6 +445,19 @@ class Robot(Part):
             for plugin in (*block.plugins, *(p for sensor in block.sensors for p in sensor.plugins))
         ]
 
+    @cached_property
+    def old_plugins(self) -> list[str]:
+        """Libraries in the ``plugin`` attribute of elements in ``<gazebo>``, as of 2010.
+
+        ``<controller:gazebo_ros_laser plugin="libgazebo_ros_laser.so">`` is one.
+        """
+        return [
+            element.attributes["plugin"]
+            for block in self.gazebo
+            for element in block.element.walk()
+            if "plugin" in element.attributes
+        ]
+
     @property
     def shapes(self) -> Iterator[tuple[Link, Visual | Collision]]:
         """Every visual and collision with its link, in the order of the file."""

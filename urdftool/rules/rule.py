@@ -201,6 +201,21 @@ class Rule:
         return self.on is None or not targets.isdisjoint(self.on)
 
 
+def holding(effects: Iterable[str], *conditions: str) -> list[str]:
+    """Select the keys of effects that hold: those in whose parentheses is no other condition.
+
+    Args:
+        effects: Keys such as ``mujoco (in a joint, too many numbers)``.
+        conditions: What holds in a case: ``in a joint``.
+    """
+    found = []
+    for key in effects:
+        needed = key.partition(" (")[2].removesuffix(")")
+        if not needed or set(needed.split(", ")) <= set(conditions):
+            found.append(key)
+    return found
+
+
 def rule(
     severity: Severity,
     *,

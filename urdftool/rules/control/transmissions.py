@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from ...model.elements import Robot, Transmission
+from ..joint.range import is_locked
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import did_you_mean
@@ -264,6 +266,11 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
                 )
 
 
+_PASSIVE = re.compile(
+    r"caster|castor|passive|suspension|spring|damper|rocker|bogie|free", re.IGNORECASE
+)
+
+
 @rule(
     WARNING,
     on=("ros1",),
@@ -274,7 +281,8 @@ def actuated_joint_without_transmission(robot: Robot) -> Iterator[Problem]:
     """A joint moves and has no transmission, in a robot that ros_control drives.
 
     ``gazebo_ros_control`` knows the joints of transmissions and no others: this one swings freely,
-    and no joint state tells where it is. In a loop that a joint of SDF closes the others move it.
+    and no joint state tells where it is. In a loop that a joint of SDF closes the others move it;
+    and casters, suspensions and other passive joints, by their names, are not driven.
     """
     if not any("gazebo_ros_control" in plugin.filename for plugin in robot.plugins):
         return
@@ -287,7 +295,9 @@ def actuated_joint_without_transmission(robot: Robot) -> Iterator[Problem]:
     }
     others.update(_in_loops(robot))
     for joint in robot.moving_joints:
-        if joint.mimic is None and joint.name not in driven | others and joint.has_axis:
+        if joint.mimic is not None or joint.name in driven | others or not joint.has_axis:
+            continue
+        if not is_locked(joint) and not any(map(_PASSIVE.search, (joint.name, joint.child))):
             yield Problem(
                 joint,
                 f"joint '{joint.name}' moves and has no <transmission>, so nothing drives it",

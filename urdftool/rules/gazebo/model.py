@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Robot
+from ..joint.range import is_locked
 from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
 from ..words import quoted
 from .keywords import is_true
@@ -111,29 +112,30 @@ _REPORTS = re.compile(r"joint[-_]?state", re.IGNORECASE)
     WARNING,
     on=GAZEBO,
     effects={
-        "gz, gazebo-classic": (
-            "load the robot without a plugin: nothing drives or reports the joints"
-        ),
+        "gz, gazebo-classic": "load the robot, and nothing drives its joints",
     },
 )
 def missing_control_plugin(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """Joints move, and no plugin drives or reports them.
 
     In Gazebo a joint without a plugin swings freely: the arm collapses as soon as it is spawned.
-    And nobody publishes joint states, so that RViz has no transforms past the first joint. Of a
-    robot with two wheels on one axle that turn about its y axis, the numbers of a differential
-    drive are given.
+    And nobody publishes joint states, so that RViz has no transforms past the first joint. Joints
+    that their limits lock need no plugin. Of a robot with two wheels on one axle that turn about
+    its y axis, the numbers of a differential drive are given.
     """
     joints = [
         joint
         for joint in robot.moving_joints
-        if joint.mimic is None and joint.type in ("revolute", "prismatic", "continuous")
+        if joint.mimic is None
+        and joint.type in ("revolute", "prismatic", "continuous")
+        and not is_locked(joint)
     ]
     if not joints:
         return
     plugins = [
         f"{plugin.filename} {plugin.name}" for block in robot.gazebo for plugin in block.plugins
     ]
+    plugins += robot.old_plugins
     acting = [text for text in plugins if _DRIVES.search(text)]
     reported = any(_REPORTS.search(text) for text in acting)
     if any(not _REPORTS.search(text) for text in acting):

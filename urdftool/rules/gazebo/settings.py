@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Robot
+from ...model.gazebo_plugins import is_for_gz
 from ...source.document import Element
 from ..rule import GAZEBO, INFO, WARNING, Problem, rule
 from ..words import quoted
@@ -47,7 +48,8 @@ def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
 
     Contact stiffness and damping, contact counts, stops and feedback are ODE's; they are carried
     into the SDF, and neither gz-sim nor its physics engines read them. Friction (mu1, mu2, fdir1)
-    is read. A robot that is for Gazebo Classic as well needs them and is not told.
+    is read. A robot that is for Gazebo Classic as well needs them and is not told; where nothing in
+    the description is new Gazebo's own, they may be for Gazebo Classic, and it is a remark.
     """
     if "gazebo-classic" in targets:
         return
@@ -61,8 +63,15 @@ def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         words = quoted(found, 6).replace("'", "")
         count = sum(map(len, found.values()))
         times = f" ({count} times)" if count > 1 else ""
-        do = "do" if len(found) > 1 else "does"
-        yield Problem(block_, f"{words} {do} nothing in new Gazebo{times}; take it away", at=first)
+        do, them = ("do", "them") if len(found) > 1 or count > 1 else ("does", "it")
+        own = any(is_for_gz(plugin.element) for plugin in robot.plugins)
+        remedy = f"remove {them}" if own else f"keep {them} only for Gazebo Classic"
+        yield Problem(
+            block_,
+            f"{words} {do} nothing in new Gazebo{times}; {remedy}",
+            at=first,
+            severity=None if own else INFO,
+        )
 
 
 @rule(

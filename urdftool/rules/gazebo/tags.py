@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import GazeboExtension, Link, Material, Mesh, Robot
-from ..rule import GAZEBO, INFO, WARNING, Problem, rule
+from ..rule import GAZEBO, INFO, WARNING, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from ..words import nearest
 from .contact import contact_role, has_friction
@@ -20,14 +20,16 @@ _PLURAL = {"wheel": "wheels", "caster": "casters", "foot": "feet", "finger": "fi
 _GREY = 0.06  # colours whose parts differ less than this look like Gazebo Classic's own
 
 
+_WITHOUT_BLOCK = {
+    "gz, gazebo-classic (without friction)": "take a friction of 1, the default of SDF",
+    "gz (without a color)": "takes URDF's color (sdformat 12.3)",
+}
+
+
 @rule(
     WARNING,
     on=("gazebo-classic", "gz"),
-    effects={
-        "gz, gazebo-classic": (
-            "take a friction of 1, the default of SDF (sdformat 12.3 passes URDF's colors on)"
-        ),
-    },
+    effects=_WITHOUT_BLOCK,
     group="robot",
 )
 def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
@@ -36,8 +38,9 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
     URDF says nothing of friction, and Gazebo Classic does not take its colours: both are said in
     ``<gazebo reference="the link">``. A link needs the block if it rolls, stands or grips (a
     wheel, a caster, a foot, a finger), for its friction; and in Gazebo Classic if a visual has a
-    colour. Other links need none and are not named; a block that lacks something is a case of
-    ``missing-friction`` or ``missing-gazebo-material``. A robot that is not for Gazebo needs none.
+    color, which alone is a remark. Other links need none and are not named; a block that lacks
+    something is a case of ``missing-friction`` or ``missing-gazebo-material``. A robot that is not
+    for Gazebo needs none.
     """
     if targets.isdisjoint(GAZEBO) or _is_unclear(robot):
         return
@@ -49,13 +52,17 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
             continue
         role = contact_role(robot, link)
         needs = [_FRICTION[role]] if role else []
+        cases = ["without friction"] if role else []
         if "gazebo-classic" in targets and _shows_colour(link, colours):
-            needs.append("<material>, for Gazebo Classic does not show the colours of a URDF")
+            needs.append("<material>, for Gazebo Classic does not show the colors of a URDF")
+            cases.append("without a color")
         if needs:
             kind = f"{role} '{link.name}'" if role else f"link '{link.name}'"
             yield Problem(
                 link,
                 f'{kind} has no <gazebo reference="{link.name}">; it needs {" and ".join(needs)}',
+                severity=None if role else INFO,
+                effects=holding(_WITHOUT_BLOCK, *cases),
                 group="{count} links have no <gazebo> block of their own, and need "
                 f"{' and '.join(needs)}: {{names}}",
             )

@@ -9,6 +9,7 @@ from ...model.elements import Joint, Limit, Robot
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..words import quoted
 from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
+from .range import is_locked
 
 _UNITS = {"prismatic": ("N", "m/s")}
 
@@ -122,7 +123,7 @@ def implausible_velocity(
     """
     found = []
     for joint, limit in _driven(robot):
-        if joint.type == "continuous" or limit.velocity is None or _is_locked(joint):
+        if joint.type == "continuous" or limit.velocity is None or is_locked(joint):
             continue
         fastest = fastest_slide if joint.type == "prismatic" else fastest_turn
         if limit.velocity > fastest:
@@ -283,7 +284,7 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
     free = [
         joint
         for joint in robot.joints
-        if joint.type in _MOVING and not _is_locked(joint) and _is_undamped(joint)
+        if joint.type in _MOVING and not is_locked(joint) and _is_undamped(joint)
     ]
     if free:
         names = quoted(joint.name for joint in free)
@@ -296,14 +297,6 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
 
 
 _MOVING = ("revolute", "continuous", "prismatic")
-
-
-def _is_locked(joint: Joint) -> bool:
-    """Whether a joint's two limits are written and equal, so that it cannot move."""
-    limit = joint.limit
-    if limit is None or not joint.is_limited or limit.lower is None:
-        return False
-    return limit.lower == limit.upper
 
 
 def _is_undamped(joint: Joint) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import JOINT_TYPES, Limit, Robot
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..rule import ERROR, INFO, WARNING, Problem, holding, rule
 from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
 
 
@@ -78,19 +78,28 @@ def _version(robot: Robot) -> float:
         return 1.0
 
 
+_WITHOUT_BOUNDS = {
+    "urdfdom, gz, gazebo-classic, pinocchio": "take 0 for a bound that is not written",
+    "mujoco, pybullet, drake (both missing)": "load the joint without limits",
+    "mujoco, pybullet (lower missing)": "take 0",
+    "mujoco (upper missing)": "takes 0",
+    "pybullet (upper missing)": "takes -1",
+    "drake (lower missing)": "takes it as unlimited on that side",
+    "drake (upper missing)": "takes it as unlimited on that side",
+}
+
+
 @rule(
     WARNING,
-    effects={
-        "urdfdom, gz, gazebo-classic, pinocchio": "take 0 for a bound that is not written",
-        "mujoco, pybullet, drake": "load the joint without limits where both are missing",
-    },
+    effects=_WITHOUT_BOUNDS,
     group="robot",
 )
 def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
     """A revolute or prismatic joint's ``<limit>`` lacks lower, upper or both.
 
-    Each is 0 where it is not written, so with both missing the joint is locked at 0. Exporters
-    write wheels like that; those are ``continuous``.
+    ROS and Gazebo take 0 for each that is not written, so with both missing the joint is locked at
+    0; MuJoCo, PyBullet and Drake let it move without limits. Exporters write wheels like that;
+    those are ``continuous``.
     """
     for joint in robot.joints:
         limit = joint.limit
@@ -102,14 +111,23 @@ def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
             missing = [name for name in missing if name not in meant.values()]
         if not missing:
             continue
+        case = "lower missing" if missing[0] == "lower" else "upper missing"
         if len(missing) == 2:
+            case = "both missing"
             or_type = ", or make the joint continuous" if joint.type == "revolute" else ""
-            what = f"neither lower nor upper, so it is locked at 0; write both{or_type}"
+            what = "neither lower nor upper: ROS and Gazebo lock it at 0, MuJoCo, PyBullet and "
+            what += f"Drake leave it without limits; write both{or_type}"
+        elif missing[0] == "lower":
+            what = "no lower: all but Drake take 0; write it"
         else:
-            what = f"no {missing[0]}, which is 0 then; write it down"
+            what = "no upper: ROS, Gazebo and MuJoCo take 0, PyBullet -1; write it"
         severity = WARNING if len(missing) == 2 or _is_empty(limit) else INFO
         yield Problem(
-            joint, f"<limit> of joint '{joint.name}' has {what}", at=limit, severity=severity
+            joint,
+            f"<limit> of joint '{joint.name}' has {what}",
+            at=limit,
+            severity=severity,
+            effects=holding(_WITHOUT_BOUNDS, case),
         )
 
 

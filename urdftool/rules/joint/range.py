@@ -32,7 +32,7 @@ def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     for joint, limit, lower, upper in _bounded(robot):
         if lower > upper:
             if says_unlimited(lower, upper):
-                so = "PyBullet and MuJoCo take it as unlimited, other readers reject or swap them; "
+                so = "PyBullet and MuJoCo take it as unlimited, other readers do not; "
                 so += (
                     "make the joint continuous if it is unlimited, or else write lower below upper"
                     if joint.type == "revolute"
@@ -53,6 +53,17 @@ def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
 def says_unlimited(lower: float, upper: float) -> bool:
     """Whether limits are those by which PyBullet's models say that there is none, as 1 and -1."""
     return lower in (0.0, 1.0) and upper in (-1.0, 0.0) and lower > upper
+
+
+def is_locked(joint: Joint) -> bool:
+    """Tell whether a joint's lower and upper limit are written and equal."""
+    limit = joint.limit
+    return (
+        joint.is_limited
+        and limit is not None
+        and limit.lower is not None
+        and limit.lower == limit.upper
+    )
 
 
 @rule(

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from ...model.elements import Joint, Robot
 from ...source.document import Element
 from ..gazebo.lumping import is_lumped
-from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
+from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from ..words import did_you_mean, nearest
-from ..xml.vocabulary_table import misspelt_children
+from ..xml.vocabulary_table import is_for_another_reader, misspelt_children
 
 
 @rule(
@@ -110,19 +110,25 @@ def link_joint_name_clash(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
             )
 
 
+_WITHOUT_PARENT = {
+    "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio": (
+        "reject the robot: parent link not found"
+    ),
+    "drake (the parent is world)": "takes it for its world, and loads the robot",
+    "drake (the parent is not world)": "rejects the robot",
+}
+
+
 @rule(
     ERROR,
-    effects={
-        "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
-            "reject the robot: parent link not found"
-        ),
-    },
+    effects=_WITHOUT_PARENT,
 )
 def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
     """A joint's parent is no link of the robot.
 
     The joint hangs on nothing and readers refuse the robot. ``world`` has to be declared like every
-    other link.
+    other link; Drake alone takes it for its world, and in a file with elements of Drake's it is a
+    remark.
     """
     stripped = {name.strip() for name in robot.link}
     for joint in robot.joints:
@@ -130,10 +136,16 @@ def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
         if name in robot.link or name.strip() in stripped or is_unexpanded(name):
             continue
         if name.strip() and joint.parent_element is not None:
+            is_world = name == "world"
             yield Problem(
                 joint,
                 f"parent '{name}' of joint '{joint.name}' is no link{_remedy(name, robot)}",
                 at=joint.parent_element.attribute_place("link"),
+                severity=INFO if is_world and is_for_another_reader(robot.element) else None,
+                effects=holding(
+                    _WITHOUT_PARENT,
+                    "the parent is world" if is_world else "the parent is not world",
+                ),
             )
 
 
@@ -232,19 +244,31 @@ def _missing_ends(joint: Joint) -> Iterator[tuple[str, Element | None]]:
             yield tag, element
 
 
+_TO_ITSELF = {
+    "mujoco, drake": "reject the file",
+    "urdfdom, gz, gazebo-classic, pinocchio (it has no other parent)": (
+        "load the robot without the link and all below it; check_urdf reports success"
+    ),
+    "pybullet (it has no other parent)": (
+        "loads the robot without the link and all below it, or crashes"
+    ),
+    "urdfdom, gz, gazebo-classic, pybullet, pinocchio (no root is left)": (
+        "reject the robot: no root link found"
+    ),
+    "gz, gazebo-classic, pybullet, pinocchio (it has another parent)": "crash",
+}
+
+
 @rule(
     ERROR,
-    effects={
-        "urdfdom, gz, gazebo-classic, pybullet, pinocchio": (
-            "load the robot without the link and all below it; check_urdf reports success"
-        ),
-        "mujoco, drake": "reject the file",
-    },
+    effects=_TO_ITSELF,
 )
 def joint_to_itself(robot: Robot) -> Iterator[Problem]:
     """A joint joins a link to itself.
 
     Parent and child are the same link, which then hangs on itself and is reached from no root.
+    Without another root, readers reject the robot; where the link is the child of a second joint
+    too, they go round in circles until they crash.
     """
     for joint in robot.joints:
         if joint.parent and joint.parent == joint.child and joint.child_element is not None:
@@ -253,4 +277,14 @@ def joint_to_itself(robot: Robot) -> Iterator[Problem]:
                 f"joint '{joint.name}' joins link '{joint.child}' to itself; "
                 "its child must be another link than its parent",
                 at=joint.child_element.attribute_place("link"),
+                effects=holding(_TO_ITSELF, _case_of(joint, robot)),
             )
+
+
+def _case_of(to_itself: Joint, robot: Robot) -> str:
+    """Name what readers do with a joint from a link to itself; empty where it is not known."""
+    children = {joint.child for joint in robot.joints}
+    roots = sum(name not in children for name in robot.link)
+    if any(joint.child == to_itself.child for joint in robot.joints if joint is not to_itself):
+        return "it has another parent" if roots == 1 else ""
+    return "no root is left" if roots == 0 else "it has no other parent" if roots == 1 else ""

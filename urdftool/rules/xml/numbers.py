@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 
@@ -9,7 +10,7 @@ from ...model.elements import Robot
 from ...source.description import Description
 from ...source.document import Element
 from ...source.tags import value_span
-from ..rule import ERROR, Problem, rule
+from ..rule import ERROR, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from .owner import owner
 from .vocabulary_table import VOCABULARY, census
@@ -23,22 +24,43 @@ _SCALARS = {
     for tag, kind in VOCABULARY.items()
 }
 
-_LOST = {
-    "urdfdom, gz, gazebo-classic": "reject the robot for a joint; for a link, silently drop all "
-    "its visuals and collisions",
+_OF_URDFDOM = {
+    "urdfdom, gz, gazebo-classic, pinocchio (in a joint)": "reject the robot",
+    "urdfdom, gz, gazebo-classic, pinocchio (in a visual)": (
+        "drop the visuals and collisions of the link"
+    ),
+    "urdfdom, gz, gazebo-classic, pinocchio (in a collision)": "drop the collisions of the link",
+    "urdfdom, pinocchio (in an inertial)": (
+        "drop the inertial, the visuals and the collisions of the link"
+    ),
+    "gz, gazebo-classic (in an inertial)": "delete the link and all below it",
+    "urdfdom, gz, gazebo-classic, pinocchio (in a color)": "load the robot without the color",
+}
+_OF_MUJOCO = {
+    "mujoco (in a visual)": "ignores it, as all visuals, unless discardvisual is false",
+}
+_OF_PYBULLET = {
+    "pybullet (too few numbers, an axis)": "rejects the robot",
+    "pybullet (too few numbers, an origin or size)": "takes 0 0 0",
+    "pybullet (too few numbers, a scale)": "takes the first number for all three",
+    "pybullet (in a color)": "takes 0 0 0 0",
+}
+
+
+_WRONG_ARITY = {
+    **_OF_URDFDOM,
+    "mujoco (not in a visual, too few numbers)": "rejects the file: not enough data",
+    "mujoco (not in a visual, too many numbers)": "rejects the file: too much data",
+    **_OF_MUJOCO,
+    **_OF_PYBULLET,
+    "pybullet (too many numbers, not in a color)": "takes the first 3",
+    "drake": "rejects the file",
 }
 
 
 @rule(
     ERROR,
-    effects={
-        "urdfdom, gz, gazebo-classic, pinocchio": (
-            "reject the robot for a joint; for a link, drop its shapes (the collisions alone "
-            "where a collision is wrong)"
-        ),
-        "pybullet": "rejects the robot for a joint; takes 0 0 0 for a link",
-        "mujoco, drake": "reject the file: not enough values",
-    },
+    effects=_WRONG_ARITY,
 )
 def wrong_arity(robot: Robot) -> Iterator[Problem]:
     """A vector has too few or too many numbers.
@@ -58,29 +80,58 @@ def wrong_arity(robot: Robot) -> Iterator[Problem]:
                 words = text.split()
                 if len(words) == count or is_unexpanded(text) or any(map(_fault, words)):
                     continue
+                amount = "too few numbers" if len(words) < count else "too many numbers"
                 yield Problem(
                     element,
                     f"{name} of <{tag}> in {owner(element)} has "
                     f"{_counted(len(words))}; write {count}",
                     at=element.attribute_place(name),
+                    effects=holding(_WRONG_ARITY, *_where(element), amount),
                 )
+
+
+_PLACES = {
+    "joint": ("in a joint", "not in a visual", "not in a color"),
+    "visual": ("in a visual", "not in a color"),
+    "collision": ("in a collision", "not in a visual", "not in a color"),
+    "inertial": ("in an inertial", "not in a visual", "not in a color"),
+    "material": ("in a color", "not in a visual"),
+}
+_VECTOR_OF = {
+    "axis": "an axis",
+    "origin": "an origin or size",
+    "box": "an origin or size",
+    "mesh": "a scale",
+}
+
+
+def _where(element: Element) -> tuple[str, ...]:
+    """Name the conditions of effects that hold of a number in an element."""
+    above: Element | None = element
+    while above is not None and above.tag not in _PLACES:
+        above = above.parent
+    place = _PLACES[above.tag] if above is not None else ()
+    kind = _VECTOR_OF.get(element.tag)
+    return (*place, kind) if kind else place
 
 
 def _counted(count: int) -> str:
     return {0: "no number", 1: "one number"}.get(count, f"{count} numbers")
 
 
+_NOT_A_NUMBER = {
+    **_OF_URDFDOM,
+    "mujoco, pybullet, drake (a blank behind it)": "read it as meant",
+    "mujoco (not in a visual, unreadable)": "rejects the file",
+    "mujoco (in a visual, unreadable)": _OF_MUJOCO["mujoco (in a visual)"],
+    "pybullet (unreadable)": "reads as far as it can: 0,1 is 0 and -1rad is -1",
+    "pybullet (nothing written)": "takes 0",
+}
+
+
 @rule(
     ERROR,
-    effects={
-        "urdfdom, gz, gazebo-classic, pinocchio": (
-            "reject the robot for a joint; for a link, drop its shapes (the collisions alone "
-            "where a collision is wrong)"
-        ),
-        "gz, gazebo-classic": "delete the link and all below it where the mass is unreadable",
-        "pybullet": "reads as far as it can: 0,1 is 0 and -1rad is -1",
-        "mujoco": "rejects the file",
-    },
+    effects=_NOT_A_NUMBER,
 )
 def not_a_number(robot: Robot) -> Iterator[Problem]:
     """A number is not one, or not all of it is.
@@ -96,7 +147,7 @@ def not_a_number(robot: Robot) -> Iterator[Problem]:
                 text = element.attributes.get(name)
                 if text is not None and (fault := _fault(text)):
                     if not is_unexpanded(text):
-                        yield _unreadable(element, name, fault)
+                        yield _unreadable(element, name, fault, _kind(text))
     for tag, vectors in _VECTORS.items():
         for name, _ in vectors:
             for element in known[tag]:
@@ -106,7 +157,7 @@ def not_a_number(robot: Robot) -> Iterator[Problem]:
                 for word in text.split():
                     if fault := _fault(word):
                         if not is_unexpanded(text):
-                            yield _unreadable(element, name, fault)
+                            yield _unreadable(element, name, fault, _kind(word))
                         break
 
 
@@ -123,6 +174,19 @@ def _fault(text: str) -> str:
     if "_" in text or not text.isascii():
         return f"'{text}', which is not a number"
     return ""
+
+
+def _kind(text: str) -> str:
+    """Name the condition of effects that holds of a number's text."""
+    if not text.strip():
+        return "nothing written"
+    try:
+        finite = math.isfinite(float(text))
+    except ValueError:
+        return "unreadable"
+    if "_" in text or not text.isascii():
+        return "unreadable"
+    return "a blank behind it" if finite else "not finite"
 
 
 _UNIT = re.compile(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*[^\W\d_]+[²³]?")
@@ -149,11 +213,12 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _unreadable(element: Element, name: str, fault: str) -> Problem:
+def _unreadable(element: Element, name: str, fault: str, kind: str) -> Problem:
     return Problem(
         element,
         f"{name} of <{element.tag}> in {owner(element)} has {fault}",
         at=element.attribute_place(name),
+        effects=holding(_NOT_A_NUMBER, *_where(element), kind),
     )
 
 
@@ -163,16 +228,16 @@ _TABBED = re.compile(
 _UNREADABLE = re.compile(rb"[^\s][\t\r\n]|[\t\r\n](?: |$)")
 
 
+_TABBED_VECTOR = {
+    **_OF_URDFDOM,
+    **_OF_PYBULLET,
+    "mujoco, drake": "read it as meant",
+}
+
+
 @rule(
     ERROR,
-    effects={
-        "urdfdom, gz, gazebo-classic, pinocchio": (
-            "reject the robot for a joint; for a link, drop its shapes (the collisions alone "
-            "where a collision is wrong)"
-        ),
-        "pybullet": "rejects the robot for a joint; takes 0 0 0 for a link",
-        "mujoco, drake": "read it as meant",
-    },
+    effects=_TABBED_VECTOR,
 )
 def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator[Problem]:
     """Numbers of a vector are separated by a tab or a line break.
@@ -186,14 +251,17 @@ def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator
     for tag, vectors in _VECTORS.items():
         for element in census(robot.element).known[tag] if vectors else ():
             spans = element.file.attribute_spans(element.start)
-            for name, _ in vectors:
+            for name, count in vectors:
                 if name not in spans:
                     continue
                 start, end = value_span(element.file.data, spans[name])
                 if _UNREADABLE.search(element.file.data, start, end):
+                    parts = sum(1 for part in element.file.data[start:end].split(b" ") if part)
+                    amount = "too few numbers" if parts < count else "enough numbers"
                     yield Problem(
                         element,
                         f"{name} of <{tag}> in {owner(element)} has a tab or line break between "
                         "its numbers; write single blanks",
                         at=element.attribute_place(name),
+                        effects=holding(_TABBED_VECTOR, *_where(element), amount),
                     )

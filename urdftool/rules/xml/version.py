@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.document import Document
+from ...source.document import Document, Element
 from ...source.location import Place
-from ..rule import ERROR, INFO, Problem, rule
+from ..rule import ERROR, INFO, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from .owner import owner
-from .vocabulary_table import census
+from .vocabulary_table import census, is_for_another_reader
 
 _LATER = ("acceleration", "deceleration", "jerk")
 
@@ -48,20 +48,31 @@ def unsupported_urdf_version(robot: Robot) -> Iterator[Problem]:
     )
 
 
+_OF_LATER = {
+    "urdfdom, gz, gazebo-classic, pinocchio (a capsule in a visual)": (
+        "drop the visuals and collisions of the link"
+    ),
+    "urdfdom, gz, gazebo-classic, pinocchio (a capsule in a collision)": (
+        "drop the collisions of the link"
+    ),
+    "pybullet, drake (a capsule in a visual)": "read it",
+    "pybullet, drake (a capsule in a collision)": "read it",
+    "mujoco (a capsule in a collision)": "reads it",
+    "urdfdom, gz, gazebo-classic (a quaternion)": "ignore it: the rotation is none",
+    "urdfdom, gz, gazebo-classic, mujoco, pybullet (a later limit)": "ignore it",
+}
+
+
 @rule(
     ERROR,
-    effects={
-        "urdfdom": (
-            "ignores a quaternion: the rotation is none; drops the shapes of a link with a capsule"
-        ),
-        "gz, gazebo-classic": "the same",
-    },
+    effects=_OF_LATER,
 )
 def feature_needs_newer_version(robot: Robot) -> Iterator[Problem]:
     """Something is used that URDF 1.0 does not have, and the robot is of version 1.0.
 
     A capsule and ``quat_xyzw`` came with 1.1, limits of acceleration and jerk with 1.2. Under 1.0
-    readers drop the link's shapes for a capsule, and pass over the others: the part is not turned.
+    readers drop the link's shapes for a capsule, and ignore the others: the part is not turned.
+    A capsule of a robot that is written for another reader, such as Drake, is a remark.
     """
     version = (robot.version or "1.0").strip()
     yield from _newer(robot, {"1.1": 1.1, "1.2": 1.2}.get(version, 1.0))
@@ -74,7 +85,9 @@ def _newer(robot: Robot, version: float) -> Iterator[Problem]:
             yield Problem(
                 element,
                 f"{owner(element)} has a <capsule>, which URDF 1.0 does not have; "
-                "write a <cylinder> and two <sphere>s",
+                "for ROS and Gazebo, write a <cylinder> and two <sphere>s",
+                severity=INFO if is_for_another_reader(robot.element) else None,
+                effects=holding(_OF_LATER, _case_of(element)),
             )
         for element in known["origin"]:
             if "quat_xyzw" in element.attributes and "rpy" not in element.attributes:
@@ -83,6 +96,7 @@ def _newer(robot: Robot, version: float) -> Iterator[Problem]:
                     f"quat_xyzw in {owner(element)} is passed over by readers of URDF 1.0; "
                     "write rpy",
                     at=element.attribute_place("quat_xyzw"),
+                    effects=holding(_OF_LATER, "a quaternion"),
                 )
     if version < 1.2:
         for element in known["limit"]:
@@ -94,7 +108,14 @@ def _newer(robot: Robot, version: float) -> Iterator[Problem]:
                         f"{version}; it came with 1.2",
                         at=element.attribute_place(name),
                         severity=INFO,
+                        effects=holding(_OF_LATER, "a later limit"),
                     )
+
+
+def _case_of(capsule: Element) -> str:
+    shapes = capsule.parent and capsule.parent.parent
+    in_visual = shapes is not None and shapes.tag == "visual"
+    return "a capsule in a visual" if in_visual else "a capsule in a collision"
 
 
 @rule(

@@ -8,7 +8,7 @@ from ...finding import Severity
 from ...model.elements import Robot
 from ...source.description import Description
 from ...source.document import Element
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..rule import ERROR, INFO, WARNING, Problem, holding, rule
 from ..xacro.definitions import macro_names
 from .owner import owner
 from .vocabulary_table import DIALECT_ATTRIBUTES, VOCABULARY, attributes_of, census, meant
@@ -75,39 +75,43 @@ _ELSEWHERE = {
 _NOT_LOST = frozenset((("collision", "material"),))
 """Elements whose loss changes nothing."""
 
+_OTHER_NAMES = {
+    ("origin", "pos"): "xyz",
+    ("origin", "position"): "xyz",
+    ("origin", "rot"): "rpy",
+    ("origin", "rotation"): "rpy",
+    ("origin", "orientation"): "rpy",
+    ("origin", "quat"): "rpy",
+    ("mass", "mass"): "value",
+    ("box", "dimensions"): "size",
+    ("cylinder", "height"): "length",
+    ("sphere", "size"): "radius",
+    ("mesh", "uri"): "filename",
+    ("mesh", "file"): "filename",
+    ("mesh", "url"): "filename",
+    ("texture", "uri"): "filename",
+    ("texture", "file"): "filename",
+    ("color", "value"): "rgba",
+    ("parent", "name"): "link",
+    ("child", "name"): "link",
+    ("parent", "joint"): "link",
+    ("child", "joint"): "link",
+    ("mimic", "name"): "joint",
+    ("limit", "min"): "lower",
+    ("limit", "max"): "upper",
+}
+"""What another name of an attribute stands for, by element and name."""
+
 _INSTEAD = {
-    ("axis", "rpy"): "a direction has no rotation; turn the joint by the rpy of its <origin>",
-    ("origin", "pos"): "write xyz",
-    ("origin", "position"): "write xyz",
-    ("origin", "rot"): "write rpy",
-    ("origin", "rotation"): "write rpy",
-    ("origin", "orientation"): "write rpy",
-    ("origin", "quat"): "write rpy",
+    ("axis", "rpy"): "a direction has no rotation; write the turned direction in xyz",
     ("origin", "x"): 'write xyz="x y z"',
-    ("mass", "mass"): "write value",
     ("box", "x"): 'write size="x y z"',
-    ("box", "dimensions"): "write size",
     ("box", "length"): 'write size="x y z"',
-    ("cylinder", "height"): "write length",
     ("cylinder", "diameter"): "write radius, which is half of it",
     ("sphere", "diameter"): "write radius, which is half of it",
-    ("sphere", "size"): "write radius",
-    ("mesh", "uri"): "write filename",
-    ("mesh", "file"): "write filename",
-    ("mesh", "url"): "write filename",
-    ("texture", "uri"): "write filename",
-    ("texture", "file"): "write filename",
     ("color", "rgb"): "write rgba, with a fourth number for opacity",
-    ("color", "value"): "write rgba",
     ("material", "rgba"): 'write <color rgba="…"/> inside it',
     ("material", "color"): 'write <color rgba="…"/> inside it',
-    ("parent", "name"): "write link",
-    ("child", "name"): "write link",
-    ("parent", "joint"): "write link",
-    ("child", "joint"): "write link",
-    ("mimic", "name"): "write joint",
-    ("limit", "min"): "write lower",
-    ("limit", "max"): "write upper",
     ("limit", "k_velocity"): "it belongs to <safety_controller>",
     ("limit", "k_position"): "it belongs to <safety_controller>",
     ("limit", "soft_lower_limit"): "it belongs to <safety_controller>",
@@ -127,6 +131,15 @@ _REMARKS = frozenset(("name", "id", "comment", "note", "description"))
 """Attributes that say something to people; nothing is lost with them."""
 
 _REDUNDANT = ("iyx", "izx", "izy")
+
+_WITH_DEFAULT = {
+    "origin": ("xyz", "rpy"),
+    "axis": ("xyz",),
+    "limit": ("lower", "upper"),
+    "mesh": ("scale",),
+    "mimic": ("multiplier", "offset"),
+}
+"""Attributes that may be left out, by element."""
 
 
 @rule(
@@ -176,20 +189,27 @@ def _is_misplaced(element: Element, geometry: Element) -> bool:
     return element.tag in VOCABULARY and element is not geometry.children[0]
 
 
+_OF_ATTRIBUTE = {
+    "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
+        "ignore it, without a message"
+    ),
+    "urdfdom, gz, gazebo-classic, pybullet, pinocchio (one with a default is meant)": (
+        "take the default of the attribute that was meant"
+    ),
+}
+
+
 @rule(
     WARNING,
-    effects={
-        "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake": (
-            "ignore it, and take the default of the attribute that was meant"
-        ),
-    },
+    effects=_OF_ATTRIBUTE,
     group="robot",
 )
 def unknown_attribute(robot: Robot) -> Iterator[Problem]:
     """URDF has no such attribute on that element.
 
-    It is passed over without a word and the default is taken for the one that was meant. A misspelt
-    ``uper`` makes the upper limit 0, a ``height`` on a cylinder leaves it without a length.
+    Readers ignore it without a message and take the default of the attribute that was meant. A
+    misspelt ``uper`` makes the upper limit 0, a ``height`` on a cylinder leaves it without a
+    length. The rotation of an ``<axis>`` by 0 is not reported: nothing is lost with it.
     """
     nothing: frozenset[str] = frozenset()
     mere: dict[tuple[str, tuple[str, ...], Severity], list[Element]] = {}
@@ -214,18 +234,27 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
             f"readers pass over {them}",
             at=first.attribute_place(names[0]),
             severity=severity,
+            effects=holding(_OF_ATTRIBUTE),
         )
 
 
 def _strange_attributes(element: Element, known: set[str]) -> Iterator[str]:
     for name in element.attributes:
         if name not in known and ":" not in name and name not in _REDUNDANT:
-            yield name
+            if not _is_zero_turn(element, name):
+                yield name
+
+
+def _is_zero_turn(element: Element, name: str) -> bool:
+    """Whether an attribute is the rotation of an axis by 0, which changes nothing if it is read."""
+    text = element.attributes[name]
+    return (element.tag, name) == ("axis", "rpy") and set(text) <= set("+-0. ")
 
 
 def _is_mere(element: Element, name: str) -> bool:
     """Whether nobody can say what was meant by an attribute."""
-    return (element.tag, name) not in _INSTEAD and _word(element, name) is None
+    kind = (element.tag, name)
+    return kind not in _INSTEAD and kind not in _OTHER_NAMES and _word(element, name) is None
 
 
 def _word(element: Element, name: str) -> str | None:
@@ -236,13 +265,21 @@ def _misspelt_attributes(element: Element, known: set[str]) -> Iterator[Problem]
     for name in _strange_attributes(element, known):
         what = f"{_the(element)} has no attribute '{name}'"
         at = element.attribute_place(name)
-        instead = _INSTEAD.get((element.tag, name))
-        if instead:
-            yield Problem(element, f"{what}; {instead}", at=at)
+        kind = (element.tag, name)
+        if kind in _INSTEAD:
+            effects = holding(_OF_ATTRIBUTE)
+            yield Problem(element, f"{what}; {_INSTEAD[kind]}", at=at, effects=effects)
             continue
-        word = _word(element, name)
+        word = _OTHER_NAMES.get(kind) or _word(element, name)
         if word is not None and word != name.lower():
-            yield Problem(element, f"{what}; write {word}", at=at, severity=ERROR)
+            has_default = word in _WITH_DEFAULT.get(element.tag, ())
+            yield Problem(
+                element,
+                f"{what}; write {word}",
+                at=at,
+                severity=WARNING if kind in _OTHER_NAMES else ERROR,
+                effects=holding(_OF_ATTRIBUTE, *["one with a default is meant"] * has_default),
+            )
 
 
 @rule(

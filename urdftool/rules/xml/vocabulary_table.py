@@ -116,6 +116,7 @@ DIALECT_ATTRIBUTES: dict[str, frozenset[str]] = {
     "link": frozenset(("concave",)),
     "collision": frozenset(("concave", "group", "mask")),
     "joint": frozenset(("dont_collapse",)),
+    "limit": frozenset(("twist",)),
 }
 """The same for attributes."""
 
@@ -154,6 +155,18 @@ def census(root: Element) -> Census:
             if child.tag not in dialect and ":" not in child.tag:
                 strangers.append(child)
     return Census(known, strangers)
+
+
+def is_for_another_reader(root: Element) -> bool:
+    """Tell whether a robot uses what Drake or MuJoCo reads, and readers of plain URDF do not."""
+    if "xmlns:drake" in root.attributes or root.child("mujoco") is not None:
+        return True
+    shapes = DIALECTS["geometry"]
+    return any(
+        element.tag.startswith("drake:")
+        or (element.tag == "geometry" and any(child.tag in shapes for child in element.children))
+        for element in root.walk()
+    )
 
 
 def attributes_of(tag: str) -> tuple[str, ...]:
