@@ -52,6 +52,12 @@ def test_an_inertia_that_is_welded_to_the_world_is_an_info(write, root, kind, le
     assert levels(path, "com-outside-geometry") == [("body", level)]
 
 
+@pytest.mark.parametrize(("root", "found"), [("world", []), ("base", [("body", "info")])])
+def test_a_remark_on_the_motion_of_what_is_welded_to_the_world_is_left_out(write, root, found):
+    path = write("r.urdf", arm(root, "fixed", moment="0.1"))
+    assert levels(path, "placeholder-inertia") == found
+
+
 def test_what_readers_reject_stays_an_error(write):
     text = arm("world", "fixed").replace('izz="0.5"', 'izz="5"')
     path = write("r.urdf", text)

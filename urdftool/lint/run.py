@@ -22,7 +22,7 @@ from ..source.document import Document, Element, parse, read_file
 from ..source.location import SourceFile
 from ..source.well_formed import mend
 from .merge import in_order, merge
-from .motion import why_unused
+from .motion import UNUSED_LINK, why_unused
 from .not_checked import finding_of, refuse_other_files, refuse_other_roots, refuse_srdf
 from .outcome import Options, Report
 from .settings import Settings, check_selectors, check_targets, settings_for
@@ -270,6 +270,8 @@ def _check_description(
             problems = _problems(rule, subjects, settings, report)
             for problem in problems:
                 finding = _finding(rule, problem, settings, targets, robot)
+                if finding is None:
+                    continue
                 findings.append(finding)
                 if options.fixes and rule.name in FIXABLE:
                     origins[id(finding)] = problem, subjects["document"]
@@ -350,13 +352,16 @@ def _finding(
     settings: Settings,
     targets: frozenset[str],
     robot: Robot | None,
-) -> Finding:
+) -> Finding | None:
+    """Make a finding of a problem; None for a remark on motion about what cannot move."""
     severity = settings.severity.get(rule.name)
     effects = rule.effects_in(problem.effects)
     if severity is None:
         severity = problem.severity or rule.severity_for(targets)
         if rule.of_motion and severity is not Severity.ERROR:
             unused = why_unused(robot, problem.element)
+            if unused == UNUSED_LINK and severity is Severity.INFO:
+                return None
             if unused:
                 severity, effects = Severity.INFO, {"every reader": unused}
     causes = rule.caused_by if problem.caused_by is None else problem.caused_by

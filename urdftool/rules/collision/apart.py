@@ -20,6 +20,7 @@ from ...model.elements import (
     Visual,
 )
 from ...model.pose import IDENTITY, Pose, norm, pose_of
+from ...model.read import numbers
 from ..mesh.outlines import Reaches, ShapeKind, reaches
 
 _ALIKE = 0.25
@@ -104,6 +105,9 @@ def compare_places(robot: Robot, link: Link, part: float) -> Apart | None:
     larger = all(a > 2 * b for a, b in zip(touches.size, seen.size, strict=True))
     if _is_one_primitive(link):
         part = min(part, _PRIMITIVE)
+    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+    if not all(_has_readable_origin(shape) for shape in shapes):
+        return None
     if larger or (seen.meets(touches) and distance <= part * diagonal):
         return None
     if min(diagonal, 5 * norm(touches.size)) <= _SMALL and distance <= 2 * _SMALL:
@@ -125,6 +129,12 @@ def compare_places(robot: Robot, link: Link, part: float) -> Apart | None:
         xyz = right.translation if right.rotation == wrong.rotation else (x, y, z)
     same = xyz is not None and _is_same(link.visuals[0].geometry, link.collisions[0].geometry)
     return Apart(distance, alike, odd, why, xyz, same)
+
+
+def _has_readable_origin(shape: Visual | Collision) -> bool:
+    """Whether an origin is three numbers; one that is not stands for zero, with its own finding."""
+    text = shape.origin.element.get("xyz") if shape.origin is not None else None
+    return text is None or numbers(text, 3) is not None
 
 
 def _is_one_primitive(link: Link) -> bool:
