@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -91,6 +91,8 @@ def export_mjcf(
     fix_inertia: FixInertia = "none",
     decompose: bool = False,
     keep_locked_joints: bool = False,
+    pose: Mapping[str, float] | None = None,
+    state: str = "",
     mesh_dir: str = "assets",
     force: bool = False,
     verify: bool = False,
@@ -103,13 +105,17 @@ def export_mjcf(
         output: A folder, or a file that ends in .xml or .mjcf; None writes nothing.
         actuators: ``"auto"`` as transmissions and ros2_control say, ``"none"``, or ``"position"``,
             ``"velocity"`` or ``"motor"`` for all joints.
-        base: Whether the root is ``"fixed"`` or ``"free"``; ``"auto"`` as the description says.
+        base: Whether the root is ``"fixed"`` or ``"free"``; ``"auto"`` is free where the robot
+            stands on legs or driven wheels, or where the description says so.
         scene: Whether to write also a scene with floor and light.
-        srdf: A MoveIt SRDF whose disabled collisions are taken over.
+        srdf: A MoveIt SRDF whose disabled collisions are taken over, and a group state as the
+            home position.
         fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` mends tensors that no rigid body has.
         decompose: Whether to cut meshes that collide and are not convex into pieces.
         keep_locked_joints: Whether to keep joints with equal limits, held by an equality, where
             their links would be welded.
+        pose: Positions of joints by name [rad, m] in the home position.
+        state: The group state of the SRDF that is the home position; its likeliest if empty.
         mesh_dir: The folder of the meshes, relative to the model.
         force: Whether to go on past errors where a robot is left.
         verify: Whether to compare the result, compiled in MuJoCo, with the robot; ``checks`` has
@@ -117,7 +123,9 @@ def export_mjcf(
         overwrite: Whether to replace also what urdftool did not write.
 
     Raises:
-        ModelError: The robot has errors past which it cannot be written; ``notes`` has the others.
+        ModelError: The robot has errors past which it cannot be written, in ``notes``; or it has no
+            joint of the pose.
+        ConfigError: The SRDF has no such group state.
         MissingDependency: MuJoCo, to verify, or CoACD, to decompose, is not installed.
         OutputError: A file cannot be written, or MuJoCo does not compile it; what was there is as
             it was.
@@ -139,6 +147,8 @@ def export_mjcf(
         file=name if Path(name).suffix.lower() in FILES else "",
         cutter=partial(cut_meshes, gltf_up=_gltf_up(robot)) if decompose else None,
         keep_locked_joints=keep_locked_joints,
+        pose=pose or {},
+        state=state,
     )
     written = write(robot, options)
     if verify:

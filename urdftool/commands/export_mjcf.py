@@ -11,8 +11,19 @@ import click
 from ..console import Console
 from .export_options import export_options, fix_inertia_option
 from .export_report import put_files, say_refused, say_written
-from .options import gltf_option, package_options, robot_argument
+from .options import gltf_option, name_numbers, package_options, robot_argument
 from .read_strict import read_strict, say_gltf
+
+
+def _pose(
+    ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
+) -> tuple[str, dict[str, float]]:
+    """The name of a group state, and the positions by joint."""
+    names = [value for value in values if "=" not in value]
+    if len(names) > 1:
+        raise click.BadParameter(f"{' and '.join(names)}: one group state at most", ctx, parameter)
+    positions = tuple(value for value in values if "=" in value)
+    return "".join(names), name_numbers(ctx, parameter, positions)
 
 
 @click.command("mjcf")
@@ -33,10 +44,24 @@ from .read_strict import read_strict, say_gltf
     "--base",
     type=click.Choice(("auto", "fixed", "free")),
     default="auto",
-    help="Whether the root is held; auto: as the description says, held where it says nothing.",
+    help="Whether the root is held; auto: free where the robot stands on legs or driven wheels, or "
+    "where the description says so.",
 )
 @click.option("--scene", is_flag=True, help="Write also scene.xml, with a floor and light.")
-@click.option("--srdf", metavar="FILE", type=Path, help="Take over an SRDF's disabled collisions.")
+@click.option(
+    "--srdf",
+    metavar="FILE",
+    type=Path,
+    help="Take over an SRDF's disabled collisions and its group state for the home position.",
+)
+@click.option(
+    "--pose",
+    multiple=True,
+    metavar="JOINT=VALUE|NAME",
+    callback=_pose,
+    help="Position of a joint in the home position [rad or m], or the name of the SRDF's group "
+    "state. Repeatable.",
+)
 @click.option(
     "--keep-locked-joints",
     is_flag=True,
@@ -63,6 +88,7 @@ def command(
     strict: bool,
     verified: bool,
     style: str,
+    pose: tuple[str, dict[str, float]],
     **choices: Any,
 ) -> int:
     """Turn the robot IN into a MuJoCo model, and prove that it is the same robot.
@@ -91,7 +117,12 @@ def command(
     file = Path(output).name if output and Path(output).suffix.lower() in FILES else ""
     cutter = partial(cut_meshes, gltf_up=description.gltf_up) if decompose else None
     options = Options(
-        mesh_dir="" if mesh_dir == "." else mesh_dir, file=file, cutter=cutter, **choices
+        mesh_dir="" if mesh_dir == "." else mesh_dir,
+        file=file,
+        cutter=cutter,
+        state=pose[0],
+        pose=pose[1],
+        **choices,
     )
     try:
         written = write(model, options)

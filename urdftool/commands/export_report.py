@@ -84,6 +84,8 @@ def say_written(
             click.echo(visible(check_table(checks)), nl=False, err=output == "-")
     if output != "-":
         more = f", {counted(hidden, 'note')} (-v shows them)" if hidden else ""
-        files = counted(len(written.files), "file")
-        console.note(f"{output}: {written.main}, {files}{more}")
+        for sentence in written.advice:
+            console.note(f"{output}: warning: {sentence}")
+        said_of_it = [written.main, counted(len(written.files), "file"), *written.summary]
+        console.note(f"{output}: {', '.join(said_of_it)}{more}")
     return 0 if is_faithful(checks) else 1

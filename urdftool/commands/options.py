@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -147,3 +148,19 @@ def scale_factors(
 def output_option(help_text: str) -> Callable[[F], F]:
     """``-o FILE``; ``-`` is standard output."""
     return click.option("-o", "--output", metavar="FILE", help=help_text)
+
+
+def name_numbers(
+    ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
+) -> dict[str, float]:
+    """Read values of the form ``NAME=NUMBER`` of an option that is repeatable."""
+    found = {}
+    for value in values:
+        name, _, text = value.rpartition("=")
+        try:
+            found[name] = float(text)
+        except ValueError:
+            name = ""
+        if not name or not math.isfinite(found[name]):
+            raise click.BadParameter(f"'{value}' is not NAME=NUMBER", ctx, parameter)
+    return found

@@ -12,26 +12,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ..console import Console
+from .options import name_numbers
 
 if TYPE_CHECKING:
     from ..simulation.settings import Settings
 
 F = TypeVar("F", bound=Callable[..., Any])
-
-
-def _pairs(
-    ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
-) -> dict[str, float]:
-    found = {}
-    for value in values:
-        name, _, text = value.rpartition("=")
-        try:
-            found[name] = float(text)
-        except ValueError:
-            name = ""
-        if not name or not math.isfinite(found[name]):
-            raise click.BadParameter(f"'{value}' is not NAME=NUMBER", ctx, parameter)
-    return found
 
 
 def _finite(ctx: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
@@ -43,7 +29,7 @@ def _finite(ctx: click.Context, parameter: click.Parameter, value: float | None)
 def _payloads(
     ctx: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> dict[str, float]:
-    found = _pairs(ctx, parameter, values)
+    found = name_numbers(ctx, parameter, values)
     if any(mass < 0 for mass in found.values()):
         raise click.BadParameter("a payload weighs zero or more", ctx, parameter)
     return found
@@ -97,7 +83,7 @@ _OPTIONS = (
         "--pose",
         multiple=True,
         metavar="JOINT=VALUE",
-        callback=_pairs,
+        callback=name_numbers,
         help="Where a joint starts and is held, in rad or m. Repeatable.",
     ),
     click.option("--fixed-base", is_flag=True, help="Nail the root to the world."),

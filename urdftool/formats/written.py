@@ -20,6 +20,8 @@ class Written:
         losses: What was lost or changed, each with its place in the source.
         renamed: New names by ``kind`` and old name, such as ``("link", "wheel::left")``.
         checks: What was compared with the source, where that was asked for.
+        summary: What the model is, in few words each, such as ``12 actuators``.
+        advice: What the user may not expect of the model, in sentences.
     """
 
     main: str
@@ -27,6 +29,8 @@ class Written:
     losses: list[Finding] = field(default_factory=list)
     renamed: dict[tuple[str, str], str] = field(default_factory=dict)
     checks: list[Check] = field(default_factory=list)
+    summary: list[str] = field(default_factory=list)
+    advice: list[str] = field(default_factory=list)
 
     @property
     def text(self) -> str:

@@ -1,4 +1,4 @@
-"""Actuators: what transmissions and ros2_control say, or one kind for every joint.
+"""Actuators: what transmissions, ros2_control and drive plugins say, or one kind for every joint.
 
 URDF has no gains. A servo gets one that asks for the whole effort of its joint at a small error,
 and critical damping for the inertia it moves (``dampratio``).
@@ -14,6 +14,7 @@ from lxml import etree
 from ...model.elements import Joint, Robot
 from ..numbers import number_text, numbers_text
 from ..written import Written
+from .drives import plugin_drives
 from .equality import follows
 from .joint import effort_of
 from .options import Actuators
@@ -70,7 +71,9 @@ def _drives(structure: Structure, actuators: Actuators, written: Written) -> Ite
 
 
 def _described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple[str, float]]]:
-    """What drives each joint by name, as far as the description says."""
+    """What drives each joint by name, as far as the description says; the last holds."""
+    for name, kind in plugin_drives(robot).items():
+        yield name, (kind, 1.0)
     for transmission in robot.transmissions:
         reductions = [a.mechanical_reduction for a in transmission.actuators]
         reduction = next((r for r in reductions if r), 1.0)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ...model.elements import Joint, Link, Origin, Robot, Vector
-from ...model.pose import pose_of
-from ...model.read import numbers
+from ...model.elements import Joint, Link
+from ..numbers import numbers_text
 from ..written import Written
 from .frame import set_origin, set_pose
 from .gazebo import link_friction, link_is_weightless
 from .geom import collision_geoms, visual_geoms
+from .home import Home, robot_origin
 from .inertials import massless_leaves
 from .joint import joint_elements, locked_site
 from .link_inertia import LinkInertia, inertial_element
@@ -22,28 +22,33 @@ from .structure import Structure
 Bodies = dict[str, etree._Element]
 
 
-def body_tree(structure: Structure, model: str, written: Written) -> tuple[etree._Element, Bodies]:
+def body_tree(
+    structure: Structure, home: Home, model: str, written: Written
+) -> tuple[etree._Element, Bodies]:
     """``<worldbody>`` with an empty body for each link, and these by the link's name.
 
     A root link named world is the world itself. Free bodies hang on the world, as MuJoCo wants it.
 
     Args:
         structure: The tree.
+        home: Where the robot starts.
         model: The model's name, which is that of its default class.
         written: Takes what is lost.
     """
     robot = structure.robot
     world = etree.Element("worldbody")
     bodies: Bodies = {structure.root.name: world}
-    start = _robot_origin(robot)
     if not structure.in_world:
-        bodies[structure.root.name] = etree.SubElement(world, "body", name=structure.root.name)
-        set_origin(bodies[structure.root.name], start)
+        body = etree.SubElement(world, "body", name=structure.root.name)
+        bodies[structure.root.name] = body
+        set_origin(body, robot_origin(robot))
+        if structure.free and any(home.start.translation):
+            body.set("pos", numbers_text(home.start.translation))
     for joint in structure.joints:
         body = etree.Element("body", name=structure.body_name(joint.child))
         parent = bodies[joint.parent]
         if structure.kind(joint) == "free" and parent is not world:
-            set_pose(body, pose_of(start) @ structure.pose_at_zero(joint.child))
+            set_pose(body, home.start @ structure.pose_at_zero(joint.child))
             world.append(body)
             if not structure.is_static(joint.parent):
                 _say_torn(joint, written)
@@ -99,20 +104,6 @@ def _joints(
     if structure.kind(joint) == "weld":
         return []
     return joint_elements(structure, joint, written, leaf=structure.group[link] in leaves)
-
-
-def _robot_origin(robot: Robot) -> Origin | None:
-    """The pose of the whole robot in its world, which some readers take from ``<robot>``."""
-    element = robot.element.child("origin")
-    if element is None:
-        return None
-    zero: Vector = (0.0, 0.0, 0.0)
-    xyz, rpy = numbers(element.get("xyz"), 3), numbers(element.get("rpy"), 3)
-    return Origin(
-        element,
-        zero if xyz is None else (xyz[0], xyz[1], xyz[2]),
-        zero if rpy is None else (rpy[0], rpy[1], rpy[2]),
-    )
 
 
 def _say_torn(joint: Joint, written: Written) -> None:

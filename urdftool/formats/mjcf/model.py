@@ -17,6 +17,7 @@ from .document import assemble, note_losses
 from .equality import equality_section
 from .extension import apply_extension
 from .gazebo import gazebo_losses
+from .home import Home
 from .keyframe import keyframe_section
 from .light import put_lights
 from .link_inertia import LinkInertia
@@ -30,6 +31,7 @@ from .structure import WORLD, Structure
 
 def model_text(
     structure: Structure,
+    home: Home,
     name: str,
     options: Options,
     masses: dict[str, LinkInertia],
@@ -41,6 +43,7 @@ def model_text(
 
     Args:
         structure: The tree.
+        home: Where the robot starts.
         name: The model's name.
         options: The choices.
         masses: What each link weighs.
@@ -51,7 +54,7 @@ def model_text(
     robot = structure.robot
     _rename_world(structure, written)
     materials = Materials(robot, written, options.mesh_dir)
-    world, bodies = body_tree(structure, name, written)
+    world, bodies = body_tree(structure, home, name, written)
     fill_bodies(structure, bodies, masses, assets, materials, written)
     put_lights(robot, bodies, written)
     sections: dict[str, etree._Element] = {
@@ -60,13 +63,14 @@ def model_text(
         "worldbody": world,
     }
     actuators, drives = actuator_section(structure, options.actuators, written)
+    _summarize(structure, options, len(drives), written)
     _put(
         sections,
         contact_section(structure, bodies, srdf),
         equality_section(structure, written),
         actuators,
         sensor_section(robot, bodies, written),
-        keyframe_section(structure, drives),
+        keyframe_section(structure, home, drives),
         _custom(structure),
     )
     gazebo_losses(robot, written)
@@ -77,6 +81,19 @@ def model_text(
     sections["asset"] = _asset(assets, materials)
     note_losses(written.losses, bodies)
     return assemble(name, sections)
+
+
+def _summarize(structure: Structure, options: Options, actuators: int, written: Written) -> None:
+    """Say what moves the robot and what holds it, which one sees late in a model."""
+    held = "free" if structure.free else "fixed"
+    written.summary.append(f"{held} base ({structure.reason})")
+    written.summary.append("1 actuator" if actuators == 1 else f"{actuators} actuators")
+    moves = any(structure.kind(joint) in ("hinge", "slide") for joint in structure.moving)
+    if moves and not actuators and options.actuators == "auto":
+        written.advice.append(
+            "the model has no actuators: no transmission, ros2_control or drive plugin names a "
+            "joint; --actuators position adds servos"
+        )
 
 
 def _rename_world(structure: Structure, written: Written) -> None:

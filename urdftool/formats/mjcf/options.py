@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
@@ -35,6 +36,8 @@ class Options:
         cutter: Cuts meshes that collide and are not convex into pieces; None leaves them whole.
         keep_locked_joints: Keep a joint with equal limits, held by an equality, where its link
             would be welded.
+        pose: Positions of joints by name [rad, m] in the home position.
+        state: The group state of the SRDF that is the home position; empty for the likeliest.
     """
 
     actuators: Actuators = "auto"
@@ -47,3 +50,5 @@ class Options:
     file: str = ""
     cutter: Cutter | None = None
     keep_locked_joints: bool = False
+    pose: Mapping[str, float] = field(default_factory=dict)
+    state: str = ""

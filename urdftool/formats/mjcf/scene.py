@@ -4,22 +4,42 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 from lxml import etree
 
+from ...finding import Severity
+from ...model.elements import Vector
 from ..numbers import number_text
+from ..written import Written
 from .document import serialise
-from .extent import shape_points
+from .home import Home
+from .shape_box import ShapeBoxes
+from .standing import Ground, ground_of
 from .structure import Structure
 
 
-def scene_file(structure: Structure, model: str, main: str) -> bytes:
-    """``scene.xml``, which includes the model.
+FLUSH = 1e-3
+"""How far below the floor a robot that is held may reach with the floor still at z = 0 [m]."""
 
-    The floor lies under the lowest point that collides with every joint at zero, at most at the
-    height of the root.
+
+def scene_file(
+    structure: Structure, home: Home, boxes: ShapeBoxes, model: str, written: Written
+) -> bytes:
+    """Make ``scene.xml``, which includes the model.
+
+    The floor is at z = 0. Where a robot that is held reaches below it, at home or with every joint
+    at zero, the floor is at its lowest point, and that is reported.
+
+    Args:
+        structure: The tree.
+        home: Where the robot starts.
+        boxes: The boxes of its shapes.
+        model: The name of the model.
+        written: The export; takes a floor that is not at zero.
     """
-    low, center, extent = _reach(structure)
+    ground = ground_of(structure, boxes, home.positions, home.pose)
+    low = 0.0 if structure.free else _lowest(structure, home, boxes, ground)
+    center, extent = _around(ground, home)
+    main = written.main
     root = etree.Element("mujoco", model=f"{model} scene")
     etree.SubElement(root, "include", file=main)
     statistic = etree.SubElement(root, "statistic")
@@ -47,30 +67,33 @@ def scene_file(structure: Structure, model: str, main: str) -> bytes:
     world = etree.SubElement(root, "worldbody")
     etree.SubElement(world, "light", pos="0 0 3.5", dir="0 0 -1", type="directional")
     floor = etree.SubElement(world, "geom", name="floor", type="plane", size="0 0 0.05")
-    if low < -1e-6:
-        floor.set("pos", f"0 0 {number_text(math.floor(low * 1e4) / 1e4)}")
+    if low < -FLUSH:
+        low = math.floor(low * 1e4) / 1e4
+        floor.set("pos", f"0 0 {number_text(low)}")
+        written.lose(
+            "floor",
+            f"the held robot reaches below the height of its root; the floor of the scene is at "
+            f"z = {low:g} m",
+            structure.robot.place,
+            severity=Severity.INFO,
+        )
     floor.set("material", "groundplane")
     return serialise(root)
 
 
-def _reach(structure: Structure) -> tuple[float, tuple[float, float, float], float]:
-    """Lowest colliding point [m], and the middle and size [m] of all there is, at zero."""
-    low = 0.0
-    corners = []
-    for link in structure.robot.links:
-        pose = structure.pose_at_zero(link.name)
-        turn, shift = np.array(pose.rotation), np.array(pose.translation)
-        corners.append(shift[None, :])
-        for shape in link.collisions or link.visuals:
-            points = shape_points(structure.robot, shape)
-            if points is None:
-                continue
-            placed = points @ turn.T + shift
-            corners += [placed.min(axis=0)[None, :], placed.max(axis=0)[None, :]]
-            if link.collisions:
-                low = min(low, float(placed[:, 2].min()))
-    points = np.concatenate(corners)
-    least, most = points.min(axis=0), points.max(axis=0)
-    middle = (least + most) / 2
-    extent = max(float(np.linalg.norm(most - least)) / 2, 0.1)
-    return low, (float(middle[0]), float(middle[1]), float(middle[2])), extent
+def _lowest(structure: Structure, home: Home, boxes: ShapeBoxes, ground: Ground | None) -> float:
+    """The lowest point [m] of a robot that is held, at home and with every joint at zero."""
+    if ground is None or not any(link.collisions for link in structure.robot.links):
+        return 0.0
+    start = ground_of(structure, boxes, structure.locked, home.start)
+    grounds = (ground, start) if not home.floating else (ground,)
+    return min(low.low for low in grounds if low is not None)
+
+
+def _around(ground: Ground | None, home: Home) -> tuple[Vector, float]:
+    """The middle and the size [m] of what the scene shows."""
+    if ground is None:
+        return home.pose.translation, 1.0
+    low, high = ground.box
+    a, b, c = ((x + y) / 2 for x, y in zip(low, high, strict=True))
+    return (a, b, c), max(math.dist(low, high) / 2, 0.1)

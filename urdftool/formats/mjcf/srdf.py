@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from ...errors import ModelError
 from ...model.elements import Robot
+from ...model.read import number
 from ...source.description import read_description
+from ...source.document import Element
 from ...source.packages import Packages
 from ..written import Written
 
@@ -20,11 +22,14 @@ class Srdf:
         disabled: Pairs of links that do not collide, in the order of the file.
         virtual_joint: Type of the joint to the world, if one is written.
         path: The file.
+        states: Positions by joint [rad, m] of each group state; groups whose states have the same
+            name are one.
     """
 
     disabled: list[tuple[str, str]]
     virtual_joint: str | None
     path: Path
+    states: dict[str, dict[str, float]] = field(default_factory=dict)
 
 
 def read_srdf(path: Path, robot: Robot, written: Written, packages: Packages | None) -> Srdf:
@@ -56,4 +61,26 @@ def read_srdf(path: Path, robot: Robot, written: Written, packages: Packages | N
         else:
             disabled.append((one, other))
     virtual = root.child("virtual_joint")
-    return Srdf(disabled, virtual.get("type") if virtual is not None else None, path)
+    kind = virtual.get("type") if virtual is not None else None
+    return Srdf(disabled, kind, path, _states(root, robot, written))
+
+
+def _states(root: Element, robot: Robot, written: Written) -> dict[str, dict[str, float]]:
+    states: dict[str, dict[str, float]] = {}
+    for element in root.all("group_state"):
+        state = states.setdefault(element.get("name") or "", {})
+        for joint in element.all("joint"):
+            name, value = joint.get("name") or "", number(joint.get("value"))
+            if name not in robot.joint or value is None:
+                why = "which does not exist" if name not in robot.joint else "without one number"
+                written.lose(
+                    "srdf",
+                    f"group state '{element.get('name') or ''}' of the SRDF has joint '{name}', "
+                    f"{why}",
+                    joint.place,
+                    kind="joint",
+                    name=name,
+                )
+            else:
+                state[name] = value
+    return states

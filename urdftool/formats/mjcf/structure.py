@@ -8,7 +8,6 @@ from functools import cached_property
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import motion_of
 from ...model.pose import IDENTITY, Pose, norm, pose_of
-from .options import Base
 
 WORLD = "world"
 """The root link of this name is MuJoCo's world itself."""
@@ -24,17 +23,6 @@ KINDS = {
     "fixed": "weld",
 }
 """What each type of joint becomes; any other is welded."""
-
-DRIVES = (
-    "diff_drive",
-    "skid_steer",
-    "ackermann",
-    "tricycle",
-    "planar_move",
-    "mecanum",
-    "hoverboard",
-)
-"""Words in the name of a Gazebo plugin that drives a robot over the ground."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,37 +147,11 @@ def locked_at(joint: Joint) -> float | None:
     return limits[0] if limits is not None and limits[0] == limits[1] else None
 
 
-def structure_of(
-    robot: Robot, base: Base, virtual_joint: str | None = None, *, keep_locked: bool = False
-) -> Structure:
-    """The structure of a robot with one root.
+def structure_of(robot: Robot, *, keep_locked: bool = False) -> Structure:
+    """Make the structure of a robot with one root, which is held.
 
     Args:
         robot: The robot.
-        base: Held, free, or what the description says.
-        virtual_joint: Type of the joint to the world in an SRDF, if there is one.
         keep_locked: Whether joints with equal limits stay joints.
     """
-    root = robot.tree.roots[0]
-    free, reason = _base(robot, root, base, virtual_joint)
-    return Structure(robot, root, free, reason, keep_locked)
-
-
-def _base(robot: Robot, root: Link, base: Base, virtual_joint: str | None) -> tuple[bool, str]:
-    if root.name == WORLD:
-        return False, "the root link is the world"
-    if base != "auto":
-        return base == "free", f"--base {base}"
-    if any(_is_true(block.value("static")) for block in robot.extensions.get(None, ())):
-        return False, "<gazebo> says static"
-    if virtual_joint is not None:
-        return virtual_joint in ("floating", "planar"), f"virtual joint of type {virtual_joint}"
-    for plugin in robot.plugins:
-        words = f"{plugin.filename} {plugin.name}".lower().replace("-", "_")
-        if any(drive in words or drive.replace("_", "") in words for drive in DRIVES):
-            return True, f"the plugin {plugin.filename or plugin.name} drives it over the ground"
-    return False, "nothing says otherwise"
-
-
-def _is_true(text: str | None) -> bool:
-    return text is not None and text.strip().lower() in ("true", "1", "yes")
+    return Structure(robot, robot.tree.roots[0], False, "", keep_locked)

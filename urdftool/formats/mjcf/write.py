@@ -9,9 +9,11 @@ from ...model.elements import Mesh, Robot
 from ..defects import FATAL, defect, defects, refuse, taken_world
 from ..directory import mark
 from ..written import Written
+from .base import with_base
 from .extension import extension_defects
 from .gazebo import gazebo_defects
 from .geom import shape_size
+from .home import home_of, home_positions
 from .inertials import inertials
 from .loops import loop_defects
 from .meshes import mesh_assets
@@ -19,6 +21,7 @@ from .model import model_text
 from .names import file_name
 from .options import Options
 from .scene import scene_file
+from .shape_box import ShapeBoxes
 from .srdf import read_srdf
 from .structure import Structure, structure_of
 
@@ -39,6 +42,8 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     Raises:
         Refused: The robot has defects that forbid it; all are in the error.
         SourceError: The SRDF cannot be read.
+        ConfigError: The SRDF has no group state of the name.
+        ModelError: The robot has no joint of the pose.
     """
     options = options or Options()
     robot, world = taken_world(robot)
@@ -57,12 +62,12 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         refuse(found, force=options.force)
     packages = robot.source.packages if robot.source is not None else None
     srdf = read_srdf(options.srdf, robot, written, packages) if options.srdf else None
-    structure = structure_of(
-        robot,
-        options.base,
-        srdf.virtual_joint if srdf else None,
-        keep_locked=options.keep_locked_joints,
-    )
+    structure = structure_of(robot, keep_locked=options.keep_locked_joints)
+    boxes = ShapeBoxes(robot)
+    positions = home_positions(structure, options.pose, options.state, srdf, written)
+    virtual_joint = srdf.virtual_joint if srdf else None
+    structure = with_base(structure, options.base, virtual_joint, boxes, positions)
+    home = home_of(structure, boxes, positions)
     found += _too_deep(structure)
     masses, wrong = inertials(structure, options.fix_inertia, written, force=options.force)
     assets, missing = mesh_assets(robot, written, options)
@@ -70,12 +75,12 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     for finding in (*found, *wrong, *missing):
         written.losses.append(finding)
 
-    text = model_text(structure, model, options, masses, assets, srdf, written)
+    text = model_text(structure, home, model, options, masses, assets, srdf, written)
     source = Path(robot.source.path).name if robot.source is not None else "a robot"
     files: dict[str, bytes | Path] = {written.main: mark(text, source)}
     if options.scene:
         name = f"{Path(options.file).stem}_scene.xml" if options.file else "scene.xml"
-        files[name] = mark(scene_file(structure, model, written.main), source)
+        files[name] = mark(scene_file(structure, home, boxes, model, written), source)
     files.update(sorted(written.files.items()))
     written.files = files
     return written

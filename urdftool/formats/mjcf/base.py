@@ -1,0 +1,60 @@
+"""Whether the root of a robot is held by the world or moves freely."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from .drives import drive_plugins
+from .options import Base
+from .shape_box import ShapeBoxes
+from .standing import free_reason
+from .structure import Structure
+
+
+def with_base(
+    structure: Structure,
+    base: Base,
+    virtual_joint: str | None,
+    boxes: ShapeBoxes,
+    home: Mapping[str, float],
+) -> Structure:
+    """Decide whether the root is free.
+
+    Args:
+        structure: The tree.
+        base: Held, free, or what the description says and how the robot stands.
+        virtual_joint: Type of the joint to the world in an SRDF, if there is one.
+        boxes: The boxes of the robot's shapes.
+        home: Where the joints are at home [rad, m].
+    """
+    free, reason = _decide(structure, base, virtual_joint, boxes, home)
+    return replace(structure, free=free, reason=reason)
+
+
+def _decide(
+    structure: Structure,
+    base: Base,
+    virtual_joint: str | None,
+    boxes: ShapeBoxes,
+    home: Mapping[str, float],
+) -> tuple[bool, str]:
+    robot = structure.robot
+    if structure.in_world:
+        return False, "the root link is the world"
+    if base != "auto":
+        return base == "free", f"--base {base}"
+    if any(_is_true(block.value("static")) for block in robot.extensions.get(None, ())):
+        return False, "<gazebo> says static"
+    if virtual_joint is not None:
+        return virtual_joint in ("floating", "planar"), f"virtual joint of type {virtual_joint}"
+    for plugin in drive_plugins(robot):
+        return True, f"the plugin {plugin.filename or plugin.name} drives it over the ground"
+    standing = free_reason(structure, boxes, home)
+    if standing is not None:
+        return True, standing
+    return False, "nothing says that it moves"
+
+
+def _is_true(text: str | None) -> bool:
+    return text is not None and text.strip().lower() in ("true", "1", "yes")

@@ -1,0 +1,56 @@
+"""Which joints the description drives: by transmissions, ros2_control, or Gazebo's plugins."""
+
+from __future__ import annotations
+
+import re
+
+from ...model.elements import Plugin, Robot
+from ...model.kinematics import MOVABLE, limits_of
+
+PLUGINS = (
+    "diff_drive",
+    "skid_steer",
+    "ackermann",
+    "tricycle",
+    "planar_move",
+    "mecanum",
+    "hoverboard",
+)
+"""Words in the name of a Gazebo plugin that drives a robot over the ground."""
+
+
+def drive_plugins(robot: Robot) -> list[Plugin]:
+    """Return the plugins that drive a robot over the ground."""
+    found = []
+    for plugin in robot.plugins:
+        words = f"{plugin.filename} {plugin.name}".lower().replace("-", "_")
+        if any(word in words or word.replace("_", "") in words for word in PLUGINS):
+            found.append(plugin)
+    return found
+
+
+def plugin_drives(robot: Robot) -> dict[str, str]:
+    """Return how a drive plugin moves each joint that it names.
+
+    Returns:
+        ``velocity`` for a wheel, ``position`` for a joint with limits, which steers, by the name
+        of the joint.
+    """
+    found = {}
+    for plugin in drive_plugins(robot):
+        for element in plugin.element.walk():
+            for name in re.split(r"[,\s]+", element.text.strip()):
+                joint = robot.joint.get(name)
+                if joint is not None and joint.type in MOVABLE:
+                    lower, upper = limits_of(joint)
+                    turns = joint.type == "continuous" or not -7.0 < lower < upper < 7.0
+                    found[name] = "velocity" if turns else "position"
+    return found
+
+
+def commanded_joints(robot: Robot) -> set[str]:
+    """Return the names of joints that a transmission, ros2_control or a drive plugin moves."""
+    names = {joint.name for part in robot.transmissions for joint in part.joints}
+    for block in robot.ros2_controls:
+        names |= {joint.name for joint in block.joints if joint.command_interfaces}
+    return (names & set(robot.joint)) | set(plugin_drives(robot))

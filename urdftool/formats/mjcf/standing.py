@@ -1,0 +1,200 @@
+"""What a robot stands on at home, and whether its root is therefore free."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from ...model.elements import Joint
+from ...model.kinematics import link_poses
+from ...model.pose import Pose, pose_of, rotate
+from .drives import commanded_joints
+from .shape_box import Box, ShapeBoxes
+from .structure import Structure
+
+LEVEL = 0.05
+"""How much higher than the lowest point a rigid body may end that stands there, of the size."""
+
+CLEARANCE = 0.01
+"""How far above the lowest point the root's rigid body ends where it does not stand, of the size.
+
+Less than ``LEVEL``, so that a body close to the ground is not taken for one that stands on it.
+"""
+
+UPRIGHT = 0.3
+"""The largest vertical part of the unit axis of a wheel."""
+
+LEGS = frozenset(("leg", "foot", "feet", "toe", "ankle", "knee", "hip", "calf", "thigh", "shank",
+                  "wheel", "track"))  # fmt: skip
+HANDS = frozenset(("hand", "gripper", "finger", "thumb", "palm", "wrist", "arm", "forearm",
+                   "upperarm", "tool"))  # fmt: skip
+"""Words in the names of links that no robot stands on, unless there is one of ``LEGS``."""
+
+
+@dataclass(frozen=True)
+class Ground:
+    """What of a robot is near the ground, in the frame of its root.
+
+    Attributes:
+        box: The box around all that collides [m].
+        boxes: Boxes around what collides, by the topmost link of the rigid body.
+    """
+
+    box: Box
+    boxes: Mapping[str, list[Box]]
+
+    @property
+    def low(self) -> float:
+        """The lowest point [m]."""
+        return self.box[0][2]
+
+    @property
+    def size(self) -> float:
+        """The longest edge of the box [m]."""
+        return max(b - a for a, b in zip(*self.box, strict=True))
+
+    def lowest(self, body: str) -> float:
+        """Return the lowest point of a rigid body [m]; infinite where nothing of it collides."""
+        return min((low[2] for low, _ in self.boxes.get(body, ())), default=float("inf"))
+
+    def near(self, level: float) -> list[str]:
+        """Return the rigid bodies that end within a part of the size above the lowest point."""
+        return [body for body in self.boxes if self.lowest(body) <= self.low + level * self.size]
+
+
+def ground_of(
+    structure: Structure,
+    boxes: ShapeBoxes,
+    positions: Mapping[str, float],
+    root: Pose | None = None,
+) -> Ground | None:
+    """Measure what collides, or where nothing does, what is drawn; None where there is neither.
+
+    Args:
+        structure: The tree.
+        boxes: The boxes of its shapes.
+        positions: Of the joints [rad, m].
+        root: The pose of the root; the identity if it is not given.
+    """
+    poses = link_poses(structure.robot, positions)
+    collides = any(link.collisions for link in structure.robot.links)
+    found: dict[str, list[Box]] = {}
+    for link in structure.robot.links:
+        pose = poses[link.name] if root is None else root @ poses[link.name]
+        for shape in link.collisions if collides else link.visuals:
+            box = boxes.box(shape, pose)
+            if box is not None:
+                found.setdefault(structure.group[link.name], []).append(box)
+    if not found:
+        return None
+    return Ground(_around(box for group in found.values() for box in group), found)
+
+
+def free_reason(
+    structure: Structure, boxes: ShapeBoxes, positions: Mapping[str, float]
+) -> str | None:
+    """Say on what a robot stands that is not held; None where it is held.
+
+    It is free where it stands on driven wheels, or where only what moves against the root reaches
+    the ground: on two or more chains, below the center of mass, and not named as hands are.
+
+    Args:
+        structure: The tree.
+        boxes: The boxes of its shapes.
+        positions: Of the joints at home [rad, m].
+    """
+    commanded = commanded_joints(structure.robot)
+    branches = [j for j in structure.moving if structure.group[j.parent] == structure.root.name]
+    if not commanded and len(branches) < 2:
+        return None
+    ground = ground_of(structure, boxes, positions)
+    if ground is None:
+        return None
+    stands = ground.near(LEVEL)
+    wheels = [
+        joint.name
+        for joint in structure.moving
+        if joint.name in commanded and joint.child in stands
+        if joint.type == "continuous" and _is_horizontal(structure, joint, positions)
+    ]
+    if wheels:
+        return f"it drives on {_listed(wheels)}"
+    if structure.root.name in ground.near(CLEARANCE):
+        return None
+    stands = [body for body in stands if body != structure.root.name]
+    chains = {body: _chain(structure, body) for body in stands}
+    stands = [body for body in stands if not _is_hand(chains[body])]
+    if len({chains[body][0] for body in stands}) < 2:
+        return None
+    feet = (box for body in stands for box in ground.boxes[body] if box[0][2] <= _top(ground))
+    if not _is_above(structure, positions, *_around(feet)):
+        return None
+    lasts = [b for b in stands if not any(b in chains[other][:-1] for other in stands)]
+    return f"it stands on {_listed(lasts)}"
+
+
+def _top(ground: Ground) -> float:
+    return ground.low + LEVEL * ground.size
+
+
+def _is_horizontal(structure: Structure, joint: Joint, positions: Mapping[str, float]) -> bool:
+    """Whether a joint turns about an axis that is about horizontal, as a wheel does."""
+    axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+    x, y, z = rotate(link_poses(structure.robot, positions)[joint.child].rotation, axis)
+    return abs(z) <= UPRIGHT * float((x * x + y * y + z * z) ** 0.5)
+
+
+def _chain(structure: Structure, body: str) -> list[str]:
+    """The rigid bodies from the first below the root's to a rigid body, by their topmost links."""
+    chain: list[str] = []
+    while body != structure.root.name:
+        chain.insert(0, body)
+        joint = structure.robot.tree.parent_joint(body)
+        assert joint is not None
+        body = structure.group[joint.parent]
+    return chain
+
+
+def _is_hand(chain: Iterable[str]) -> bool:
+    words = {word for link in chain for word in _words(link)}
+    return not words & LEGS and bool(words & HANDS)
+
+
+def _words(name: str) -> list[str]:
+    """The words of a name: ``leftHand_2`` is left and hand."""
+    return [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)]
+
+
+def _is_above(
+    structure: Structure,
+    positions: Mapping[str, float],
+    low: Iterable[float],
+    high: Iterable[float],
+) -> bool:
+    """Whether the center of mass is above a box; a robot without mass is above every box."""
+    poses = link_poses(structure.robot, positions)
+    masses = [
+        (link.mass, (poses[link.name] @ pose_of(link.inertial.origin)).translation)
+        for link in structure.robot.links
+        if link.inertial is not None and link.mass > 0
+    ]
+    total = sum(mass for mass, _ in masses)
+    if not total:
+        return True
+    (a, b, _), (c, d, _) = low, high
+    x, y = (sum(mass * center[axis] for mass, center in masses) / total for axis in (0, 1))
+    return a <= x <= c and b <= y <= d
+
+
+def _around(boxes: Iterable[Box]) -> Box:
+    """The box around boxes."""
+    lows, highs = zip(*boxes, strict=True)
+    low, high = ([pick(axis) for axis in zip(*corners, strict=True)]
+                 for pick, corners in ((min, lows), (max, highs)))  # fmt: skip
+    return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
+
+def _listed(names: list[str], shown: int = 4) -> str:
+    more = f" and {len(names) - shown} more" if len(names) > shown else ""
+    return ", ".join(names[:shown]) + more
