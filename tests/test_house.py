@@ -104,7 +104,10 @@ DOORS = {
     "coacd": ("collision/coacd_child.py",),
     "distributed": ("collision/cluster.py",),
     "mujoco": ("formats/mjcf/", "simulation/mj.py"),
-    "PIL": ("drawing/", "viewer/glb.py", "formats/mjcf/texture.py"),
+    "PIL": (
+        *("drawing/", "viewer/glb.py", "formats/mjcf/texture.py"),
+        "formats/mjcf/verify_looks.py",
+    ),
     "pybullet": ("simulation/bullet",),
     "viser": ("viewer/server.py",),
     "websockets": ("viewer/server.py",),

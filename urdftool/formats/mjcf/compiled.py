@@ -19,6 +19,12 @@ from ..written import Written
 from .options import FILES
 
 
+_PLAIN = (
+    "<mujoco><asset><material name='plain'/></asset>"
+    "<worldbody><body><joint/><geom size='1'/></body></worldbody></mujoco>"
+)
+
+
 def mujoco_module() -> Any:
     """The library.
 
@@ -102,6 +108,8 @@ class Compiled:
         model: MuJoCo's model.
         root: The body of the robot's root link; 0 is the world.
         warnings: What the compiler said, which should be nothing.
+        written_options: The options of the physics by name, as the file has them; the model's own
+            gravity is the one that mechanics are compared with.
     """
 
     def __init__(
@@ -119,9 +127,11 @@ class Compiled:
             OutputError: It does not compile.
         """
         self.mujoco = mujoco_module()
+        self._reference: Any = None
         self._renamed = dict(renamed or {})
         self.model, self.warnings = compile_file(path)
         self.mujoco.set_mju_user_warning(self._warn)
+        self.written_options = self._options(self.model)
         self.model.opt.gravity = GRAVITY
         self.data = self.mujoco.MjData(self.model)
         self.root = max(self.body(root), 0)
@@ -131,6 +141,24 @@ class Compiled:
         """How exactly MuJoCo keeps a full tensor; before 4 its diagonalisation stops early."""
         major = str(self.mujoco.__version__).partition(".")[0]
         return 1e-8 if major.isdigit() and int(major) >= 4 else 2e-6
+
+    def _options(self, model: Any) -> dict[str, Any]:
+        names = [name for name in dir(model.opt) if not name.startswith("_")]
+        return {name: np.array(getattr(model.opt, name)).tolist() for name in names}
+
+    def options_of(self, section: str) -> dict[str, Any]:
+        """Return the options of a model with nothing but an ``<option>``; none if it is wrong."""
+        try:
+            model = self.mujoco.MjModel.from_xml_string(f"<mujoco>{section}</mujoco>")
+        except ValueError:
+            return {}
+        return self._options(model)
+
+    def reference(self) -> Any:
+        """Return a model of one body, joint and geom at MuJoCo's defaults."""
+        if self._reference is None:
+            self._reference = self.mujoco.MjModel.from_xml_string(_PLAIN)
+        return self._reference
 
     def _warn(self, text: str) -> None:
         line = " ".join(text.split())
@@ -164,6 +192,7 @@ class Compiled:
                 self.data.qpos[self.model.jnt_qposadr[joint]] = value
         self.mujoco.mj_fwdPosition(self.model, self.data)
         self.mujoco.mj_fwdVelocity(self.model, self.data)
+        self.mujoco.mj_camlight(self.model, self.data)
 
     def frame(self, link: str) -> Array | None:
         """The pose of a link in the root's frame, 4 × 4; None if it is no body."""
@@ -173,6 +202,14 @@ class Compiled:
     def geom_frame(self, geom: int) -> Array:
         """The pose of a geom in the root's frame, 4 × 4."""
         return self._in_root(self.data.geom_xpos[geom], self.data.geom_xmat[geom])
+
+    def site_frame(self, site: int) -> Array:
+        """The pose of a site in the root's frame, 4 × 4."""
+        return self._in_root(self.data.site_xpos[site], self.data.site_xmat[site])
+
+    def camera_frame(self, camera: int) -> Array:
+        """The pose of a camera in the root's frame, 4 × 4; it looks along -z."""
+        return self._in_root(self.data.cam_xpos[camera], self.data.cam_xmat[camera])
 
     def _in_root(self, position: Array, rotation: Array) -> Array:
         turn = self.data.xmat[self.root].reshape(3, 3)
@@ -197,6 +234,19 @@ class Compiled:
             full[:, dof] = column
         full -= np.diag(self.model.dof_armature)
         return full[np.ix_(dofs, dofs)]
+
+    def moved_by(self, joint: str) -> tuple[float, float]:
+        """Return the inertia [kg·m² or kg] that a joint moves: with all others held, and free.
+
+        MuJoCo makes critical damping of the first, and since version 4 of the second.
+        """
+        everything = list(range(self.model.nv))
+        matrix = self.mass_matrix(everything) + np.diag(self.model.dof_armature)
+        dof = self.dofs([joint])[0]
+        unit = np.zeros(len(everything))
+        unit[dof] = 1.0
+        free = np.linalg.lstsq(matrix, unit, rcond=None)[0][dof]
+        return float(matrix[dof, dof]), 1 / float(free) if free > 0 else 0.0
 
     def gravity(self, dofs: list[int]) -> Array:
         """The force [N·m or N] that each degree of freedom needs to hold still."""

@@ -20,8 +20,14 @@ from ..written import Written
 from .announced import EFFORT, INERTIA, LIMITS, TORN, TREE, Said
 from .compiled import Compiled, compile_all, copied
 from .options import Options
-from .verify_loops import compare_loops
+from .verify_contact import contact_check, surface_check
+from .verify_drives import actuator_check
+from .verify_looks import material_check
+from .verify_loops import compare_loops, loop_ends
+from .verify_physics import base_check, gravity_flag_check, joint_physics_check, option_check
+from .verify_sensors import sensor_check
 from .verify_shapes import collision_check, visual_check
+from .verify_source import Source
 from .write import write
 
 CONFIGURATIONS = 20
@@ -33,10 +39,12 @@ def verify_copy(robot: Robot, options: Options, written: Written) -> list[Check]
     """Compile and compare a copy of an export, before anything of the user's is touched."""
     with copied(written) as folder:
         compile_all(written, folder)
-        return verify(robot, written, folder / written.main, write(robot, options))
+        return verify(robot, written, folder / written.main, write(robot, options), options)
 
 
-def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[Check]:
+def verify(
+    robot: Robot, written: Written, model: Path, again: Written, options: Options | None = None
+) -> list[Check]:
     """Compare a written export with its robot.
 
     Args:
@@ -44,6 +52,7 @@ def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[
         written: What was exported.
         model: Where the model lies, beside its meshes.
         again: The same export made once more.
+        options: What it was exported with; the defaults if None.
 
     Raises:
         MissingDependency: MuJoCo is not installed.
@@ -57,14 +66,24 @@ def verify(robot: Robot, written: Written, model: Path, again: Written) -> list[
     for name in sorted(written.files.keys() | again.files.keys()):
         repeat.compare(0 if written.files.get(name) == again.files.get(name) else math.inf, name)
     configurations = list(_configurations(mechanics, compiled))
+    source = Source(robot, options or Options())
     checks = [
+        base_check(source, compiled),
         _tree(robot, compiled, said),
         _frames(mechanics, compiled, configurations, said),
         *_dynamics(mechanics, compiled, configurations, said),
         _centroid(mechanics, compiled, configurations, said),
+        gravity_flag_check(source, compiled),
         _limits(mechanics, compiled, said),
+        joint_physics_check(source, compiled, said),
+        option_check(source, compiled, said),
         collision_check(robot, mechanics, compiled, configurations, said),
+        contact_check(source, compiled, said),
+        surface_check(source, compiled, said),
+        actuator_check(source, compiled, said),
+        sensor_check(source, mechanics, compiled, said),
         visual_check(robot, mechanics, compiled, configurations, said),
+        material_check(source, compiled, said),
         repeat,
     ]
     clean = Check("loads", "MuJoCo compiles and poses it without a warning", 0)
@@ -151,16 +170,39 @@ def _tree(robot: Robot, compiled: Compiled, said: Said) -> Check:
             same = _follows(joint, compiled)
             check.compare(0 if same else math.inf, f"mimic of joint '{joint.name}'", known=known)
     compare_loops(robot, compiled, said, check)
+    _unasked(robot, compiled, check)
     if freedom != model.nv:
         text = f"{model.nv} degrees of freedom instead of {freedom}"
         check.compare(math.inf, text, known=said.any(*TREE))
     return check
 
 
+def _unasked(robot: Robot, compiled: Compiled, check: Check) -> None:
+    """Find what couples bodies and is not in the description."""
+    model, kinds = compiled.model, compiled.mujoco.mjtEq
+    follower = {joint.name for joint in robot.joints if joint.mimic is not None}
+    ends = {frozenset(pair) for pair in loop_ends(robot, compiled)}
+    for number in range(model.neq):
+        kind = int(model.eq_type[number])
+        one, other = int(model.eq_obj1id[number]), int(model.eq_obj2id[number])
+        if kind == int(kinds.mjEQ_JOINT):  # one without leader holds a joint: see the limits
+            asked = other < 0 or compiled.name("JOINT", one) in follower
+        else:
+            asked = kind in (int(kinds.mjEQ_CONNECT), int(kinds.mjEQ_WELD))
+            asked = asked and frozenset((one, other)) in ends
+        if not asked:
+            check.compare(math.inf, f"equality {number} is not in the description")
+    for field in ("ntendon", "nflex", "nplugin", "nmocap"):
+        if getattr(model, field, 0):
+            check.compare(math.inf, f"{field[1:]} that is not in the description")
+
+
 def _follows(joint: Joint, compiled: Compiled) -> bool:
     assert joint.mimic is not None
     model = compiled.model
     for number in _couplings(compiled):
+        if not model.eq_active0[number]:
+            continue
         if model.eq_obj1id[number] == compiled.id("JOINT", joint.name):
             leader = compiled.id("JOINT", joint.mimic.joint)
             data = model.eq_data[number][:5]
@@ -258,7 +300,10 @@ def _limits(mechanics: Mechanics, compiled: Compiled, said: Said) -> Check:
             "friction": float(model.dof_frictionloss[dof]),
         }
         if model.jnt_actfrclimited[number]:
-            found["effort"] = float(model.jnt_actfrcrange[number][1])
+            backward, found["effort"] = (float(bound) for bound in model.jnt_actfrcrange[number])
+            if backward != -found["effort"]:
+                text = f"lower bound of the effort of joint '{joint.name}' is {backward:g}"
+                check.compare(math.inf, text, known=said.of(EFFORT, joint.name))
         for held in _held(compiled, number):
             found["lower"] = found["upper"] = held
         for what, expected in _expected(joint).items():
@@ -304,5 +349,6 @@ def _held(compiled: Compiled, joint: int) -> Iterator[float]:
     """The position an equality holds a joint at."""
     model = compiled.model
     for number in _couplings(compiled):
-        if model.eq_obj1id[number] == joint and model.eq_obj2id[number] < 0:
+        active = bool(model.eq_active0[number])
+        if active and model.eq_obj1id[number] == joint and model.eq_obj2id[number] < 0:
             yield float(model.eq_data[number][0])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -26,6 +27,13 @@ def compare_loops(robot: Robot, compiled: Compiled, said: Said, check: Check) ->
             check.compare(0 if held else math.inf, f"joint '{name}' of a loop", known=known)
 
 
+def loop_ends(robot: Robot, compiled: Compiled) -> Iterator[tuple[int, int]]:
+    """Yield the bodies that each joint of a loop joins."""
+    for block in robot.extensions.get(None, ()):
+        for joint in block.element.all("joint"):
+            yield _body(joint, "child", compiled), _body(joint, "parent", compiled)
+
+
 def _holds(joint: Element, compiled: Compiled) -> bool:
     model, kinds = compiled.model, compiled.mujoco.mjtEq
     kind = HELD.get(joint.get("type") or "")
@@ -33,7 +41,7 @@ def _holds(joint: Element, compiled: Compiled) -> bool:
     pose = joint.child("pose")
     plain = pose is None or not pose.attributes
     for number in range(model.neq if kind else 0):
-        if model.eq_type[number] != getattr(kinds, f"mjEQ_{kind}"):
+        if model.eq_type[number] != getattr(kinds, f"mjEQ_{kind}") or not model.eq_active0[number]:
             continue
         if [model.eq_obj1id[number], model.eq_obj2id[number]] != ends:
             continue

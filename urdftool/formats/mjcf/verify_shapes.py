@@ -1,11 +1,9 @@
-"""What touches and what is seen, in MuJoCo's model and in the description: boxes and colours."""
+"""What touches and what is seen, in MuJoCo's model and in the description: kinds and boxes."""
 
 from __future__ import annotations
 
 import math
-import os
-from collections.abc import Iterator
-from pathlib import Path
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -26,13 +24,15 @@ from ...model.elements import (
 )
 from ..check import Check
 from ..mechanics import Array, Mechanics, origin_matrix
-from .announced import CUT, LOOKS, SHAPES, TORN, Said
+from .announced import CUT, SHAPES, TORN, Said
 from .compiled import Compiled
-from .convert import Image, part_image
 
 SIMPLE, MESH = 1e-9, 1e-6
 SINGLE = 2.0**-23
 """What MuJoCo's numbers of a mesh's points are rounded by, relative to its size."""
+
+SURFACE = 1e-4
+"""How exactly the area of a mesh is kept by it, relative to its size."""
 
 Bounds = tuple[Array, Array]
 
@@ -45,13 +45,13 @@ def collision_check(
     said: Said,
 ) -> Check:
     """Each collision's box in the root's frame, at zero and at one other configuration."""
-    check = Check("collision", "number, kind and box of every shape", MESH)
+    check = Check("collision", "number, kind, box and surface of every shape", MESH)
     for positions in configurations[:2]:
         frames = mechanics.frames(positions)
         compiled.pose(positions)
         for link in robot.links:
-            geoms = list(_geoms(compiled, link, 3))
-            known = said.of((*SHAPES, *CUT), *_about(link)) or said.any(*TORN)
+            geoms = list(link_geoms(compiled, link, 3))
+            known = said.of((*SHAPES, *CUT), *loss_names(link)) or said.any(*TORN)
             if len(geoms) != len(link.collisions):
                 text = f"link '{link.name}': {len(geoms)} collisions of {len(link.collisions)}"
                 check.compare(math.inf, text, known=known)
@@ -64,6 +64,12 @@ def collision_check(
                 factor = MESH / SIMPLE if simple else _rounded(expected)  # to that of the row
                 difference = _apart(expected, _geom_bounds(compiled, geom)) * factor
                 check.compare(difference, f"a collision of link '{link.name}'", known=known)
+                apart = _surface_apart(robot, [shape], compiled, [geom], frames[link.name])
+                check.compare(apart, f"surface of a collision of link '{link.name}'", known=known)
+                kind, found = _kind(shape), _kind_of(compiled, geom)
+                if kind != found:
+                    text = f"a collision of link '{link.name}' is a {found}, not a {kind}"
+                    check.compare(math.inf, text, known=known)
     return check
 
 
@@ -74,13 +80,13 @@ def visual_check(
     configurations: list[dict[str, float]],
     said: Said,
 ) -> Check:
-    """The box of all that is seen of a link, and its colours."""
-    check = Check("visual", "box and colours of every link", MESH)
+    """Compare the box of all that is seen of a link."""
+    check = Check("visual", "box and surface of what is seen of every link", MESH)
     frames = mechanics.frames(configurations[0])
     compiled.pose(configurations[0])
     for link in robot.links:
-        known = said.of(SHAPES, *_about(link)) or said.any(*TORN)
-        geoms = list(_geoms(compiled, link, 2))
+        known = said.of(SHAPES, *loss_names(link)) or said.any(*TORN)
+        geoms = list(link_geoms(compiled, link, 2))
         frame = frames.get(link.name, np.eye(4))
         boxes = [box for v in link.visuals if (box := _bounds(robot, v, frame)) is not None]
         if bool(boxes) != bool(geoms):
@@ -90,21 +96,22 @@ def visual_check(
             found = _union([_geom_bounds(compiled, geom) for geom in geoms])
             difference = _apart(_union(boxes), found) * _rounded(_union(boxes))
             check.compare(difference, f"visuals of link '{link.name}'", known=known)
-        expected = sorted(_colors(robot, link))
-        seen = sorted(_rgba(compiled, geom) for geom in geoms)
-        if expected and len(expected) == len(seen):
-            apart = float(abs(np.array(expected) - np.array(seen)).max())
-            painted = known or said.of(LOOKS, *_about(link))
-            check.compare(apart, f"colours of link '{link.name}'", known=painted)
+            apart = _surface_apart(robot, link.visuals, compiled, geoms, frame)
+            check.compare(apart, f"surface of the visuals of link '{link.name}'", known=known)
     return check
 
 
-def _geoms(compiled: Compiled, link: Link, group: int) -> Iterator[int]:
-    """The geoms of a link in a group, in the order of the file."""
+def link_geoms(compiled: Compiled, link: Link, group: int) -> Iterator[int]:
+    """Yield the geoms of a link in a group, in the order of the file."""
     body = compiled.body(link.name)
     for geom in range(compiled.model.ngeom):
         if compiled.model.geom_bodyid[geom] == body and compiled.model.geom_group[geom] == group:
             yield geom
+
+
+def has_size(robot: Robot, shape: Visual | Collision) -> bool:
+    """Whether a shape has a size, and a mesh that can be read."""
+    return _bounds(robot, shape, np.eye(4)) is not None
 
 
 def _apart(one: Bounds, other: Bounds) -> float:
@@ -138,6 +145,64 @@ def _bounds(robot: Robot, shape: Visual | Collision, frame: Array) -> Bounds | N
     return None if half is None else (pose[:3, 3] - half, pose[:3, 3] + half)
 
 
+def _surface_apart(
+    robot: Robot,
+    shapes: Sequence[Visual | Collision],
+    compiled: Compiled,
+    geoms: Sequence[int],
+    frame: Array,
+) -> float:
+    """How far the area and its center of all meshes are apart, in the tolerance of the row.
+
+    Two meshes in one box are told apart so. Triangles count, wherever they are cut.
+    """
+    expected, found = np.zeros(4), np.zeros(4)
+    for shape in shapes:
+        if isinstance(shape.geometry, Mesh) and robot.source is not None:
+            try:
+                mesh = load_named(robot.source, shape.geometry.filename, shape.geometry.scale)
+            except UrdftoolError:
+                return 0.0
+            pose = frame @ origin_matrix(shape.origin)
+            expected += _area_moments(mesh.vertices @ pose[:3, :3].T + pose[:3, 3], mesh.faces)
+    model = compiled.model
+    for geom in geoms:
+        if _kind_of(compiled, geom) == "mesh":
+            mesh, pose = model.geom_dataid[geom], compiled.geom_frame(geom)
+            first, count = model.mesh_vertadr[mesh], model.mesh_vertnum[mesh]
+            points = model.mesh_vert[first : first + count].astype(float)
+            begin, many = model.mesh_faceadr[mesh], model.mesh_facenum[mesh]
+            faces = model.mesh_face[begin : begin + many]
+            found += _area_moments(points @ pose[:3, :3].T + pose[:3, 3], faces)
+    if expected[0] == found[0] == 0:
+        return 0.0
+    size = math.sqrt(max(expected[0], found[0]))
+    area = abs(expected[0] - found[0]) / size**2
+    centers = [moments[1:] / (moments[0] or 1.0) for moments in (expected, found)]
+    return max(area, float(abs(centers[0] - centers[1]).max()) / size) * MESH / SURFACE
+
+
+def _area_moments(points: Array, faces: Array) -> Array:
+    """Area [m²] of triangles, and its first moment [m³]."""
+    a, b, c = (points[faces[:, k]] for k in range(3))
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    middles = (a + b + c) / 3
+    return np.concatenate([[areas.sum()], areas @ middles])
+
+
+def _kind(shape: Visual | Collision) -> str:
+    """MuJoCo's name for the kind of a shape; a capsule without length is a sphere."""
+    geometry = shape.geometry
+    if isinstance(geometry, Capsule) and geometry.length == 0:
+        return "sphere"
+    return type(geometry).__name__.lower()
+
+
+def _kind_of(compiled: Compiled, geom: int) -> str:
+    kind = compiled.mujoco.mjtGeom(compiled.model.geom_type[geom])
+    return str(kind.name).removeprefix("mjGEOM_").lower()
+
+
 def _half(geometry: Geometry, turn: Array) -> Array | None:
     """Half the edges of the box around a simple shape, along the axes it is turned into."""
     if isinstance(geometry, Box):
@@ -164,7 +229,7 @@ def _round_half(capsule: bool, radius: float, half: float, turn: Array) -> Array
 def _geom_bounds(compiled: Compiled, geom: int) -> Bounds:
     """The box of a geom in the root's frame."""
     model, frame = compiled.model, compiled.geom_frame(geom)
-    kind = compiled.mujoco.mjtGeom(model.geom_type[geom]).name.removeprefix("mjGEOM_").lower()
+    kind = _kind_of(compiled, geom)
     size, turn, middle = model.geom_size[geom], frame[:3, :3], frame[:3, 3]
     if kind == "mesh":
         mesh = model.geom_dataid[geom]
@@ -183,8 +248,8 @@ def _geom_bounds(compiled: Compiled, geom: int) -> Bounds:
     return middle - half, middle + half
 
 
-def _about(link: Link) -> set[str]:
-    """The names under which a loss may be of a link: its own, its materials', its meshes'."""
+def loss_names(link: Link) -> set[str]:
+    """List the names under which a loss may be of a link: its own, its materials', its meshes'."""
     names = {link.name}
     names |= {visual.material.name for visual in link.visuals if visual.material is not None}
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
@@ -192,39 +257,3 @@ def _about(link: Link) -> set[str]:
         if isinstance(shape.geometry, Mesh):
             names.add(shape.geometry.filename.rpartition("/")[2])
     return names
-
-
-def _rgba(compiled: Compiled, geom: int) -> tuple[float, ...]:
-    material = compiled.model.geom_matid[geom]
-    source = compiled.model.mat_rgba[material] if material >= 0 else compiled.model.geom_rgba[geom]
-    return tuple(float(part) for part in source)
-
-
-def _seen(look: tuple[tuple[float, ...] | None, Image | None]) -> tuple[float, ...] | None:
-    """The colour of a part: white below an image that is there."""
-    rgba, image = look
-    there = os.path.isfile(image) if isinstance(image, Path) else image is not None
-    return (1.0, 1.0, 1.0, 1.0) if there else rgba
-
-
-def _colors(robot: Robot, link: Link) -> Iterator[tuple[float, ...]]:
-    """The colours of a link's visuals by the description or its meshes; none if one has none."""
-    colors: list[tuple[float, ...]] = []
-    defined = {m.name: m for m in reversed(robot.materials) if m.color or m.texture}
-    for visual in link.visuals:
-        material = visual.material
-        if material is not None and not (material.color or material.texture):
-            material = defined.get(material.name)
-        own = material.color if material is not None and not material.texture else None
-        parts: list[tuple[float, ...] | None] = [own]
-        if isinstance(visual.geometry, Mesh) and robot.source is not None:
-            try:
-                mesh = load_named(robot.source, visual.geometry.filename)
-            except UrdftoolError:
-                return
-            looks = dict.fromkeys((part.rgba, part_image(part)) for part in mesh.parts)
-            parts = [own if rgba is None else rgba for rgba in map(_seen, looks)]
-        if None in parts or _bounds(robot, visual, np.eye(4)) is None:
-            return
-        colors += [part for part in parts if part is not None]
-    yield from colors

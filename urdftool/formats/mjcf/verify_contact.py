@@ -1,0 +1,129 @@
+"""Which links can touch each other and the ground, and how they grip, in MuJoCo's model."""
+
+from __future__ import annotations
+
+import math
+from itertools import combinations
+
+import numpy as np
+
+from ...model.elements import Link
+from ..check import Check
+from .announced import CUT, SHAPES, Said
+from .compiled import Compiled
+from .verify_shapes import loss_names
+from .verify_source import Source
+
+GRIP = (1.0, 0.005, 0.0001)
+"""MuJoCo's sliding, torsional [m] and rolling [m] friction."""
+
+SOFTNESS = (
+    "condim", "priority", "solmix", "solref", "solimp", "margin", "gap", "fluid", "adhesion",
+    "surfacevel",
+)  # fmt: skip
+"""Fields of a geom that an export leaves at MuJoCo's defaults."""
+
+MANY = 12
+"""Pairs that are named one by one."""
+
+
+def contact_check(source: Source, compiled: Compiled, said: Said) -> Check:
+    """Compare which links can touch each other and a ground of MuJoCo's default class."""
+    check = Check("contact", "which links can touch each other and the ground", 0)
+    model, flags = compiled.model, compiled.mujoco.mjtDisableBit
+    for flag, what in ((flags.mjDSBL_CONTACT, "contact"), (flags.mjDSBL_CONSTRAINT, "constraint")):
+        if model.opt.disableflags & flag:
+            check.compare(math.inf, f'<flag {what}="disable"/>: nothing touches anything')
+    if model.npair:
+        check.compare(math.inf, f"{model.npair} <pair> that the description does not ask for")
+    touching = [link for link in source.robot.links if _count(link, compiled, check, said)]
+    _foreign(source, compiled, check)
+    apart, together = [], []
+    excluded = {int(signature) for signature in model.exclude_signature}
+    for one, other in combinations(touching, 2):
+        expected = _may_touch(source, one.name, other.name)
+        if _can_touch(compiled, compiled.body(one.name), compiled.body(other.name), excluded):
+            if not expected:
+                together.append(f"links '{one.name}' and '{other.name}' can touch")
+        elif expected:
+            apart.append(f"links '{one.name}' and '{other.name}' cannot touch")
+    for texts in (apart, together):
+        for text in texts[:MANY]:
+            check.compare(math.inf, text)
+        if len(texts) > MANY:
+            check.compare(math.inf, f"{texts[-1]}, and {len(texts) - MANY} more such pairs")
+    return check
+
+
+def _count(link: Link, compiled: Compiled, check: Check, said: Said) -> int:
+    """Compare how many geoms of a link touch; return how many do."""
+    model, body = compiled.model, compiled.body(link.name)
+    geoms = [geom for geom in range(model.ngeom) if model.geom_bodyid[geom] == body >= 0]
+    solid = [g for g in geoms if model.geom_contype[g] or model.geom_conaffinity[g]]
+    known = said.of((*SHAPES, *CUT), *loss_names(link))
+    if len(solid) != len(link.collisions):
+        text = f"link '{link.name}': {len(solid)} geoms touch, of {len(link.collisions)} collisions"
+        check.compare(math.inf, text, known=known)
+    for geom in solid:
+        if not model.geom_contype[geom] == model.geom_conaffinity[geom] == 1:
+            check.compare(math.inf, f"link '{link.name}': a geom with contype or conaffinity not 1")
+    return len(solid)
+
+
+def _foreign(source: Source, compiled: Compiled, check: Check) -> None:
+    """Find geoms that touch on bodies that are no links."""
+    model = compiled.model
+    links = {compiled.body(link.name) for link in source.robot.links}
+    for geom in range(model.ngeom):
+        solid = model.geom_contype[geom] or model.geom_conaffinity[geom]
+        body = int(model.geom_bodyid[geom])
+        if solid and body not in links:
+            name = compiled.name("BODY", body)
+            check.compare(math.inf, f"a geom of body '{name}', which is not a link, touches")
+
+
+def _may_touch(source: Source, one: str, other: str) -> bool:
+    """Whether the description lets two links touch."""
+    pair = frozenset((source.rigid.get(one, one), source.rigid.get(other, other)))
+    if len(pair) == 1 or pair in source.joined:
+        return False
+    return frozenset((one, other)) not in source.separated
+
+
+def _can_touch(compiled: Compiled, one: int, other: int, excluded: set[int]) -> bool:
+    """Whether MuJoCo lets the geoms of two bodies touch, by its documented filters."""
+    model = compiled.model
+    welds = int(model.body_weldid[one]), int(model.body_weldid[other])
+    if welds[0] == welds[1] or (min(one, other) << 16) + max(one, other) in excluded:
+        return False
+    filtered = not model.opt.disableflags & compiled.mujoco.mjtDisableBit.mjDSBL_FILTERPARENT
+    if filtered and 0 not in welds:
+        above = [int(model.body_weldid[model.body_parentid[weld]]) for weld in welds]
+        return not (above[0] == welds[1] or above[1] == welds[0])
+    return True
+
+
+def surface_check(source: Source, compiled: Compiled, said: Said) -> Check:
+    """Compare friction and softness of what touches."""
+    check = Check("surface", "friction of every collision; MuJoCo's softness, margin, condim", 1e-9)
+    plain = compiled.reference()
+    model = compiled.model
+    for link in source.robot.links:
+        body = compiled.body(link.name)
+        sliding = source.number(link.name, "mu1", "mu")
+        grip = GRIP if sliding is None or sliding < 0 else (sliding, *GRIP[1:])
+        for geom in range(model.ngeom):
+            if model.geom_bodyid[geom] != body or body < 0:
+                continue
+            if not (model.geom_contype[geom] or model.geom_conaffinity[geom]):
+                continue
+            off = float(abs(model.geom_friction[geom] - grip).max())
+            check.compare(off / max(1.0, grip[0]), f"friction of link '{link.name}'")
+            for field in SOFTNESS:
+                array = getattr(model, f"geom_{field}", None)
+                if array is None:  # newer or older than this MuJoCo
+                    continue
+                usual = getattr(plain, f"geom_{field}")[0]
+                same = np.array_equal(array[geom], usual)
+                check.compare(0 if same else math.inf, f"{field} of link '{link.name}'")
+    return check

@@ -1,0 +1,172 @@
+"""What drives each joint in MuJoCo's model: joint, gear, gain, bounds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...model.elements import Joint
+from ..check import Check
+from .announced import LIMITS, TREE, Said
+from .compiled import Compiled
+from .verify_source import Source
+
+EXACT = 1e-9
+DAMPING = 1e-6
+"""How exactly MuJoCo's critical damping is that of the mass matrix."""
+
+WORDS = ("position", "velocity", "effort")
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """An actuator that the description asks for.
+
+    Attributes:
+        kind: ``position``, ``velocity`` or ``motor``.
+        gear: Actuator force times this is the effort of the joint.
+        gain: Gain of the servo [N·m/rad, N·m·s/rad, N/m or N·s/m]; 1 for a motor.
+        bound: Range of the control; None for none.
+    """
+
+    kind: str
+    gear: float
+    gain: float
+    bound: tuple[float, float] | None
+
+
+def actuator_check(source: Source, compiled: Compiled, said: Said) -> Check:
+    """Compare what drives each joint with what the description and the options ask for."""
+    check = Check("actuators", "joint, kind, gear, gain, range of control and force", EXACT)
+    model = compiled.model
+    wanted = dict(_wanted(source))
+    compiled.pose({})
+    for number in range(model.nu):
+        joint = compiled.name("JOINT", int(model.actuator_trnid[number][0]))
+        if int(model.actuator_trntype[number]) != int(compiled.mujoco.mjtTrn.mjTRN_JOINT):
+            joint = ""
+        one = wanted.pop(joint, None)
+        if one is None:
+            name = compiled.name("ACTUATOR", number)
+            check.compare(math.inf, f"actuator '{name}' drives '{joint}', which nothing asks for")
+        else:
+            _compare(number, joint, one, compiled, check)
+    for joint in wanted:
+        known = said.of((*TREE, *LIMITS), joint)
+        check.compare(math.inf, f"joint '{joint}' has no actuator", known=known)
+    return check
+
+
+def _compare(
+    number: int, joint: str, wanted: Wanted, compiled: Compiled, check: Check
+) -> None:
+    """Compare one actuator."""
+    model = compiled.model
+    about = f"actuator of joint '{joint}'"
+    gear = [wanted.gear, 0, 0, 0, 0, 0]
+    check.compare(_apart(model.actuator_gear[number], gear), f"gear of {about}")
+    kinds = {"motor": (0, 0), "position": (0, 1), "velocity": (0, 1)}
+    found = int(model.actuator_gaintype[number]), int(model.actuator_biastype[number])
+    if found != kinds[wanted.kind] or int(model.actuator_dyntype[number]) != 0:
+        check.compare(math.inf, f"{about} is not a {wanted.kind}")
+        return
+    if compiled.name("ACTUATOR", number) != joint:
+        check.compare(math.inf, f"{about} has another name")
+    gain, bias = model.actuator_gainprm[number], model.actuator_biasprm[number]
+    check.compare(_apart(gain[:3], [wanted.gain, 0, 0]), f"gain of {about}")
+    opposed = {"motor": (0.0, 0.0), "position": (-wanted.gain, None), "velocity": (0, -wanted.gain)}
+    position, velocity = opposed[wanted.kind]
+    check.compare(_apart(bias[:2], [0, position]), f"feedback of {about}")
+    if velocity is not None:
+        check.compare(_apart(bias[2], velocity), f"damping of {about}")
+    else:
+        critical = [2 * math.sqrt(wanted.gain * mass) for mass in compiled.moved_by(joint)]
+        off = min(abs(-bias[2] - each) / max(each, 1e-9) for each in critical)
+        check.compare(off * EXACT / DAMPING, f"damping of {about}")
+    bound = wanted.bound
+    limited = bool(model.actuator_ctrllimited[number])
+    if limited != (bound is not None):
+        check.compare(math.inf, f"range of the control of {about}")
+    elif bound is not None:
+        off = _apart(model.actuator_ctrlrange[number], bound)
+        check.compare(off, f"range of the control of {about}")
+    if model.actuator_forcelimited[number]:
+        check.compare(math.inf, f"{about} has a bound of its force that nothing asks for")
+
+
+def _wanted(source: Source) -> Iterator[tuple[str, Wanted]]:
+    """What each joint is to be driven by, by its name."""
+    choice = source.options.actuators
+    said = dict(_said(source)) if choice == "auto" else {}
+    for joint in source.robot.joints:
+        if joint.type not in ("revolute", "continuous", "prismatic") or not source.moves(joint):
+            continue
+        limits = _limits(joint)
+        if limits is not None and limits[0] == limits[1]:
+            continue
+        if choice == "auto" and joint.name in said:
+            yield joint.name, _drive(joint, *said[joint.name])
+        elif choice not in ("auto", "none") and not _follows(source, joint):
+            yield joint.name, _drive(joint, choice, 1.0)
+
+
+def _said(source: Source) -> Iterator[tuple[str, tuple[str, float]]]:
+    """Kind and gear by joint, as transmissions say, then ros2_control."""
+    for transmission in source.robot.transmissions:
+        gears = [a.mechanical_reduction for a in transmission.actuators if a.mechanical_reduction]
+        for joint in transmission.joints:
+            words = [*joint.hardware_interfaces]
+            for actuator in transmission.actuators:
+                words += actuator.hardware_interfaces
+            kind = _kind(words)
+            yield joint.name, (kind, gears[0] if gears and kind == "motor" else 1.0)
+    for control in source.robot.ros2_controls:
+        for component in control.joints:
+            names = [interface.name for interface in component.command_interfaces]
+            if names:
+                yield component.name, (_kind(names), 1.0)
+
+
+def _kind(interfaces: list[str]) -> str:
+    for text in interfaces:
+        last = text.lower().split("/")[-1]
+        found = [word for word in WORDS if word in last]
+        if found:
+            return "motor" if found[0] == "effort" else found[0]
+    return "motor"
+
+
+def _follows(source: Source, joint: Joint) -> bool:
+    if joint.mimic is None:
+        return False
+    return joint.mimic.joint != joint.name and joint.mimic.joint in source.robot.joint
+
+
+def _limits(joint: Joint) -> tuple[float, float] | None:
+    if joint.type == "continuous" or joint.limit is None:
+        return None
+    return joint.limit.lower or 0.0, joint.limit.upper or 0.0
+
+
+def _drive(joint: Joint, kind: str, gear: float) -> Wanted:
+    """The actuator of a kind: its gain by effort and velocity, its bounds those of the joint."""
+    effort = abs(joint.limit.effort or 0.0) if joint.limit else 0.0
+    velocity = abs(joint.limit.velocity or 0.0) if joint.limit else 0.0
+    slides = joint.type == "prismatic"
+    if kind == "motor":
+        bound = effort / abs(gear)
+        return Wanted(kind, gear, 1.0, (-bound, bound) if effort else None)
+    if kind == "position":
+        gain = (100.0 if slides else 10.0) * (effort or 10.0)
+        limits = _limits(joint)
+        return Wanted(kind, 1.0, gain, limits if limits and limits[0] < limits[1] else None)
+    gain = 10.0 * effort / velocity if effort and velocity else (100.0 if slides else 10.0)
+    return Wanted(kind, 1.0, gain, (-velocity, velocity) if velocity else None)
+
+
+def _apart(found: object, expected: object) -> float:
+    one, other = np.asarray(found, dtype=float), np.asarray(expected, dtype=float)
+    return float(np.max(abs(one - other) / np.maximum(1.0, abs(other))))

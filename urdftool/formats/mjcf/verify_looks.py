@@ -1,0 +1,190 @@
+"""Colors and images of what is seen, in MuJoCo's model and in the description."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...errors import UrdftoolError
+from ...meshes.load import load_named
+from ...meshes.mesh import Part
+from ...model.elements import Link, Material, Mesh, Robot, Visual
+from ..check import Check
+from ..sdf.colors import COLORS
+from .announced import LOOKS, SHAPES, Said
+from .compiled import Compiled
+from .verify_shapes import has_size, link_geoms, loss_names
+from .verify_source import Source
+
+Rgba = tuple[float, ...]
+Image = Path | bytes
+
+WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
+GREY: Rgba = (0.5, 0.5, 0.5, 1.0)
+"""MuJoCo's color of a geom that says none."""
+
+SINGLE = 1e-6
+"""Colors are kept in single precision."""
+
+VISUAL_GROUP = 2
+
+
+@dataclass(frozen=True)
+class Look:
+    """How one geom looks: its color, and its image if it has one."""
+
+    rgba: Rgba
+    image: Image | None = None
+
+
+def material_check(source: Source, compiled: Compiled, said: Said) -> Check:
+    """Compare the color and the image of every geom that is seen."""
+    check = Check("materials", "color, image and gloss of all that is seen", SINGLE)
+    model, pictures = compiled.model, Pictures(compiled)
+    plain = compiled.reference()
+    for link in source.robot.links:
+        known = said.of((*LOOKS, *SHAPES), *loss_names(link))
+        looks = list(_looks(source, link))
+        geoms = list(link_geoms(compiled, link, VISUAL_GROUP))
+        if len(looks) != len(geoms):
+            text = f"link '{link.name}': {len(geoms)} parts are seen, of {len(looks)}"
+            check.compare(math.inf, text, known=known)
+            continue
+        for look, geom in zip(looks, geoms, strict=True):
+            material = int(model.geom_matid[geom])
+            rgba = model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom]
+            off = float(abs(np.array(rgba) - look.rgba).max())
+            check.compare(off, f"color of link '{link.name}'", known=known)
+            texture = pictures.texture(material)
+            if (texture >= 0) != (look.image is not None):
+                text = "is missing" if look.image is not None else "is not in the description"
+                check.compare(math.inf, f"image of link '{link.name}' {text}", known=known)
+            elif look.image is not None and not pictures.same(texture, look.image):
+                check.compare(math.inf, f"image of link '{link.name}' is another", known=known)
+            for field in ("emission", "specular", "shininess", "reflectance", "texrepeat"):
+                if material >= 0:
+                    usual = getattr(plain, f"mat_{field}")[0]
+                    off = float(np.max(abs(getattr(model, f"mat_{field}")[material] - usual)))
+                    check.compare(off, f"{field} of the material of link '{link.name}'")
+    return check
+
+
+def _looks(source: Source, link: Link) -> Iterator[Look]:
+    """How each geom of a link's visuals is to look, in the order of the file."""
+    robot = source.robot
+    for visual in link.visuals:
+        if not has_size(robot, visual):
+            continue
+        own = _own(source, link, visual)
+        if not isinstance(visual.geometry, Mesh) or robot.source is None:
+            yield own
+            continue
+        try:
+            mesh = load_named(robot.source, visual.geometry.filename)
+        except UrdftoolError:
+            continue
+        parts = dict.fromkeys((part.rgba, _part_image(part)) for part in mesh.parts)
+        for rgba, image in parts:
+            there = image is not None and (isinstance(image, bytes) or os.path.isfile(image))
+            if there:
+                yield Look(WHITE, image)
+            elif rgba is not None:
+                yield Look(rgba)
+            else:
+                yield own
+
+
+def _own(source: Source, link: Link, visual: Visual) -> Look:
+    """How a visual looks by its material, or by Gazebo's where it has none."""
+    material = _defined(source.robot, visual.material)
+    if material is None:
+        said = (source.value(link.name, "material") or "").split("/")[-1]
+        color = COLORS.get(f"Gazebo/{said}")
+        return Look((*color.diffuse, color.alpha) if color and visual.material is None else GREY)
+    if material.texture and source.robot.source is not None:
+        try:
+            path = source.robot.source.resolve(material.texture)
+        except UrdftoolError:
+            path = None
+        if path is not None and os.path.isfile(path):
+            return Look(WHITE, Path(path))
+    return Look(material.color or GREY)
+
+
+def _defined(robot: Robot, material: Material | None) -> Material | None:
+    """A material with a color or an image: itself, or the first of its name that has one."""
+    if material is None:
+        return None
+    named = [v.material for link in robot.links for v in link.visuals]
+    for one in (material, *robot.materials, *named):
+        if one is not None and one.name == material.name and (one.color or one.texture):
+            return one
+    return None
+
+
+def _part_image(part: Part) -> Image | None:
+    """The image of a part of a mesh that has texture coordinates for all of it."""
+    if part.uv is None or not np.all(np.isfinite(part.uv)):
+        return None
+    return part.texture if part.texture is not None else part.image
+
+
+class Pictures:
+    """The images of a compiled model beside those of a description."""
+
+    def __init__(self, compiled: Compiled) -> None:
+        """Take a model whose images are compared."""
+        self._compiled = compiled
+        self._read: dict[Image, Any] = {}
+        kinds = compiled.mujoco.mjtTextureRole
+        self._role = int(kinds.mjTEXROLE_RGB)
+
+    def texture(self, material: int) -> int:
+        """Return the number of the image of a material; -1 for none."""
+        model = self._compiled.model
+        return int(model.mat_texid[material][self._role]) if material >= 0 else -1
+
+    def same(self, texture: int, image: Image) -> bool:
+        """Whether an image of the model has the pixels of one of the description."""
+        if image not in self._read:
+            self._read[image] = self._pixels(image)
+        expected = self._read[image]
+        found = _colors_of(self._compiled.model, texture)
+        return expected is not None and np.array_equal(found, expected)
+
+    def _pixels(self, image: Image) -> Any:
+        """Red, green and blue of an image; by MuJoCo where it reads it, else by Pillow."""
+        data = image if isinstance(image, bytes) else image.read_bytes()
+        text = "<texture type='2d' name='a' file='a.png'/>"
+        try:
+            model = self._compiled.mujoco.MjModel.from_xml_string(
+                f"<mujoco><asset>{text}</asset></mujoco>", {"a.png": data}
+            )
+        except ValueError:
+            return _by_pillow(data)
+        return _colors_of(model, 0)
+
+
+def _by_pillow(data: bytes) -> Any:
+    """Red, green and blue of an image that is not a PNG; None where it cannot be read."""
+    try:
+        from PIL import Image as Pillow
+
+        with Pillow.open(BytesIO(data)) as picture:
+            return np.array(picture.convert("RGBA"))[:, :, :3]
+    except Exception:  # readers of images meet damaged files with whatever they raise
+        return None
+
+
+def _colors_of(model: Any, texture: int) -> Any:
+    height, width = int(model.tex_height[texture]), int(model.tex_width[texture])
+    channels, first = int(model.tex_nchannel[texture]), int(model.tex_adr[texture])
+    data = model.tex_data[first : first + height * width * channels]
+    return data.reshape(height, width, channels)[:, :, :3]

@@ -1,0 +1,190 @@
+"""What acts on the robot in MuJoCo's model: how it is held, gravity, springs, options."""
+
+from __future__ import annotations
+
+import math
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+
+from ...model.elements import Joint
+from ...model.read import numbers
+from ..check import Check
+from ..mechanics import turn
+from .announced import Said
+from .compiled import Compiled
+from .verify_source import Source
+
+EXACT = 1e-9
+
+STOPS = ("solref", "solimp", "margin", "actgravcomp", "stiffnesspoly", "springyield")
+LOSSES = ("solref", "solimp", "dampingpoly")
+
+LEAF_ARMATURE = 1e-4
+"""Inertia [kg·m² or kg] that the joint of a last link without mass gets."""
+
+
+def base_check(source: Source, compiled: Compiled) -> Check:
+    """Compare whether the root is held, and where it stands."""
+    free = source.is_free
+    check = Check("base", f"root {'free' if free else 'held'}, its pose; no other body", EXACT)
+    model, root = compiled.model, compiled.body(source.root)
+    if source.root == "world":
+        root = 0
+    if root < 0:
+        check.compare(math.inf, f"root link '{source.root}' is missing")
+        return check
+    kinds = [int(model.jnt_type[model.body_jntadr[root] + k]) for k in range(_joints(model, root))]
+    wanted = [int(compiled.mujoco.mjtJoint.mjJNT_FREE)] if free else []
+    if kinds != wanted:
+        check.compare(math.inf, f"root link '{source.root}' is {'free' if kinds else 'held'}")
+    if root > 0 and model.body_parentid[root] != 0:
+        check.compare(math.inf, f"root link '{source.root}' is not a body of the world")
+    origin = source.robot.element.child("origin")
+    place = np.array((numbers(origin.get("xyz"), 3) if origin is not None else None) or (0,) * 3)
+    angles = (numbers(origin.get("rpy"), 3) if origin is not None else None) or (0.0, 0.0, 0.0)
+    rotation = np.eye(3)
+    for axis, angle in zip(np.eye(3), angles, strict=True):
+        rotation = turn(axis, angle) @ rotation
+    compiled.pose({})
+    if root > 0:
+        off = float(abs(compiled.data.xpos[root] - place).max())
+        check.compare(off, f"root link '{source.root}' is elsewhere")
+        off = float(abs(compiled.data.xmat[root].reshape(3, 3) - rotation).max())
+        check.compare(off, f"root link '{source.root}' is turned")
+    links = {compiled.body(link.name) for link in source.robot.links}
+    for body in range(1, model.nbody):
+        if body not in links:
+            check.compare(math.inf, f"body '{compiled.name('BODY', body)}' is not a link")
+    return check
+
+
+def _joints(model: object, body: int) -> int:
+    return int(model.body_jntnum[body])  # type: ignore[attr-defined]
+
+
+def gravity_flag_check(source: Source, compiled: Compiled) -> Check:
+    """Compare on which links gravity acts."""
+    check = Check("gravity flags", "on which links gravity acts", EXACT)
+    for link in source.robot.links:
+        body = compiled.body(link.name)
+        off = 0.0
+        for tag, means_off in (("turnGravityOff", True), ("gravity", False)):
+            said = (source.value(link.name, tag) or "").lower()
+            if said:
+                off = float((said in ("true", "1", "yes")) == means_off)
+        if body > 0:
+            found = float(compiled.model.body_gravcomp[body])
+            check.compare(abs(found - off), f"gravity of link '{link.name}'")
+    return check
+
+
+def joint_physics_check(source: Source, compiled: Compiled, said: Said) -> Check:
+    """Compare springs, armature, stops, and the dynamics of joints of several coordinates."""
+    check = Check("joint physics", "springs, armature, stiffness of limits, lower effort", EXACT)
+    model, plain = compiled.model, compiled.reference()
+    for joint in source.robot.joints:
+        light = _is_weightless(source, joint)
+        for number in _numbers(joint, compiled):
+            name = f"joint '{joint.name}'"
+            single = joint.type in ("revolute", "continuous", "prismatic", "planar")
+            stiffness = 0.0 if joint.type == "floating" else _stiffness(source, joint.name)
+            reference = source.number(joint.name, "springReference") or 0.0
+            found = float(np.ravel(model.jnt_stiffness[number])[0])
+            check.compare(_apart(found, stiffness), f"spring of {name}")
+            if single:
+                rest = float(model.qpos_spring[model.jnt_qposadr[number]])
+                check.compare(
+                    _apart(rest, reference if stiffness else 0.0), f"spring reference of {name}"
+                )
+            _compare_dofs(joint, number, light, compiled, check)
+            for field in STOPS:
+                _same_default(model, plain, f"jnt_{field}", number, f"{field} of {name}", check)
+    root = compiled.id("JOINT", f"{source.root}_freejoint")
+    for dof in range(6 if root >= 0 else 0):
+        found = float(model.dof_armature[model.jnt_dofadr[root] + dof])
+        found += float(np.ravel(model.dof_damping[model.jnt_dofadr[root] + dof])[0])
+        check.compare(abs(found), "armature or damping of the free base")
+    return check
+
+
+def _numbers(joint: Joint, compiled: Compiled) -> list[int]:
+    """The joints of MuJoCo that a joint became."""
+    names = [joint.name + end for end in ("_TX", "_TY", "_RZ")]
+    names = names if joint.type == "planar" else [joint.name]
+    return [number for name in names if (number := compiled.id("JOINT", name)) >= 0]
+
+
+def _stiffness(source: Source, name: str) -> float:
+    return source.number(name, "springStiffness") or 0.0
+
+
+def _compare_dofs(
+    joint: Joint, number: int, light: bool, compiled: Compiled, check: Check
+) -> None:
+    """Compare what acts along each coordinate of a joint."""
+    model, plain = compiled.model, compiled.reference()
+    first = int(model.jnt_dofadr[number])
+    count = {0: 6, 1: 3}.get(int(model.jnt_type[number]), 1)
+    dynamics = joint.dynamics if joint.type != "floating" else None
+    wanted = {
+        "armature": LEAF_ARMATURE if light and joint.type != "floating" else 0.0,
+        "damping": (dynamics.damping if dynamics else None) or 0.0,
+        "frictionloss": (dynamics.friction if dynamics else None) or 0.0,
+    }
+    for dof in range(first, first + count):
+        for field, value in wanted.items():
+            found = float(np.ravel(getattr(model, f"dof_{field}")[dof])[0])
+            check.compare(_apart(found, value), f"{field} of joint '{joint.name}'")
+        for field in LOSSES:
+            text = f"{field} of joint '{joint.name}'"
+            _same_default(model, plain, f"dof_{field}", dof, text, check)
+
+
+def _same_default(
+    model: object, plain: object, field: str, number: int, text: str, check: Check
+) -> None:
+    """Compare a field with MuJoCo's default, where this version of MuJoCo has it."""
+    array = getattr(model, field, None)
+    if array is not None:
+        same = np.array_equal(array[number], getattr(plain, field)[0])
+        check.compare(0 if same else math.inf, text)
+
+
+def _is_weightless(source: Source, joint: Joint) -> bool:
+    """Whether nothing that a joint moves has mass."""
+    below = [joint.child, *source.robot.tree.descendants(joint.child)]
+    return sum(max(source.robot.link[name].mass, 0.0) for name in below) <= 1e-14
+
+
+def _apart(found: float, expected: float) -> float:
+    return abs(found - expected) / max(1.0, abs(expected))
+
+
+def option_check(source: Source, compiled: Compiled, said: Said) -> Check:
+    """Compare gravity and the other options of the physics with what ``<mujoco>`` asks for."""
+    check = Check("options", "gravity, medium, solver, flags, as <mujoco> says", EXACT)
+    written = dict(compiled.written_options)
+    asked = compiled.options_of(_asked(source))
+    known = said.any("lossy-mujoco", "bad-extension-number")
+    for name, value in asked.items():
+        off = float(np.max(abs(np.subtract(written[name], value))))
+        check.compare(off, f"{name} is {written[name]}, not {value}", known=known)
+    return check
+
+
+def _asked(source: Source) -> str:
+    """``<option>`` with what the description asks for."""
+    values = {"integrator": "implicitfast"}
+    flags: dict[str, str] = {}
+    for extension in source.robot.element.all("mujoco"):
+        for option in extension.all("option"):
+            values.update(option.attributes)
+            for flag in option.all("flag"):
+                flags.update(flag.attributes)
+    return f"<option {_text(values)}><flag {_text(flags)}/></option>"
+
+
+def _text(values: dict[str, str]) -> str:
+    return " ".join(f"{name}={quoteattr(value)}" for name, value in values.items())
+

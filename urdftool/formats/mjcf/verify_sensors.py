@@ -1,0 +1,294 @@
+"""What measures, looks and shines in MuJoCo's model: on which link, where, how."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...model.elements import Robot
+from ...model.read import number as read_number
+from ...model.read import numbers
+from ...source.document import Element
+from ..check import Check
+from ..mechanics import Array, Mechanics, origin_matrix
+from .announced import Said
+from .compiled import Compiled
+from .verify_source import Source, read_pose
+
+EXACT = 1e-9
+
+SITES = {
+    "imu": ("ACCELEROMETER", "GYRO", "FRAMEQUAT"),
+    "force_torque": ("FORCE", "TORQUE"),
+    "gps": ("FRAMEPOS",),
+    "navsat": ("FRAMEPOS",),
+    "altimeter": ("FRAMEPOS",),
+    "magnetometer": ("MAGNETOMETER",),
+}
+RAYS = ("ray", "gpu_ray", "lidar", "gpu_lidar", "sonar")
+PICTURES = ("camera", "depth", "depth_camera", "rgbd_camera", "openni_kinect", "multicamera")
+MOST_RAYS = 36
+
+INTERFACES = {
+    "force": "FORCE",
+    "torque": "TORQUE",
+    "linear_acceleration": "ACCELEROMETER",
+    "angular_velocity": "GYRO",
+    "orientation": "FRAMEQUAT",
+}
+"""State interfaces of ros2_control, by what stands before the dot."""
+
+LOOK = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+"""Axes of MuJoCo's camera in Gazebo's: it looks along -z with y up, Gazebo's along x with z up."""
+
+
+@dataclass
+class Measured:
+    """A sensor that the description asks for.
+
+    Attributes:
+        name: How its name begins in MuJoCo.
+        kind: MuJoCo's type of sensor.
+        link: The link that it is on.
+        pose: Its pose in the link's frame, 4 × 4.
+        whole: Whether all axes count; a ray has but one.
+    """
+
+    name: str
+    kind: str
+    link: str
+    pose: Array = field(default_factory=lambda: np.eye(4))
+    whole: bool = True
+
+
+def sensor_check(source: Source, mechanics: Mechanics, compiled: Compiled, said: Said) -> Check:
+    """Compare sensors, cameras and lights: link, pose, type and view."""
+    what = "sensors, cameras, lights: link, pose, type, view"
+    check = Check("sensors", what, EXACT)
+    compiled.pose({})
+    frames = mechanics.frames({})
+    model = compiled.model
+    left = list(range(model.nsensor))
+    for wanted in _wanted(source):
+        known = said.of(("lossy-sensor",), wanted.name)
+        place = frames.get(wanted.link, np.eye(4)) @ wanted.pose
+        number = _find(wanted, place, left, compiled)
+        text = f"sensor '{wanted.name}' ({wanted.kind.lower()})"
+        if number is None:
+            check.compare(math.inf, f"{text} is missing", known=known)
+            continue
+        left.remove(number)
+        _compare_sensor(number, wanted, place, text, compiled, check)
+    for number in left:
+        name = compiled.name("SENSOR", number)
+        check.compare(math.inf, f"sensor '{name}' is not in the description")
+    _cameras(source, frames, compiled, said, check)
+    _lights(source, frames, compiled, said, check)
+    return check
+
+
+def _wanted(source: Source) -> Iterator[Measured]:
+    """The sensors of Gazebo, then those of ros2_control."""
+    robot = source.robot
+    for element, link in sensors_of(robot):
+        kind = (element.get("type") or "").strip()
+        name, pose = element.get("name") or "", read_pose(element)
+        for measured in SITES.get(kind, ()):
+            yield Measured(name, measured, link, pose)
+        if kind in RAYS:
+            yield from _rays(element, name, link, pose)
+        if kind == "contact" and any(_is_sized(c.geometry) for c in robot.link[link].collisions):
+            yield Measured(name or f"{link}_contact", "TOUCH", link, _middle(robot, link))
+    for control in robot.ros2_controls:
+        for component in control.components:
+            frame = component.params.get("frame_id", "")
+            if component.kind == "sensor" and frame in robot.link:
+                words = {i.name.split(".")[0] for i in component.state_interfaces}
+                for word in INTERFACES.keys() & words:
+                    yield Measured(component.name, INTERFACES[word], frame)
+
+
+def sensors_of(robot: Robot) -> Iterator[tuple[Element, str]]:
+    """Yield each ``<sensor>`` of Gazebo with the link it is on; of a joint, its child."""
+    for block in robot.gazebo:
+        name = block.element.get("reference") or ""
+        joint = robot.joint.get(name)
+        link = name if name in robot.link else joint.child if joint is not None else ""
+        if link in robot.link:
+            for element in block.element.all("sensor"):
+                yield element, link
+
+
+def _rays(element: Element, name: str, link: str, pose: Array) -> Iterator[Measured]:
+    """A ray for each sample: z of its site points where x of the scanner, turned, does."""
+    scan = next((e for e in element.walk() if e.tag == "horizontal"), None)
+
+    def read(tag: str) -> float:
+        child = scan.child(tag) if scan is not None else None
+        return (read_number(child.text) if child is not None else None) or 0.0
+
+    count, low, high = int(read("samples")), read("min_angle"), read("max_angle")
+    for index in range(count if count <= MOST_RAYS else 0):
+        ray = np.eye(4)
+        angle = low + (high - low) * (index / (count - 1) if count > 1 else 0.0)
+        ray[:3, 2] = math.cos(angle), math.sin(angle), 0.0
+        ray[:3, :2] = 0.0
+        yield Measured(f"{name or f'{link}_scan'}_{index}", "RANGEFINDER", link, pose @ ray, False)
+
+
+def _is_sized(geometry: object) -> bool:
+    return type(geometry).__name__ in ("Box", "Cylinder", "Sphere", "Capsule", "UnknownShape")
+
+
+def _middle(robot: Robot, link: str) -> Array:
+    sized = [c for c in robot.link[link].collisions if _is_sized(c.geometry)]
+    return origin_matrix(sized[0].origin)
+
+
+def _find(wanted: Measured, place: Array, left: list[int], compiled: Compiled) -> int | None:
+    """The sensor of a type and name that is nearest to a place."""
+    kind = int(getattr(compiled.mujoco.mjtSensor, f"mjSENS_{wanted.kind}"))
+    alike = [n for n in left if int(compiled.model.sensor_type[n]) == kind]
+    named = [n for n in alike if compiled.name("SENSOR", n).startswith(wanted.name)]
+    return min(named, key=lambda n: _off(n, wanted, place, compiled), default=None)
+
+
+def _off(number: int, wanted: Measured, place: Array, compiled: Compiled) -> float:
+    """How far the site of a sensor is from a pose in the root's frame."""
+    model = compiled.model
+    site = int(model.sensor_objid[number])
+    if int(model.sensor_objtype[number]) != int(compiled.mujoco.mjtObj.mjOBJ_SITE):
+        return math.inf
+    found = compiled.site_frame(site)
+    if not wanted.whole:
+        return float(abs(found[:3, 2:] - place[:3, 2:]).max())
+    return float(abs(found - place).max())
+
+
+def _compare_sensor(
+    number: int, wanted: Measured, place: Array, text: str, compiled: Compiled, check: Check
+) -> None:
+    model = compiled.model
+    check.compare(_off(number, wanted, place, compiled), f"{text} is elsewhere")
+    if int(model.sensor_objtype[number]) == int(compiled.mujoco.mjtObj.mjOBJ_SITE):
+        body = int(model.site_bodyid[int(model.sensor_objid[number])])
+        if model.body_weldid[body] != model.body_weldid[max(compiled.body(wanted.link), 0)]:
+            check.compare(math.inf, f"{text} is on another body than link '{wanted.link}'")
+    for name in ("noise", "cutoff", "delay", "interval"):
+        values = getattr(model, f"sensor_{name}", None)
+        if values is not None and np.any(values[number]):
+            check.compare(math.inf, f"{text} has a {name} that nothing asks for")
+
+
+def _cameras(
+    source: Source, frames: dict[str, Array], compiled: Compiled, said: Said, check: Check
+) -> None:
+    model = compiled.model
+    left = list(range(model.ncam))
+    for element, link in sensors_of(source.robot):
+        if (element.get("type") or "").strip() not in PICTURES:
+            continue
+        for camera in element.all("camera"):
+            name = element.get("name") or "camera"
+            place = frames[link] @ read_pose(element) @ read_pose(camera)
+            place[:3, :3] = place[:3, :3] @ LOOK
+            named = [n for n in left if compiled.name("CAMERA", n).startswith(name)]
+            named.sort(key=lambda n: float(abs(compiled.camera_frame(n) - place).max()))
+            if not named:
+                check.compare(math.inf, f"camera '{name}' is missing")
+                continue
+            left.remove(named[0])
+            known = said.of(("lossy-camera",), element.get("name") or "")
+            _compare_camera(named[0], camera, place, link, compiled, check, known)
+    for number in left:
+        name = compiled.name("CAMERA", number)
+        check.compare(math.inf, f"camera '{name}' is not in the description")
+
+
+def _compare_camera(
+    number: int,
+    camera: Element,
+    place: Array,
+    link: str,
+    compiled: Compiled,
+    check: Check,
+    known: bool,
+) -> None:
+    model, name = compiled.model, compiled.name("CAMERA", number)
+    off = float(abs(compiled.camera_frame(number) - place).max())
+    check.compare(off, f"camera '{name}' is elsewhere")
+    body = int(model.cam_bodyid[number])
+    if model.body_weldid[body] != model.body_weldid[max(compiled.body(link), 0)]:
+        check.compare(math.inf, f"camera '{name}' is on another body than link '{link}'")
+    width, height = (_pixels(camera, tag, size) for tag, size in (("width", 320), ("height", 240)))
+    fov = camera.child("horizontal_fov")
+    across = (read_number(fov.text) if fov is not None else None) or 1.047
+    half = math.tan(across / 2) * height / width
+    up = 2 * math.degrees(math.atan(half))
+    check.compare(abs(float(model.cam_fovy[number]) - up) / 180, f"view of '{name}'", known=known)
+    if list(model.cam_resolution[number]) != [width, height]:
+        check.compare(math.inf, f"resolution of camera '{name}'")
+    if int(model.cam_mode[number]) != 0:
+        check.compare(math.inf, f"camera '{name}' does not ride on its body")
+
+
+def _pixels(camera: Element, tag: str, usual: int) -> int:
+    image = camera.child("image")
+    child = image.child(tag) if image is not None else None
+    value = read_number(child.text) if child is not None else None
+    return int(value) if value is not None and value >= 1 else usual
+
+
+def _lights(
+    source: Source, frames: dict[str, Array], compiled: Compiled, said: Said, check: Check
+) -> None:
+    model, data = compiled.model, compiled.data
+    root = compiled.body(source.root)
+    up = data.xmat[max(root, 0)].reshape(3, 3)
+    start = data.xpos[max(root, 0)]
+    left = list(range(model.nlight))
+    for block in source.robot.gazebo:
+        link = block.element.get("reference") or ""
+        for light in block.element.all("light") if link in source.robot.link else ():
+            name = light.get("name") or "light"
+            place = frames[link] @ read_pose(light)
+            named = [n for n in left if compiled.name("LIGHT", n).startswith(name)]
+            if not named:
+                check.compare(math.inf, f"light '{name}' is missing")
+                continue
+            number = named[0]
+            left.remove(number)
+            at = up.T @ (data.light_xpos[number] - start)
+            check.compare(float(abs(at - place[:3, 3]).max()), f"light '{name}' is elsewhere")
+            body = int(model.light_bodyid[number])
+            if model.body_weldid[body] != model.body_weldid[max(compiled.body(link), 0)]:
+                check.compare(math.inf, f"light '{name}' is on another body than link '{link}'")
+            if (light.get("type") or "point") != "point":
+                aim = np.array(_three(light, "direction") or (0.0, 0.0, -1.0))
+                aim = aim if aim.any() else np.array((0.0, 0.0, -1.0))
+                aim = place[:3, :3] @ aim / np.linalg.norm(aim)
+                found = up.T @ data.light_xdir[number]
+                check.compare(float(abs(found - aim).max()), f"direction of light '{name}'")
+            for tag in ("diffuse", "specular"):
+                color = _three(light, tag)
+                if color is not None:
+                    found = getattr(model, f"light_{tag}")[number]
+                    off = float(abs(found - np.array(color)).max())
+                    check.compare(off * EXACT / 1e-6, f"{tag} of light '{name}'")
+            if not model.light_active[number]:
+                check.compare(math.inf, f"light '{name}' is off")
+    for number in left:
+        name = compiled.name("LIGHT", number)
+        check.compare(math.inf, f"light '{name}' is not in the description")
+
+
+def _three(element: Element, tag: str) -> tuple[float, ...] | None:
+    child = element.child(tag)
+    if child is None:
+        return None
+    four = numbers(child.text, 4) or numbers(child.text, 3)
+    return four[:3] if four is not None else None
+

@@ -1,0 +1,153 @@
+"""Read from a description what MuJoCo's model has to have beside its tree and its masses.
+
+Nothing here is shared with the exporter. Values of ``<gazebo>`` are read from the elements, and
+rigid bodies are found from the joints.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ...model.elements import Joint, Robot
+from ...model.read import number, numbers
+from ...source.description import read_description
+from ...source.document import Element
+from ..mechanics import Array, turn
+from .options import Options
+
+MOVING = ("revolute", "continuous", "prismatic", "planar", "floating", "spherical", "ball")
+DIRECTED = ("revolute", "continuous", "prismatic", "planar")
+DRIVE = re.compile(
+    "diff_?drive|skid_?steer|ackermann|tricycle|planar_?move|mecanum|hoverboard", re.IGNORECASE
+)
+"""Names of plugins that move a robot over the ground."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """What a description and the options of its export ask for.
+
+    Attributes:
+        robot: The robot, with one root.
+        options: The options of the export.
+    """
+
+    robot: Robot
+    options: Options
+
+    @property
+    def root(self) -> str:
+        """The name of the root link."""
+        return self.robot.tree.roots[0].name
+
+    def value(self, name: str, *tags: str) -> str | None:
+        """What ``<gazebo>`` says last of a link or joint under one of some tags."""
+        found = None
+        for block in self.robot.gazebo:
+            if block.element.get("reference") == name:
+                for element in block.element.children:
+                    if element.tag in tags:
+                        found = (element.get("value") or element.text).strip()
+        return found
+
+    def number(self, name: str, *tags: str) -> float | None:
+        """The number that ``<gazebo>`` says last of a link or joint; None where it is not one."""
+        return number(self.value(name, *tags))
+
+    def whole(self, tag: str) -> Iterator[Element]:
+        """The elements of a tag in blocks of ``<gazebo>`` without reference."""
+        for block in self.robot.gazebo:
+            if not block.element.get("reference"):
+                yield from block.element.all(tag)
+
+    def moves(self, joint: Joint) -> bool:
+        """Whether a joint leaves its child any motion in MuJoCo's model."""
+        axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+        if joint.type in DIRECTED and math.hypot(*axis) < 1e-6:
+            return False
+        return joint.type in MOVING
+
+    @cached_property
+    def rigid(self) -> dict[str, str]:
+        """For each link the topmost link of the rigid body that it is a part of."""
+        found: dict[str, str] = {self.root: self.root}
+        for name in self.robot.tree.order:
+            joint = self.robot.tree.parent_joint(name)
+            if joint is not None:
+                found[name] = name if self.moves(joint) else found[joint.parent]
+        return found
+
+    @cached_property
+    def joined(self) -> set[frozenset[str]]:
+        """Pairs of rigid bodies with a joint between them; a floating one joins nothing."""
+        return {
+            frozenset((self.rigid[joint.parent], self.rigid[joint.child]))
+            for joint in self.robot.joints
+            if joint.type != "floating" and {joint.parent, joint.child} <= self.rigid.keys()
+        }
+
+    @cached_property
+    def separated(self) -> set[frozenset[str]]:
+        """Pairs of links that must not touch: of closed loops, and those that an SRDF disables."""
+        pairs = set()
+        for joint in self.whole("joint"):
+            ends = [joint.child(end) for end in ("parent", "child")]
+            pairs.add(frozenset(e.text.strip().rpartition("::")[2] for e in ends if e is not None))
+        for element in self._srdf.all("disable_collisions") if self._srdf else ():
+            pairs.add(frozenset((element.get("link1") or "", element.get("link2") or "")))
+        return pairs
+
+    @cached_property
+    def _srdf(self) -> Element | None:
+        if self.options.srdf is None:
+            return None
+        packages = self.robot.source.packages if self.robot.source is not None else None
+        return read_description(
+            self.options.srdf,
+            packages=packages.named if packages is not None else {},
+            package_paths=packages.paths if packages is not None else [],
+        ).document.root
+
+    @property
+    def is_free(self) -> bool:
+        """Whether the root moves freely: as asked for, or by what the description says."""
+        if self.root == "world" or self.options.base != "auto":
+            return self.root != "world" and self.options.base == "free"
+        for element in self.whole("static"):
+            if (element.get("value") or element.text).strip().lower() in ("true", "1", "yes"):
+                return False
+        virtual = self._srdf.child("virtual_joint") if self._srdf is not None else None
+        if virtual is not None:
+            return virtual.get("type") in ("floating", "planar")
+        return any(DRIVE.search(f"{p.filename} {p.name}".replace("-", "_")) for p in self._plugins)
+
+    @property
+    def _plugins(self) -> Iterator[_Plugin]:
+        for block in self.robot.gazebo:
+            for element in block.element.walk():
+                if element.tag == "plugin":
+                    yield _Plugin(element.get("filename") or "", element.get("name") or "")
+
+
+@dataclass(frozen=True)
+class _Plugin:
+    filename: str
+    name: str
+
+
+def read_pose(element: Element) -> Array:
+    """The ``<pose>`` of an element of Gazebo as a 4 × 4 matrix [m, rad]."""
+    child = element.child("pose")
+    six = numbers(child.text, 6) if child is not None else None
+    pose = np.eye(4)
+    if six is not None:
+        for axis, angle in zip(np.eye(3), six[3:], strict=True):
+            pose[:3, :3] = turn(axis, angle) @ pose[:3, :3]
+        pose[:3, 3] = six[:3]
+    return pose
