@@ -7,6 +7,7 @@ what is not declared a shell.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -27,6 +28,9 @@ FLAT = 1e-6
 
 THICKENED = 1e-3
 """What a flat mesh that collides is thickened to, relative to its size."""
+
+LONG_FACE = re.compile(rb"\nf(?:[ \t]+\S+){101}")
+"""A polygon of over 100 corners, which MuJoCo leaves out without a word."""
 
 Rgba = tuple[float, float, float, float]
 Image = Path | bytes
@@ -122,7 +126,9 @@ def _is_readable(mesh: Mesh) -> bool:
         data = b"\n" + mesh.path.read_bytes()
         # points of no face, which MuJoCo would take into the hull
         stray = data.count(b"\nv ") > len(mesh.vertices)
-        return not stray and data.count(b"\no ") + data.count(b"\ng ") <= 1 and len(mesh.parts) == 1
+        if stray or LONG_FACE.search(data):
+            return False
+        return data.count(b"\no ") + data.count(b"\ng ") <= 1 and len(mesh.parts) == 1
     return False
 
 

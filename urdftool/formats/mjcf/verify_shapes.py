@@ -31,8 +31,9 @@ SIMPLE, MESH = 1e-9, 1e-6
 SINGLE = 2.0**-23
 """What MuJoCo's numbers of a mesh's points are rounded by, relative to its size."""
 
-SURFACE = 1e-4
-"""How exactly the area of a mesh is kept by it, relative to its size."""
+SURFACE = 0.05
+"""How far areas may be apart, relatively: a polygon that is bent or not convex
+may be cut into triangles in two ways."""
 
 Bounds = tuple[Array, Array]
 

@@ -19,8 +19,13 @@ from .dynamics import centroidal, mass_matrix, poses
 from .excuses import Excuses, excuses_of
 from .loader import loads
 from .mechanism import Array, Hinge, Mechanism, inverse
-from .reader import read_sdf
+from .reader import Frames, open_model, read_model
+from .flags import compare_base, compare_flags, compare_joint_physics
+from .others import compare_others
+from .plugins import compare_plugins
+from .sensors import compare_sensors
 from .shapes import compare_colors, compare_shapes
+from .surfaces import compare_contact, compare_looks, compare_surface
 from .source import base_of, mechanism_of
 
 CONFIGURATIONS = 20
@@ -41,6 +46,8 @@ class Pair:
     made: Mechanism
     renamed: dict[tuple[str, str], str]
     excuses: Excuses
+    options: Options
+    where: Frames
 
     def link(self, name: str) -> str:
         """The name of a link, or its frame, in what was written."""
@@ -62,7 +69,7 @@ def verify(robot: Robot, written: Written, options: Options, output: str | Path)
     """
     place = Path(output) if options.file else Path(output) / written.main
     try:
-        pair = pair_of(left_of(robot) if options.force else robot, written, place)
+        pair = pair_of(left_of(robot) if options.force else robot, written, place, options)
     except (ElementTree.ParseError, OSError, LookupError, StopIteration, ValueError) as error:
         return [Check("file", "can be read back", 0.0, differing=[f"{place}: {error!r}"])]
     checks = compare(pair)
@@ -71,16 +78,19 @@ def verify(robot: Robot, written: Written, options: Options, output: str | Path)
     return checks if loaded is None else [*checks, loaded]
 
 
-def pair_of(robot: Robot, written: Written, place: Path) -> Pair:
+def pair_of(
+    robot: Robot, written: Written, place: Path, options: Options | None = None
+) -> Pair:
     """Both robots as mechanisms."""
 
     def find(uri: str) -> Path:
         return robot.source.resolve(uri) if robot.source is not None else Path(uri)
 
-    made = read_sdf(place, find)
-    return Pair(
-        robot, mechanism_of(robot), made, written.renamed, excuses_of(written.losses, robot)
-    )
+    where = open_model(place)
+    made = read_model(where, place, find)
+    excuses = excuses_of(written.losses, robot)
+    options = options or Options()
+    return Pair(robot, mechanism_of(robot), made, written.renamed, excuses, options, where)
 
 
 def compare(pair: Pair) -> list[Check]:
@@ -90,6 +100,9 @@ def compare(pair: Pair) -> list[Check]:
     checks.append(compare_shapes(pair, "collisions", configurations))
     checks.append(compare_shapes(pair, "visuals", configurations))
     checks.append(compare_colors(pair))
+    checks += [compare_base(pair), compare_contact(pair), compare_surface(pair)]
+    checks += [compare_flags(pair), compare_joint_physics(pair), compare_looks(pair)]
+    checks += [compare_sensors(pair), compare_plugins(pair), compare_others(pair)]
     return checks
 
 

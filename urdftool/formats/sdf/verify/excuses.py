@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from ....finding import Finding
@@ -13,6 +14,11 @@ LIMITS = MOTION | {"lossy-limit"}
 FRAMES = frozenset(("lossy-frame",))
 SHAPES = frozenset(("lossy-mesh", "lossy-shape", "lossy-capsule", "lossy-world"))
 COLORS = SHAPES | {"lossy-material", "lossy-texture"}
+BLOCKS = frozenset(
+    ("lossy-element", "lossy-extension", "lossy-reference", "lossy-name", "bad-extension-number")
+)
+"""What is in a block of ``<gazebo>`` is left out or changed."""
+
 MIMIC = MOTION | {"lossy-mimic"}
 
 
@@ -29,6 +35,7 @@ class Excuses:
         mimic: Joints that follow otherwise.
         shapes: Links with other shapes.
         colors: Links with other colours.
+        said: Every announcement, as its rule and the name of the link or joint it is of.
     """
 
     heavy: set[str] = field(default_factory=set)
@@ -39,6 +46,11 @@ class Excuses:
     mimic: set[str] = field(default_factory=set)
     shapes: set[str] = field(default_factory=set)
     colors: set[str] = field(default_factory=set)
+    said: set[tuple[str, str]] = field(default_factory=set)
+
+    def of(self, rules: Iterable[str], *names: str) -> bool:
+        """Whether one of some rules was announced of one of some names."""
+        return any((rule, name) in self.said for rule in rules for name in names)
 
 
 def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
@@ -48,6 +60,7 @@ def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
     made = Excuses(massy=more)
     for loss in losses:
         rule, name = loss.rule, loss.name
+        made.said.add((rule, name))
         if rule in MASS:
             made.massy = True
             made.heavy |= {joint.name for joint in _above(robot, name)}

@@ -58,7 +58,11 @@ class Hinge:
 
 @dataclass
 class Shape:
-    """A visual or collision: on which body, where, what, in which colour, with which picture."""
+    """A visual or collision: on which body, where, what, in which colour, with which picture.
+
+    Attributes:
+        part: What it was read from: an element of the file, or a part of the robot.
+    """
 
     link: str
     body: str
@@ -66,6 +70,7 @@ class Shape:
     what: tuple[Any, ...]
     rgba: tuple[float, ...] | None = None
     picture: str | None = None
+    part: Any = None
 
 
 @dataclass

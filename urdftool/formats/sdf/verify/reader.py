@@ -61,17 +61,27 @@ class Frames:
         return inverse(self.pose(link)) @ self.pose(base) @ pose if base else pose
 
 
+def open_model(path: Path) -> Frames:
+    """Read the first model of a file, with its frames."""
+    root = ET.parse(path).getroot()
+    models = [*root.findall("model"), *root.findall("world/model")]
+    model = next(m for m in models if m.get("name") != "ground_plane")
+    return Frames(model, tuple(map(int, root.get("version", "1.0").split("."))) < (1, 7))
+
+
 def read_sdf(path: Path, find: Find) -> Mechanism:
-    """Read the first model of a file.
+    """Read the first model of a file as a mechanism.
 
     Args:
         path: The file.
         find: Finds the file of a ``package://`` URI.
     """
-    root = ET.parse(path).getroot()
-    models = [*root.findall("model"), *root.findall("world/model")]
-    model = next(m for m in models if m.get("name") != "ground_plane")
-    frames = Frames(model, tuple(map(int, root.get("version", "1.0").split("."))) < (1, 7))
+    return read_model(open_model(path), path, find)
+
+
+def read_model(frames: Frames, path: Path, find: Find) -> Mechanism:
+    """Make a mechanism of a model; see :func:`read_sdf`."""
+    model = frames.model
     made = Mechanism()
     for link in model.findall("link"):
         name = link.get("name", "")
@@ -194,6 +204,7 @@ def _shape(frames: Frames, link: str, part: ET.Element, path: Path, find: Find) 
         _what(part, path, find),
         tuple(map(float, rgba.split())) if rgba else None,
         _picture(part, path, find),
+        part,
     )
 
 

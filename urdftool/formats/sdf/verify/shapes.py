@@ -71,6 +71,21 @@ def compare_colors(pair: Pair) -> Check:
     return check
 
 
+def matched(pair: Pair, kind: str) -> list[tuple[Shape, Shape]]:
+    """Return each visual or collision with the one in the file that is nearest to it."""
+    source: list[Shape] = getattr(pair.source, kind)
+    made: list[Shape] = getattr(pair.made, kind)
+    here = _places(pair, pair.source, source, [{}], renamed=False)
+    there = _places(pair, pair.made, made, [{}], renamed=True)
+    left, found = list(range(len(made))), []
+    for index, shape in enumerate(source):
+        nearest = _nearest(shape, here[index], made, there, left)
+        if nearest is not None:
+            left.remove(nearest)
+            found.append((shape, made[nearest]))
+    return found
+
+
 def _places(
     pair: Pair,
     robot: Mechanism,

@@ -118,6 +118,7 @@ def _limits(joint: Joint) -> dict[str, float]:
 
 def _shape(robot: Robot, link: Link, shape: Visual | Collision) -> Shape:
     made = Shape(link.name, link.name, pose(shape.origin), _what(robot, shape.geometry))
+    made.part = shape
     if is_gltf(shape) and robot.source is not None and robot.source.gltf_up == "y":
         made.pose = made.pose @ matrix(turned((np.pi / 2, 0.0, 0.0)), (0.0, 0.0, 0.0))
         kind, digested, x, y, z = made.what

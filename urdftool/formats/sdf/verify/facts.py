@@ -1,0 +1,116 @@
+"""Elements of SDF and of ``<gazebo>`` blocks as facts: paths with values that can be compared."""
+
+from __future__ import annotations
+
+import math
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Mapping
+
+from ....source.document import Element
+from ...check import Check
+
+Value = str | tuple[float, ...]
+Facts = dict[str, Value]
+
+EXACT = 1e-9
+TEXTS = frozenset(("topic", "name", "uri", "filename"))
+WORDS = {"true": "1", "yes": "1", "false": "0", "no": "0"}
+
+
+def value_of(text: str | None) -> Value:
+    """Return numbers as numbers, true and false as 1 and 0, and any other text as it is."""
+    stripped = (text or "").strip()
+    words = WORDS.get(stripped.lower(), stripped).split()
+    try:
+        found = tuple(float(word) for word in words)
+    except ValueError:
+        return " ".join(words)
+    return found if all(map(math.isfinite, found)) else " ".join(words)
+
+
+def facts_of(element: ET.Element | Element, *, without: Iterable[str] = ()) -> Facts:
+    """Return what an element holds: the values of its leaves and attributes by path.
+
+    Args:
+        element: An element of either side.
+        without: Tags of children that are left out.
+    """
+    facts: Facts = {}
+    _collect(facts, element, "", frozenset(without))
+    return facts
+
+
+def _collect(
+    facts: Facts, element: ET.Element | Element, path: str, without: frozenset[str]
+) -> None:
+    own = isinstance(element, Element)
+    attributes = element.attributes if isinstance(element, Element) else element.attrib
+    children = element.children if isinstance(element, Element) else list(element)
+    for name, text in attributes.items():
+        if path or name not in ("name", "type"):
+            if not name.startswith("xmlns"):
+                _put(facts, f"{path}@{_plain(name)}", value_of(text))
+    kept = [child for child in children if isinstance(child.tag, str) and child.tag not in without]
+    if path and not kept and (own or element.text is not None or not attributes):
+        _put(facts, path, value_of(element.text))
+    for child in kept:
+        _collect(facts, child, f"{path}/{_plain(child.tag)}" if path else _plain(child.tag), frozenset())
+
+
+def _plain(tag: str) -> str:
+    """A tag or attribute without its namespace."""
+    return re.sub(r"^(\{.*\}|\w+:)", "", tag)
+
+
+def _put(facts: Facts, path: str, value: Value) -> None:
+    """Set a value; a second one at a path gets a number."""
+    if path in facts:
+        number = 2
+        while f"{path}[{number}]" in facts:
+            number += 1
+        path = f"{path}[{number}]"
+    facts[path] = value
+
+
+def differences(found: Mapping[str, Value], expected: Mapping[str, Value]) -> list[str]:
+    """Return in words what differs between facts."""
+    texts = []
+    for path in expected.keys() | found.keys():
+        one, other = found.get(path), expected.get(path)
+        if one is None:
+            texts.append(f"{path} is missing, {said(other)} expected")
+        elif other is None:
+            texts.append(f"{path} is {said(one)}, which is not in the description")
+        elif not same(one, other):
+            texts.append(f"{path} is {said(one)}, not {said(other)}")
+    return sorted(texts)
+
+
+def same(one: Value, other: Value) -> bool:
+    """Whether two values are equal; numbers up to rounding."""
+    if isinstance(one, str) or isinstance(other, str):
+        return one == other
+    if len(one) != len(other):
+        return False
+    return all(abs(a - b) <= EXACT * max(1.0, abs(a)) for a, b in zip(one, other, strict=True))
+
+
+def said(value: Value | None) -> str:
+    """Return a value as text."""
+    if isinstance(value, tuple):
+        return " ".join(f"{part:.9g}" for part in value)
+    return f"'{value}'"
+
+
+def compare_facts(
+    check: Check,
+    about: str,
+    found: Mapping[str, Value],
+    expected: Mapping[str, Value],
+    *,
+    known: bool = False,
+) -> None:
+    """Note each difference of a thing in a row."""
+    for text in differences(found, expected):
+        (check.announced if known else check.differing).append(f"{about}: {text}")

@@ -1,0 +1,134 @@
+"""How the robot is held and placed, and what its links and joints have beside their numbers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ....model.read import numbers
+from ...check import Check
+from .excuses import BLOCKS
+from .facts import EXACT, Facts, compare_facts, facts_of, value_of
+from .mechanism import Array, matrix, turned
+from .reader import read_pose
+from .said import OF_LINKS, elements_of_whole, flags_said, joint_physics_said, text_of
+from .surfaces import own_links
+
+if TYPE_CHECKING:
+    from .compare import Pair
+
+NUMBERS = frozenset(
+    ("axis/xyz", "axis/limit/lower", "axis/limit/upper", "axis/limit/effort",
+     "axis/limit/velocity", "axis/dynamics/damping", "axis/dynamics/friction")
+)  # fmt: skip
+"""What of a joint other rows compare."""
+
+FLAGS = frozenset(
+    ("static", "allow_auto_disable", "enable_wind", "self_collide", "placement_frame")
+)
+"""What a model is told of itself."""
+
+
+def compare_base(pair: Pair) -> Check:
+    """Compare whether the robot is static, where it is, and what holds it."""
+    check = Check("base", "static, pose of the model, joints to the world, kinematic links", EXACT)
+    model = pair.where.model
+    expected: Facts = {}
+    for element in elements_of_whole(pair.robot):
+        if element.tag in FLAGS:
+            expected[element.tag] = value_of(text_of(element))
+    found = {tag: value_of(model.findtext(tag)) for tag in FLAGS if model.find(tag) is not None}
+    for tag in ("placement_frame",):
+        if model.get(tag):
+            found[tag] = value_of(model.get(tag))
+    known = pair.excuses.of(BLOCKS, "")
+    compare_facts(check, "the model", found, expected, known=known)
+    off = float(np.abs(read_pose(model) - _place(pair)).max())
+    check.compare(off, "the model is elsewhere", known=known)
+    for link, element in own_links(pair):
+        flags = {k: v for k, v in flags_said(pair.robot, link).items() if k == "kinematic"}
+        said = {k: v for k, v in facts_of(element).items() if k == "kinematic"}  # type: ignore[arg-type]
+        excused = pair.excuses.of(BLOCKS, link.name)
+        compare_facts(check, f"link '{link.name}'", said, flags, known=excused)
+    _compare_held(pair, check)
+    return check
+
+
+def _place(pair: Pair) -> Array:
+    """The pose of the model: as a block says, else as the robot's own origin does."""
+    pose = np.eye(4)
+    origin = pair.robot.element.child("origin")
+    if origin is not None:
+        xyz, rpy = (numbers(origin.get(name), 3) or (0.0, 0.0, 0.0) for name in ("xyz", "rpy"))
+        pose = matrix(turned(rpy), xyz)
+    for element in elements_of_whole(pair.robot):
+        six = numbers(element.text, 6) if element.tag == "pose" else None
+        if six is not None:
+            pose = matrix(turned(six[3:]), six[:3])
+    return pose
+
+
+def _compare_held(pair: Pair, check: Check) -> None:
+    """Compare which links fixed joints join, to each other and to the world."""
+    group = {name: name for name in ("world", *pair.made.bodies)}
+
+    def top(name: str) -> str:
+        while group[name] != name:
+            name = group[name]
+        return name
+
+    closing = {e.get("name") for e in elements_of_whole(pair.robot) if e.tag == "joint"}
+    for joint in pair.made.joints:
+        if joint.kind == "fixed" and joint.name not in closing:
+            group[top(joint.child)] = top(joint.parent)
+    anchored = any(root.name == "world" for root in pair.robot.tree.roots)
+    expected: dict[str, str] = {}
+    for name in pair.robot.tree.order:
+        joint = pair.robot.tree.parent_joint(name)
+        stays = joint is None or not (joint.is_fixed or joint.name in pair.excuses.motion)
+        if joint is not None and joint.parent == "world" and not anchored:
+            stays = stays and name != "world"
+        expected[name] = name if stays or joint is None else expected[joint.parent]
+    seen: dict[str, str] = {}
+    owners: dict[str, str] = {}
+    for name, rigid in expected.items():
+        frame = pair.made.frames.get(pair.link(name))
+        if frame is None or name in pair.excuses.frames:
+            continue
+        body = top(frame[0])
+        if seen.setdefault(rigid, body) != body:
+            check.compare(np.inf, f"link '{name}' is not joined to '{rigid}'")
+        elif owners.setdefault(body, rigid) != rigid:
+            check.compare(np.inf, f"link '{name}' is joined to '{owners[body]}'")
+
+
+def compare_flags(pair: Pair) -> Check:
+    """Compare gravity, damping and wind of links."""
+    check = Check("link flags", "gravity, damping of motion, wind", EXACT)
+    tags = {path for paths in OF_LINKS.values() for path in paths} - {"self_collide", "kinematic"}
+    for link, element in own_links(pair):
+        expected = {k: v for k, v in flags_said(pair.robot, link).items() if k in tags}
+        found = {k: v for k, v in facts_of(element).items() if k in tags}  # type: ignore[arg-type]
+        known = pair.excuses.of(BLOCKS, link.name)
+        compare_facts(check, f"link '{link.name}'", found, expected, known=known)
+    return check
+
+
+def compare_joint_physics(pair: Pair) -> Check:
+    """Compare springs, stops and all else that a joint has beside its numbers."""
+    check = Check("joint physics", "springs, stiffness of limits, stops, feedback", EXACT)
+    elements = {e.get("name"): e for e in pair.where.model.findall("joint")}
+    for joint in pair.robot.joints:
+        element = elements.get(pair.joint(joint.name))
+        if element is None:
+            continue
+        expected = joint_physics_said(pair.robot, joint)
+        if element.find("axis") is None:
+            expected = {k: v for k, v in expected.items() if not k.startswith("axis/")}
+        found = facts_of(element, without=("pose", "parent", "child", "sensor", "plugin"))
+        found = {k: v for k, v in found.items() if k not in NUMBERS and "/mimic" not in k}
+        expected = {k: v for k, v in expected.items() if k not in NUMBERS}
+        known = pair.excuses.of(BLOCKS, joint.name)
+        compare_facts(check, f"joint '{joint.name}'", found, expected, known=known)
+    return check

@@ -1,0 +1,139 @@
+"""What else a file holds: lights, projectors, batteries, nested models, joints of loops."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ....model.elements import Joint, Link
+from ....source.document import Element
+from ...check import Check
+from .excuses import BLOCKS
+from .facts import EXACT, Facts, compare_facts, facts_of
+from .said import LUMPING, NOWHERE, OF_COLLISIONS, OF_JOINTS, OF_LINKS, elements_of
+from .said import elements_of_whole
+
+if TYPE_CHECKING:
+    from .compare import Pair
+
+OTHER_ROWS = frozenset(
+    ("sensor", "plugin", "visual", "collision", "material", "velocity_decay", "inertial", "pose",
+     "parent", "child", "axis", "axis2", "physics", "static", "link", "joint", "frame",
+     "allow_auto_disable", "placement_frame", *OF_COLLISIONS, *OF_JOINTS, *OF_LINKS, *LUMPING,
+     *NOWHERE)
+)  # fmt: skip
+"""Tags that are compared by another row, or have no place in SDF."""
+
+
+def compare_others(pair: Pair) -> Check:
+    """Compare what is copied from blocks as it is."""
+    check = Check("other elements", "lights, projectors, batteries, and what else is copied", EXACT)
+    left = list(_written(pair))
+    for owner, name, element in _expected(pair):
+        about = f"<{element.tag}> of '{name}'" if name else f"<{element.tag}>"
+        known = pair.excuses.of(BLOCKS, name)
+        alike = [one for one in left if one[0] == owner and one[1].tag == element.tag]
+        wanted = facts_of(element, without=("pose",))
+        alike.sort(key=lambda one: _unlike(one[1], wanted))
+        if not alike:
+            check.compare(np.inf, f"{about} is missing", known=known or pair.excuses.of(BLOCKS, ""))
+            continue
+        left.remove(alike[0])
+        found = facts_of(alike[0][1], without=("pose",))
+        compare_facts(check, about, found, wanted, known=known)
+        _compare_pose(pair, check, about, owner, name, alike[0][1], element, known)
+    for owner, element in left:
+        check.compare(np.inf, f"<{element.tag}> of '{owner}' is not in the description")
+    _compare_loops(pair, check)
+    return check
+
+
+def _unlike(element: Any, wanted: Facts) -> int:
+    found = facts_of(element, without=("pose",))
+    return sum(found.get(path) != value for path, value in wanted.items())
+
+
+def _written(pair: Pair) -> Iterator[tuple[str, Any]]:
+    model = pair.where.model
+    for owner, node in (("", model), *((e.get("name", ""), e) for e in model)):
+        if owner and node.tag not in ("link", "joint"):
+            continue
+        for element in node:
+            if isinstance(element.tag, str) and element.tag not in OTHER_ROWS:
+                yield owner, element
+
+
+def _expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
+    """What is copied, with what it is of in the file and in the description."""
+    for element in elements_of_whole(pair.robot):
+        if element.tag not in OTHER_ROWS:
+            yield "", "", element
+    joints = {joint.name for joint in pair.made.joints}
+    parts: list[Link | Joint] = [*pair.robot.links, *pair.robot.joints]
+    for part in parts:
+        if isinstance(part, Link):
+            frame = pair.made.frames.get(pair.link(part.name))
+            if frame is None:
+                continue
+            owner = frame[0]
+        else:
+            owner = pair.joint(part.name)
+            if owner not in joints or part.name in pair.robot.link:
+                continue
+        for element in elements_of(pair.robot, part):
+            if element.tag not in OTHER_ROWS:
+                yield owner, part.name, element
+
+
+def _compare_pose(
+    pair: Pair,
+    check: Check,
+    about: str,
+    owner: str,
+    name: str,
+    found: Any,
+    element: Element,
+    known: bool,
+) -> None:
+    from .sensors import pose_of_element
+
+    link = pair.robot.link.get(name)
+    child = found.find("pose")
+    if link is None or owner not in pair.made.bodies or (child is None and not element.child("pose")):
+        return
+    inside = pair.made.frames[pair.link(name)][1]
+    place = np.linalg.inv(inside) @ pair.where.local(owner, found)
+    off = float(np.abs(place - pose_of_element(pair, link, element)).max())
+    check.compare(off, f"{about} is elsewhere", known=known)
+
+
+def _compare_loops(pair: Pair, check: Check) -> None:
+    """Compare joints of blocks, which close loops."""
+    elements = {e.get("name", ""): e for e in pair.where.model.findall("joint")}
+    own = {pair.joint(joint.name) for joint in pair.robot.joints}
+    for block in elements_of_whole(pair.robot):
+        if block.tag != "joint":
+            continue
+        name = block.get("name") or ""
+        known = pair.excuses.of(BLOCKS, "")
+        names = [n for n in elements if n not in own and (n == name or n.startswith(f"{name}_"))]
+        if not names:
+            check.compare(np.inf, f"joint '{name}' of a loop is missing", known=known)
+            continue
+        made = elements[names[0]]
+        wanted = facts_of(block, without=("parent", "child"))
+        compare_facts(
+            check, f"joint '{name}' of a loop", facts_of(made, without=("parent", "child")), wanted,
+            known=known,
+        )  # fmt: skip
+        if made.get("type") != block.get("type"):
+            check.compare(np.inf, f"joint '{name}' of a loop has another type")
+        for end in ("parent", "child"):
+            child = block.child(end)
+            text = child.text.strip() if child is not None else ""
+            frame = pair.made.frames.get(pair.link(text.rpartition("::")[2]))
+            found = (made.findtext(end) or "").strip()
+            if frame is not None and found not in (text, frame[0], pair.link(text)):
+                check.compare(np.inf, f"{end} of joint '{name}' of a loop is '{found}'")

@@ -1,0 +1,245 @@
+"""Plugins of the file against those of the description: library, class, parameters."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ....model.elements import Joint, Link
+from ....model.gazebo_plugins import (
+    CONTROL_PLUGINS,
+    MIMIC_PLUGINS,
+    SENSOR_PLUGINS,
+    SYSTEM_PLUGINS,
+    System,
+    library,
+)
+from ....model.read import number
+from ....source.document import Element
+from ...check import Check
+from .facts import Facts, compare_facts, facts_of, value_of
+from .said import elements_of, elements_of_whole
+
+if TYPE_CHECKING:
+    from .compare import Pair
+
+CONTROL = frozenset(
+    ("parameters", "ros", "controller_manager_name", "robot_param", "robot_param_node",
+     "hold_joints")
+)  # fmt: skip
+"""Parameters that gz_ros2_control takes over."""
+
+SENSING = frozenset(
+    ("gazebo_ros_imu", "gazebo_ros_imu_sensor", "hector_gazebo_ros_imu", "hector_gazebo_ros_gps",
+     "hector_gazebo_ros_magnetic", "gazebo_ros_ft_sensor")
+)  # fmt: skip
+"""Libraries that become a sensor in gz where they name a link or joint."""
+
+
+@dataclass
+class Expected:
+    """A plugin that the description asks for.
+
+    Attributes:
+        owner: The link, joint, sensor or model it is of; empty for the model.
+        library: The file it is to be loaded from.
+        name: Its class or name; empty where any will do.
+        facts: Its parameters.
+    """
+
+    owner: str
+    library: str
+    name: str
+    facts: Facts
+
+
+def compare_plugins(pair: Pair) -> Check:
+    """Compare every plugin."""
+    check = Check("plugins", "what they are of, library, class, parameters", 0.0)
+    left = list(_written(pair))
+    for wanted in _expected(pair):
+        about = f"plugin '{wanted.library}'" + (f" of '{wanted.owner}'" if wanted.owner else "")
+        alike = [one for one in left if one[1].get("filename") == wanted.library]
+        alike.sort(key=lambda one: _unlike(one, wanted))
+        if not alike:
+            check.compare(np.inf, f"{about} is missing")
+            continue
+        owner, element = alike[0]
+        left.remove(alike[0])
+        if owner != wanted.owner:
+            check.compare(np.inf, f"{about} is in '{owner}'")
+        if wanted.name and element.get("name") != wanted.name:
+            check.compare(np.inf, f"{about} has the name '{element.get('name')}', not '{wanted.name}'")
+        facts = {p: v for p, v in facts_of(element).items() if not p.startswith("@")}
+        compare_facts(check, about, facts, wanted.facts)
+    for owner, element in left:
+        text = f"plugin '{element.get('filename')}' of '{owner}' is not in the description"
+        check.compare(np.inf, text)
+    return check
+
+
+def _unlike(one: tuple[str, Any], wanted: Expected) -> tuple[bool, bool, int]:
+    facts = facts_of(one[1])
+    apart = sum(facts.get(path) != value for path, value in wanted.facts.items())
+    return one[0] != wanted.owner, one[1].get("name") != wanted.name, apart
+
+
+def _written(pair: Pair) -> Iterator[tuple[str, Any]]:
+    """The plugins of the file with the name of what they are in."""
+    model = pair.where.model
+    for element in model.findall("plugin"):
+        yield "", element
+    for kind in ("link", "joint"):
+        for node in model.findall(kind):
+            for element in node.findall("plugin"):
+                yield node.get("name", ""), element
+            for sensor in node.findall("sensor"):
+                for element in sensor.findall("plugin"):
+                    yield sensor.get("name", ""), element
+
+
+def _expected(pair: Pair) -> Iterator[Expected]:
+    for element in elements_of_whole(pair.robot):
+        if element.tag == "plugin":
+            yield from _one(pair, element, "", None)
+    elements = {
+        kind: {e.get("name") for e in pair.where.model.findall(kind)} for kind in ("link", "joint")
+    }
+    parts: list[Link | Joint] = [*pair.robot.links, *pair.robot.joints]
+    for part in parts:
+        if isinstance(part, Link):
+            frame = pair.made.frames.get(pair.link(part.name))
+            owner = frame[0] if frame is not None else ""
+        else:
+            owner = pair.joint(part.name)
+        there = owner in elements["link" if isinstance(part, Link) else "joint"]
+        for element in elements_of(pair.robot, part) if there else ():
+            if element.tag == "plugin":
+                yield from _one(pair, element, owner, part)
+            elif element.tag == "sensor":
+                for plugin in element.all("plugin"):
+                    if pair.options.classic or library(plugin) not in SENSOR_PLUGINS:
+                        name = element.get("name") or f"{part.name}_sensor"
+                        yield from _one(pair, plugin, name, None, inside=True)
+
+
+def _one(
+    pair: Pair, element: Element, owner: str, part: Link | Joint | None, *, inside: bool = False
+) -> Iterator[Expected]:
+    """What a plugin becomes."""
+    name = library(element)
+    if not name:
+        return
+    gz = not pair.options.classic
+    if gz and not inside and name in SENSING and _senses(pair, element, part):
+        return
+    if gz and name in CONTROL_PLUGINS:
+        yield _control(pair, element, owner)
+    elif gz and name in MIMIC_PLUGINS and _is_mimic(pair, element):
+        return
+    elif gz and name in SYSTEM_PLUGINS:
+        for system in SYSTEM_PLUGINS[name]:
+            yield _system(pair, element, owner, system)
+    else:
+        facts = {p: v for p, v in facts_of(element).items() if not p.startswith("@")}
+        own = element.get("name") or name
+        yield Expected(owner, element.get("filename") or "", own, _renamed(pair, facts))
+
+
+def _senses(pair: Pair, element: Element, part: Link | Joint | None) -> bool:
+    """Whether a plugin outside of a sensor names a link or joint that is there."""
+    tags = ("jointName", "joint_name") if "ft_sensor" in library(element) else ("bodyName", "body_name")
+    named = [c.text.strip() for tag in tags for c in element.all(tag)]
+    name = next((text for text in named if text), "") or (part.name if part is not None else "")
+    if tags[0] == "jointName":
+        return any(joint.name == pair.joint(name) for joint in pair.made.joints)
+    return name in pair.robot.link
+
+
+def _is_mimic(pair: Pair, element: Element) -> bool:
+    child = element.child("mimicJoint")
+    joint = pair.robot.joint.get(child.text.strip()) if child is not None else None
+    return joint is not None and joint.mimic is not None and pair.options.since("1.11")
+
+
+def _control(pair: Pair, element: Element, owner: str) -> Expected:
+    """The plugin of ros2_control for gz."""
+    new = pair.options.since("1.10")
+    facts: Facts = {}
+    for child in element.children:
+        if child.tag == "robotNamespace" and child.text.strip():
+            facts["ros/namespace"] = value_of(child.text)
+    kept = [child.tag for child in element.children if child.tag not in CONTROL]
+    facts.update(
+        {p: v for p, v in facts_of(element, without=kept).items() if not p.startswith("@")}
+    )
+    return Expected(
+        owner,
+        "gz_ros2_control-system" if new else "ign_ros2_control-system",
+        "gz_ros2_control::GazeboSimROS2ControlPlugin"
+        if new
+        else "ign_ros2_control::IgnitionROS2ControlPlugin",
+        facts,
+    )
+
+
+def _system(pair: Pair, element: Element, owner: str, system: System) -> Expected:
+    """The system of gz that takes the place of a plugin of Gazebo Classic."""
+    said: list[tuple[str, str]] = []
+    facts: Facts = {}
+    for child in element.children:
+        new = system.parameters.get(child.tag)
+        text = child.text.strip()
+        if new is None:
+            continue
+        if child.children:
+            for path, value in facts_of(child).items():
+                facts[f"{new}/{path}"] = value
+            said.append((new, ""))
+        elif new == "joint_name":
+            said += [(new, word.strip()) for word in text.split(",") if word.strip()]
+        elif child.tag in system.halved and number(text) is not None:
+            said.append((new, repr((number(text) or 0.0) / 2)))
+        elif text:
+            said.append((new, text))
+    ros = element.child("ros")
+    maps = [e for tag in ("remapping", "argument") for e in (ros.all(tag) if ros else ())]
+    for entry in maps:
+        old, arrow, new_name = entry.text.strip().partition(":=")
+        tag = system.remapped.get(old.strip()) if arrow else None
+        if tag is not None and tag not in dict(said):
+            said.append((tag, new_name.strip()))
+    said += [(tag, text) for tag, text in system.defaults.items() if tag not in dict(said)]
+    count: Counter[str] = Counter()
+    for tag, text in said:
+        if not text:
+            continue
+        count[tag] += 1
+        path = tag if count[tag] == 1 else f"{tag}[{count[tag]}]"
+        facts[path] = value_of(pair.joint(text) if "joint" in tag else text)
+    new = pair.options.since("1.10")
+    return Expected(
+        owner,
+        f"gz-sim-{system.word}-system" if new else f"ignition-gazebo-{system.word}-system",
+        f"gz::sim::systems::{system.name}" if new else f"ignition::gazebo::systems::{system.name}",
+        facts,
+    )
+
+
+def _renamed(pair: Pair, facts: Facts) -> Facts:
+    """Facts whose links and joints are called as in the file."""
+    made: Facts = {}
+    for path, value in facts.items():
+        tag = path.rpartition("/")[2].partition("[")[0]
+        if isinstance(value, str) and "oint" in tag:
+            value = pair.joint(value)
+        elif isinstance(value, str) and "ink" in tag or tag in ("bodyName", "body_name"):
+            frame = pair.made.frames.get(pair.link(str(value)))
+            if frame is not None:
+                value = frame[0] if pair.options.classic else pair.link(str(value))
+        made[path] = value
+    return made

@@ -1,0 +1,118 @@
+"""What ``<gazebo>`` blocks say of links, joints and the robot, read anew from the description."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ....model.elements import Joint, Link, Robot
+from ....source.document import Element
+from .facts import Facts, facts_of, value_of
+
+OF_COLLISIONS = {
+    "mu1": "surface/friction/ode/mu",
+    "mu2": "surface/friction/ode/mu2",
+    "fdir1": "surface/friction/ode/fdir1",
+    "kp": "surface/contact/ode/kp",
+    "kd": "surface/contact/ode/kd",
+    "maxVel": "surface/contact/ode/max_vel",
+    "minDepth": "surface/contact/ode/min_depth",
+    "maxContacts": "max_contacts",
+    "laserRetro": "laser_retro",
+}
+"""Where SDF has the tags of a link that are of each of its collisions."""
+
+OF_LINKS = {
+    "selfCollide": ("self_collide",),
+    "turnGravityOff": ("gravity",),
+    "dampingFactor": ("velocity_decay/linear", "velocity_decay/angular"),
+    "gravity": ("gravity",),
+    "self_collide": ("self_collide",),
+    "enable_wind": ("enable_wind",),
+    "kinematic": ("kinematic",),
+    "must_be_base_link": ("must_be_base_link",),
+}
+"""Where SDF has the tags of a link that are of the link."""
+
+OF_JOINTS = {
+    "stopCfm": ("physics/ode/limit/cfm",),
+    "stopErp": ("physics/ode/limit/erp",),
+    "fudgeFactor": ("physics/ode/fudge_factor",),
+    "implicitSpringDamper": ("physics/ode/implicit_spring_damper", "physics/ode/cfm_damping"),
+    "cfmDamping": ("physics/ode/implicit_spring_damper", "physics/ode/cfm_damping"),
+    "provideFeedback": ("physics/provide_feedback",),
+    "springStiffness": ("axis/dynamics/spring_stiffness",),
+    "springReference": ("axis/dynamics/spring_reference",),
+}
+"""Where SDF has the tags of a joint."""
+
+LUMPING = frozenset(("preserveFixedJoint", "disableFixedJointLumping"))
+NOWHERE = frozenset(("canonicalBody",))
+
+
+def elements_of(robot: Robot, part: Link | Joint) -> Iterator[Element]:
+    """Yield the elements in the blocks of a link or joint.
+
+    Of a link and a joint of one name each gets what is of its kind.
+    """
+    shared = part.name in robot.link and part.name in robot.joint
+    for block in robot.gazebo:
+        if block.element.get("reference") != part.name:
+            continue
+        for element in block.element.children:
+            of_joint = element.tag in OF_JOINTS.keys() | LUMPING or (
+                element.tag == "sensor" and (element.get("type") or "").strip() == "force_torque"
+            )
+            if not shared or of_joint == isinstance(part, Joint):
+                yield element
+
+
+def elements_of_whole(robot: Robot) -> Iterator[Element]:
+    """Yield the elements in blocks that refer to nothing."""
+    for block in robot.gazebo:
+        if not block.element.get("reference"):
+            yield from block.element.children
+
+
+def text_of(element: Element) -> str:
+    """Return what a tag is set to, as an attribute or as text."""
+    return (element.get("value") or element.text).strip()
+
+
+def surface_said(robot: Robot, link: Link) -> Facts:
+    """Return what each collision of a link has beside its shape."""
+    facts: Facts = {}
+    for element in elements_of(robot, link):
+        if element.tag in OF_COLLISIONS:
+            facts[OF_COLLISIONS[element.tag]] = value_of(text_of(element))
+    for element in elements_of(robot, link):
+        if element.tag == "collision":
+            facts.update(facts_of(element))
+    return facts
+
+
+def flags_said(robot: Robot, link: Link) -> Facts:
+    """Return what a link has beside its parts."""
+    facts: Facts = {}
+    plain: Facts = {}
+    for element in elements_of(robot, link):
+        if element.tag == "turnGravityOff":
+            facts["gravity"] = (0.0,) if value_of(text_of(element)) == (1.0,) else (1.0,)
+        elif element.tag in ("selfCollide", "dampingFactor"):
+            for path in OF_LINKS[element.tag]:
+                facts[path] = value_of(text_of(element))
+        elif element.tag in OF_LINKS:
+            plain[element.tag] = value_of(text_of(element))
+        elif element.tag == "velocity_decay":
+            plain.update({f"velocity_decay/{p}": v for p, v in facts_of(element).items()})
+    return {**facts, **plain}
+
+
+def joint_physics_said(robot: Robot, joint: Joint) -> Facts:
+    """Return what a joint has beside its axis and limits."""
+    facts: Facts = {}
+    for element in elements_of(robot, joint):
+        for path in OF_JOINTS.get(element.tag, ()):
+            facts[path] = value_of(text_of(element))
+        if element.tag in ("physics", "axis", "axis2"):
+            facts.update({f"{element.tag}/{p}": v for p, v in facts_of(element).items()})
+    return facts

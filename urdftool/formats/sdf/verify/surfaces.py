@@ -1,0 +1,163 @@
+"""What collisions and visuals have beside their shapes: who touches, how it grips, how it looks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ....model.elements import Link, Material, Visual
+from ...check import Check
+from ..colors import COLORS
+from .excuses import BLOCKS
+from .facts import EXACT, Facts, compare_facts, facts_of, value_of
+from .mechanism import Shape
+from .said import elements_of, flags_said, surface_said, text_of
+from .shapes import matched
+
+if TYPE_CHECKING:
+    from .compare import Pair
+
+MASKS = (
+    "surface/contact/collide_bitmask",
+    "surface/contact/category_bitmask",
+    "surface/contact/collide_without_contact",
+    "surface/contact/collide_without_contact_bitmask",
+)
+IMAGES = ("material/pbr/metal/albedo_map", "material/script/name", "material/script/uri")
+"""Paths of files, which the row of the colors compares by what is in them."""
+
+
+def compare_contact(pair: Pair) -> Check:
+    """Compare masks of collisions, and which links touch their own robot."""
+    check = Check("contact", "masks of collisions, self_collide of links and model", 0.0)
+    for source, made in matched(pair, "collisions"):
+        link = pair.robot.link[source.link]
+        expected, found = surface_said(pair.robot, link), _collision_facts(made)
+        about = f"collision '{made.part.get('name')}' of '{source.link}'"
+        known = pair.excuses.of(BLOCKS, source.link)
+        compare_facts(check, about, _only(found, MASKS), _only(expected, MASKS), known=known)
+    for link, element in own_links(pair):
+        flags = _only(flags_said(pair.robot, link), ("self_collide",))
+        found = _only(facts_of(element), ("self_collide",))
+        known = pair.excuses.of(BLOCKS, link.name)
+        compare_facts(check, f"link '{link.name}'", found, flags, known=known)
+    return check
+
+
+def compare_surface(pair: Pair) -> Check:
+    """Compare friction, stiffness and all else that a collision has."""
+    what = "friction, stiffness, damping, bounce, number of contacts"
+    check = Check("surface", what, EXACT)
+    for source, made in matched(pair, "collisions"):
+        link = pair.robot.link[source.link]
+        expected = surface_said(pair.robot, link)
+        about = f"collision '{made.part.get('name')}' of '{source.link}'"
+        known = pair.excuses.of(BLOCKS, source.link)
+        found = _without(_collision_facts(made), MASKS)
+        compare_facts(check, about, found, _without(expected, MASKS), known=known)
+    return check
+
+
+def compare_looks(pair: Pair) -> Check:
+    """Compare the light that visuals give back, their transparency, and all else they have."""
+    check = Check("looks", "ambient, diffuse, specular, emissive, transparency", EXACT)
+    for source, made in matched(pair, "visuals"):
+        link = pair.robot.link[source.link]
+        about = f"visual '{made.part.get('name')}' of '{source.link}'"
+        known = pair.excuses.of(BLOCKS, source.link) or source.link in pair.excuses.colors
+        found = facts_of(made.part, without=("geometry", "pose"))
+        expected = _look(pair, link, source)
+        compare_facts(check, about, _without(found, IMAGES), _without(expected, IMAGES), known=known)
+    return check
+
+
+def own_links(pair: Pair) -> Iterator[tuple[Link, object]]:
+    """Yield the links that are links of the file still, with their elements."""
+    elements = {e.get("name"): e for e in pair.where.model.findall("link")}
+    for link in pair.robot.links:
+        element = elements.get(pair.link(link.name))
+        if element is not None:
+            yield link, element
+
+
+def _collision_facts(made: Shape) -> Facts:
+    return facts_of(made.part, without=("geometry", "pose"))
+
+
+def _look(pair: Pair, link: Link, shape: Shape) -> Facts:
+    """What a visual has beside its shape."""
+    facts: Facts = {}
+    blocks = [e for e in elements_of(pair.robot, link) if e.tag == "material"]
+    facts.update(_material(pair, blocks[-1:], shape))
+    for element in elements_of(pair.robot, link):
+        if element.tag == "laserRetro" and not pair.options.classic:
+            facts["laser_retro"] = value_of(text_of(element))
+        elif element.tag == "visual":
+            facts.update(facts_of(element))
+    return facts
+
+
+def _material(pair: Pair, blocks: list[object], shape: Shape) -> Facts:
+    """The material that Gazebo is told, else that of URDF."""
+    visual = shape.part
+    assert isinstance(visual, Visual)
+    for block in blocks:
+        facts = {f"material/{path}": value for path, value in facts_of(block).items()}  # type: ignore[arg-type]
+        if block.children:  # type: ignore[attr-defined]
+            return facts
+        name = text_of(block)  # type: ignore[arg-type]
+        color = COLORS.get(name)
+        if pair.options.classic and name:
+            return {}
+        if color is not None:
+            facts = {
+                f"material/{tag}": (*getattr(color, tag), color.alpha)
+                for tag in ("ambient", "diffuse", "specular")
+            }
+            if any(color.emissive):
+                facts["material/emissive"] = (*color.emissive, 1.0)
+            return facts | ({"transparency": (1 - color.alpha,)} if color.alpha < 1 else {})
+    own = _defined(pair, visual.material)
+    if own is None:
+        return {}
+    seen = bool(own.texture) and _is_there(pair, own.texture or "")
+    if own.color is None and not seen:
+        return {}
+    rgba = own.color or (1.0, 1.0, 1.0, 1.0)
+    facts = {"material/ambient": rgba, "material/diffuse": rgba}
+    if rgba[3] < 1:
+        facts["transparency"] = (1 - rgba[3],)
+    if seen and not pair.options.classic:
+        facts["material/pbr/metal/metalness"] = (0.0,)
+    return facts
+
+
+def _defined(pair: Pair, own: Material | None) -> Material | None:
+    """The first material of a name that has a color or an image."""
+    if own is None:
+        return None
+    named = [v.material for link in pair.robot.links for v in link.visuals]
+    for one in (own, *pair.robot.materials, *named):
+        if one is not None and one.name == own.name and (one.color or one.texture):
+            return one
+    return None
+
+
+def _is_there(pair: Pair, texture: str) -> bool:
+    from ....errors import UrdftoolError
+
+    if pair.robot.source is None:
+        return False
+    try:
+        return Path(pair.robot.source.resolve(texture)).is_file()
+    except UrdftoolError:
+        return False
+
+
+def _only(facts: Facts, paths: tuple[str, ...]) -> Facts:
+    return {path: value for path, value in facts.items() if path in paths}
+
+
+def _without(facts: Facts, paths: tuple[str, ...]) -> Facts:
+    return {path: value for path, value in facts.items() if path not in paths}
