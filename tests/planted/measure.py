@@ -14,12 +14,12 @@ from urdftool.formats.written import Written
 from urdftool.model.elements import Robot
 from urdftool.model.load import load
 
-from . import mjcf
+from . import mjcf, sdf
 from .change import Planted
 
 FOLDER = Path(__file__).resolve().parents[2] / "fixtures" / "formats" / "everything"
 ROBOT = FOLDER / "everything.urdf"
-CHANGES: dict[str, Sequence[Planted]] = {"mjcf": mjcf.CHANGES}
+CHANGES: dict[str, Sequence[Planted]] = {"mjcf": mjcf.CHANGES, "sdf": sdf.CHANGES}
 
 
 def changed(written: Written, planted: Planted | None) -> Written:
@@ -46,7 +46,7 @@ def compared(form: str, planted: Planted | None) -> list[Check]:
     """Return all rows of the comparison of an export with a change."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name) / "everything"
-        return _mjcf(load(ROBOT), folder, planted)
+        return (_mjcf if form == "mjcf" else _sdf)(load(ROBOT), folder, planted)
 
 
 def _mjcf(robot: Robot, folder: Path, planted: Planted | None) -> list[Check]:
@@ -58,3 +58,14 @@ def _mjcf(robot: Robot, folder: Path, planted: Planted | None) -> list[Check]:
     written = changed(write(robot, options), planted)
     write_directory(folder, written.files, main=written.main)
     return verify(robot, written, folder / written.main, written, options)
+
+
+def _sdf(robot: Robot, folder: Path, planted: Planted | None) -> list[Check]:
+    from urdftool.formats.sdf.options import Options
+    from urdftool.formats.sdf.verify.compare import compare, pair_of
+    from urdftool.formats.sdf.write import write
+
+    options = Options()
+    written = changed(write(robot, options), planted)
+    write_directory(folder, written.files, main=written.main)
+    return compare(pair_of(robot, written, folder / written.main, options))

@@ -23,28 +23,59 @@ CHANGES = (
     Planted("root 5 m higher", "base", put(_in(BODY, "base_link"), "pos", "0 0 5")),
     Planted("root turned", "base", put(_in(BODY, "base_link"), "quat", "1 0 0 0.1")),
     Planted("body added", "base", add("//worldbody", "<body name='x'><geom size='1'/></body>")),
-    Planted("link lost", "tree", both(
-        drop(_in(BODY, "camera_link")), drop("//sensor/rangefinder"))),
-    Planted("joint lost", "tree", both(
-        drop(_in(JOINT, "left_wheel_joint")), drop("//numeric[@name='left_wheel_joint_velocity_limit']"),
-        drop("//keyframe"))),
+    Planted(
+        "link lost", "tree", both(drop(_in(BODY, "camera_link")), drop("//sensor/rangefinder"))
+    ),
+    Planted(
+        "joint lost",
+        "tree",
+        both(
+            drop(_in(JOINT, "left_wheel_joint")),
+            drop("//numeric[@name='left_wheel_joint_velocity_limit']"),
+            drop("//keyframe"),
+        ),
+    ),
     Planted("hinge for a slide", "tree", drop(_in(JOINT, "left_finger_joint"), "type")),
     Planted("link on another parent", "tree", move(_in(BODY, "caster"), _in(BODY, "upper_arm"))),
     Planted("mimic lost", "tree", drop(COUPLING)),
     Planted("mimic inactive", "tree", put(COUPLING, "active", "false")),
     Planted("multiplier of mimic", "tree", put(COUPLING, "polycoef", "-0.001 -1 0 0 0")),
-    Planted("mimic the other way round", "tree", both(
-        put(COUPLING, "joint2", "right_finger_joint"),
-        put("//equality/joint[@joint2='right_finger_joint']", "joint1", "left_finger_joint"))),
-    Planted("joint held by an equality", "limits", add("//equality", "<joint joint1='shoulder' polycoef='0 0 0 0 0'/>")),
-    Planted("two links welded", "tree", add("//equality", "<weld body1='left_finger' body2='base_link'/>")),
+    Planted(
+        "mimic the other way round",
+        "tree",
+        both(
+            put(COUPLING, "joint2", "right_finger_joint"),
+            put("//equality/joint[@joint2='right_finger_joint']", "joint1", "left_finger_joint"),
+        ),
+    ),
+    Planted(
+        "joint held by an equality",
+        "limits",
+        add("//equality", "<joint joint1='shoulder' polycoef='0 0 0 0 0'/>"),
+    ),
+    Planted(
+        "two links welded",
+        "tree",
+        add("//equality", "<weld body1='left_finger' body2='base_link'/>"),
+    ),
     Planted("link moved by 1 µm", "frames", put(_in(BODY, "imu_link"), "pos", "0.050001 0.02 0.1")),
     Planted("link turned", "frames", put(_in(BODY, "camera_link"), "quat", "1 0 0.1 0")),
-    Planted("axis the other way round", "frames", put(_in(JOINT, "left_wheel_joint"), "axis", "0 0 -1")),
-    Planted("mass by 0.01 %", "centroid", put(_in(BODY, "upper_arm") + "/inertial", "mass", "2.50025")),
-    Planted("center of mass by 1 µm", "centroid", put(_in(BODY, "forearm") + "/inertial", "pos", "0 0 0.150001")),
-    Planted("moment of inertia of a wheel", "mass matrix", put(
-        _in(BODY, "left_wheel") + "/inertial", "diaginertia", "0.0022 0.0022 0.00401")),
+    Planted(
+        "axis the other way round", "frames", put(_in(JOINT, "left_wheel_joint"), "axis", "0 0 -1")
+    ),
+    Planted(
+        "mass by 0.01 %", "centroid", put(_in(BODY, "upper_arm") + "/inertial", "mass", "2.50025")
+    ),
+    Planted(
+        "center of mass by 1 µm",
+        "centroid",
+        put(_in(BODY, "forearm") + "/inertial", "pos", "0 0 0.150001"),
+    ),
+    Planted(
+        "moment of inertia of a wheel",
+        "mass matrix",
+        put(_in(BODY, "left_wheel") + "/inertial", "diaginertia", "0.0022 0.0022 0.00401"),
+    ),
     Planted("upper limit by 1e-6", "limits", put(_in(JOINT, "elbow"), "range", "-2 2.100001")),
     Planted("limits lost", "limits", drop(_in(JOINT, "shoulder"), "range")),
     Planted("effort bound lost", "limits", drop(_in(JOINT, "shoulder"), "actuatorfrcrange")),
@@ -53,7 +84,9 @@ CHANGES = (
     Planted("friction of a joint", "limits", put(_in(JOINT, "elbow"), "frictionloss", "0.2")),
     Planted("velocity number lost", "limits", drop("//numeric[@name='elbow_velocity_limit']")),
     Planted("spring lost", "joint physics", drop(_in(JOINT, "elbow"), "stiffness")),
-    Planted("spring reference reversed", "joint physics", put(_in(JOINT, "elbow"), "springref", "-0.4")),
+    Planted(
+        "spring reference reversed", "joint physics", put(_in(JOINT, "elbow"), "springref", "-0.4")
+    ),
     Planted("armature added", "joint physics", put(_in(JOINT, "shoulder"), "armature", "0.1")),
     Planted("limit made soft", "joint physics", put(_in(JOINT, "elbow"), "solreflimit", "0.5 1")),
     Planted("margin of a limit", "joint physics", put(_in(JOINT, "elbow"), "margin", "0.2")),
@@ -64,47 +97,112 @@ CHANGES = (
     Planted("limits switched off", "options", add(OPTION, "<flag limit='disable'/>")),
     Planted("gravity switched off", "options", add(OPTION, "<flag gravity='disable'/>")),
     Planted("gravity flag lost", "gravity flags", drop(_in(BODY, "upper_arm"), "gravcomp")),
-    Planted("gravity flag of another link", "gravity flags", put(_in(BODY, "left_wheel"), "gravcomp", "1")),
-    Planted("box for a cylinder", "collision", both(
-        put(_in(SOLID, "forearm"), "type", "box"), put(_in(SOLID, "forearm"), "size", "0.03 0.03 0.14"))),
+    Planted(
+        "gravity flag of another link",
+        "gravity flags",
+        put(_in(BODY, "left_wheel"), "gravcomp", "1"),
+    ),
+    Planted(
+        "box for a cylinder",
+        "collision",
+        both(
+            put(_in(SOLID, "forearm"), "type", "box"),
+            put(_in(SOLID, "forearm"), "size", "0.03 0.03 0.14"),
+        ),
+    ),
     Planted("size of a collision by 1 %", "collision", put(_in(SOLID, "caster"), "size", "0.0303")),
     Planted("collision moved", "collision", put(_in(SOLID, "forearm"), "pos", "0 0 0.16")),
     Planted("collision lost", "collision", drop(_in(SOLID, "left_wheel"))),
     Planted("scale of a mesh", "collision", put("//asset/mesh", "scale", "0.06 0.05 0.36")),
-    Planted("another mesh in the same box", "collision", both(
-        put("//asset/mesh", "file", "tetrahedron.obj"),)),
+    Planted(
+        "another mesh in the same box",
+        "collision",
+        both(
+            put("//asset/mesh", "file", "tetrahedron.obj"),
+        ),
+    ),
     Planted("contact switched off", "contact", add(OPTION, "<flag contact='disable'/>")),
-    Planted("no collision touches", "contact", both(
-        put("//default[@class='collision']/geom", "contype", "0"),
-        put("//default[@class='collision']/geom", "conaffinity", "0"))),
-    Planted("one collision touches nothing", "contact", both(
-        put(_in(SOLID, "caster"), "contype", "0"), put(_in(SOLID, "caster"), "conaffinity", "0"))),
-    Planted("mask of a collision", "contact", both(
-        put(_in(SOLID, "caster"), "contype", "2"), put(_in(SOLID, "caster"), "conaffinity", "2"))),
+    Planted(
+        "no collision touches",
+        "contact",
+        both(
+            put("//default[@class='collision']/geom", "contype", "0"),
+            put("//default[@class='collision']/geom", "conaffinity", "0"),
+        ),
+    ),
+    Planted(
+        "one collision touches nothing",
+        "contact",
+        both(
+            put(_in(SOLID, "caster"), "contype", "0"), put(_in(SOLID, "caster"), "conaffinity", "0")
+        ),
+    ),
+    Planted(
+        "mask of a collision",
+        "contact",
+        both(
+            put(_in(SOLID, "caster"), "contype", "2"), put(_in(SOLID, "caster"), "conaffinity", "2")
+        ),
+    ),
     Planted("exclusion lost", "contact", drop(PAIR)),
-    Planted("exclusion added", "contact", add(
-        "//contact", "<exclude body1='left_wheel' body2='forearm'/>")),
-    Planted("visual touches", "contact", both(
-        put(_in(SEEN, "forearm"), "contype", "1"), put(_in(SEEN, "forearm"), "conaffinity", "1"))),
-    Planted("colliding geom added", "contact", add(_in(BODY, "forearm"), "<geom size='0.2'/>", first=True)),
-    Planted("parents touch their children", "contact", add(OPTION, "<flag filterparent='disable'/>")),
+    Planted(
+        "exclusion added",
+        "contact",
+        add("//contact", "<exclude body1='left_wheel' body2='forearm'/>"),
+    ),
+    Planted(
+        "visual touches",
+        "contact",
+        both(
+            put(_in(SEEN, "forearm"), "contype", "1"), put(_in(SEEN, "forearm"), "conaffinity", "1")
+        ),
+    ),
+    Planted(
+        "colliding geom added",
+        "contact",
+        add(_in(BODY, "forearm"), "<geom size='0.2'/>", first=True),
+    ),
+    Planted(
+        "parents touch their children", "contact", add(OPTION, "<flag filterparent='disable'/>")
+    ),
     Planted("friction lost", "surface", drop(_in(SOLID, "left_wheel"), "friction")),
-    Planted("friction by 1 %", "surface", put(_in(SOLID, "left_wheel"), "friction", "0.909 0.005 0.0001")),
+    Planted(
+        "friction by 1 %",
+        "surface",
+        put(_in(SOLID, "left_wheel"), "friction", "0.909 0.005 0.0001"),
+    ),
     Planted("contact made soft", "surface", put(_in(SOLID, "caster"), "solref", "0.5 1")),
     Planted("contact without friction", "surface", put(_in(SOLID, "caster"), "condim", "1")),
     Planted("margin of a contact", "surface", put(_in(SOLID, "caster"), "margin", "0.01")),
-    Planted("actuator lost", "actuators", both(drop(_in(ACTUATOR, "shoulder")), drop("//keyframe"))),
-    Planted("actuator on another joint", "actuators", put(
-        _in(ACTUATOR, "shoulder"), "joint", "right_wheel_joint")),
+    Planted(
+        "actuator lost", "actuators", both(drop(_in(ACTUATOR, "shoulder")), drop("//keyframe"))
+    ),
+    Planted(
+        "actuator on another joint",
+        "actuators",
+        put(_in(ACTUATOR, "shoulder"), "joint", "right_wheel_joint"),
+    ),
     Planted("gear 1 for 50", "actuators", put(_in(ACTUATOR, "shoulder"), "gear", "1")),
     Planted("gain lost", "actuators", drop(_in(ACTUATOR, "elbow"), "kp")),
     Planted("damping of a servo", "actuators", put(_in(ACTUATOR, "elbow"), "dampratio", "0.5")),
-    Planted("range of control lost", "actuators", drop(_in(ACTUATOR, "left_finger_joint"), "ctrlrange")),
-    Planted("lower bound of control", "actuators", put(
-        _in(ACTUATOR, "left_finger_joint"), "ctrlrange", "-0.1 0.2")),
+    Planted(
+        "range of control lost", "actuators", drop(_in(ACTUATOR, "left_finger_joint"), "ctrlrange")
+    ),
+    Planted(
+        "lower bound of control",
+        "actuators",
+        put(_in(ACTUATOR, "left_finger_joint"), "ctrlrange", "-0.1 0.2"),
+    ),
     Planted("bound of force added", "actuators", put(_in(ACTUATOR, "elbow"), "forcerange", "-1 1")),
-    Planted("actuator added", "actuators", both(
-        section("actuator"), drop("//keyframe"), add("//actuator", "<motor joint='right_finger_joint'/>"))),
+    Planted(
+        "actuator added",
+        "actuators",
+        both(
+            section("actuator"),
+            drop("//keyframe"),
+            add("//actuator", "<motor joint='right_finger_joint'/>"),
+        ),
+    ),
     Planted("sensor lost", "sensors", drop("//sensor/gyro")),
     Planted("IMU 0.5 m off", "sensors", put("//site[@name='imu']", "pos", "0.5 0 0.01")),
     Planted("IMU on another link", "sensors", move("//site[@name='imu']", _in(BODY, "forearm"))),
@@ -114,17 +212,28 @@ CHANGES = (
     Planted("camera moved", "sensors", put("//camera[@name='camera']", "pos", "0.1 0 0")),
     Planted("camera turned", "sensors", put("//camera[@name='camera']", "quat", "1 1 -1 -0.9")),
     Planted("field of view", "sensors", put("//camera[@name='camera']", "fovy", "45")),
-    Planted("resolution of a camera", "sensors", put("//camera[@name='camera']", "resolution", "320 240")),
+    Planted(
+        "resolution of a camera",
+        "sensors",
+        put("//camera[@name='camera']", "resolution", "320 240"),
+    ),
     Planted("camera lost", "sensors", drop("//camera[@name='camera']")),
     Planted("light lost", "sensors", drop("//light")),
     Planted("light turned", "sensors", put("//light", "dir", "0 0 -1")),
     Planted("visual lost", "visual", drop(_in(SEEN, "caster"))),
     Planted("visual moved", "visual", put(_in(SEEN, "forearm"), "pos", "0 0 0.16")),
-    Planted("texture lost", "materials", both(
-        drop("//material[@name='checker']", "texture"), drop("//texture"))),
-    Planted("color by 1 %", "materials", put("//material[@name='steel']", "rgba", "0.606 0.62 0.65 1")),
+    Planted(
+        "texture lost",
+        "materials",
+        both(drop("//material[@name='checker']", "texture"), drop("//texture")),
+    ),
+    Planted(
+        "color by 1 %", "materials", put("//material[@name='steel']", "rgba", "0.606 0.62 0.65 1")
+    ),
     Planted("opacity lost", "materials", put("//material[@name='glass']", "rgba", "0.1 0.3 0.8 1")),
     Planted("color of Gazebo lost", "materials", drop(_in(SEEN, "forearm"), "rgba")),
-    Planted("mirror for steel", "materials", put("//material[@name='steel']", "reflectance", "0.9")),
-)  # fmt: skip
+    Planted(
+        "mirror for steel", "materials", put("//material[@name='steel']", "reflectance", "0.9")
+    ),
+)
 """What is changed, and where it has to be named."""

@@ -11,7 +11,7 @@ from pathlib import Path
 from ...source.description import GltfUp
 from .convert import Converted, Piece, conversion
 
-_VERSION = 6
+_VERSION = 7
 _BIG = 400_000
 
 

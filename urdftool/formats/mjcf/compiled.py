@@ -18,7 +18,6 @@ from ..mechanics import GRAVITY, Array
 from ..written import Written
 from .options import FILES
 
-
 _PLAIN = (
     "<mujoco><asset><material name='plain'/></asset>"
     "<worldbody><body><joint/><geom size='1'/></body></worldbody></mujoco>"

@@ -60,9 +60,7 @@ def actuator_check(source: Source, compiled: Compiled, said: Said) -> Check:
     return check
 
 
-def _compare(
-    number: int, joint: str, wanted: Wanted, compiled: Compiled, check: Check
-) -> None:
+def _compare(number: int, joint: str, wanted: Wanted, compiled: Compiled, check: Check) -> None:
     """Compare one actuator."""
     model = compiled.model
     about = f"actuator of joint '{joint}'"

@@ -119,9 +119,7 @@ def _stiffness(source: Source, name: str) -> float:
     return source.number(name, "springStiffness") or 0.0
 
 
-def _compare_dofs(
-    joint: Joint, number: int, light: bool, compiled: Compiled, check: Check
-) -> None:
+def _compare_dofs(joint: Joint, number: int, light: bool, compiled: Compiled, check: Check) -> None:
     """Compare what acts along each coordinate of a joint."""
     model, plain = compiled.model, compiled.reference()
     first = int(model.jnt_dofadr[number])
@@ -187,4 +185,3 @@ def _asked(source: Source) -> str:
 
 def _text(values: dict[str, str]) -> str:
     return " ".join(f"{name}={quoteattr(value)}" for name, value in values.items())
-

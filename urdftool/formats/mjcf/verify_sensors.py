@@ -291,4 +291,3 @@ def _three(element: Element, tag: str) -> tuple[float, ...] | None:
         return None
     four = numbers(child.text, 4) or numbers(child.text, 3)
     return four[:3] if four is not None else None
-

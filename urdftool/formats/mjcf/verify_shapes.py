@@ -9,6 +9,7 @@ import numpy as np
 
 from ...errors import UrdftoolError
 from ...meshes.load import load_named
+from ...meshes.mesh import Faces
 from ...model.elements import (
     Box,
     Capsule,
@@ -178,12 +179,12 @@ def _surface_apart(
     if expected[0] == found[0] == 0:
         return 0.0
     size = math.sqrt(max(expected[0], found[0]))
-    area = abs(expected[0] - found[0]) / size**2
+    area = float(abs(expected[0] - found[0])) / size**2
     centers = [moments[1:] / (moments[0] or 1.0) for moments in (expected, found)]
     return max(area, float(abs(centers[0] - centers[1]).max()) / size) * MESH / SURFACE
 
 
-def _area_moments(points: Array, faces: Array) -> Array:
+def _area_moments(points: Array, faces: Faces) -> Array:
     """Area [m²] of triangles, and its first moment [m³]."""
     a, b, c = (points[faces[:, k]] for k in range(3))
     areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2

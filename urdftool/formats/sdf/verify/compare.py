@@ -17,16 +17,16 @@ from ..options import Options
 from ..write import write
 from .dynamics import centroidal, mass_matrix, poses
 from .excuses import Excuses, excuses_of
+from .flags import compare_base, compare_flags, compare_joint_physics
 from .loader import loads
 from .mechanism import Array, Hinge, Mechanism, inverse
-from .reader import Frames, open_model, read_model
-from .flags import compare_base, compare_flags, compare_joint_physics
 from .others import compare_others
 from .plugins import compare_plugins
+from .reader import Frames, open_model, read_model
 from .sensors import compare_sensors
 from .shapes import compare_colors, compare_shapes
-from .surfaces import compare_contact, compare_looks, compare_surface
 from .source import base_of, mechanism_of
+from .surfaces import compare_contact, compare_looks, compare_surface
 
 CONFIGURATIONS = 20
 FRAMES, MASSES, WEIGHTS, LIMITS, TOTALS = 1e-9, 1e-8, 1e-8, 1e-9, 1e-8
@@ -78,9 +78,7 @@ def verify(robot: Robot, written: Written, options: Options, output: str | Path)
     return checks if loaded is None else [*checks, loaded]
 
 
-def pair_of(
-    robot: Robot, written: Written, place: Path, options: Options | None = None
-) -> Pair:
+def pair_of(robot: Robot, written: Written, place: Path, options: Options | None = None) -> Pair:
     """Both robots as mechanisms."""
 
     def find(uri: str) -> Path:

@@ -14,7 +14,6 @@ Value = str | tuple[float, ...]
 Facts = dict[str, Value]
 
 EXACT = 1e-9
-TEXTS = frozenset(("topic", "name", "uri", "filename"))
 WORDS = {"true": "1", "yes": "1", "false": "0", "no": "0"}
 
 
@@ -32,6 +31,8 @@ def value_of(text: str | None) -> Value:
 def facts_of(element: ET.Element | Element, *, without: Iterable[str] = ()) -> Facts:
     """Return what an element holds: the values of its leaves and attributes by path.
 
+    Elements that hold nothing say nothing.
+
     Args:
         element: An element of either side.
         without: Tags of children that are left out.
@@ -44,7 +45,6 @@ def facts_of(element: ET.Element | Element, *, without: Iterable[str] = ()) -> F
 def _collect(
     facts: Facts, element: ET.Element | Element, path: str, without: frozenset[str]
 ) -> None:
-    own = isinstance(element, Element)
     attributes = element.attributes if isinstance(element, Element) else element.attrib
     children = element.children if isinstance(element, Element) else list(element)
     for name, text in attributes.items():
@@ -52,10 +52,11 @@ def _collect(
             if not name.startswith("xmlns"):
                 _put(facts, f"{path}@{_plain(name)}", value_of(text))
     kept = [child for child in children if isinstance(child.tag, str) and child.tag not in without]
-    if path and not kept and (own or element.text is not None or not attributes):
+    if path and not kept and (element.text or "").strip():
         _put(facts, path, value_of(element.text))
     for child in kept:
-        _collect(facts, child, f"{path}/{_plain(child.tag)}" if path else _plain(child.tag), frozenset())
+        inner = f"{path}/{_plain(child.tag)}" if path else _plain(child.tag)
+        _collect(facts, child, inner, frozenset())
 
 
 def _plain(tag: str) -> str:

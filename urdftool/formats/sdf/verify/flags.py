@@ -46,9 +46,9 @@ def compare_base(pair: Pair) -> Check:
     compare_facts(check, "the model", found, expected, known=known)
     off = float(np.abs(read_pose(model) - _place(pair)).max())
     check.compare(off, "the model is elsewhere", known=known)
-    for link, element in own_links(pair):
+    for link, node in own_links(pair):
         flags = {k: v for k, v in flags_said(pair.robot, link).items() if k == "kinematic"}
-        said = {k: v for k, v in facts_of(element).items() if k == "kinematic"}  # type: ignore[arg-type]
+        said = {k: v for k, v in facts_of(node).items() if k == "kinematic"}
         excused = pair.excuses.of(BLOCKS, link.name)
         compare_facts(check, f"link '{link.name}'", said, flags, known=excused)
     _compare_held(pair, check)
@@ -79,9 +79,9 @@ def _compare_held(pair: Pair, check: Check) -> None:
         return name
 
     closing = {e.get("name") for e in elements_of_whole(pair.robot) if e.tag == "joint"}
-    for joint in pair.made.joints:
-        if joint.kind == "fixed" and joint.name not in closing:
-            group[top(joint.child)] = top(joint.parent)
+    for made in pair.made.joints:
+        if made.kind == "fixed" and made.name not in closing:
+            group[top(made.child)] = top(made.parent)
     anchored = any(root.name == "world" for root in pair.robot.tree.roots)
     expected: dict[str, str] = {}
     for name in pair.robot.tree.order:
@@ -91,7 +91,7 @@ def _compare_held(pair: Pair, check: Check) -> None:
             stays = stays and name != "world"
         expected[name] = name if stays or joint is None else expected[joint.parent]
     seen: dict[str, str] = {}
-    owners: dict[str, str] = {}
+    owners = {"world": "world"}
     for name, rigid in expected.items():
         frame = pair.made.frames.get(pair.link(name))
         if frame is None or name in pair.excuses.frames:
@@ -109,7 +109,7 @@ def compare_flags(pair: Pair) -> Check:
     tags = {path for paths in OF_LINKS.values() for path in paths} - {"self_collide", "kinematic"}
     for link, element in own_links(pair):
         expected = {k: v for k, v in flags_said(pair.robot, link).items() if k in tags}
-        found = {k: v for k, v in facts_of(element).items() if k in tags}  # type: ignore[arg-type]
+        found = {k: v for k, v in facts_of(element).items() if k in tags}
         known = pair.excuses.of(BLOCKS, link.name)
         compare_facts(check, f"link '{link.name}'", found, expected, known=known)
     return check

@@ -12,8 +12,15 @@ from ....source.document import Element
 from ...check import Check
 from .excuses import BLOCKS
 from .facts import EXACT, Facts, compare_facts, facts_of
-from .said import LUMPING, NOWHERE, OF_COLLISIONS, OF_JOINTS, OF_LINKS, elements_of
-from .said import elements_of_whole
+from .said import (
+    LUMPING,
+    NOWHERE,
+    OF_COLLISIONS,
+    OF_JOINTS,
+    OF_LINKS,
+    elements_of,
+    elements_of_whole,
+)
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -101,7 +108,11 @@ def _compare_pose(
 
     link = pair.robot.link.get(name)
     child = found.find("pose")
-    if link is None or owner not in pair.made.bodies or (child is None and not element.child("pose")):
+    if (
+        link is None
+        or owner not in pair.made.bodies
+        or (child is None and not element.child("pose"))
+    ):
         return
     inside = pair.made.frames[pair.link(name)][1]
     place = np.linalg.inv(inside) @ pair.where.local(owner, found)

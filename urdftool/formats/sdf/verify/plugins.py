@@ -23,6 +23,7 @@ from ....source.document import Element
 from ...check import Check
 from .facts import Facts, compare_facts, facts_of, value_of
 from .said import elements_of, elements_of_whole
+from .sensing import sensed_part
 
 if TYPE_CHECKING:
     from .compare import Pair
@@ -32,12 +33,6 @@ CONTROL = frozenset(
      "hold_joints")
 )  # fmt: skip
 """Parameters that gz_ros2_control takes over."""
-
-SENSING = frozenset(
-    ("gazebo_ros_imu", "gazebo_ros_imu_sensor", "hector_gazebo_ros_imu", "hector_gazebo_ros_gps",
-     "hector_gazebo_ros_magnetic", "gazebo_ros_ft_sensor")
-)  # fmt: skip
-"""Libraries that become a sensor in gz where they name a link or joint."""
 
 
 @dataclass
@@ -73,7 +68,9 @@ def compare_plugins(pair: Pair) -> Check:
         if owner != wanted.owner:
             check.compare(np.inf, f"{about} is in '{owner}'")
         if wanted.name and element.get("name") != wanted.name:
-            check.compare(np.inf, f"{about} has the name '{element.get('name')}', not '{wanted.name}'")
+            check.compare(
+                np.inf, f"{about} has the name '{element.get('name')}', not '{wanted.name}'"
+            )
         facts = {p: v for p, v in facts_of(element).items() if not p.startswith("@")}
         compare_facts(check, about, facts, wanted.facts)
     for owner, element in left:
@@ -105,7 +102,7 @@ def _written(pair: Pair) -> Iterator[tuple[str, Any]]:
 def _expected(pair: Pair) -> Iterator[Expected]:
     for element in elements_of_whole(pair.robot):
         if element.tag == "plugin":
-            yield from _one(pair, element, "", None)
+            yield from _one(pair, element, "")
     elements = {
         kind: {e.get("name") for e in pair.where.model.findall(kind)} for kind in ("link", "joint")
     }
@@ -119,23 +116,21 @@ def _expected(pair: Pair) -> Iterator[Expected]:
         there = owner in elements["link" if isinstance(part, Link) else "joint"]
         for element in elements_of(pair.robot, part) if there else ():
             if element.tag == "plugin":
-                yield from _one(pair, element, owner, part)
+                yield from _one(pair, element, owner)
             elif element.tag == "sensor":
                 for plugin in element.all("plugin"):
                     if pair.options.classic or library(plugin) not in SENSOR_PLUGINS:
                         name = element.get("name") or f"{part.name}_sensor"
-                        yield from _one(pair, plugin, name, None, inside=True)
+                        yield from _one(pair, plugin, name, inside=True)
 
 
-def _one(
-    pair: Pair, element: Element, owner: str, part: Link | Joint | None, *, inside: bool = False
-) -> Iterator[Expected]:
+def _one(pair: Pair, element: Element, owner: str, *, inside: bool = False) -> Iterator[Expected]:
     """What a plugin becomes."""
     name = library(element)
     if not name:
         return
     gz = not pair.options.classic
-    if gz and not inside and name in SENSING and _senses(pair, element, part):
+    if not inside and sensed_part(pair, element) is not None:
         return
     if gz and name in CONTROL_PLUGINS:
         yield _control(pair, element, owner)
@@ -148,16 +143,6 @@ def _one(
         facts = {p: v for p, v in facts_of(element).items() if not p.startswith("@")}
         own = element.get("name") or name
         yield Expected(owner, element.get("filename") or "", own, _renamed(pair, facts))
-
-
-def _senses(pair: Pair, element: Element, part: Link | Joint | None) -> bool:
-    """Whether a plugin outside of a sensor names a link or joint that is there."""
-    tags = ("jointName", "joint_name") if "ft_sensor" in library(element) else ("bodyName", "body_name")
-    named = [c.text.strip() for tag in tags for c in element.all(tag)]
-    name = next((text for text in named if text), "") or (part.name if part is not None else "")
-    if tags[0] == "jointName":
-        return any(joint.name == pair.joint(name) for joint in pair.made.joints)
-    return name in pair.robot.link
 
 
 def _is_mimic(pair: Pair, element: Element) -> bool:
@@ -221,11 +206,13 @@ def _system(pair: Pair, element: Element, owner: str, system: System) -> Expecte
         count[tag] += 1
         path = tag if count[tag] == 1 else f"{tag}[{count[tag]}]"
         facts[path] = value_of(pair.joint(text) if "joint" in tag else text)
-    new = pair.options.since("1.10")
+    modern = pair.options.since("1.10")
     return Expected(
         owner,
-        f"gz-sim-{system.word}-system" if new else f"ignition-gazebo-{system.word}-system",
-        f"gz::sim::systems::{system.name}" if new else f"ignition::gazebo::systems::{system.name}",
+        f"gz-sim-{system.word}-system" if modern else f"ignition-gazebo-{system.word}-system",
+        f"gz::sim::systems::{system.name}"
+        if modern
+        else f"ignition::gazebo::systems::{system.name}",
         facts,
     )
 
@@ -237,7 +224,7 @@ def _renamed(pair: Pair, facts: Facts) -> Facts:
         tag = path.rpartition("/")[2].partition("[")[0]
         if isinstance(value, str) and "oint" in tag:
             value = pair.joint(value)
-        elif isinstance(value, str) and "ink" in tag or tag in ("bodyName", "body_name"):
+        elif isinstance(value, str) and ("ink" in tag or tag in ("bodyName", "body_name")):
             frame = pair.made.frames.get(pair.link(str(value)))
             if frame is not None:
                 value = frame[0] if pair.options.classic else pair.link(str(value))

@@ -19,6 +19,7 @@ from .facts import EXACT, Facts, compare_facts, facts_of, value_of
 from .mechanism import Array, inverse, matrix, turned
 from .reader import read_pose
 from .said import elements_of
+from .sensing import SENSING, noise_of, offset_of, sensing_plugins
 from .source import base_of
 
 if TYPE_CHECKING:
@@ -32,7 +33,10 @@ FOR_CLASSIC = {
     "gpu_lidar": "gpu_ray", "lidar": "ray", "navsat": "gps", "depth_camera": "depth",
     "rgbd_camera": "depth", "wide_angle_camera": "wideanglecamera",
 }  # fmt: skip
-RENAMED = {"gz": {"ray": "lidar", "gps": "navsat"}, "gazebo-classic": {"lidar": "ray", "navsat": "gps"}}
+RENAMED = {
+    "gz": {"ray": "lidar", "gps": "navsat"},
+    "gazebo-classic": {"lidar": "ray", "navsat": "gps"},
+}
 RESTING = ("lossy-sensor", "unknown-sensor-type", *sorted(BLOCKS))
 
 
@@ -82,17 +86,21 @@ def compare_sensors(pair: Pair) -> Check:
         _drop_collisions(found, sensor.facts)
         compare_facts(check, about, found, sensor.facts, known=known)
         if isinstance(part, Link):
-            owner = pair.made.frames[pair.link(part.name)][0]
-            if owner != element[0]:
+            frame = pair.made.frames.get(pair.link(part.name))
+            if frame is None or frame[0] != element[0]:
                 check.compare(np.inf, f"{about} is on '{element[0]}'", known=known)
             place = base @ there[element[0]] @ pair.where.local(element[0], element[1])
             off = float(np.abs(place - here[part.name] @ sensor.pose).max())
-            check.compare(off, f"{about} is elsewhere", known=known or part.name in pair.excuses.frames)
+            check.compare(
+                off, f"{about} is elsewhere", known=known or part.name in pair.excuses.frames
+            )
         else:
             off = float(np.abs(read_pose(element[1]) - sensor.pose).max())
             check.compare(off, f"{about} is elsewhere", known=known)
     for owner, element in left:
-        check.compare(np.inf, f"sensor '{element.get('name')}' of '{owner}' is not in the description")
+        check.compare(
+            np.inf, f"sensor '{element.get('name')}' of '{owner}' is not in the description"
+        )
     return check
 
 
@@ -143,6 +151,15 @@ def expected_sensors(pair: Pair) -> Iterator[Expected]:
                 if isinstance(part, Link) and kind == "force_torque":
                     continue
                 yield from _expected(pair, part, element)
+    for plugin, part in sensing_plugins(pair):
+        yield _of_plugin(pair, plugin, part)
+
+
+def _of_plugin(pair: Pair, plugin: Element, part: Link | Joint) -> Expected:
+    """The sensor that a plugin outside of one becomes in gz."""
+    facts: Facts = {"type": SENSING[library(plugin)], "always_on": (1.0,), **noise_of(plugin)}
+    _take_over(pair, plugin, facts)
+    return Expected(part, plugin.get("name") or library(plugin), offset_of(plugin), facts)
 
 
 def _is_joint(pair: Pair, joint: Joint) -> bool:
@@ -256,4 +273,3 @@ def topic_of(plugin: Element, said: dict[str, str]) -> str:
     if topic and space.strip("/") and not topic.startswith("/"):
         topic = f"{space.rstrip('/')}/{topic}"
     return topic
-

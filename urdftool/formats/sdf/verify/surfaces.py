@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ....errors import UrdftoolError
 from ....model.elements import Link, Material, Visual
+from ....source.document import Element
 from ...check import Check
 from ..colors import COLORS
 from .excuses import BLOCKS
@@ -68,11 +71,13 @@ def compare_looks(pair: Pair) -> Check:
         known = pair.excuses.of(BLOCKS, source.link) or source.link in pair.excuses.colors
         found = facts_of(made.part, without=("geometry", "pose"))
         expected = _look(pair, link, source)
-        compare_facts(check, about, _without(found, IMAGES), _without(expected, IMAGES), known=known)
+        compare_facts(
+            check, about, _without(found, IMAGES), _without(expected, IMAGES), known=known
+        )
     return check
 
 
-def own_links(pair: Pair) -> Iterator[tuple[Link, object]]:
+def own_links(pair: Pair) -> Iterator[tuple[Link, ET.Element]]:
     """Yield the links that are links of the file still, with their elements."""
     elements = {e.get("name"): e for e in pair.where.model.findall("link")}
     for link in pair.robot.links:
@@ -98,15 +103,15 @@ def _look(pair: Pair, link: Link, shape: Shape) -> Facts:
     return facts
 
 
-def _material(pair: Pair, blocks: list[object], shape: Shape) -> Facts:
+def _material(pair: Pair, blocks: list[Element], shape: Shape) -> Facts:
     """The material that Gazebo is told, else that of URDF."""
     visual = shape.part
     assert isinstance(visual, Visual)
     for block in blocks:
-        facts = {f"material/{path}": value for path, value in facts_of(block).items()}  # type: ignore[arg-type]
-        if block.children:  # type: ignore[attr-defined]
+        facts = {f"material/{path}": value for path, value in facts_of(block).items()}
+        if block.children:
             return facts
-        name = text_of(block)  # type: ignore[arg-type]
+        name = text_of(block)
         color = COLORS.get(name)
         if pair.options.classic and name:
             return {}
@@ -145,8 +150,6 @@ def _defined(pair: Pair, own: Material | None) -> Material | None:
 
 
 def _is_there(pair: Pair, texture: str) -> bool:
-    from ....errors import UrdftoolError
-
     if pair.robot.source is None:
         return False
     try:

@@ -1,0 +1,110 @@
+"""Plugins of Gazebo Classic that sense a link or joint they name, as the sensors that gz has."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ....model.elements import Joint, Link
+from ....model.gazebo_plugins import library
+from ....model.read import number, numbers
+from ....source.document import Element
+from .facts import Facts
+from .mechanism import Array, matrix, turned
+
+if TYPE_CHECKING:
+    from .compare import Pair
+
+TURNING = tuple(f"imu/angular_velocity/{axis}" for axis in "xyz")
+MOVING = tuple(f"imu/linear_acceleration/{axis}" for axis in "xyz")
+PLACE = tuple(f"navsat/position_sensing/{way}" for way in ("horizontal", "horizontal", "vertical"))
+SPEED = tuple(f"navsat/velocity_sensing/{way}" for way in ("horizontal", "horizontal", "vertical"))
+
+SENSING = {
+    "gazebo_ros_imu": "imu",
+    "gazebo_ros_imu_sensor": "imu",
+    "hector_gazebo_ros_imu": "imu",
+    "hector_gazebo_ros_gps": "navsat",
+    "hector_gazebo_ros_magnetic": "magnetometer",
+    "gazebo_ros_ft_sensor": "force_torque",
+}
+"""Types of sensors by the library of the plugin."""
+
+NOISES = {
+    ("gazebo_ros_imu", "gaussianNoise"): (TURNING, MOVING),
+    ("gazebo_ros_imu", "gaussian_noise"): (TURNING, MOVING),
+    ("gazebo_ros_imu_sensor", "gaussianNoise"): (TURNING, MOVING),
+    ("gazebo_ros_imu_sensor", "gaussian_noise"): (TURNING, MOVING),
+    ("hector_gazebo_ros_imu", "rateGaussianNoise"): (TURNING,),
+    ("hector_gazebo_ros_imu", "accelGaussianNoise"): (MOVING,),
+    ("hector_gazebo_ros_gps", "gaussianNoise"): (PLACE,),
+    ("hector_gazebo_ros_gps", "velocityGaussianNoise"): (SPEED,),
+}
+OFFSETS = {
+    ("hector_gazebo_ros_imu", "rateOffset"): (TURNING,),
+    ("hector_gazebo_ros_imu", "accelOffset"): (MOVING,),
+}
+"""What parameters with a deviation or a constant error are of."""
+
+
+def sensed_part(pair: Pair, plugin: Element) -> Link | Joint | None:
+    """Return the link or joint that a plugin outside of a sensor senses; None for none."""
+    kind = SENSING.get(library(plugin))
+    if kind is None or pair.options.classic:
+        return None
+    joints = kind == "force_torque"
+    tags = ("jointName", "joint_name") if joints else ("bodyName", "body_name")
+    named = [child.text.strip() for tag in tags for child in plugin.all(tag)]
+    block = plugin.parent
+    reference = (block.get("reference") if block is not None else None) or ""
+    name = (named[0] if named else "") or reference
+    if not joints:
+        return pair.robot.link.get(name) if pair.link(name) in pair.made.frames else None
+    joint = pair.robot.joint.get(name)
+    made = {one.name for one in pair.made.joints}
+    return joint if joint is not None and pair.joint(name) in made else None
+
+
+def sensing_plugins(pair: Pair) -> Iterator[tuple[Element, Link | Joint]]:
+    """Yield the plugins outside of sensors that become sensors."""
+    for block in pair.robot.gazebo:
+        name = block.element.get("reference")
+        if name and name not in pair.robot.link and name not in pair.robot.joint:
+            continue
+        for plugin in block.element.all("plugin"):
+            part = sensed_part(pair, plugin)
+            if part is not None:
+                yield plugin, part
+
+
+def offset_of(plugin: Element) -> Array:
+    """Return where a plugin senses in the frame of its link."""
+    six: list[float] = []
+    for word in ("xyz", "rpy"):
+        child = plugin.child(f"{word}Offset") or plugin.child(f"{word}_offset")
+        three = numbers(child.text, 3) if child is not None else None
+        six += three or (0.0, 0.0, 0.0)
+    return matrix(turned(six[3:]), six[:3]) if any(six) else np.eye(4)
+
+
+def noise_of(plugin: Element) -> Facts:
+    """Return the noise of a sensor that a plugin becomes."""
+    facts: Facts = {}
+    for table, word in ((NOISES, "stddev"), (OFFSETS, "mean")):
+        for (name, tag), groups in table.items():
+            child = plugin.child(tag) if name == library(plugin) else None
+            one = number(child.text) if child is not None else None
+            three = numbers(child.text, 3) if child is not None else None
+            values = three if one is None else (one, one, one)
+            if not values or not any(values):
+                continue
+            for places in groups:
+                for place, value in zip(places, values, strict=True):
+                    path = f"{place}/noise"
+                    facts[f"{path}@type"] = "gaussian"
+                    facts.setdefault(f"{path}/mean", (0.0,))
+                    facts.setdefault(f"{path}/stddev", (0.0,))
+                    facts[f"{path}/{word}"] = (value,)
+    return facts
