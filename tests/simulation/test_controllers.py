@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 
 from tests.conftest import FIXTURES
 from tests.simulation.robots import kinds
+from urdftool import cli
 from urdftool.errors import UrdftoolError
 from urdftool.model.load import load
 from urdftool.simulation.control import NONE, POSITION, SERVO, VELOCITY, Control, Pid, Pids
@@ -129,10 +130,7 @@ _C = "c:\n  type: effort_controllers/JointPositionController\n"
         (_C + "  joint: swing\n  pid: {p: '1'}\n", "4:12", "no finite number"),
         (_C + "  joint: swing\n  pid: {p: .nan}\n", "4:12", "no finite number"),
         (_C + "  joint: {a: b}\n", "3:10", "joint is a mapping"),
-        (_C + "  joint: swing\n  joint: swing\n", "4:3", "stands here a second time"),
         (_C, "2:9", "names no joint"),
-        ("c:\n  type: x/JointPositonController\n  joint: swing\n", "2:9",
-         "did you mean 'JointPositionController'?"),
         ("c:\n  type: diff_drive_controller/DiffDriveController\n", "2:9", "names no wheels"),
         ("c:\n  type: forward_command_controller/ForwardCommandController\n  joints: [swing]\n",
          "2:9", "does not say what it commands"),
@@ -142,6 +140,7 @@ _C = "c:\n  type: effort_controllers/JointPositionController\n"
          "aliases"),
         ("a: &a [*a]\n", "", "deep"),
         ("[" * 5000, "", "nested too deeply"),
+        ("a: 1\n---\n- b\n", "1", "is no mapping"),
         ("a: " + "x" * 300_000, "", "has 300003 bytes"),
         ("!!python/object/apply:os.system [ls]\n", "1", "is no mapping"),
     ],
@@ -152,6 +151,74 @@ def test_a_wrong_file_is_one_message_with_its_place(arm, write, text, where, sai
         read_controllers(path, arm())
     assert said in str(caught.value)
     assert where in str(caught.value)
+
+
+_MANAGER = """\
+/**:
+  controller_manager:
+    ros__parameters:
+      update_rate: 100
+      arm:
+        type: joint_trajectory_controller/JointTrajectoryController
+"""
+_ARM = """\
+/**:
+  arm:
+    ros__parameters:
+      joints: [swing]
+      command_interfaces: [effort]
+      gains: {swing: {p: 3.0}}
+"""
+
+
+@pytest.mark.parametrize("between", ["", "---\n", "/**:\n  other: {ros__parameters: {}}\n"])
+@pytest.mark.parametrize("order", [1, -1])
+def test_keys_and_documents_of_ros2_are_merged(arm, write, between, order):
+    text = between.join((_MANAGER, _ARM)[::order]) + "---\n"
+    controls = read_controllers(write("c.yaml", text), arm())
+    assert controls.joints["swing"].pid == Pid(3.0)
+    assert controls.notes == ()
+
+
+def test_the_last_value_of_a_key_counts_and_is_told(arm, write):
+    text = _C + "  joint: other\n  joint: swing\n  pid: {p: 3}\n"
+    controls = read_controllers(write("c.yaml", text), arm())
+    assert list(controls.joints) == ["swing"]
+    (note,) = controls.notes
+    assert "c.yaml:4:10: 'joint' replaces the value in line 3" in note
+
+
+def test_ros1_takes_the_last_mapping_whole(arm, write):
+    text = "c: {pid: {p: 3}}\n" + _C + "  joint: swing\n"
+    with pytest.raises(UrdftoolError, match="has no gains of joint 'swing'"):
+        read_controllers(write("c.yaml", text), arm())
+
+
+_UNKNOWN = "c:\n  type: x/JointPositonController\n  joint: swing\n"
+
+
+def test_a_controller_of_an_unknown_type_leaves_its_joints_alone(arm, write):
+    controls = read_controllers(write("c.yaml", _UNKNOWN), arm())
+    assert controls.joints == {}
+    (note,) = controls.notes
+    assert "c.yaml:2:9: controller 'c' is of type 'x/JointPositonController'" in note
+    assert "did you mean 'JointPositionController'?; its joints are not actuated" in note
+
+
+def test_it_is_an_error_where_that_is_asked_for(arm, write):
+    with pytest.raises(UrdftoolError, match="of type 'x/JointPositonController'"):
+        read_controllers(write("c.yaml", _UNKNOWN), arm(), strict=True)
+
+
+def test_the_command_simulates_with_an_unknown_controller(write, capsys):
+    robot = write("arm.urdf", ARM.format(damping=1.0, more=""))
+    path = write("c.yaml", _UNKNOWN)
+    words = ["simulate", robot, "--controllers", path, "--duration", "0.5"]
+    assert cli.call(words) == 1
+    out, err = capsys.readouterr()
+    assert "not actuated" in err
+    assert "no controller holds 'swing'" in out
+    assert cli.call([*words, "--strict"]) == 2
 
 
 def test_an_interface_that_the_joint_has_not_is_refused(arm, write):

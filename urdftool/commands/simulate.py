@@ -64,7 +64,7 @@ def command(
     from .simulate_outputs import Outputs, check_output
 
     engines = ENGINES[values["engine"] or default_engine()]
-    controllers, junit = values["controllers"], values["junit"]
+    controllers, strict, junit = values["controllers"], values["strict"], values["junit"]
     outputs = Outputs(values["plot"], values["picture"], values["video"])
     outputs.check()
     if junit is not None:
@@ -78,7 +78,7 @@ def command(
         if outputs.wanted:
             raise click.UsageError("--plot, --picture and --video are of one robot, not a --fleet")
         fleet = Fleet(
-            console, arguments, package, package_path, settings, engines, controllers,
+            console, arguments, package, package_path, settings, engines, controllers, strict,
             frozenset(paths), cache,
         )  # fmt: skip
         with leaving_when_told():
@@ -89,7 +89,7 @@ def command(
         Child(LIBRARIES[engines[0]]) as child,  # which starts meanwhile
     ):
         model = read_lax(console, paths[0], arguments, package, package_path)
-        settings = controlled(console, settings, model, controllers)
+        settings = controlled(console, settings, model, controllers, strict=strict)
         return simulate_one(
             console, model, settings, engines, child, style=style, outputs=outputs, junit=junit
         )

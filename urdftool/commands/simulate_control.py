@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     from ..simulation.settings import Settings
 
 
-def controlled(console: Console, settings: Settings, robot: Robot, path: str | None) -> Settings:
+def controlled(
+    console: Console, settings: Settings, robot: Robot, path: str | None, *, strict: bool = False
+) -> Settings:
     """Settings under which the controllers of a file drive the joints.
 
     Args:
@@ -22,6 +24,7 @@ def controlled(console: Console, settings: Settings, robot: Robot, path: str | N
         settings: Others.
         robot: The robot.
         path: The file; None for none, which leaves the settings as they are.
+        strict: Refuse controllers of an unknown type.
 
     Raises:
         ConfigError: The file does not suit the robot.
@@ -36,7 +39,7 @@ def controlled(console: Console, settings: Settings, robot: Robot, path: str | N
         )
     from ..simulation.controllers import read_controllers
 
-    controls = read_controllers(path, robot)
+    controls = read_controllers(path, robot, strict=strict)
     for note in controls.notes:
         console.note(note)
     return replace(settings, controls=controls.joints)

@@ -29,6 +29,7 @@ class Fleet:
         settings: How each is spawned.
         engines: Modules of ``simulation``.
         controllers: A file of controllers.
+        strict: Whether controllers of an unknown type are refused.
         named: Descriptions that were named, and not found in a folder.
         cache: Where what is needed of meshes is kept; None keeps nothing.
     """
@@ -40,6 +41,7 @@ class Fleet:
     settings: Settings
     engines: tuple[str, ...]
     controllers: str | None
+    strict: bool
     named: frozenset[str]
     cache: str | None
 
@@ -60,7 +62,9 @@ class Fleet:
         )
         if not robot.links and path not in self.named:
             return Row(path, robot.name, skipped="only macros: it has no link of its own")
-        settings = controlled(self.console, self.settings, robot, self.controllers)
+        settings = controlled(
+            self.console, self.settings, robot, self.controllers, strict=self.strict
+        )
         with keeping_in(self.cache):
             verdicts, differ = judged(robot, settings, self.engines)
         return row_of(path, robot.name, [v for some in verdicts for v in some], differ)

@@ -26,6 +26,11 @@ _OPTIONS = (
         "told to hold the pose.",
     ),
     click.option(
+        "--strict",
+        is_flag=True,
+        help="Refuse --controllers of an unknown type. Without it their joints are not actuated.",
+    ),
+    click.option(
         "--plot",
         metavar="FILE.png",
         help="Draw height, tilt, kinetic energy, joints and their efforts over time.",

@@ -46,13 +46,18 @@ class Controls:
     notes: tuple[str, ...]
 
 
-def read_controllers(path: str, robot: Robot) -> Controls:
+def read_controllers(path: str, robot: Robot, *, strict: bool = False) -> Controls:
     """The controllers of a file that are for a robot.
 
+    Args:
+        path: The file.
+        robot: The robot.
+        strict: Refuse a controller of an unknown type. Otherwise its joints are not actuated.
+
     Raises:
-        ConfigError: It is no file of controllers; a controller is of an unknown type, has no
-            joints or gains, or names joints that the robot has not, or that have another
-            interface.
+        ConfigError: It is no file of controllers; a controller has no joints or gains, or names
+            joints that the robot has not, or that have another interface; or, if ``strict``, it is
+            of an unknown type.
         SourceError: It cannot be read.
     """
     root = read_yaml(path)
@@ -66,8 +71,13 @@ def read_controllers(path: str, robot: Robot) -> Controls:
         )
     gains = _simulated_gains(root, robot)
     joints: dict[str, Control] = {}
-    notes = []
+    notes = list(_replaced(root))
     for controller in controllers:
+        if unknown := _unknown_type(controller):
+            if strict:
+                raise controller.type.wrong(unknown)
+            notes.append(f"{controller.type.place}: {unknown}; its joints are not actuated")
+            continue
         for node, control in _claims(controller, robot, gains):
             name = (node.text or "").rpartition("/")[2]
             if name in joints:
@@ -81,6 +91,28 @@ def read_controllers(path: str, robot: Robot) -> Controls:
         if name not in joints:
             notes.append(f"{pid.place}: gains of joint '{name}', which no controller drives")
     return Controls(joints, tuple(notes))
+
+
+def _replaced(root: Node) -> Iterator[str]:
+    """Say of which keys an earlier value is dropped."""
+    for _, node in root.walk():
+        for name, value in (node.fields or {}).items():
+            if value.replaced:
+                earlier = ", ".join(str(one.place.line) for one in value.replaced)
+                yield f"{value.place}: '{name}' replaces the value in line {earlier}"
+
+
+def _unknown_type(controller: Controller) -> str:
+    """Why it is not known what a controller does to a joint; empty where it is."""
+    kind = controller.kind
+    if kind.endswith(_SILENT) or kind in KNOWN:
+        return ""
+    near = get_close_matches(kind, KNOWN, 1, 0.8)
+    hint = f"; did you mean '{near[0]}'?" if near else ""
+    return (
+        f"controller '{controller.name}' is of type '{controller.type.text}', which is not a "
+        f"controller of ros_controllers or ros2_controllers that drives joints{hint}"
+    )
 
 
 def _simulated_gains(root: Node, robot: Robot) -> dict[str, Node]:
@@ -101,13 +133,6 @@ def _claims(
     kind = controller.kind
     if kind.endswith(_SILENT):
         return
-    if kind not in KNOWN:
-        near = get_close_matches(kind, KNOWN, 1, 0.5)
-        hint = f"did you mean '{near[0]}'?" if near else "what it does to a joint is not known here"
-        raise controller.type.wrong(
-            f"controller '{controller.name}' is of type '{controller.type.text}', which is not "
-            f"one of ros_control; {hint}"
-        )
     for node, interface in _joints(controller):
         joint = (node.text or "").rpartition("/")[2]
         _in_robot(node, joint, robot)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from ..errors import ConfigError
@@ -33,6 +33,7 @@ class Node:
         items: Of a sequence.
         fields: Of a mapping.
         kind: Of a scalar, what YAML 1.1 takes it for: ``int``, ``float``, ``bool``, ``str`` ….
+        replaced: Earlier values of the same key, which readers drop for this one.
     """
 
     file: SourceFile
@@ -44,6 +45,7 @@ class Node:
     items: list[Node] | None
     fields: dict[str, Node] | None
     kind: str = ""
+    replaced: list[Node] = field(default_factory=list)
 
     @property
     def place(self) -> Place:
@@ -149,6 +151,10 @@ def read_yaml(path: str) -> Node:
 def yaml_of(file: SourceFile) -> Node:
     """The mapping in a file that was read.
 
+    Several documents are one mapping. Of a key that is written again the last value counts, as for
+    PyYAML, which ROS 1 reads parameters with; with ``ros__parameters`` mappings of the same key are
+    merged, as rcl_yaml_param_parser of ROS 2 does (``parse_file_events``, ``find_node``).
+
     Raises:
         ConfigError: It is no YAML, no mapping, or beyond the bounds.
     """
@@ -162,7 +168,7 @@ def yaml_of(file: SourceFile) -> Node:
         )
     text = file.data.decode("utf-8", "replace")
     try:
-        root = yaml.compose(text, Loader=yaml.SafeLoader)
+        roots = [root for root in yaml.compose_all(text, Loader=yaml.SafeLoader) if root]
     except RecursionError:
         raise ConfigError("is nested too deeply", path=path) from None
     except yaml.YAMLError as error:
@@ -173,18 +179,30 @@ def yaml_of(file: SourceFile) -> Node:
         raise ConfigError(
             f"is not valid YAML: {problem}", path=path, line=line, column=column
         ) from None
-    if not isinstance(root, yaml.MappingNode):
-        what = "is empty" if root is None else "is no mapping"
+    roots = [root for root in roots if not _is_empty(root)]
+    if not roots or not all(isinstance(root, yaml.MappingNode) for root in roots):
+        what = "is no mapping" if roots else "is empty"
         raise ConfigError(
             f"{what}; controllers by name are wanted, each with its type", path=path, line=1
         )
-    return _Reader(file, text).node(root, "", 0)
+    reader = _Reader(file, text)
+    first, *others = [reader.node(root, "", 0) for root in roots]
+    for other in others:
+        for name, value in (other.fields or {}).items():
+            reader.add(first, name, value)
+    return first
+
+
+def _is_empty(root: Any) -> bool:
+    """Whether a document has nothing in it, as after a last ``---``."""
+    return str(root.tag).endswith(":null") and not root.value
 
 
 class _Reader:
     def __init__(self, file: SourceFile, text: str) -> None:
         self.file, self.text, self.count = file, text, 0
         self._ascii = text.isascii()
+        self._merges = "ros__parameters" in text
 
     def _byte(self, index: int) -> int:
         return index if self._ascii else len(self.text[:index].encode())
@@ -214,20 +232,27 @@ class _Reader:
 
     def _fields(self, node: Any, depth: int) -> dict[str, Node]:
         merged: dict[str, Node] = {}
-        own: dict[str, Node] = {}
+        own = Node(self.file, 0, 0, "", None, False, None, {})
         for key, value in node.value:
             name = str(getattr(key, "value", ""))
             if getattr(key, "tag", "") == "tag:yaml.org,2002:merge":
                 inner = self.node(value, "<<", depth + 1)
                 for source in inner.items if inner.items is not None else [inner]:
                     merged = {**(source.fields or {}), **merged}
-            elif name in own:
-                raise ConfigError(
-                    f"'{name}' stands here a second time",
-                    path=self.file.path,
-                    line=key.start_mark.line + 1,
-                    column=key.start_mark.column + 1,
-                )
             else:
-                own[name] = self.node(value, name, depth + 1)
-        return {**merged, **own}
+                self.add(own, name, self.node(value, name, depth + 1))
+        return {**merged, **(own.fields or {})}
+
+    def add(self, mapping: Node, name: str, value: Node) -> None:
+        """Add a value to a mapping, merged with what the key has already or in place of that."""
+        fields = mapping.fields
+        assert fields is not None
+        known = fields.get(name)
+        if known is None:
+            fields[name] = value
+        elif self._merges and known.fields is not None and value.fields is not None:
+            for inner, part in value.fields.items():
+                self.add(known, inner, part)
+        else:
+            value.replaced = [*known.replaced, known]
+            fields[name] = value
