@@ -182,3 +182,40 @@ def test_a_brace_without_dollar_in_a_plain_urdf(tmp_path):
     robot = _robot(HEAVY, first='<gazebo reference="wheel_{side}_link"><mu1>1</mu1></gazebo>')
     message = found(tmp_path, "unexpanded-expression", robot).message
     assert message.endswith("write what '{side}' stands for")
+
+
+RAISED = COLLISION.replace("<geometry>", '<origin xyz="0 0 0.1"/><geometry>').replace(
+    "0.1 0.1 0.1", "0.05 0.05 0.2"
+)
+SMALL = COLLISION.replace("0.1 0.1 0.1", "0.01 0.01 0.01")
+
+
+@pytest.mark.parametrize(
+    ("base", "mid", "arm", "effect"),
+    [
+        (HEAVY, HEAVY + RAISED, HEAVY + RAISED, "no contact between parent and child"),
+        (HEAVY + RAISED, HEAVY + SMALL, HEAVY + RAISED, "stops the joint"),
+    ],
+    ids=["parent and child", "a joint between"],
+)
+def test_self_collision_in_range(tmp_path, base, mid, arm, effect):
+    robot = _robot(arm, base=base, mid=mid).replace(
+        '<child link="arm"/><axis xyz="0 0 1"/>',
+        '<child link="arm"/><origin xyz="0 0 0.2"/><axis xyz="0 1 0"/>',
+    )
+    robot = robot.replace('upper="1" effort', 'upper="3.1" effort')
+    assert effect in effects_of(tmp_path, "self-collision-in-range", robot)["mujoco"]
+
+
+def test_links_far_apart_in_the_chain_do_not_say_that_limits_are_too_wide(tmp_path):
+    robot = _robot(HEAVY + RAISED, base=HEAVY + RAISED, mid=HEAVY).replace(
+        '<child link="arm"/><axis xyz="0 0 1"/>',
+        '<child link="wrist"/><origin xyz="0 0 0.1"/><axis xyz="0 1 0"/>',
+    )
+    robot = robot.replace('upper="1" effort', 'upper="3.1" effort')
+    wrist = f'<link name="wrist">{HEAVY}</link><joint name="w" type="revolute">{LIMIT}'
+    ends = '<parent link="wrist"/><child link="arm"/><origin xyz="0 0 0.1"/>'
+    path = tmp_path / "r.urdf"
+    path.write_text(robot.replace("</robot>", f"{wrist}{ends}</joint></robot>"))
+    settings = Settings(select=("self-collision-in-range",))
+    assert lint_file(path, Options(settings)).findings == []

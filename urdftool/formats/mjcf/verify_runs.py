@@ -213,7 +213,9 @@ def _on_floor(mujoco: Any, path: Path) -> Any:
     _start(mujoco, model, data)
     spec = mujoco.MjSpec.from_file(str(path))
     spec.worldbody.add_geom(
-        type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], pos=[0, 0, lowest_point(mujoco, model, data)]
+        type=mujoco.mjtGeom.mjGEOM_PLANE,
+        size=[0, 0, 1],
+        pos=[0, 0, lowest_point(mujoco, model, data)],
     )
     return spec.compile()
 

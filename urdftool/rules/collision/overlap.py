@@ -30,7 +30,10 @@ PAIRS = 150_000
     INFO,
     raised={"moveit": WARNING},
     effects={
-        "moveit": "the start state is in collision, and nothing is planned",
+        "moveit": (
+            "finds the start state in collision and plans nothing, unless the SRDF disables the "
+            "pair"
+        ),
         "mujoco": "pushes the two apart from the first step",
     },
 )
@@ -236,17 +239,22 @@ def _depth(around: Convex, at: tuple[float, float, float]) -> float:
 @rule(
     INFO,
     effects={
-        "mujoco": "the contact stops the joint before its limit",
+        "mujoco (contact)": "the contact stops the joint before its limit",
+        "mujoco (neighbors)": (
+            "moves one link through the other: it makes no contact between parent and child"
+        ),
     },
 )
 def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[Problem]:
-    """A joint moves a link into another within its limits, all others being at rest.
+    """A joint moves a link into the one it is mounted on, within its limits.
 
     Many arms can reach themselves, and planners see to it that they do not. But where a single
-    joint runs a link through the body it hangs on, its limits are too wide, or its place or axis is
-    wrong. Each joint is looked at in nine positions between its limits; a mesh counts as its convex
-    hull. ``deeper`` [m] is the overlap that is let pass. One finding names the joints. Of a robot
-    with very many links only the first joints are looked at, which ``analysis-incomplete`` says.
+    joint, all others being at rest, runs a link through a body at most two joints above it, its
+    limits are too wide, or its place or axis is wrong. Each joint is looked at in nine positions
+    between its limits; a mesh counts as its convex hull. ``deeper`` [m] is the overlap that is let
+    pass. One finding names the joints, and a second those whose two links are parent and child. Of
+    a robot with very many links only the first joints are looked at, which ``analysis-incomplete``
+    says.
     """
     global _passed
     known = pieces(robot)
@@ -266,22 +274,33 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
             continue
         below = sum(1 for _ in robot.tree.descendants(joint.child)) + 1
         pairs += below * max(len(known.bodies) - below, 1)
-        hit, count = _sweep(known, joint, taken, deeper)
+        met, count = _sweep(known, joint, taken, deeper)
         tries += count
-        if hit is not None:
-            found.append((joint, *hit))
+        if met is not None:
+            found.append((joint, *met))
     _passed = robot, passed
-    if found:
-        joint, one, other, where = found[0]
+    alike: dict[str, list[tuple[Joint, Link, Link, float]]] = {}
+    for hit in found:
+        alike.setdefault(_contact_in_mujoco(known, hit[1], hit[2]), []).append(hit)
+    for case, hits in alike.items():
+        joint, one, other, where = hits[0]
         unit = "m" if joint.type == "prismatic" else "rad"
-        others = [f"'{j.name}' ('{a.name}' into '{b.name}')" for j, a, b, _ in found[1:]]
+        others = [f"'{j.name}' ('{a.name}' into '{b.name}')" for j, a, b, _ in hits[1:]]
         more = f"; the same is true of {some_of(others, 'joints')}"
         yield Problem(
             joint,
             f"joint '{joint.name}' moves link '{one.name}' into '{other.name}' at {where:.3g} "
-            f"{unit}, which its limits allow{more if len(found) > 1 else ''}",
+            f"{unit}, which its limits allow{more if len(hits) > 1 else ''}",
             at=joint.limit or joint,
+            effects=(f"mujoco ({case})",),
         )
+
+
+def _contact_in_mujoco(known: Pieces, one: Link, other: Link) -> str:
+    """Tell which links MuJoCo lets pass: of parent and child, unless the parent is the world."""
+    body, carrier = known.body_of[one.name], known.body_of[other.name]
+    is_root = known.robot.tree.parent_joint(carrier) is None
+    return "neighbors" if _carrier(known, body) == carrier and not is_root else "contact"
 
 
 _passed: tuple[Robot, list[Joint]] | None = None
@@ -305,11 +324,14 @@ def _sweep(
     at = known.poses[joint.parent] @ pose_of(joint.origin)
     back = (at @ motion_of(joint, rest)).inverse()
     apart = known.neighbours | taken
+    carrier = known.body_of[joint.parent]
     partners = {
         one: [
             (other, *known.spheres[other])
             for other in outside
             if frozenset((one, other)) not in apart
+            and carrier in (other, _carrier(known, one))
+            and _carrier(known, _carrier(known, one)) == other
         ]
         for one in inside
     }
@@ -332,6 +354,12 @@ def _sweep(
                 if deepest is not None:
                     return (deepest[0], deepest[1], value), count
     return None, count
+
+
+def _carrier(known: Pieces, body: str) -> str:
+    """Name the body that a body is mounted on with a joint; empty for the root."""
+    joint = known.robot.tree.parent_joint(body)
+    return "" if joint is None else known.body_of.get(joint.parent, "")
 
 
 def _positions(joint: Joint, rest: float) -> list[float]:
