@@ -222,17 +222,6 @@ def test_mujoco_extension(write):
     assert rules(written).count("lossy-mujoco") == 2
 
 
-def test_initial_values_are_the_key_home(write):
-    control = (
-        '<ros2_control name="h" type="system"><joint name="k"><command_interface name="position"/>'
-        '<state_interface name="position"><param name="initial_value">0.7</param></state_interface>'
-        "</joint></ros2_control>"
-    )
-    key = tree(export(write("r.urdf", chain(control)), base="free")).find("keyframe/key")
-    assert key.get("qpos") == "0 0 0 1 0 0 0 0 0.7"
-    assert key.get("ctrl") == "0.7"
-
-
 @pytest.mark.parametrize(
     ("shape", "size"),
     [

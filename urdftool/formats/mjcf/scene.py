@@ -16,7 +16,6 @@ from .shape_box import ShapeBoxes
 from .standing import Ground, ground_of
 from .structure import Structure
 
-
 FLUSH = 1e-3
 """How far below the floor a robot that is held may reach with the floor still at z = 0 [m]."""
 

@@ -1,0 +1,176 @@
+"""Whether the root is free, and what drives wheels: arms are held, legs are not."""
+
+import pytest
+
+from .robots import INERTIAL, export, joint, link, robot, tree
+
+
+def solid(shape, at="0 0 0"):
+    return f'{INERTIAL}<collision><origin xyz="{at}"/><geometry>{shape}</geometry></collision>'
+
+
+TRUNK = solid('<box size="0.6 0.3 0.1"/>')
+LEG = solid('<cylinder radius="0.02" length="0.4"/>', "0 0 -0.2")
+FOOT = solid('<box size="0.2 0.1 0.02"/>', "0.03 0 -0.4")
+LIMIT = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+LEVEL, UPRIGHT = '<axis xyz="0 1 0"/>', '<axis xyz="0 0 1"/>'
+
+
+def limb(name, at, shape=LEG, parent="trunk"):
+    place = f'<origin xyz="{at}"/>{LEVEL}{LIMIT}'
+    return link(name, shape) + joint(f"{name}_joint", parent, name, inside=place)
+
+
+CORNERS = {"fl": "0.3 0.1 0", "fr": "0.3 -0.1 0", "hl": "-0.3 0.1 0", "hr": "-0.3 -0.1 0"}
+
+
+def quadruped(names=CORNERS, trunk=TRUNK):
+    return robot(
+        link("trunk", trunk), *(limb(n, at) for n, at in zip(names, CORNERS.values(), strict=True))
+    )
+
+
+def biped(word):
+    sides = {f"left_{word}": "0 0.1 0", f"right_{word}": "0 -0.1 0"}
+    return robot(link("trunk", TRUNK), *(limb(name, at, FOOT) for name, at in sides.items()))
+
+
+PEDESTAL = solid('<box size="0.1 0.1 0.5"/>', "0 0 -0.25")
+
+FREE = {
+    "quadruped": quadruped(),
+    "biped": biped("foot"),
+    "biped without a telling name": biped("end"),
+    "quadruped with an arm": quadruped().replace(
+        "</robot>", limb("arm", "0.2 0 0.1", solid('<sphere radius="0.1"/>')) + "</robot>"
+    ),
+}
+HELD = {
+    "torso with hanging arms": biped("hand"),
+    "torso with grippers": biped("gripper_base"),
+    "torso on a pedestal": quadruped(trunk=PEDESTAL),
+    "legs that are not below the mass": quadruped(trunk=TRUNK.replace("<mass", "<x/><mass")
+        .replace("<inertial>", '<inertial><origin xyz="2 0 0"/>')
+        .replace('value="1"', 'value="100"')),
+    "one leg": robot(link("trunk", TRUNK), limb("leg", "0 0 0")),
+    "hand of three fingers": quadruped(("finger_1", "finger_2", "finger_3", "thumb")),
+    "arm": robot(
+        link("trunk", TRUNK), limb("upper", "0 0 0.1"), limb("lower", "0 0 1", LEG, "upper")
+    ),
+}  # fmt: skip
+
+
+def is_free(written):
+    return tree(written).find(".//freejoint") is not None
+
+
+@pytest.mark.parametrize("name", FREE)
+def test_what_stands_on_its_legs_is_free(write, name):
+    written = export(write("r.urdf", FREE[name]))
+    assert is_free(written)
+    assert written.summary[0].startswith("free base (it stands on ")
+    assert not is_free(export(write("r.urdf", FREE[name]), base="fixed"))
+
+
+@pytest.mark.parametrize("name", HELD)
+def test_what_does_not_is_held(write, name):
+    written = export(write("r.urdf", HELD[name]))
+    assert not is_free(written)
+    assert written.summary[0] == "fixed base (nothing says that it moves)"
+
+
+WHEEL = solid('<sphere radius="0.1"/>')
+VELOCITY = (
+    '<ros2_control name="h" type="system"><joint name="{}">'
+    '<command_interface name="velocity"/></joint></ros2_control>'
+)
+
+
+def cart(*extra, axis=LEVEL, kind="continuous", height=0.0):
+    body = solid('<box size="0.6 0.3 0.2"/>')  # slides on its rear
+    wheels = [
+        link(f"{side}_w", WHEEL)
+        + joint(side, "body", f"{side}_w", kind, f'<origin xyz="0.2 {y} {height}"/>{axis}{LIMIT}')
+        for side, y in (("left", 0.2), ("right", -0.2))
+    ]
+    return robot(link("body", body), *wheels, *extra)
+
+
+DRIVEN = [VELOCITY.format(name) for name in ("left", "right")]
+
+
+def actuators(written):
+    section = tree(written).find("actuator")
+    return [] if section is None else [(e.tag, e.get("joint")) for e in section]
+
+
+def test_driven_wheels_at_the_ground_make_the_base_free(write):
+    written = export(write("r.urdf", cart(*DRIVEN)))
+    assert is_free(written)
+    assert written.summary == ["free base (it drives on left, right)", "2 actuators"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        cart(),  # nothing drives them, and the body stands, too
+        cart(*DRIVEN, axis=UPRIGHT),
+        cart(*DRIVEN, kind="revolute"),
+        cart(*DRIVEN, height=0.3),
+    ],
+)
+def test_other_driven_joints_do_not(write, text):
+    assert not is_free(export(write("r.urdf", text)))
+
+
+def plugin(library, inside):
+    return f'<gazebo><plugin name="p" filename="{library}">{inside}</plugin></gazebo>'
+
+
+@pytest.mark.parametrize(
+    "drive",
+    [
+        plugin(
+            "libgazebo_ros_diff_drive.so",
+            "<leftJoint>left</leftJoint><rightJoint>right</rightJoint><robotBaseFrame>body"
+            "</robotBaseFrame>",
+        ),
+        plugin(
+            "gz-sim-diff-drive-system",
+            "<left_joint> left </left_joint><right_joint>right</right_joint>",
+        ),
+        plugin(
+            "libgazebo_ros_skid_steer_drive.so",
+            "<leftFrontJoint>left</leftFrontJoint><rightFrontJoint>right</rightFrontJoint>",
+        ),
+    ],
+)
+def test_a_drive_plugin_gives_its_wheels_velocity_servos(write, drive):
+    written = export(write("r.urdf", cart(drive)))
+    assert is_free(written)
+    assert actuators(written) == [("velocity", "left"), ("velocity", "right")]
+    assert actuators(export(write("r.urdf", cart(drive)), actuators="none")) == []
+    effort = VELOCITY.format("left").replace("velocity", "effort")
+    assert actuators(export(write("r.urdf", cart(drive, effort))))[0] == ("motor", "left")
+
+
+def test_a_tricycle_steers_by_position(write):
+    front = link("front", WHEEL) + joint("steer", "body", "front", inside=UPRIGHT + LIMIT)
+    drive = plugin(
+        "libgazebo_ros_tricycle_drive.so",
+        "<steeringJoint>steer</steeringJoint><actuatedWheelJoint>left</actuatedWheelJoint>",
+    )
+    written = export(write("r.urdf", cart(front, drive)))
+    assert sorted(actuators(written)) == [("position", "steer"), ("velocity", "left")]
+
+
+def test_no_actuator_is_said_once_it_matters(write, urdftool):
+    def said(text, *options):
+        result = urdftool("export", "mjcf", write("r.urdf", text), "-o", "out", *options)
+        assert result.code == 0
+        return "has no actuators" in result.err
+
+    assert said(quadruped())
+    assert not said(quadruped(), "--actuators", "none")
+    assert not said(quadruped(), "--actuators", "motor")
+    assert not said(robot(link("trunk", TRUNK)))
