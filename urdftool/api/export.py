@@ -93,6 +93,7 @@ def export_mjcf(
     keep_locked_joints: bool = False,
     pose: Mapping[str, float] | None = None,
     state: str = "",
+    base_sensors: bool = False,
     mesh_dir: str = "assets",
     force: bool = False,
     verify: bool = False,
@@ -116,6 +117,8 @@ def export_mjcf(
             their links would be welded.
         pose: Positions of joints by name [rad, m] in the home position.
         state: The group state of the SRDF that is the home position; its likeliest if empty.
+        base_sensors: Whether to add linear velocity, gyro, accelerometer and orientation of a free
+            base where the file has none.
         mesh_dir: The folder of the meshes, relative to the model.
         force: Whether to go on past errors where a robot is left.
         verify: Whether to compare the result, compiled in MuJoCo, with the robot; ``checks`` has
@@ -149,6 +152,7 @@ def export_mjcf(
         keep_locked_joints=keep_locked_joints,
         pose=pose or {},
         state=state,
+        base_sensors=base_sensors,
     )
     written = write(robot, options)
     if verify:

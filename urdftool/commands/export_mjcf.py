@@ -63,6 +63,12 @@ def _pose(
     "state. Repeatable.",
 )
 @click.option(
+    "--base-sensors",
+    is_flag=True,
+    help="Add linear velocity, gyro, accelerometer and orientation of a free base where the file "
+    "has none.",
+)
+@click.option(
     "--keep-locked-joints",
     is_flag=True,
     help="Keep joints with lower = upper, held by an equality; without it their links are welded.",

@@ -29,11 +29,16 @@ def _loops(kind: str) -> str:
 
 
 ROBOT: tuple[Row, ...] = (
-    ("`robot@name`", EXACT, "`mujoco@model`, the file's and the default class's name"),
+    (
+        "`robot@name`",
+        EXACT,
+        "`mujoco@model`, the file's and the default class's name, without blanks and a version at "
+        "its end; then the whole name is the text `robot_name` in `custom`",
+    ),
     ("`robot/origin`", EXACT, "pose of the root body"),
     ("`link@name`", EXACT, "`body@name`: one body a link, also for fixed and massless ones"),
     ("root link `world`", EXACT, "`worldbody`; a mass of it is said and dropped"),
-    ("root link", EXACT, "held by the world, or with `freejoint` (`--base free`)"),
+    ("root link", EXACT, "held by the world, or with `freejoint` (`--base`)"),
     ("`inertial`", EXACT, "`inertial` with `diaginertia` or `fullinertia`, numbers as written"),
     ("inertia no body has, welded", EXACT, "the surplus moves to a link of the same rigid body"),
     ("inertia no body has, moving", LOST_MARK, "an error; `--fix-inertia` changes it and says how"),
@@ -100,7 +105,7 @@ JOINT: tuple[Row, ...] = (
         CLOSE,
         "`position`, `velocity` or `motor` by its first command interface",
     ),
-    ("`ros2_control` initial value", EXACT, "key `home`"),
+    ("`ros2_control` initial value", EXACT, "key `home`, moved into the limits"),
     ("`ros2_control` sensor", CLOSE, "site at its `frame_id` and sensors by its interfaces"),
 )
 
@@ -123,9 +128,15 @@ EXTENSIONS: tuple[Row, ...] = (
     (f"gazebo `joint` {_loops('weld')}", CLOSE, "`equality/weld`"),
     ("gazebo `joint` of another type", LOST_MARK, "said"),
     ("gazebo `light`", CLOSE, "`light`"),
-    ("gazebo `plugin`", LOST_MARK, "belongs to Gazebo; one that drives wheels makes the base free"),
+    (
+        "gazebo `plugin` that drives the robot",
+        CLOSE,
+        "the base is free; `velocity` for its wheels, `position` for what steers",
+    ),
+    ("any other gazebo `plugin`", LOST_MARK, "belongs to Gazebo"),
     ("SRDF `disable_collisions`", EXACT, "`exclude`, where MuJoCo would collide the pair"),
     ("SRDF `virtual_joint`", EXACT, "whether the base is free"),
+    ("SRDF `group_state`", EXACT, "key `home`: the state of that name, or `--pose NAME`"),
 )
 
 

@@ -9,6 +9,7 @@ from ...model.elements import Robot
 from ..numbers import number_text
 from ..written import Written
 from .actuator import actuator_section
+from .base_sensors import add_base_sensors
 from .body import body_tree, fill_bodies
 from .colors import share_colors
 from .contact import contact_section
@@ -64,14 +65,17 @@ def model_text(
     }
     actuators, drives = actuator_section(structure, options.actuators, written)
     _summarize(structure, options, len(drives), written)
+    sensors = sensor_section(structure.robot, bodies, written)
+    if options.base_sensors:
+        sensors = add_base_sensors(structure, bodies, sensors, written)
     _put(
         sections,
         contact_section(structure, bodies, srdf),
         equality_section(structure, written),
         actuators,
-        sensor_section(robot, bodies, written),
+        sensors,
         keyframe_section(structure, home, drives),
-        _custom(structure),
+        _custom(structure, name),
     )
     gazebo_losses(robot, written)
     _controller_losses(robot, written)
@@ -137,14 +141,16 @@ def _asset(assets: Assets, materials: Materials) -> etree._Element:
     return section
 
 
-def _custom(structure: Structure) -> etree._Element | None:
-    """The velocity limits [rad/s or m/s], which MuJoCo has no place for."""
+def _custom(structure: Structure, name: str) -> etree._Element | None:
+    """What MuJoCo has no place for: velocity limits [rad/s or m/s], and a name that was changed."""
     section = etree.Element("custom")
+    if structure.robot.name and structure.robot.name != name:
+        etree.SubElement(section, "text", name="robot_name", data=structure.robot.name)
     for joint in structure.moving:
         velocity = joint.limit.velocity if joint.limit is not None else None
         if velocity is not None and structure.kind(joint) in ("hinge", "slide"):
-            name = f"{joint.name}_velocity_limit"
-            etree.SubElement(section, "numeric", name=name, data=number_text(abs(velocity)))
+            own = f"{joint.name}_velocity_limit"
+            etree.SubElement(section, "numeric", name=own, data=number_text(abs(velocity)))
     return section if len(section) else None
 
 

@@ -37,6 +37,7 @@ class Options:
         keep_locked_joints: Keep a joint with equal limits, held by an equality, where its link
             would be welded.
         pose: Positions of joints by name [rad, m] in the home position.
+        base_sensors: Add the velocity, gyro, accelerometer and orientation of a free base.
         state: The group state of the SRDF that is the home position; empty for the likeliest.
     """
 
@@ -52,3 +53,4 @@ class Options:
     keep_locked_joints: bool = False
     pose: Mapping[str, float] = field(default_factory=dict)
     state: str = ""
+    base_sensors: bool = False

@@ -95,11 +95,11 @@ def _pose(element: Element) -> Pose:
 def _site(name: str, pose: Pose, body: etree._Element, sites: Names) -> str:
     element = etree.Element("site", {"name": sites.take(name), **SITE})
     set_pose(element, pose)
-    _insert(body, element)
+    put_before_bodies(body, element)
     return element.get("name", "")
 
 
-def _insert(body: etree._Element, element: etree._Element) -> None:
+def put_before_bodies(body: etree._Element, element: etree._Element) -> None:
     """Put a site or camera before the bodies below."""
     first = body.find("body")
     body.insert(len(body) if first is None else body.index(first), element)
@@ -113,12 +113,18 @@ def _measure(
     taken: Names,
 ) -> None:
     for kind, suffix in kinds:
-        element = etree.SubElement(section, kind, name=taken.take(name + suffix))
-        if kind.startswith("frame"):
-            element.set("objtype", "site")
-            element.set("objname", site)
-        else:
-            element.set("site", site)
+        section.append(site_sensor(kind, taken.take(name + suffix), site))
+
+
+def site_sensor(kind: str, name: str, site: str) -> etree._Element:
+    """Make a sensor at a site."""
+    element = etree.Element(kind, name=name)
+    if kind.startswith("frame"):
+        element.set("objtype", "site")
+        element.set("objname", site)
+    else:
+        element.set("site", site)
+    return element
 
 
 def _camera(
@@ -142,7 +148,7 @@ def _camera(
     element = etree.Element("camera", name=name, fovy=number_text(math.degrees(vertical)))
     element.set("resolution", f"{width} {height}")
     set_pose(element, _pose(sensor.element) @ _pose(camera) @ CAMERA_TURN)
-    _insert(body, element)
+    put_before_bodies(body, element)
 
 
 def _whole(image: Element | None, name: str, default: int) -> int:
@@ -174,7 +180,7 @@ def _touch(
     for attribute in ("pos", "quat"):
         if attribute in sized[0].attrib:
             site.set(attribute, sized[0].get(attribute, ""))
-    _insert(body, site)
+    put_before_bodies(body, site)
     etree.SubElement(section, "touch", name=taken.take(name), site=own)
     if len(geoms) > 1:
         _lose(sensor, "it covers only the first collision of its link", written)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from ...finding import Finding
@@ -24,6 +25,8 @@ from .scene import scene_file
 from .shape_box import ShapeBoxes
 from .srdf import read_srdf
 from .structure import Structure, structure_of
+
+_NOISE = re.compile(r"(?:[\s_.-]+(?:urdf|xacro|sldasm|v\d+(?:[._]\d+)*))+\s*$", re.IGNORECASE)
 
 MAX_DEPTH = 490
 """Bodies in each other that MuJoCo reads: its XML reader stops at 500 elements."""
@@ -87,8 +90,11 @@ def write(robot: Robot, options: Options | None = None) -> Written:
 
 
 def model_name(robot: Robot) -> str:
-    """The name of the model and its file: the robot's, or that of the description."""
-    name = robot.name
+    """The name of the model and its file: the robot's, or that of the description.
+
+    Blanks, and words of a version or a file at its end, are not taken over.
+    """
+    name = _NOISE.sub("", robot.name)
     if not name and robot.source is not None:
         name = Path(robot.source.path).name.partition(".")[0]
     name = file_name(name)
