@@ -61,7 +61,7 @@ def add_base_sensors(
 
 
 def _free_link(structure: Structure) -> str | None:
-    """The link of the base that is free: the root, or what floats below a root that is the world."""
+    """The link of a free base: the root, or what floats below a root that is the world."""
     if structure.free:
         return structure.root.name
     floating = [j.child for j in structure.moving if structure.kind(j) == "free"]
