@@ -13,6 +13,9 @@ COUPLING = "//equality/joint[@joint1='right_finger_joint']"
 PAIR = "//exclude[@body1='base_link' and @body2='forearm']"
 OPTION = "/mujoco/option"
 
+TETRAHEDRON = "0.5 0.5 0.5  0.5 -0.5 -0.5  -0.5 0.5 -0.5  -0.5 -0.5 0.5"
+"""Corners of a tetrahedron in the box of the cube."""
+
 
 def _in(path: str, name: str) -> str:
     return path.format(name)
@@ -118,7 +121,9 @@ CHANGES = (
         "another mesh in the same box",
         "collision",
         both(
-            put("//asset/mesh", "file", "tetrahedron.obj"),
+            drop("//asset/mesh", "file"),
+            put("//asset/mesh", "name", "cube"),
+            put("//asset/mesh", "vertex", TETRAHEDRON),
         ),
     ),
     Planted("contact switched off", "contact", add(OPTION, "<flag contact='disable'/>")),

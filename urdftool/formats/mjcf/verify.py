@@ -81,7 +81,7 @@ def verify(
         contact_check(source, compiled, said),
         surface_check(source, compiled, said),
         actuator_check(source, compiled, said),
-        sensor_check(source, mechanics, compiled, said),
+        sensor_check(source, mechanics, compiled, configurations[0], said),
         visual_check(robot, mechanics, compiled, configurations, said),
         material_check(source, compiled, said),
         repeat,

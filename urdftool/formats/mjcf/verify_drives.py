@@ -12,7 +12,7 @@ from ...model.elements import Joint
 from ..check import Check
 from .announced import LIMITS, TREE, Said
 from .compiled import Compiled
-from .verify_source import Source
+from .verify_source import Source, is_locked
 
 EXACT = 1e-9
 DAMPING = 1e-6
@@ -102,8 +102,7 @@ def _wanted(source: Source) -> Iterator[tuple[str, Wanted]]:
     for joint in source.robot.joints:
         if joint.type not in ("revolute", "continuous", "prismatic") or not source.moves(joint):
             continue
-        limits = _limits(joint)
-        if limits is not None and limits[0] == limits[1]:
+        if is_locked(joint):
             continue
         if choice == "auto" and joint.name in said:
             yield joint.name, _drive(joint, *said[joint.name])

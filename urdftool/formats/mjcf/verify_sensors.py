@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -64,12 +64,26 @@ class Measured:
     whole: bool = True
 
 
-def sensor_check(source: Source, mechanics: Mechanics, compiled: Compiled, said: Said) -> Check:
-    """Compare sensors, cameras and lights: link, pose, type and view."""
+def sensor_check(
+    source: Source,
+    mechanics: Mechanics,
+    compiled: Compiled,
+    positions: Mapping[str, float],
+    said: Said,
+) -> Check:
+    """Compare sensors, cameras and lights: link, pose, type and view.
+
+    Args:
+        source: What the description asks for.
+        mechanics: Where its links are.
+        compiled: The model.
+        positions: Of the joints [rad or m], at which places are compared.
+        said: What the export announced.
+    """
     what = "sensors, cameras, lights: link, pose, type, view"
     check = Check("sensors", what, EXACT)
-    compiled.pose({})
-    frames = mechanics.frames({})
+    compiled.pose(positions)
+    frames = mechanics.frames(positions)
     model = compiled.model
     left = list(range(model.nsensor))
     for wanted in _wanted(source):

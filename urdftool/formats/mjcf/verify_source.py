@@ -71,6 +71,8 @@ class Source:
         axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
         if joint.type in DIRECTED and math.hypot(*axis) < 1e-6:
             return False
+        if is_locked(joint) and not self.options.keep_locked_joints:
+            return False
         return joint.type in MOVING
 
     @cached_property
@@ -139,6 +141,13 @@ class Source:
 class _Plugin:
     filename: str
     name: str
+
+
+def is_locked(joint: Joint) -> bool:
+    """Whether the limits of a joint leave it one position."""
+    if joint.type not in ("revolute", "prismatic") or joint.limit is None:
+        return False
+    return (joint.limit.lower or 0.0) == (joint.limit.upper or 0.0)
 
 
 def read_pose(element: Element) -> Array:
