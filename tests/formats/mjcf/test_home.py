@@ -155,3 +155,38 @@ def test_the_key_touches_the_floor_in_mujoco(urdftool, write, tmp_path):
     mujoco.mj_step(model, data, 2)
     floor = model.geom("floor").id
     assert any(floor in contact.geom for contact in data.contact)
+
+
+@pytest.mark.library("mujoco")
+@pytest.mark.parametrize(
+    ("old", "new", "failing"),
+    [
+        ('name="home" qpos="0 0 1.1', 'name="home" qpos="0 0 1.2', "home"),
+        ('pos="0 0 1.1', 'pos="0 0 1.2', "home"),
+        (" -0.9 0 0.5", " -0.8 0 0.5", "home"),
+        (" -0.9 0 0.5", " -0.9 0 0.6", "home"),
+        ('ctrl="-0.9 0"', 'ctrl="0 0"', "home"),
+        ('name="home"', 'name="start"', "home"),
+        ("<freejoint", '<joint type="ball"', "base"),
+    ],
+)
+def test_a_change_of_home_is_found(write, tmp_path, old, new, failing):
+    from urdftool.formats.mjcf.options import Options
+    from urdftool.formats.mjcf.verify import verify
+    from urdftool.formats.mjcf.write import write as write_mjcf
+    from urdftool.model.load import load
+
+    options = Options(base="free", actuators="position")
+    made = load(write("r.urdf", arm()))
+    written = write_mjcf(made, options)
+    assert old in written.text
+    if failing == "base":
+        before, _, rest = written.text.partition("<keyframe>")
+        changed = (before + rest.partition("</keyframe>")[2]).replace(old, new)
+    else:
+        changed = written.text.replace(old, new)
+    written.files[written.main] = changed.encode()
+    model = tmp_path / "r.xml"
+    model.write_text(changed)
+    checks = verify(made, written, model, write_mjcf(made, options), options)
+    assert failing in [check.name for check in checks if check.verdict == "differs"]

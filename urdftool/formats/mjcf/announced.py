@@ -19,6 +19,9 @@ TREE = (
 )  # fmt: skip
 """A joint moves otherwise than it is written."""
 
+FREE = "lossy-free-base"
+"""The root is free for what the robot stands on."""
+
 LOOPS = ("lossy-loop", "bad-extension-number")
 """A joint that closes a loop is left out."""
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+from ...finding import Severity
+from ..written import Written
 from .drives import drive_plugins
 from .options import Base
 from .shape_box import ShapeBoxes
@@ -18,6 +20,7 @@ def with_base(
     virtual_joint: str | None,
     boxes: ShapeBoxes,
     home: Mapping[str, float],
+    written: Written,
 ) -> Structure:
     """Decide whether the root is free.
 
@@ -27,18 +30,26 @@ def with_base(
         virtual_joint: Type of the joint to the world in an SRDF, if there is one.
         boxes: The boxes of the robot's shapes.
         home: Where the joints are at home [rad, m].
+        written: Takes a root that is free for what the robot stands on.
     """
-    free, reason = _decide(structure, base, virtual_joint, boxes, home)
+    free, reason = _decide(structure, base, virtual_joint)
+    if not reason:
+        standing = free_reason(structure, boxes, home)
+        free, reason = standing is not None, standing or "nothing says that it moves"
+        if free:
+            written.lose(
+                "free-base",
+                f"root link '{structure.root.name}' is free: {reason}; --base fixed holds it",
+                structure.root.place,
+                kind="link",
+                name=structure.root.name,
+                severity=Severity.INFO,
+            )
     return replace(structure, free=free, reason=reason)
 
 
-def _decide(
-    structure: Structure,
-    base: Base,
-    virtual_joint: str | None,
-    boxes: ShapeBoxes,
-    home: Mapping[str, float],
-) -> tuple[bool, str]:
+def _decide(structure: Structure, base: Base, virtual_joint: str | None) -> tuple[bool, str]:
+    """Whether the root is free and why, by what is written; no reason where nothing is."""
     robot = structure.robot
     if structure.in_world:
         return False, "the root link is the world"
@@ -50,10 +61,7 @@ def _decide(
         return virtual_joint in ("floating", "planar"), f"virtual joint of type {virtual_joint}"
     for plugin in drive_plugins(robot):
         return True, f"the plugin {plugin.filename or plugin.name} drives it over the ground"
-    standing = free_reason(structure, boxes, home)
-    if standing is not None:
-        return True, standing
-    return False, "nothing says that it moves"
+    return False, ""
 
 
 def _is_true(text: str | None) -> bool:

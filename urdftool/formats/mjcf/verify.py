@@ -17,11 +17,12 @@ from ...model.world import with_world
 from ..check import Check
 from ..mechanics import Mechanics
 from ..written import Written
-from .announced import EFFORT, INERTIA, LIMITS, TORN, TREE, Said
+from .announced import EFFORT, FREE, INERTIA, LIMITS, TORN, TREE, Said
 from .compiled import Compiled, compile_all, copied
 from .options import Options
 from .verify_contact import contact_check, surface_check
 from .verify_drives import actuator_check
+from .verify_home import home_check
 from .verify_looks import material_check
 from .verify_loops import compare_loops, loop_ends
 from .verify_physics import base_check, gravity_flag_check, joint_physics_check, option_check
@@ -66,7 +67,7 @@ def verify(
     for name in sorted(written.files.keys() | again.files.keys()):
         repeat.compare(0 if written.files.get(name) == again.files.get(name) else math.inf, name)
     configurations = list(_configurations(mechanics, compiled))
-    source = Source(robot, options or Options())
+    source = Source(robot, options or Options(), said.of((FREE,), robot.tree.roots[0].name))
     checks = [
         base_check(source, compiled),
         _tree(robot, compiled, said),
@@ -84,6 +85,7 @@ def verify(
         sensor_check(source, mechanics, compiled, configurations[0], said),
         visual_check(robot, mechanics, compiled, configurations, said),
         material_check(source, compiled, said),
+        home_check(source, compiled, said),
         repeat,
     ]
     clean = Check("loads", "MuJoCo compiles and poses it without a warning", 0)

@@ -111,7 +111,15 @@ def _wanted(source: Source) -> Iterator[tuple[str, Wanted]]:
 
 
 def _said(source: Source) -> Iterator[tuple[str, tuple[str, float]]]:
-    """Kind and gear by joint, as transmissions say, then ros2_control."""
+    """Kind and gear by joint, as drive plugins say, then transmissions, then ros2_control."""
+    for plugin in source.drive_plugins:
+        for element in plugin.walk():
+            for name in element.text.replace(",", " ").split():
+                named = source.robot.joint.get(name)
+                if named is not None:
+                    limits = _limits(named)
+                    steers = limits is not None and -7 < limits[0] < limits[1] < 7
+                    yield name, ("position" if steers else "velocity", 1.0)
     for transmission in source.robot.transmissions:
         gears = [a.mechanical_reduction for a in transmission.actuators if a.mechanical_reduction]
         for joint in transmission.joints:

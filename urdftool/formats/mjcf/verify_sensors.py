@@ -41,6 +41,9 @@ INTERFACES = {
 }
 """State interfaces of ros2_control, by what stands before the dot."""
 
+BASE = ("FRAMELINVEL", "GYRO", "ACCELEROMETER", "FRAMEQUAT")
+"""Sensors of a free base."""
+
 LOOK = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 """Axes of MuJoCo's camera in Gazebo's: it looks along -z with y up, Gazebo's along x with z up."""
 
@@ -86,7 +89,8 @@ def sensor_check(
     frames = mechanics.frames(positions)
     model = compiled.model
     left = list(range(model.nsensor))
-    for wanted in _wanted(source):
+    asked = list(_wanted(source))
+    for wanted in (*asked, *_of_base(source, asked)):
         known = said.of(("lossy-sensor",), wanted.name)
         place = frames.get(wanted.link, np.eye(4)) @ wanted.pose
         number = _find(wanted, place, left, compiled)
@@ -123,6 +127,19 @@ def _wanted(source: Source) -> Iterator[Measured]:
                 words = {i.name.split(".")[0] for i in component.state_interfaces}
                 for word in INTERFACES.keys() & words:
                     yield Measured(component.name, INTERFACES[word], frame)
+
+
+def _of_base(source: Source, others: list[Measured]) -> Iterator[Measured]:
+    """The sensors of a free base that the options ask for, and that it does not have."""
+    if not source.options.base_sensors:
+        return
+    base = source.root if source.is_free else ""
+    floating = [joint.child for joint in source.robot.joints if joint.type == "floating"]
+    if source.root == "world" and len(floating) == 1:
+        base = floating[0]
+    for kind in BASE if base else ():
+        if not any(o.kind == kind and source.rigid[o.link] == source.rigid[base] for o in others):
+            yield Measured(base, kind, base)
 
 
 def sensors_of(robot: Robot) -> Iterator[tuple[Element, str]]:

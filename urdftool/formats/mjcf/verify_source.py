@@ -36,10 +36,12 @@ class Source:
     Attributes:
         robot: The robot, with one root.
         options: The options of the export.
+        stands: Whether the export said that the root is free for what the robot stands on.
     """
 
     robot: Robot
     options: Options
+    stands: bool = False
 
     @property
     def root(self) -> str:
@@ -127,20 +129,16 @@ class Source:
         virtual = self._srdf.child("virtual_joint") if self._srdf is not None else None
         if virtual is not None:
             return virtual.get("type") in ("floating", "planar")
-        return any(DRIVE.search(f"{p.filename} {p.name}".replace("-", "_")) for p in self._plugins)
+        return self.stands or any(self.drive_plugins)
 
     @property
-    def _plugins(self) -> Iterator[_Plugin]:
+    def drive_plugins(self) -> Iterator[Element]:
+        """The plugins that move the robot over the ground."""
         for block in self.robot.gazebo:
             for element in block.element.walk():
-                if element.tag == "plugin":
-                    yield _Plugin(element.get("filename") or "", element.get("name") or "")
-
-
-@dataclass(frozen=True)
-class _Plugin:
-    filename: str
-    name: str
+                words = f"{element.get('filename') or ''} {element.get('name') or ''}"
+                if element.tag == "plugin" and DRIVE.search(words.replace("-", "_")):
+                    yield element
 
 
 def is_locked(joint: Joint) -> bool:

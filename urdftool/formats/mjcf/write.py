@@ -69,7 +69,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     boxes = ShapeBoxes(robot)
     positions = home_positions(structure, options.pose, options.state, srdf, written)
     virtual_joint = srdf.virtual_joint if srdf else None
-    structure = with_base(structure, options.base, virtual_joint, boxes, positions)
+    structure = with_base(structure, options.base, virtual_joint, boxes, positions, written)
     home = home_of(structure, boxes, positions)
     found += _too_deep(structure)
     masses, wrong = inertials(structure, options.fix_inertia, written, force=options.force)
