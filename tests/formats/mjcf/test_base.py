@@ -174,3 +174,19 @@ def test_no_actuator_is_said_once_it_matters(write, urdftool):
     assert not said(quadruped(), "--actuators", "none")
     assert not said(quadruped(), "--actuators", "motor")
     assert not said(robot(link("trunk", TRUNK)))
+
+
+def test_a_robot_with_folded_legs_is_free(write):
+    text = quadruped(("leg_1", "leg_2", "leg_3", "leg_4"), trunk=PEDESTAL)
+    assert export(write("r.urdf", text)).summary[0] == (
+        "free base (it has legs: leg_1, leg_2, leg_3, leg_4)"
+    )
+
+
+def test_a_driven_pendulum_is_not_a_wheel(write):
+    base = link("trunk", INERTIAL)
+    swing = f'<origin xyz="0 0 1"/>{LEVEL}'
+    text = robot(
+        base, link("end", LEG), joint("left", "trunk", "end", "continuous", swing), DRIVEN[0]
+    )
+    assert not is_free(export(write("r.urdf", text)))

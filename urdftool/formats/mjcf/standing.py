@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -10,6 +11,7 @@ from ...model.elements import Joint
 from ...model.kinematics import link_poses
 from ...model.pose import Pose, pose_of, rotate
 from .drives import commanded_joints
+from .joint import axis_of
 from .shape_box import Box, ShapeBoxes
 from .structure import Structure
 
@@ -25,8 +27,13 @@ Less than ``LEVEL``, so that a body close to the ground is not taken for one tha
 UPRIGHT = 0.3
 """The largest vertical part of the unit axis of a wheel."""
 
-LEGS = frozenset(("leg", "foot", "feet", "toe", "ankle", "knee", "hip", "calf", "thigh", "shank",
-                  "wheel", "track"))  # fmt: skip
+CENTERED = 0.2
+"""How far the axis of a wheel may be from the middle of its box, of the box's height."""
+
+FEET = frozenset(("leg", "foot", "feet", "toe", "ankle", "calf", "shank"))
+"""Words in the names of the last links of legs."""
+
+LEGS = FEET | {"knee", "hip", "thigh", "wheel", "track"}
 HANDS = frozenset(("hand", "gripper", "finger", "thumb", "palm", "wrist", "arm", "forearm",
                    "upperarm", "tool"))  # fmt: skip
 """Words in the names of links that no robot stands on, unless there is one of ``LEGS``."""
@@ -39,10 +46,12 @@ class Ground:
     Attributes:
         box: The box around all that collides [m].
         boxes: Boxes around what collides, by the topmost link of the rigid body.
+        feet: The link of each rigid body that reaches lowest.
     """
 
     box: Box
     boxes: Mapping[str, list[Box]]
+    feet: Mapping[str, str]
 
     @property
     def low(self) -> float:
@@ -56,7 +65,7 @@ class Ground:
 
     def lowest(self, body: str) -> float:
         """Return the lowest point of a rigid body [m]; infinite where nothing of it collides."""
-        return min((low[2] for low, _ in self.boxes.get(body, ())), default=float("inf"))
+        return min((low[2] for low, _ in self.boxes.get(body, ())), default=math.inf)
 
     def near(self, level: float) -> list[str]:
         """Return the rigid bodies that end within a part of the size above the lowest point."""
@@ -80,15 +89,19 @@ def ground_of(
     poses = link_poses(structure.robot, positions)
     collides = any(link.collisions for link in structure.robot.links)
     found: dict[str, list[Box]] = {}
+    lows: dict[str, tuple[float, str]] = {}
     for link in structure.robot.links:
         pose = poses[link.name] if root is None else root @ poses[link.name]
         for shape in link.collisions if collides else link.visuals:
             box = boxes.box(shape, pose)
             if box is not None:
-                found.setdefault(structure.group[link.name], []).append(box)
+                body = structure.group[link.name]
+                found.setdefault(body, []).append(box)
+                lows[body] = min(lows.get(body, (math.inf, "")), (box[0][2], link.name))
     if not found:
         return None
-    return Ground(_around(box for group in found.values() for box in group), found)
+    feet = {body: name for body, (_, name) in lows.items()}
+    return Ground(_around(box for group in found.values() for box in group), found, feet)
 
 
 def free_reason(
@@ -96,8 +109,9 @@ def free_reason(
 ) -> str | None:
     """Say on what a robot stands that is not held; None where it is held.
 
-    It is free where it stands on driven wheels, or where only what moves against the root reaches
-    the ground: on two or more chains, below the center of mass, and not named as hands are.
+    It is free where it stands on driven wheels; where only what moves against the root reaches the
+    ground: on two or more chains, below the center of mass, and not named as hands are; and where
+    two or more chains end in links that are named as feet or legs are.
 
     Args:
         structure: The tree.
@@ -116,10 +130,16 @@ def free_reason(
         joint.name
         for joint in structure.moving
         if joint.name in commanded and joint.child in stands
-        if joint.type == "continuous" and _is_horizontal(structure, joint, positions)
+        if joint.type == "continuous" and _is_wheel(structure, joint, positions, ground)
     ]
     if wheels:
         return f"it drives on {_listed(wheels)}"
+    return _on_feet(structure, positions, ground, stands) or _with_legs(structure)
+
+
+def _on_feet(
+    structure: Structure, positions: Mapping[str, float], ground: Ground, stands: list[str]
+) -> str | None:
     if structure.root.name in ground.near(CLEARANCE):
         return None
     stands = [body for body in stands if body != structure.root.name]
@@ -131,18 +151,34 @@ def free_reason(
     if not _is_above(structure, positions, *_around(feet)):
         return None
     lasts = [b for b in stands if not any(b in chains[other][:-1] for other in stands)]
-    return f"it stands on {_listed(lasts)}"
+    return f"it stands on {_listed([ground.feet[body] for body in lasts])}"
+
+
+def _with_legs(structure: Structure) -> str | None:
+    """Say which legs a robot has by the names of links, in whatever pose they are."""
+    inner = {structure.group[joint.parent] for joint in structure.moving}
+    legs: dict[str, str] = {}
+    for body, members in structure.members.items():
+        words = {word for link in members for word in _words(link.name)}
+        if body not in inner and words & FEET:
+            legs.setdefault(_chain(structure, body)[0], body)
+    return f"it has legs: {_listed(list(legs.values()))}" if len(legs) > 1 else None
 
 
 def _top(ground: Ground) -> float:
     return ground.low + LEVEL * ground.size
 
 
-def _is_horizontal(structure: Structure, joint: Joint, positions: Mapping[str, float]) -> bool:
-    """Whether a joint turns about an axis that is about horizontal, as a wheel does."""
-    axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
-    x, y, z = rotate(link_poses(structure.robot, positions)[joint.child].rotation, axis)
-    return abs(z) <= UPRIGHT * float((x * x + y * y + z * z) ** 0.5)
+def _is_wheel(
+    structure: Structure, joint: Joint, positions: Mapping[str, float], ground: Ground
+) -> bool:
+    """Whether a joint turns about a horizontal axis through the middle of what it moves."""
+    pose = link_poses(structure.robot, positions)[joint.child]
+    x, y, z = rotate(pose.rotation, axis_of(joint))
+    low, high = _around(ground.boxes[joint.child])
+    middle = (low[2] + high[2]) / 2 - pose.translation[2]
+    centered = abs(middle) <= CENTERED * (high[2] - low[2])
+    return centered and abs(z) <= UPRIGHT * math.hypot(x, y, z)
 
 
 def _chain(structure: Structure, body: str) -> list[str]:
