@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -12,6 +13,7 @@ from ..model.elements import Robot
 from ..source.description import GltfUp
 
 if TYPE_CHECKING:
+    from ..finding import Finding
     from ..formats.mended import FixInertia
     from ..formats.mjcf.cut import Cut
     from ..formats.mjcf.options import Actuators, Base
@@ -66,6 +68,7 @@ def export_sdf(
         target, version, fixed_joints, uri, world, force, folder, file, mesh_dir, fix_inertia
     )
     written = write(robot, options)
+    written.losses += check_plugins(robot, target)
     if output is not None:
         _put(robot, written, output, bool(file), overwrite)
     if verify and output is not None:
@@ -163,6 +166,48 @@ def export_mjcf(
         more = [] if srdf is None else [str(srdf)]
         _put(robot, written, output, bool(options.file), overwrite, more)
     return written
+
+
+PLUGIN_RULES = (
+    "plugin-unknown-entity",
+    "plugin-class-mismatch",
+    "unknown-extension",
+    "duplicate-plugin-name",
+    "drive-size-mismatch",
+    "drive-direction-mismatch",
+)
+"""Rules of lint about what a plugin is given: the simulator loads it, and it does not work."""
+
+
+def check_plugins(robot: Robot, target: str) -> list[Finding]:
+    """Check what the plugins of a robot are given, by the rules of ``urdftool lint``.
+
+    Args:
+        robot: The robot.
+        target: ``gz`` or ``gazebo-classic``.
+
+    Returns:
+        Warnings, each with its place in the description.
+    """
+    from ..errors import ConfigError
+    from ..finding import Severity
+    from ..lint.run import check
+
+    if robot.source is None or not robot.plugins:
+        return []
+    try:
+        found = check(robot, select=PLUGIN_RULES, targets=(target,))
+    except ConfigError:  # of lint, which says so itself
+        return []
+    return [replace(f, severity=Severity.WARNING) for f in found if _is_of_plugin(robot, f)]
+
+
+def _is_of_plugin(robot: Robot, finding: Finding) -> bool:
+    place = finding.place
+    return any(
+        plugin.place.path == place.path and plugin.element.start <= place.start < plugin.element.end
+        for plugin in robot.plugins
+    )
 
 
 def _put(

@@ -78,6 +78,7 @@ def command(
         urdftool export sdf arm.urdf.xacro -o arm/ --verify
         urdftool export sdf mira.urdf -o mira.sdf --target gazebo-classic
     """  # noqa: D301 -- click reads the escape
+    from ..api.export import check_plugins
     from ..formats import said
     from ..formats.defects import Refused
     from ..formats.sdf.write import write
@@ -93,6 +94,7 @@ def command(
     as_json = style == "json"
     try:
         written = write(model, options)
+        written.losses += check_plugins(model, options.target)
         if strict and (lost := said.strict(written.losses)):
             raise Refused(lost)
     except Refused as refused:

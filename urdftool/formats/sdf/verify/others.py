@@ -64,8 +64,9 @@ def _unlike(element: Any, wanted: Facts) -> int:
 
 def _written(pair: Pair) -> Iterator[tuple[str, Any]]:
     model = pair.where.model
+    own = {pair.joint(joint.name) for joint in pair.robot.joints}
     for owner, node in (("", model), *((e.get("name", ""), e) for e in model)):
-        if owner and node.tag not in ("link", "joint"):
+        if owner and node.tag != "link" and not (node.tag == "joint" and owner in own):
             continue
         for element in node:
             if isinstance(element.tag, str) and element.tag not in OTHER_ROWS:

@@ -21,7 +21,8 @@ from ....model.gazebo_plugins import (
 from ....model.read import number
 from ....source.document import Element
 from ...check import Check
-from .facts import Facts, compare_facts, facts_of, value_of
+from .facts import EXACT, Facts, compare_facts, facts_of, value_of
+from .mechanism import Array, matrix, turned
 from .said import elements_of, elements_of_whole
 from .sensing import sensed_part
 
@@ -44,12 +45,14 @@ class Expected:
         library: The file it is to be loaded from.
         name: Its class or name; empty where any will do.
         facts: Its parameters.
+        offset: Where it is in the link it names, where fixed joints made that a part of another.
     """
 
     owner: str
     library: str
     name: str
     facts: Facts
+    offset: Array | None = None
 
 
 def compare_plugins(pair: Pair) -> Check:
@@ -72,6 +75,9 @@ def compare_plugins(pair: Pair) -> Check:
                 np.inf, f"{about} has the name '{element.get('name')}', not '{wanted.name}'"
             )
         facts = {p: v for p, v in facts_of(element).items() if not p.startswith("@")}
+        if wanted.offset is not None:
+            apart = _offset(facts) - wanted.offset
+            check.compare(float(np.abs(apart).max()) // EXACT, f"{about} has another offset")
         compare_facts(check, about, facts, wanted.facts)
     for owner, element in left:
         text = f"plugin '{element.get('filename')}' of '{owner}' is not in the description"
@@ -142,7 +148,31 @@ def _one(pair: Pair, element: Element, owner: str, *, inside: bool = False) -> I
     else:
         facts = {p: v for p, v in facts_of(element).items() if not p.startswith("@")}
         own = element.get("name") or name
-        yield Expected(owner, element.get("filename") or "", own, _renamed(pair, facts))
+        yield _moved(
+            pair,
+            Expected(owner, element.get("filename") or "", own, _renamed(pair, facts)),
+            element,
+        )
+
+
+def _moved(pair: Pair, wanted: Expected, element: Element) -> Expected:
+    """Take the offset of a plugin from a link that became a part of another, in Classic."""
+    child = element.child("bodyName")
+    link = pair.link(child.text.strip()) if child is not None else ""
+    frame = pair.made.frames.get(link)
+    if not pair.options.classic or frame is None or frame[0] == link:
+        return wanted
+    wanted.offset = frame[1] @ _offset(wanted.facts)
+    return wanted
+
+
+def _offset(facts: Facts) -> Array:
+    """Take the pose out of the facts of a plugin."""
+    six: list[float] = []
+    for word in ("xyzOffset", "rpyOffset"):
+        value = facts.pop(word, (0.0, 0.0, 0.0))
+        six += value if not isinstance(value, str) and len(value) == 3 else (0.0, 0.0, 0.0)
+    return matrix(turned(six[3:]), six[:3])
 
 
 def _is_mimic(pair: Pair, element: Element) -> bool:
