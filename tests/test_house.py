@@ -83,7 +83,7 @@ BELOW = {
     "compare": ("model", "source", "errors"),
     "api": (
         *("formats", "simulation", "collision", "inertia", "lint", "rules", "model", "source"),
-        *("output", "extras", "errors"),
+        *("finding", "output", "extras", "errors"),
     ),
 }
 
