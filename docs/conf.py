@@ -23,7 +23,7 @@ MENU = {
     ),
     "How to": (
         *("adopting", "building", "howto/cad-to-simulation", "howto/collision-fleet"),
-        *("howto/classic-to-gz", "howto/mujoco-scene", "howto/strangers"),
+        *("howto/classic-to-gz", "howto/mujoco-scene", "howto/strangers", "howto/two-wheels"),
     ),
     "To look up": (
         *("rules/index", "configuration", "formats/sdf", "formats/mjcf", "python", "completion"),
