@@ -1,4 +1,4 @@
-"""Step every robot as exported to MJCF: ``python -m tests.runs [--only WORD] [--jobs N] [OPTIONS]``.
+"""Step every robot as exported to MJCF: ``python -m tests.runs [--only WORD] [--jobs N]``.
 
 Robots of example-robot-data (in the environment of ``tests.benchmarks.peers``) and of pybullet_data
 are exported, held at home by their own actuators (by position actuators where they have none),
@@ -13,6 +13,7 @@ import tempfile
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 from urdftool.errors import UrdftoolError
@@ -85,8 +86,8 @@ def robots(only: str = "") -> list[Path]:
 
 def outcomes(paths: list[Path], choices: dict[str, object], jobs: int = 1) -> Iterator[Outcome]:
     """Try robots, each in a worker process."""
-    with ProcessPoolExecutor(jobs, max_tasks_per_child=20) as pool:
-        yield from pool.map(try_robot, paths, [choices] * len(paths))
+    with ProcessPoolExecutor(jobs) as pool:
+        yield from pool.map(partial(try_robot, choices=choices), paths)
 
 
 def main(arguments: list[str]) -> int:

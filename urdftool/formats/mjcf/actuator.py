@@ -1,36 +1,27 @@
 """Actuators: what transmissions, ros2_control and drive plugins say, or one kind for every joint.
 
-URDF has no gains. A servo gets one that asks for the whole effort of its joint at a small error,
-and critical damping for the inertia it moves (``dampratio``).
+URDF has no gains; ``gains`` chooses them, and a file of the user may. Damping is critical for the
+inertia that the joint moves (``dampratio``).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 
 from lxml import etree
 
+from ...finding import Severity
 from ...model.elements import Joint, Robot
+from ..actuator_config import JointSettings
 from ..numbers import number_text, numbers_text
 from ..written import Written
 from .drives import plugin_drives
 from .equality import follows
+from .gains import PART, TIMESTEP, Gain, position_gain, velocity_gain
 from .joint import effort_of
 from .options import Actuators
 from .structure import Structure, bounds, locked_at
-
-POSITION_GAIN = {"hinge": 10.0, "slide": 100.0}
-"""Gain of a position servo over its joint's effort [1/rad or 1/m]: all of it at 0.1 rad or 1 cm."""
-
-VELOCITY_GAIN = 10.0
-"""Gain of a velocity servo over effort by velocity: all of it at a tenth of the velocity."""
-
-PLAIN_GAIN = {
-    "position": {"hinge": 100.0, "slide": 1000.0},
-    "velocity": {"hinge": 10.0, "slide": 100.0},
-}
-"""Gains where no effort is written."""
 
 INTERFACES = ("position", "velocity", "effort")
 
@@ -45,29 +36,101 @@ class Drive:
 
 
 def actuator_section(
-    structure: Structure, actuators: Actuators, written: Written
+    structure: Structure,
+    actuators: Actuators,
+    inertias: Mapping[str, float],
+    settings: Mapping[str, JointSettings],
+    written: Written,
 ) -> tuple[etree._Element | None, list[Drive]]:
-    """``<actuator>``, or None where there is none; and the drives in its order."""
-    drives = [drive for drive in _drives(structure, actuators, written) if drive is not None]
+    """``<actuator>``, or None where there is none; and the drives in its order.
+
+    Args:
+        structure: The tree.
+        actuators: The kinds that the user chose.
+        inertias: What each joint moves at home, with its armature [kg·m² or kg].
+        settings: What the user set of joints.
+        written: Takes what is lost, and which gains are assumed.
+    """
+    drives = list(_drives(structure, actuators, settings, written))
     if not drives:
         return None, []
     section = etree.Element("actuator")
+    assumed: dict[str, Gain] = {}
     for drive in drives:
-        section.append(_element(structure, drive))
+        own = settings.get(drive.joint.name, JointSettings())
+        section.append(_element(structure, drive, inertias, own, assumed))
+    if assumed:
+        _say_assumed(structure.robot, assumed, written)
     return section, drives
 
 
-def _drives(structure: Structure, actuators: Actuators, written: Written) -> Iterator[Drive]:
+def _drives(
+    structure: Structure,
+    actuators: Actuators,
+    settings: Mapping[str, JointSettings],
+    written: Written,
+) -> Iterator[Drive]:
     said = dict(_described(structure.robot, written)) if actuators == "auto" else {}
     for joint in structure.moving:
         if structure.kind(joint) not in ("hinge", "slide") or locked_at(joint) is not None:
             continue
+        drive = None
         if actuators == "auto":
             if joint.name in said:
                 kind, reduction = said[joint.name]
-                yield Drive(joint, kind, reduction)
-        elif actuators != "none" and not follows(structure, joint):
-            yield Drive(joint, actuators)
+                drive = Drive(joint, kind, reduction)
+        elif actuators != "none":
+            drive = Drive(joint, actuators)
+        drive = _chosen(joint, drive, settings.get(joint.name, JointSettings()))
+        if drive is None:
+            continue
+        if follows(structure, joint):
+            if actuators == "auto":
+                _say_follower(joint, written)
+            continue
+        yield drive
+
+
+def _chosen(joint: Joint, drive: Drive | None, settings: JointSettings) -> Drive | None:
+    """The drive of a joint as the user's settings have it."""
+    kind = settings.type
+    if kind is None and settings.kp is not None:
+        kind = "position"
+    if kind is None and settings.kd is not None and (drive is None or drive.kind == "motor"):
+        kind = "velocity"
+    if kind is None or (drive is not None and drive.kind == kind):
+        return drive
+    return Drive(joint, kind) if drive is None else replace(drive, kind=kind, reduction=1.0)
+
+
+def _say_follower(joint: Joint, written: Written) -> None:
+    assert joint.mimic is not None
+    written.lose(
+        "mimic-actuator",
+        f"joint '{joint.name}' mimics '{joint.mimic.joint}' and gets no actuator of its own",
+        joint.place,
+        kind="joint",
+        name=joint.name,
+        severity=Severity.INFO,
+    )
+
+
+def _say_assumed(robot: Robot, assumed: Mapping[str, Gain], written: Written) -> None:
+    """Report the gains that stand nowhere, and those that the inertia bounds."""
+    bounded = [f"'{name}'" for name, gain in assumed.items() if gain.is_bounded]
+    text = f"gains of {len(assumed)} servos are assumed, because URDF has none: 10 times the effort"
+    if bounded:
+        more = f" and {len(bounded) - 3} more" if len(bounded) > 3 else ""
+        text += (
+            f", and at most {PART:g} M/Δt² of the inertia M at home at Δt = {TIMESTEP * 1000:g} ms, "
+            f"which bounds {', '.join(bounded[:3])}{more}"
+        )
+    written.lose(
+        "gains",
+        f"{text}; --actuator-config sets others",
+        robot.element.place,
+        severity=Severity.INFO,
+    )
 
 
 def _described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple[str, float]]]:
@@ -117,23 +180,40 @@ def _kind(interfaces: list[str]) -> str:
     return "motor"
 
 
-def _element(structure: Structure, drive: Drive) -> etree._Element:
+def _element(
+    structure: Structure,
+    drive: Drive,
+    inertias: Mapping[str, float],
+    settings: JointSettings,
+    assumed: dict[str, Gain],
+) -> etree._Element:
     joint, kind = drive.joint, structure.kind(drive.joint)
     effort = effort_of(joint)
+    inertia = inertias.get(joint.name, 0.0)
     element = etree.Element(drive.kind, name=joint.name, joint=joint.name)
+    if settings.force_range is not None:
+        effort = max(map(abs, settings.force_range))
+        element.set("forcerange", numbers_text(settings.force_range))
     if drive.kind == "position":
-        gain = effort * POSITION_GAIN[kind] if effort else PLAIN_GAIN["position"][kind]
-        element.set("kp", number_text(gain))
-        element.set("dampratio", "1")
+        stiffness = settings.kp
+        if stiffness is None:
+            assumed[joint.name] = position_gain(kind, effort, inertia)
+            stiffness = assumed[joint.name].value
+        element.set("kp", number_text(stiffness))
+        if settings.kd is None:
+            element.set("dampratio", "1")
+        else:
+            element.set("kv", number_text(settings.kd))
         limits = bounds(joint)
         if limits is not None and limits[0] < limits[1]:
             element.set("inheritrange", "1")
     elif drive.kind == "velocity":
         velocity = abs(joint.limit.velocity or 0.0) if joint.limit is not None else 0.0
-        gain = PLAIN_GAIN["velocity"][kind]
-        if effort and velocity:
-            gain = effort * VELOCITY_GAIN / velocity
-        element.set("kv", number_text(gain))
+        damping = settings.kd
+        if damping is None:
+            assumed[joint.name] = velocity_gain(kind, effort, velocity)
+            damping = assumed[joint.name].value
+        element.set("kv", number_text(damping))
         if velocity:
             element.set("ctrlrange", numbers_text((-velocity, velocity)))
     else:

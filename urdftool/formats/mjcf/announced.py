@@ -25,13 +25,16 @@ FREE = "lossy-free-base"
 LOOPS = ("lossy-loop", "bad-extension-number")
 """A joint that closes a loop is left out."""
 
-LIMITS = ("lossy-limit-inverted", "lower-above-upper", "not-a-number", "lossy-mimic-fixed")
+LIMITS = (
+    "lossy-limit-inverted", "lower-above-upper", "not-a-number", "lossy-mimic-fixed",
+    "lossy-actuator-config",
+)  # fmt: skip
 """A joint's bounds are changed."""
 
 TORN = ("lossy-floating",)
 """A body that floats hangs on the world instead of its parent."""
 
-EFFORT = ("lossy-effort", "not-a-number")
+EFFORT = ("lossy-effort", "not-a-number", "lossy-actuator-config")
 """The bound of its effort is changed."""
 
 SHAPES = (

@@ -19,6 +19,8 @@ from .equality import equality_section
 from .extension import apply_extension
 from .gazebo import gazebo_losses
 from .home import Home
+from .joint_inertia import joint_inertias
+from .joint_settings import apply_settings, joint_settings
 from .keyframe import keyframe_section
 from .light import put_lights
 from .link_inertia import LinkInertia
@@ -58,12 +60,16 @@ def model_text(
     world, bodies = body_tree(structure, home, name, written)
     fill_bodies(structure, bodies, masses, assets, materials, written)
     put_lights(robot, bodies, written)
+    settings = joint_settings(structure, options)
+    inertias = joint_inertias(structure, masses, home.positions)
+    for joint, armature in apply_settings(structure, bodies, settings, written).items():
+        inertias[joint] = inertias.get(joint, 0.0) + armature
     sections: dict[str, etree._Element] = {
         "compiler": _compiler(options, assets, materials),
         "option": etree.Element("option", integrator="implicitfast"),
         "worldbody": world,
     }
-    actuators, drives = actuator_section(structure, options.actuators, written)
+    actuators, drives = actuator_section(structure, options.actuators, inertias, settings, written)
     _summarize(structure, options, len(drives), written)
     sensors = sensor_section(structure.robot, bodies, written)
     if options.base_sensors:

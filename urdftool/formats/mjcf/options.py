@@ -39,6 +39,8 @@ class Options:
         pose: Positions of joints by name [rad, m] in the home position.
         base_sensors: Add the velocity, gyro, accelerometer and orientation of a free base.
         state: The group state of the SRDF that is the home position; empty for the likeliest.
+        actuator_config: A TOML file with gains, armature and losses of joints.
+        armature: Rotor inertia [kg·m² or kg] added to every joint that the file says nothing of.
     """
 
     actuators: Actuators = "auto"
@@ -54,3 +56,5 @@ class Options:
     pose: Mapping[str, float] = field(default_factory=dict)
     state: str = ""
     base_sensors: bool = False
+    actuator_config: Path | None = None
+    armature: float | None = None

@@ -19,7 +19,7 @@ from .announced import Said
 from .compiled import mujoco_module
 
 TIMESTEPS = (0.002, 0.005)
-"""Physics time steps [s] at which a model must run: MuJoCo's default, and that of many trainings."""
+"""Physics time steps [s] at which a model must run: MuJoCo's default, and a usual longer one."""
 
 SECONDS = 2.0
 """Simulated time [s]."""
@@ -31,7 +31,7 @@ DRIFT = 0.01
 """How far a free base may move from where it settles [m]."""
 
 SETTLED = 0.5
-"""Time [s] after which a free base must not move any more: before that, contacts and servos give."""
+"""Time [s] that a free base has to come to rest."""
 
 STOP = 1e6
 """Speed [rad/s or m/s] above which the simulation has diverged."""
@@ -196,7 +196,7 @@ def _held_joints(mujoco: Any, model: Any) -> list[tuple[int, float, float]]:
         if model.eq_type[number] == mujoco.mjtEq.mjEQ_JOINT
     }
     return [
-        (joint, *map(float, model.jnt_range[joint]))
+        (joint, float(model.jnt_range[joint][0]), float(model.jnt_range[joint][1]))
         for joint in sorted(driven)
         if model.jnt_limited[joint]
     ]

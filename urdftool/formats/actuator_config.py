@@ -1,0 +1,172 @@
+"""Gains, armature and losses of joints from a TOML file, for every export that has actuators.
+
+A table ``[joints."NAME"]`` is of the joint of that name, or of all whose name a pattern such as
+``*_hip_joint`` fits. A name counts before patterns, a later pattern before an earlier one, each key
+for itself::
+
+    [joints."*"]
+    armature = 0.01           # kg·m² (kg of a slide)
+
+    [joints."*_knee_joint"]
+    kp = 120                  # N·m/rad (N/m)
+    kd = 3                    # N·m·s/rad (N·s/m)
+    force-range = [-60, 60]   # N·m (N), or one number for both directions
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields
+from difflib import get_close_matches
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any
+
+from ..errors import ConfigError
+
+KEYS = ("kp", "kd", "armature", "damping", "friction", "force-range", "type")
+TYPES = ("position", "velocity", "motor")
+
+_TABLE = "joints"
+
+
+@dataclass(frozen=True)
+class JointSettings:
+    """Settings of one joint; None where the file has none.
+
+    Attributes:
+        kp: Position gain [N·m/rad or N/m].
+        kd: Velocity gain [N·m·s/rad or N·s/m].
+        armature: Rotor inertia reflected at the joint [kg·m² or kg].
+        damping: Viscous damping of the joint [N·m·s/rad or N·s/m].
+        friction: Dry friction of the joint [N·m or N].
+        force_range: Lowest and highest force of the actuator [N·m or N].
+        type: Kind of the actuator.
+    """
+
+    kp: float | None = None
+    kd: float | None = None
+    armature: float | None = None
+    damping: float | None = None
+    friction: float | None = None
+    force_range: tuple[float, float] | None = None
+    type: str | None = None
+
+    def over(self, other: JointSettings) -> JointSettings:
+        """Return these settings, completed by others."""
+        values = {
+            field.name: getattr(other, field.name)
+            if getattr(self, field.name) is None
+            else getattr(self, field.name)
+            for field in fields(self)
+        }
+        return JointSettings(**values)
+
+
+@dataclass(frozen=True)
+class ActuatorConfig:
+    """A file as it is written: settings by name or pattern, in its order."""
+
+    path: Path
+    tables: Mapping[str, JointSettings]
+
+    def for_joints(self, joints: Iterable[str]) -> dict[str, JointSettings]:
+        """Choose the settings of each joint.
+
+        Args:
+            joints: The names of the joints that move.
+
+        Raises:
+            ConfigError: A name or pattern of the file fits no joint.
+        """
+        names = list(joints)
+        found = dict.fromkeys(names, JointSettings())
+        exact = {}
+        for pattern, settings in self.tables.items():
+            if pattern in found:
+                exact[pattern] = settings
+                continue
+            fitting = [name for name in names if fnmatchcase(name, pattern)]
+            if not fitting:
+                raise ConfigError(self._unknown(pattern, names), path=self.path)
+            for name in fitting:
+                found[name] = settings.over(found[name])
+        for name, settings in exact.items():
+            found[name] = settings.over(found[name])
+        return found
+
+    def _unknown(self, pattern: str, names: list[str]) -> str:
+        what = "pattern" if set(pattern) & set("*?[") else "name"
+        near = get_close_matches(pattern, names, 1, 0.5)
+        hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(names) or 'none'}"
+        return f'[{_TABLE}."{pattern}"]: no joint that moves has this {what}; {hint}'
+
+
+def read_actuator_config(path: Path) -> ActuatorConfig:
+    """Read a file.
+
+    Raises:
+        ConfigError: It cannot be read, is not TOML, or has a key or value that it may not have.
+    """
+    if sys.version_info >= (3, 11):
+        import tomllib
+    else:
+        import tomli as tomllib  # type: ignore[import-not-found, unused-ignore]
+    try:
+        root: Any = tomllib.loads(path.read_bytes().decode("utf-8"))
+    except OSError as error:
+        raise ConfigError(f"cannot be read: {error.strerror}", path=path) from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ConfigError(f"not valid TOML: {error}", path=path) from None
+    for name in root:
+        if name != _TABLE:
+            raise ConfigError(
+                f'unknown table [{name}]; joints have tables such as [{_TABLE}."*_knee"]',
+                path=path,
+            )
+    joints = root.get(_TABLE, {})
+    if not isinstance(joints, dict):
+        raise ConfigError(f"'{_TABLE}' must be a table of tables, one a joint", path=path)
+    return ActuatorConfig(
+        path, {name: _settings(name, table, path) for name, table in joints.items()}
+    )
+
+
+def _settings(name: str, table: Any, path: Path) -> JointSettings:
+    where = f'[{_TABLE}."{name}"]'
+    if not isinstance(table, dict):
+        raise ConfigError(f"{where} must be a table, with keys such as kp = 100", path=path)
+    values: dict[str, Any] = {}
+    for key, value in table.items():
+        if key not in KEYS:
+            near = get_close_matches(key, KEYS, 1, 0.5)
+            hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(KEYS)}"
+            raise ConfigError(f"{where}: unknown key '{key}'; {hint}", path=path)
+        if key == "force-range":
+            values["force_range"] = _range(where, value, path)
+        elif key == "type":
+            if value not in TYPES:
+                text = f"{where}: type must be {', '.join(TYPES[:-1])} or {TYPES[-1]}"
+                raise ConfigError(text, path=path)
+            values["type"] = value
+        else:
+            if not _is_number(value) or value < 0:
+                raise ConfigError(f"{where}: {key} must be a number, zero or above", path=path)
+            values[key] = float(value)
+    return JointSettings(**values)
+
+
+def _range(where: str, value: Any, path: Path) -> tuple[float, float]:
+    pair = [-value, value] if _is_number(value) else value
+    right = isinstance(pair, list) and len(pair) == 2 and all(map(_is_number, pair))
+    if not right or not pair[0] < pair[1]:
+        text = f"{where}: force-range must be [lower, upper] with lower < upper, or one number > 0"
+        raise ConfigError(text, path=path)
+    return float(pair[0]), float(pair[1])
+
+
+def _is_number(value: Any) -> bool:
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    return is_number and math.isfinite(value)

@@ -1,0 +1,67 @@
+"""The inertia that each joint moves at home, of which stable gains are a part."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ...model.kinematics import link_poses
+from ...model.pose import Pose
+from .inertia import Array
+from .joint import axis_of
+from .link_inertia import LinkInertia
+from .structure import Structure
+
+
+def joint_inertias(
+    structure: Structure, masses: Mapping[str, LinkInertia], positions: Mapping[str, float]
+) -> dict[str, float]:
+    """Compute the diagonal of the joint-space mass matrix.
+
+    Args:
+        structure: The tree.
+        masses: Mass properties of the links, as they are written.
+        positions: Of the joints by name [rad or m].
+
+    Returns:
+        For each hinge [kg·m²] and slide [kg] the inertia that it moves while the others hold.
+    """
+    poses = link_poses(structure.robot, positions)
+    names = [name for name in masses if name in poses]
+    row = {name: index for index, name in enumerate(names)}
+    weights = np.array([masses[name].mass for name in names])
+    centers = np.array([poses[name].transform(masses[name].com) for name in names]).reshape(-1, 3)
+    tensors = np.array([_turned(masses[name].tensor, poses[name]) for name in names])
+    below = _links_below(structure)
+    found = {}
+    for joint in structure.moving:
+        kind = structure.kind(joint)
+        if kind not in ("hinge", "slide"):
+            continue
+        rows = [row[name] for name in below[joint.child] if name in row]
+        if kind == "slide":
+            found[joint.name] = float(weights[rows].sum())
+            continue
+        pose = poses[joint.child]
+        axis = np.array(pose.rotation) @ np.array(axis_of(joint))
+        axis /= np.linalg.norm(axis)
+        arms = np.cross(axis, centers[rows] - np.array(pose.translation))
+        about = np.einsum("i,nij,j->n", axis, tensors[rows].reshape(-1, 3, 3), axis)
+        found[joint.name] = float((about + weights[rows] * (arms**2).sum(axis=1)).sum())
+    return found
+
+
+def _turned(tensor: Array, pose: Pose) -> Array:
+    rotation = np.array(pose.rotation)
+    turned: Array = rotation @ tensor @ rotation.T
+    return turned
+
+
+def _links_below(structure: Structure) -> dict[str, list[str]]:
+    """For each link, itself and the links that move with it; a floating body moves by itself."""
+    below: dict[str, list[str]] = {name: [name] for name in structure.group}
+    for joint in reversed(structure.joints):
+        if structure.kind(joint) != "free":
+            below[joint.parent] += below[joint.child]
+    return below
