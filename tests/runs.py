@@ -60,7 +60,7 @@ def try_robot(path: Path, choices: dict[str, object]) -> Outcome:
         try:
             robot = load(path, package_paths=paths)
             for actuators in ("auto", "position"):
-                options = {"actuators": actuators, **choices}
+                options = {"actuators": actuators, "exclude": "touching", **choices}
                 try:
                     written = write(robot, Options(**options))
                 except Refused:
@@ -97,10 +97,11 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="Worker processes.")
     parser.add_argument("--base", help="As export mjcf has it.")
     parser.add_argument("--actuators", help="As export mjcf has it.")
+    parser.add_argument("--exclude", help="As export mjcf has it.")
     parser.add_argument("--all", action="store_true", help="Also a line for those that run.")
     given = parser.parse_args(arguments)
     choices: dict[str, object] = {
-        name: value for name in ("base", "actuators") if (value := getattr(given, name))
+        name: value for name in ("base", "actuators", "exclude") if (value := getattr(given, name))
     }
     paths = robots(given.only)
     counts = {"run": 0, "do not run": 0, "are refused": 0}

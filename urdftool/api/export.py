@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ..finding import Finding
     from ..formats.mended import FixInertia
     from ..formats.mjcf.cut import Cut
-    from ..formats.mjcf.options import Actuators, Base
+    from ..formats.mjcf.options import Actuators, Base, Exclude
 
 
 def export_sdf(
@@ -97,6 +97,9 @@ def export_mjcf(
     pose: Mapping[str, float] | None = None,
     state: str = "",
     base_sensors: bool = False,
+    actuator_config: str | Path | None = None,
+    armature: float | None = None,
+    exclude: Exclude = "touching",
     mesh_dir: str = "assets",
     force: bool = False,
     verify: bool = False,
@@ -122,6 +125,11 @@ def export_mjcf(
         state: The group state of the SRDF that is the home position; its likeliest if empty.
         base_sensors: Whether to add linear velocity, gyro, accelerometer and orientation of a free
             base where the file has none.
+        actuator_config: A TOML file with gains, armature, damping, friction and force range of
+            joints by name or pattern.
+        armature: Rotor inertia reflected at every joint [kg·m², kg of a slide].
+        exclude: Pairs of links that never collide: ``"adjacent"`` that a joint joins,
+            ``"touching"`` also those that overlap at home, ``"none"``.
         mesh_dir: The folder of the meshes, relative to the model.
         force: Whether to go on past errors where a robot is left.
         verify: Whether to compare the result, compiled in MuJoCo, with the robot; ``checks`` has
@@ -156,6 +164,10 @@ def export_mjcf(
         pose=pose or {},
         state=state,
         base_sensors=base_sensors,
+        actuator_config=None if actuator_config is None else Path(actuator_config),
+        armature=armature,
+        exclude=exclude,
+        overlap=measure_overlap,
     )
     written = write(robot, options)
     if verify:
@@ -224,6 +236,30 @@ def _put(
 
     inputs = [*sorted(sources(robot)), *more]
     write_export(output, written, single=single, overwrite=overwrite, inputs=inputs)
+
+
+def measure_overlap(
+    robot: Robot, positions: Mapping[str, float], one: str, other: str
+) -> float | None:
+    """Measure how deep the authored collision geometry of two links overlaps [m].
+
+    Args:
+        robot: The robot.
+        positions: Of its joints by name [rad or m].
+        one: A link.
+        other: Another.
+
+    Returns:
+        The depth; None where neither has a mesh, so that the engine's own answer is exact.
+    """
+    from ..model.kinematics import link_poses
+    from ..model.elements import Mesh
+    from ..simulation.overlap import triangle_overlap
+
+    shapes = [*robot.link[one].collisions, *robot.link[other].collisions]
+    if not any(isinstance(shape.geometry, Mesh) for shape in shapes):
+        return None
+    return triangle_overlap(robot, link_poses(robot, positions), one, other)
 
 
 def _gltf_up(robot: Robot) -> GltfUp:

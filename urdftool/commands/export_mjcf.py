@@ -69,6 +69,27 @@ def _pose(
     "has none.",
 )
 @click.option(
+    "--exclude",
+    type=click.Choice(("touching", "adjacent", "none")),
+    default="touching",
+    show_default=True,
+    help="Links that never collide: those that a joint joins (adjacent), also those that overlap "
+    "at home (touching), or none but those of --srdf.",
+)
+@click.option(
+    "--actuator-config",
+    metavar="FILE",
+    type=Path,
+    help='TOML file: under [joints."NAME or PATTERN"] kp, kd, armature, damping, friction, '
+    "force-range, type.",
+)
+@click.option(
+    "--armature",
+    metavar="VALUE",
+    type=click.FloatRange(min=0),
+    help="Rotor inertia reflected at every joint [kg·m²; kg of a slide].",
+)
+@click.option(
     "--keep-locked-joints",
     is_flag=True,
     help="Keep joints with lower = upper, held by an equality; without it their links are welded.",
@@ -106,7 +127,7 @@ def command(
         urdftool export mjcf panda.urdf -o panda/ --scene --verify
         urdftool export mjcf quadruped.urdf.xacro -o q/ --base free --actuators position
     """  # noqa: D301 -- click's mark for lines it must not wrap
-    from ..api.export import cut_meshes
+    from ..api.export import cut_meshes, measure_overlap
     from ..formats import said
     from ..formats.defects import Refused
     from ..formats.mjcf.compiled import compile_copy
@@ -128,6 +149,7 @@ def command(
         cutter=cutter,
         state=pose[0],
         pose=pose[1],
+        overlap=measure_overlap,
         **choices,
     )
     try:
@@ -140,7 +162,7 @@ def command(
     if not verified:
         compile_copy(written)
     inputs = sorted(sources(model))
-    inputs += [str(options.srdf)] if options.srdf is not None else []
+    inputs += [str(path) for path in (options.srdf, options.actuator_config) if path is not None]
     target = output or "-"
     put_files(
         written, target, single=bool(file), overwrite=overwrite, inputs=inputs, as_json=as_json

@@ -122,8 +122,8 @@ def _say_assumed(robot: Robot, assumed: Mapping[str, Gain], written: Written) ->
     if bounded:
         more = f" and {len(bounded) - 3} more" if len(bounded) > 3 else ""
         text += (
-            f", and at most {PART:g} M/Δt² of the inertia M at home at Δt = {TIMESTEP * 1000:g} ms, "
-            f"which bounds {', '.join(bounded[:3])}{more}"
+            f", and at most {PART:g} M/Δt² of the inertia M at home at Δt = "
+            f"{TIMESTEP * 1000:g} ms, which bounds {', '.join(bounded[:3])}{more}"
         )
     written.lose(
         "gains",

@@ -12,17 +12,18 @@ from lxml import etree
 
 from .body import Bodies
 from .loops import loops
+from .options import Exclude
 from .srdf import Srdf
 from .structure import Structure
 
 
 def contact_section(
-    structure: Structure, bodies: Bodies, srdf: Srdf | None
+    structure: Structure, bodies: Bodies, srdf: Srdf | None, exclude: Exclude
 ) -> etree._Element | None:
     """``<contact>``, or None where nothing needs to be excluded."""
-    pairs = _beside_the_world(structure, bodies)
+    pairs = _beside_the_world(structure, bodies) if exclude != "none" else []
     filtered = set(map(frozenset, pairs))
-    joined = [(loop.parent, loop.child) for loop in loops(structure)]
+    joined = [(loop.parent, loop.child) for loop in loops(structure)] if exclude != "none" else []
     for one, other in (*joined, *(srdf.disabled if srdf is not None else ())):
         pair = frozenset((one, other))
         if pair in filtered or not _can_collide(structure, bodies, one, other):

@@ -7,8 +7,8 @@ integrate. So a gain is bounded by the inertia M that the joint moves at home: t
 
 Measured in MuJoCo 4.0 with ``implicitfast`` and critical damping, on 159 robots of
 example-robot-data and pybullet_data without contacts: all are stable up to 1 M/Δt², one diverges at
-4 M/Δt², five at 16 M/Δt² (2 ms and 5 ms alike). Without a bound 18 do. Velocity servos, which ``implicitfast`` integrates
-implicitly, are stable up to 1000 M/Δt: they need no bound.
+4 M/Δt², four at 16 M/Δt² (at 2 ms or 5 ms). Without a bound 18 do. Velocity servos, which
+``implicitfast`` integrates implicitly, are stable up to 1000 M/Δt: they need no bound.
 """
 
 from __future__ import annotations

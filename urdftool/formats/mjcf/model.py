@@ -19,6 +19,7 @@ from .equality import equality_section
 from .extension import apply_extension
 from .gazebo import gazebo_losses
 from .home import Home
+from .home_contacts import exclude_overlapping
 from .joint_inertia import joint_inertias
 from .joint_settings import apply_settings, joint_settings
 from .keyframe import keyframe_section
@@ -76,12 +77,15 @@ def model_text(
         sensors = add_base_sensors(structure, bodies, sensors, written)
     _put(
         sections,
-        contact_section(structure, bodies, srdf),
+        contact_section(structure, bodies, srdf, options.exclude),
         equality_section(structure, written),
         actuators,
         sensors,
         keyframe_section(structure, home, drives),
         _custom(structure, name),
+    )
+    exclude_overlapping(
+        structure, home.positions, sections, bodies, assets, options, written
     )
     gazebo_losses(robot, written)
     _controller_losses(robot, written)

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
+from ...model.elements import Robot
 from ..mended import FixInertia
 from .cut import Cutter
 
 Actuators = Literal["auto", "none", "position", "velocity", "motor"]
 Base = Literal["auto", "fixed", "free"]
+Exclude = Literal["touching", "adjacent", "none"]
 
 ACTUATORS: tuple[Actuators, ...] = ("auto", "none", "position", "velocity", "motor")
 BASES: tuple[Base, ...] = ("auto", "fixed", "free")
+EXCLUDES: tuple[Exclude, ...] = ("touching", "adjacent", "none")
+
+Overlap = Callable[[Robot, Mapping[str, float], str, str], float | None]
+"""Measures how deep the collision geometry of two links, as written, overlaps [m] in a pose."""
 
 FILES = (".xml", ".mjcf")
 """Suffixes of an output that is one file."""
@@ -40,6 +46,10 @@ class Options:
         base_sensors: Add the velocity, gyro, accelerometer and orientation of a free base.
         state: The group state of the SRDF that is the home position; empty for the likeliest.
         actuator_config: A TOML file with gains, armature and losses of joints.
+        exclude: Pairs of links that never collide: ``adjacent`` are those that a joint joins,
+            ``touching`` also those that overlap at home, which MuJoCo is asked for.
+        overlap: Measures authored geometry, to tell an overlap of convex hulls; None does not
+            look for overlaps unless ``exclude`` asks for them.
         armature: Rotor inertia [kg·m² or kg] added to every joint that the file says nothing of.
     """
 
@@ -58,3 +68,5 @@ class Options:
     base_sensors: bool = False
     actuator_config: Path | None = None
     armature: float | None = None
+    exclude: Exclude = "adjacent"
+    overlap: Overlap | None = None

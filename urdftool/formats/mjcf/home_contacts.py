@@ -1,0 +1,204 @@
+"""Links that overlap in MuJoCo at home: looked for in the compiled model, reported, and excluded.
+
+MuJoCo pushes bodies that overlap apart, so a robot whose collision geometry does so at its home
+configuration never holds still there. What overlaps may be the geometry as it is written, or only
+the convex hulls that MuJoCo makes of its meshes.
+"""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Mapping
+from copy import deepcopy
+from dataclasses import dataclass
+from pathlib import Path
+
+from lxml import etree
+
+from ...errors import MissingDependency
+from ..written import Written
+from .body import Bodies
+from .compiled import compile_file, mujoco_module
+from .meshes import Assets
+from .options import Options
+from .structure import Structure
+
+OVERLAP = 1e-3
+"""Depth [m] from which two links overlap: less is a touch, as that of closed fingers."""
+
+SHOWN = 8
+"""Pairs that the warning names."""
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two links that overlap in the compiled model.
+
+    Attributes:
+        one: A link.
+        other: Another.
+        depth: How deep they overlap in MuJoCo [m].
+        authored: How deep their geometry does as it is written [m]; None where that is the same.
+    """
+
+    one: str
+    other: str
+    depth: float
+    authored: float | None = None
+
+    @property
+    def is_of_hulls(self) -> bool:
+        """Whether only the convex hulls overlap."""
+        return self.authored is not None and self.authored < OVERLAP
+
+
+def exclude_overlapping(
+    structure: Structure,
+    positions: Mapping[str, float],
+    sections: dict[str, etree._Element],
+    bodies: Bodies,
+    assets: Assets,
+    options: Options,
+    written: Written,
+) -> None:
+    """Look for overlaps at home, report them, and exclude the pairs if the user chose so.
+
+    Nothing is looked for where MuJoCo is not installed.
+
+    Args:
+        structure: The tree.
+        positions: Of the joints at home [rad or m].
+        sections: The model, of which ``contact`` gets the pairs.
+        bodies: The body of each link.
+        assets: The meshes.
+        options: The choices.
+        written: Has the mesh files, and takes the warning.
+    """
+    if options.exclude != "touching" and options.overlap is None:
+        return
+    try:
+        mujoco_module()
+    except MissingDependency:
+        return
+    deepest = _overlaps(sections, bodies, assets, positions, written)
+    measure = options.overlap
+    pairs = [
+        Pair(
+            *links,
+            depth,
+            None if measure is None else measure(structure.robot, positions, *links),
+        )
+        for links, depth in sorted(deepest.items(), key=lambda item: -item[1])
+    ]
+    if not pairs:
+        return
+    if options.exclude == "touching":
+        contact = sections.setdefault("contact", etree.Element("contact"))
+        for pair in pairs:
+            names = (bodies[link].get("name", "world") for link in (pair.one, pair.other))
+            body1, body2 = names
+            etree.SubElement(contact, "exclude", body1=body1, body2=body2)
+    _report(structure, pairs, options, written)
+
+
+def _overlaps(
+    sections: Mapping[str, etree._Element],
+    bodies: Bodies,
+    assets: Assets,
+    positions: Mapping[str, float],
+    written: Written,
+) -> dict[tuple[str, str], float]:
+    """Find the pairs of links that overlap, and how deep they do [m]."""
+    with tempfile.TemporaryDirectory(prefix="urdftool-") as place:
+        path = Path(place) / "home.xml"
+        model, files = _collision_model(sections, assets)
+        path.write_bytes(etree.tostring(model))
+        for name in files & written.files.keys():
+            content, target = written.files[name], Path(place) / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            if isinstance(content, bytes):
+                target.write_bytes(content)
+            else:
+                shutil.copyfile(content, target)
+        compiled, _ = compile_file(path)
+    mujoco = mujoco_module()
+    data = mujoco.MjData(compiled)
+    for name, value in positions.items():
+        joint = mujoco.mj_name2id(compiled, mujoco.mjtObj.mjOBJ_JOINT, name)
+        if joint >= 0:
+            data.qpos[compiled.jnt_qposadr[joint]] = value
+    mujoco.mj_forward(compiled, data)
+    link_of = {body.get("name", "world"): link for link, body in bodies.items()}
+    found: dict[tuple[str, str], float] = {}
+    for number in range(data.ncon):
+        contact = data.contact[number]
+        names = [
+            mujoco.mj_id2name(compiled, mujoco.mjtObj.mjOBJ_BODY, int(compiled.geom_bodyid[geom]))
+            for geom in contact.geom
+        ]
+        one, other = sorted(link_of[name] for name in names)
+        if -contact.dist >= OVERLAP:
+            found[one, other] = max(found.get((one, other), 0.0), -float(contact.dist))
+    return found
+
+
+def _collision_model(
+    sections: Mapping[str, etree._Element], assets: Assets
+) -> tuple[etree._Element, set[str]]:
+    """Copy what collides of a model, without its classes; and the mesh files that it names."""
+    root = etree.Element("mujoco")
+    for name in ("compiler", "option", "worldbody", "contact"):
+        if name in sections:
+            root.append(deepcopy(sections[name]))
+    for geom in list(root.iter("geom")):
+        parent = geom.getparent()
+        if geom.get("class") == "visual" and parent is not None:
+            parent.remove(geom)
+    etree.strip_attributes(root, "class", "childclass", "material")
+    used = {geom.get("mesh") for geom in root.iter("geom")}
+    compiler = sections["compiler"]
+    files = set()
+    section = etree.SubElement(root, "asset")
+    for mesh in assets.elements:
+        if _mesh_name(mesh) in used:
+            section.append(deepcopy(mesh))
+            files.add("/".join(filter(None, (compiler.get("meshdir"), mesh.get("file")))))
+    return root, files
+
+
+def _mesh_name(mesh: etree._Element) -> str:
+    return mesh.get("name") or mesh.get("file", "").rpartition(".")[0]
+
+
+def _report(structure: Structure, pairs: list[Pair], options: Options, written: Written) -> None:
+    authored = [pair for pair in pairs if not pair.is_of_hulls]
+    hulls = [pair for pair in pairs if pair.is_of_hulls]
+    parts = []
+    if authored:
+        parts.append(_named(authored))
+    if hulls:
+        parts.append(f"only by the convex hulls that MuJoCo makes of their meshes {_named(hulls)}")
+    does = (
+        ", and are excluded from contact"
+        if options.exclude == "touching"
+        else ", and MuJoCo pushes them apart (--exclude touching excludes them)"
+    )
+    count = f"{len(pairs)} pairs of links overlap" if len(pairs) > 1 else "2 links overlap"
+    hints = []
+    if hulls and options.cutter is None:
+        hints.append("--decompose collides such meshes as convex pieces")
+    if authored:
+        hints.append("'urdftool collision --check' shows where the geometry is too large")
+    written.lose(
+        "overlap",
+        f"{count} at home{does}: {'; '.join(parts)}",
+        structure.robot.element.place,
+        hint="; ".join(hints),
+    )
+
+
+def _named(pairs: list[Pair]) -> str:
+    shown = [f"'{p.one}' and '{p.other}' {p.depth * 1000:.3g} mm" for p in pairs[:SHOWN]]
+    more = f" and {len(pairs) - SHOWN} more" if len(pairs) > SHOWN else ""
+    return ", ".join(shown) + more
