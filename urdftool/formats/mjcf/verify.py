@@ -27,6 +27,7 @@ from .verify_looks import material_check
 from .verify_loops import compare_loops, loop_ends
 from .verify_physics import base_check, gravity_flag_check, joint_physics_check, option_check
 from .verify_sensors import sensor_check
+from .verify_runs import runs_check
 from .verify_shapes import collision_check, visual_check
 from .verify_source import Source
 from .write import write
@@ -86,6 +87,7 @@ def verify(
         visual_check(robot, mechanics, compiled, configurations, said),
         material_check(source, compiled, said),
         home_check(source, compiled, said),
+        runs_check(model, said),
         repeat,
     ]
     clean = Check("loads", "MuJoCo compiles and poses it without a warning", 0)
