@@ -125,7 +125,7 @@ def command(
 
     \b
         urdftool export mjcf panda.urdf -o panda/ --scene --verify
-        urdftool export mjcf quadruped.urdf.xacro -o q/ --base free --actuators position
+        urdftool export mjcf quadruped.urdf.xacro -o q/ --scene --actuators position
     """  # noqa: D301 -- click's mark for lines it must not wrap
     from ..api.export import cut_meshes, measure_overlap
     from ..formats import said

@@ -69,7 +69,7 @@ ROBOT: tuple[Row, ...] = (
     ("`mesh` flat, that collides", CLOSE, "thickened to 0.1 % of its size"),
     ("`mesh@scale`", EXACT, "`mesh@scale`, mirrored ones too"),
     ("`material/color`", EXACT, "`material`, or `rgba` where it has no name"),
-    ("`material/texture`", EXACT, "`texture`; PNG without ancillary chunks, others converted"),
+    ("`material/texture`", EXACT, "`texture`; PNG re-encoded, others converted"),
     (
         "colours and images of a mesh file",
         EXACT,

@@ -1,7 +1,8 @@
 """Images as PNG, the one image format that every MuJoCo reads.
 
-MuJoCo refuses a PNG for an ancillary chunk of a wrong length, which libpng and Pillow ignore, so
-none is left in a file that is written.
+MuJoCo refuses a PNG for an ancillary chunk of a wrong length, which libpng and Pillow ignore. So
+only those are kept that change what is seen: ``tRNS``, and ``sRGB``, from which MuJoCo takes the
+color space.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ _COLOR_TYPES = (0, 2, 3, 4, 6)
 
 
 def png(image: Path | bytes) -> bytes | None:
-    """Return an image as a PNG without ancillary chunks, converted where it is another format.
+    """Return an image as a PNG without needless chunks, converted where it is another format.
 
     A conversion is kept in the user's cache for the next export.
 
@@ -48,10 +49,7 @@ def png(image: Path | bytes) -> bytes | None:
 
 
 def _plain(data: bytes) -> bytes | None:
-    """Return a sound PNG without its ancillary chunks but for ``sRGB``; None for other data.
-
-    MuJoCo takes the color space of a texture from ``sRGB``.
-    """
+    """Return a sound PNG without needless chunks; None for other data."""
     if not data.startswith(SIGNATURE):
         return None
     chunks = list(_chunks(data))
