@@ -38,7 +38,7 @@ def _pose(
     "--actuators",
     type=click.Choice(("auto", "none", "position", "velocity", "motor")),
     default="auto",
-    help="As transmissions and ros2_control say (auto), none, or one kind for all joints.",
+    help="As transmissions, ros2_control and drive plugins say (auto), none, or one kind for all.",
 )
 @click.option(
     "--base",

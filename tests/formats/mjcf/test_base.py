@@ -86,10 +86,10 @@ VELOCITY = (
 )
 
 
-def cart(*extra, axis=LEVEL, kind="continuous", height=0.0):
+def cart(*extra, axis=LEVEL, kind="continuous", height=0.0, shape='<sphere radius="0.1"/>'):
     body = solid('<box size="0.6 0.3 0.2"/>')  # slides on its rear
     wheels = [
-        link(f"{side}_w", WHEEL)
+        link(f"{side}_w", solid(shape))
         + joint(side, "body", f"{side}_w", kind, f'<origin xyz="0.2 {y} {height}"/>{axis}{LIMIT}')
         for side, y in (("left", 0.2), ("right", -0.2))
     ]
@@ -110,11 +110,17 @@ def test_driven_wheels_at_the_ground_make_the_base_free(write):
     assert written.summary == ["free base (it drives on left, right)", "2 actuators"]
 
 
+def test_two_wheels_that_nothing_drives_do_so_too(write):
+    written = export(write("r.urdf", cart()))
+    assert written.summary[0] == "free base (it stands on the wheels of left, right)"
+    assert not is_free(export(write("r.urdf", cart(kind="fixed"))))
+
+
 @pytest.mark.parametrize(
     "text",
     [
-        cart(),  # nothing drives them, and the body stands, too
         cart(*DRIVEN, axis=UPRIGHT),
+        cart(*DRIVEN, shape='<box size="0.1 0.1 0.2"/>'),
         cart(*DRIVEN, kind="revolute"),
         cart(*DRIVEN, height=0.3),
     ],

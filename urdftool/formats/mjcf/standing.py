@@ -28,7 +28,10 @@ UPRIGHT = 0.3
 """The largest vertical part of the unit axis of a wheel."""
 
 CENTERED = 0.2
-"""How far the axis of a wheel may be from the middle of its box, of the box's height."""
+"""How far a wheel may be from its axis and from being round, of the height of its box."""
+
+ALIGNED = 0.95
+"""The part of the axis of a wheel along x or y of the root from which its box shows its length."""
 
 FEET = frozenset(("leg", "foot", "feet", "toe", "ankle", "calf", "shank"))
 """Words in the names of the last links of legs."""
@@ -109,7 +112,7 @@ def free_reason(
 ) -> str | None:
     """Say on what a robot stands that is not held; None where it is held.
 
-    It is free where it stands on driven wheels; where only what moves against the root reaches the
+    It is free where it stands on a driven wheel or on two wheels; where only what moves against the root reaches the
     ground: on two or more chains, below the center of mass, and not named as hands are; and where
     two or more chains end in links that are named as feet or legs are.
 
@@ -129,11 +132,14 @@ def free_reason(
     wheels = [
         joint.name
         for joint in structure.moving
-        if joint.name in commanded and joint.child in stands
-        if joint.type == "continuous" and _is_wheel(structure, joint, positions, ground)
+        if joint.child in stands and joint.type == "continuous"
+        if _is_wheel(structure, joint, positions, ground)
     ]
-    if wheels:
-        return f"it drives on {_listed(wheels)}"
+    driven = [name for name in wheels if name in commanded]
+    if driven:
+        return f"it drives on {_listed(driven)}"
+    if len(wheels) > 1:
+        return f"it stands on the wheels of {_listed(wheels)}"
     return _on_feet(structure, positions, ground, stands) or _with_legs(structure)
 
 
@@ -172,13 +178,17 @@ def _top(ground: Ground) -> float:
 def _is_wheel(
     structure: Structure, joint: Joint, positions: Mapping[str, float], ground: Ground
 ) -> bool:
-    """Whether a joint turns about a horizontal axis through the middle of what it moves."""
+    """Whether a joint turns about a horizontal axis through the middle of something round."""
     pose = link_poses(structure.robot, positions)[joint.child]
     x, y, z = rotate(pose.rotation, axis_of(joint))
+    length = math.hypot(x, y, z)
     low, high = _around(ground.boxes[joint.child])
-    middle = (low[2] + high[2]) / 2 - pose.translation[2]
-    centered = abs(middle) <= CENTERED * (high[2] - low[2])
-    return centered and abs(z) <= UPRIGHT * math.hypot(x, y, z)
+    height = high[2] - low[2]
+    centered = abs((low[2] + high[2]) / 2 - pose.translation[2]) <= CENTERED * height
+    along = 0 if abs(y) > abs(x) else 1
+    is_aligned = max(abs(x), abs(y)) > ALIGNED * length
+    is_round = abs(high[along] - low[along] - height) <= CENTERED * height
+    return centered and abs(z) <= UPRIGHT * length and (is_round or not is_aligned)
 
 
 def _chain(structure: Structure, body: str) -> list[str]:
