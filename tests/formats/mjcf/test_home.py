@@ -190,3 +190,17 @@ def test_a_change_of_home_is_found(write, tmp_path, old, new, failing):
     model.write_text(changed)
     checks = verify(made, written, model, write_mjcf(made, options), options)
     assert failing in [check.name for check in checks if check.verdict == "differs"]
+
+
+@pytest.mark.library("mujoco")
+def test_a_scene_around_a_robot_with_a_floor_of_its_own(write, urdftool):
+    shape = '<visual name="floor"><geometry><box size="1 1 1"/></geometry>{}</visual>'
+    paint = '<material name="groundplane"><color rgba="1 0 0 1"/></material>'
+    path = write("r.urdf", robot(link("a", shape.format(paint))))
+    assert urdftool("export", "mjcf", path, "-o", "out", "--scene").code == 0
+
+
+def test_a_scene_around_a_long_chain(write):
+    links = [link(f"l{i}") for i in range(400)]
+    joints = [joint(f"j{i}", f"l{i}", f"l{i + 1}", "continuous", "") for i in range(399)]
+    assert "scene.xml" in export(write("r.urdf", robot(*links, *joints)), scene=True).files

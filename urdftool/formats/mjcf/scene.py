@@ -12,6 +12,7 @@ from ..numbers import number_text
 from ..written import Written
 from .document import serialise
 from .home import Home
+from .names import Names
 from .shape_box import ShapeBoxes
 from .standing import Ground, ground_of
 from .structure import Structure
@@ -21,7 +22,12 @@ FLUSH = 1e-3
 
 
 def scene_file(
-    structure: Structure, home: Home, boxes: ShapeBoxes, model: str, written: Written
+    structure: Structure,
+    home: Home,
+    boxes: ShapeBoxes,
+    model: str,
+    text: bytes,
+    written: Written,
 ) -> bytes:
     """Make ``scene.xml``, which includes the model.
 
@@ -33,12 +39,16 @@ def scene_file(
         home: Where the robot starts.
         boxes: The boxes of its shapes.
         model: The name of the model.
+        text: The model, whose names the scene does not take.
         written: The export; takes a floor that is not at zero.
     """
     ground = ground_of(structure, boxes, home.positions, home.pose)
     low = 0.0 if structure.free else _lowest(structure, home, boxes, ground)
     center, extent = _around(ground, home)
     main = written.main
+    deep = etree.XMLParser(huge_tree=True)  # without it, 256 bodies in each other at most
+    names = Names(element.get("name", "") for element in etree.fromstring(text, deep).iter("*"))
+    plane, pattern = names.take("floor"), names.take("groundplane")
     root = etree.Element("mujoco", model=f"{model} scene")
     etree.SubElement(root, "include", file=main)
     statistic = etree.SubElement(root, "statistic")
@@ -56,16 +66,16 @@ def scene_file(
         width="512", height="3072",
     )  # fmt: skip
     etree.SubElement(
-        asset, "texture", type="2d", name="groundplane", builtin="checker", mark="edge",
+        asset, "texture", type="2d", name=pattern, builtin="checker", mark="edge",
         rgb1="0.2 0.3 0.4", rgb2="0.1 0.2 0.3", markrgb="0.8 0.8 0.8", width="300", height="300",
     )  # fmt: skip
     etree.SubElement(
-        asset, "material", name="groundplane", texture="groundplane", texuniform="true",
+        asset, "material", name=pattern, texture=pattern, texuniform="true",
         texrepeat="5 5", reflectance="0.2",
     )  # fmt: skip
     world = etree.SubElement(root, "worldbody")
     etree.SubElement(world, "light", pos="0 0 3.5", dir="0 0 -1", type="directional")
-    floor = etree.SubElement(world, "geom", name="floor", type="plane", size="0 0 0.05")
+    floor = etree.SubElement(world, "geom", name=plane, type="plane", size="0 0 0.05")
     if low < -FLUSH:
         low = math.floor(low * 1e4) / 1e4
         floor.set("pos", f"0 0 {number_text(low)}")
@@ -76,7 +86,7 @@ def scene_file(
             structure.robot.place,
             severity=Severity.INFO,
         )
-    floor.set("material", "groundplane")
+    floor.set("material", pattern)
     return serialise(root)
 
 

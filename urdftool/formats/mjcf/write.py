@@ -83,7 +83,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     files: dict[str, bytes | Path] = {written.main: mark(text, source)}
     if options.scene:
         name = f"{Path(options.file).stem}_scene.xml" if options.file else "scene.xml"
-        files[name] = mark(scene_file(structure, home, boxes, model, written), source)
+        files[name] = mark(scene_file(structure, home, boxes, model, text, written), source)
     files.update(sorted(written.files.items()))
     written.files = files
     return written
