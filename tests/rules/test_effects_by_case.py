@@ -219,3 +219,24 @@ def test_links_far_apart_in_the_chain_do_not_say_that_limits_are_too_wide(tmp_pa
     path.write_text(robot.replace("</robot>", f"{wrist}{ends}</joint></robot>"))
     settings = Settings(select=("self-collision-in-range",))
     assert lint_file(path, Options(settings)).findings == []
+
+
+def _finds(tmp_path, rule, text):
+    path = tmp_path / "r.urdf"
+    path.write_text(text)
+    return len(lint_file(path, Options(Settings(select=(rule,)))).findings)
+
+
+@pytest.mark.parametrize(("kind", "count"), [("fixed", 0), ("revolute", 1)])
+def test_a_mark_that_weighs_a_gram_is_not_too_dense(tmp_path, kind, count):
+    mark = COLLISION.replace("0.1 0.1 0.1", "0.001 0.001 0.001")
+    robot = _robot(INERTIAL.format(mass=0.001, moment=1e-9) + mark, kind=kind)
+    assert _finds(tmp_path, "implausible-density", robot) == count
+
+
+@pytest.mark.parametrize(("shape", "count"), [("", 0), (COLLISION, 1)])
+def test_a_frame_may_weigh_next_to_nothing(tmp_path, shape, count):
+    robot = _robot(INERTIAL.format(mass=1e-9, moment=1e-15) + shape)
+    found = _finds(tmp_path, "implausible-mass", robot)
+    found += _finds(tmp_path, "implausible-density", robot)
+    assert found == count

@@ -199,7 +199,8 @@ def implausible_mass(
 ) -> Iterator[Problem]:
     """A link weighs more than a tonne, or less than a hundredth of a gram.
 
-    Masses are in kilograms. Grams make a robot a thousand times too heavy.
+    Masses are in kilograms. Grams make a robot a thousand times too heavy. A frame without shapes
+    may weigh as little as its author wants: next to nothing is what a program asked for.
     """
     reach = reaches(robot)
     for link, mass, element in _masses(robot):
@@ -207,7 +208,7 @@ def implausible_mass(
             continue  # its size tells more than its mass alone
         if mass > heaviest:
             what = f"{mass:g} kg; if that is grams, write {mass / 1000:g}"
-        elif 0 < mass < lightest:
+        elif 0 < mass < lightest and (link.visuals or link.collisions):
             what = f"{mass:g} kg, less than {lightest * 1e6:g} mg; are the units right?"
         else:
             continue
@@ -246,7 +247,8 @@ def implausible_density(
 
     Between foam and lead lie 5 and 12,000 kg/m³, and nothing is denser than osmium with 22,600.
     Beyond that, a unit is wrong: grams, or millimetres. A shape of millimetres is mostly a mark for
-    a frame, and no more than a remark; so is a link of at most ``dummy`` [kg] that is fixed to
+    a frame: no more than a remark, and not reported where it is fixed to links that weigh ten times
+    as much. A remark is also a link of at most ``dummy`` [kg] that is fixed to
     another, as sensors have it to survive Gazebo. Of a mesh, or of several shapes, the box around
     them counts: one that is all of steel has ``most_of_box``, and one lighter than air is hollow
     beyond belief. More than ``together`` remarks are one, which names the links.
@@ -262,6 +264,8 @@ def implausible_density(
         if in_box and least_possible <= density < least:
             continue
         if _is_right_for_body(reach, link, density, least, most_of_box):
+            continue
+        if density > most and _is_mark(reach, link, mass, small):
             continue
         impossible = density > most_possible or density < least_possible
         box = reach.link(link)
@@ -285,6 +289,14 @@ def implausible_density(
         remarks[0][0].message += f"; densities are as odd of {others}"
         del remarks[1:]
     yield from (problem for problem, _ in remarks)
+
+
+def _is_mark(reach: Reaches, link: Link, mass: float, small: float) -> bool:
+    """Whether a link is smaller than ``small`` [m] and fixed to links that outweigh it by far."""
+    box = reach.link(link)
+    if box is None or max(box.size) >= small:
+        return False
+    return sum(other.mass for other, _ in reach.attached(link)[1:]) >= 10 * mass
 
 
 def _is_fixed(robot: Robot, link: Link) -> bool:

@@ -249,7 +249,7 @@ def com_outside_geometry(
     INFO,
     effects={
         "gz, gazebo-classic, mujoco, pinocchio, drake": (
-            "put the center of mass at the link's origin, on the joint"
+            "put the center of mass of the link at its origin"
         ),
     },
     of_motion=True,

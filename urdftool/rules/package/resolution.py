@@ -15,13 +15,11 @@ from ..rule import WARNING, Problem, rule
 @rule(
     WARNING,
     effects={
-        "xacro": "stops at $(find …)",
+        "xacro (in $(find …))": "stops at it",
         "rviz": "shows nothing of its meshes, and reports 'Could not load mesh resource'",
         "drake": "rejects the robot",
-        "pybullet": (
-            "takes a folder of that name near the file for the package; rejects the robot "
-            "where there is none"
-        ),
+        "pybullet (no such folder)": "rejects the robot: it finds no folder of that name",
+        "pybullet (a folder)": "takes the folder of that name for the package",
     },
 )
 def package_not_found(robot: Robot, description: Description) -> Iterator[Problem]:
@@ -49,6 +47,7 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
             + (has_it(name, near) if near is not None else remedy),
             at=uses[0].mesh.element.attribute_place("filename"),
             hint="; ".join(f"searched {place}" for place in _brief(uses[0].searched)),
+            effects=("rviz", "drake", "pybullet (no such folder)"),
         )
     yield from _assumed(robot, description)
 
@@ -70,6 +69,7 @@ def _assumed(robot: Robot, description: Description) -> Iterator[Problem]:
             f"package '{name}' is not found, and {meshes} read from the folder "
             f"'{shown_path(folder)}', as PyBullet does; write '{_right_uri(uses[0], description)}'",
             at=uses[0].mesh.element.attribute_place("filename"),
+            effects=("rviz", "drake", "pybullet (a folder)"),
         )
 
 

@@ -17,8 +17,9 @@ _Look = tuple[tuple[float, ...] | None, str | None]
     WARNING,
     effects={
         "urdfdom": "warns; the visual has no color",
-        "rviz": "shows the link in red",
-        "mujoco, pybullet": "take a default color",
+        "rviz": "shows the link in red, unless its mesh brings its own colors",
+        "pybullet": "takes a default color",
+        "mujoco": "accepts it without a message",
         "drake": "rejects the file",
     },
 )
