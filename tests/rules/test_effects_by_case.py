@@ -240,3 +240,28 @@ def test_a_frame_may_weigh_next_to_nothing(tmp_path, shape, count):
     found = _finds(tmp_path, "implausible-mass", robot)
     found += _finds(tmp_path, "implausible-density", robot)
     assert found == count
+
+
+TRANSMISSION = """<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+  <joint name="swing">{interface}</joint></transmission>"""
+INTERFACE = "<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>"
+PLUGIN = '<gazebo><plugin name="control" filename="libgazebo_ros_control.so"/></gazebo>'
+
+
+@pytest.mark.parametrize(
+    ("interface", "plugin", "severity"),
+    [
+        (INTERFACE, PLUGIN, "error"),
+        (INTERFACE, "", "warning"),
+        ("", PLUGIN, "warning"),
+    ],
+    ids=["loaded", "no plugin", "no interface"],
+)
+def test_transmission_on_immovable_joint(tmp_path, interface, plugin, severity):
+    more = TRANSMISSION.format(interface=interface) + plugin
+    finding = found(
+        tmp_path, "transmission-on-immovable-joint", _robot(HEAVY, kind="fixed", first=more)
+    )
+    assert finding.severity.label == severity
+    assert ("gazebo_ros_control" in finding.effects) == (severity == "error")
+    assert "gz, gazebo-classic" in finding.effects

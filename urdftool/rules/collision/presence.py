@@ -31,7 +31,7 @@ _MARKER = 0.1  # [m] a marker of a frame is no larger
     effects={
         _LOAD: "load the link without a collision: it touches nothing",
         "moveit": "plans straight through it; MoveIt 2 warns",
-        "mujoco": "loads the body without a geom: visuals of a URDF are discarded",
+        "mujoco": "makes no geom of the link: it discards the visuals of a URDF",
     },
     group="robot",
 )
@@ -81,7 +81,7 @@ def missing_collision(
             "bodies"
         ),
         "moveit": "plans straight through it; MoveIt 2 warns",
-        "mujoco": "loads the body without a geom: visuals of a URDF are discarded",
+        "mujoco": "makes no geom of the link: it discards the visuals of a URDF",
     },
 )
 def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:

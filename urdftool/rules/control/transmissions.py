@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Robot, Transmission
+from ..gazebo.lumping import is_lumped
 from ..joint.range import is_locked
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
@@ -245,8 +246,10 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
 @rule(
     ERROR,
     effects={
-        "gazebo_ros_control": "fails to start: the merged joint is not in the simulated robot",
-        "gz, gazebo-classic": "merge the fixed joint",
+        "gazebo_ros_control (loaded)": (
+            "fails to start: the merged joint is not in the simulated robot"
+        ),
+        "gz, gazebo-classic (merged)": "merge the fixed joint",
     },
     group="robot",
 )
@@ -254,16 +257,29 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
     """A transmission drives a fixed joint.
 
     There is nothing to drive, and in Gazebo the joint does not even exist: fixed joints are lumped.
+    It is an error where the plugin of ``gazebo_ros_control`` is loaded and reads the transmission,
+    and a warning elsewhere.
     """
+    loaded = any("gazebo_ros_control" in plugin.filename for plugin in robot.plugins)
     for transmission in robot.transmissions:
         for joint in transmission.joints:
             driven = robot.joint.get(joint.name)
-            if driven is not None and driven.is_fixed:
-                yield Problem(
-                    transmission.element,
-                    f"{called(transmission)} drives '{joint.name}', which is fixed",
-                    at=joint.element.attribute_place("name"),
-                )
+            if driven is None or not driven.is_fixed:
+                continue
+            actuated = [*transmission.joints, *transmission.actuators]
+            keys = []
+            if is_lumped(robot, driven.child):
+                keys.append("gz, gazebo-classic (merged)")
+                # without a type or an interface the plugin skips the transmission
+                if loaded and transmission.type and any(a.hardware_interfaces for a in actuated):
+                    keys.append("gazebo_ros_control (loaded)")
+            yield Problem(
+                transmission.element,
+                f"{called(transmission)} drives '{joint.name}', which is fixed",
+                at=joint.element.attribute_place("name"),
+                severity=None if len(keys) > 1 else WARNING,
+                effects=keys,
+            )
 
 
 _PASSIVE = re.compile(

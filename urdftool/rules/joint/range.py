@@ -249,7 +249,7 @@ def range_above_full_turn(robot: Robot) -> Iterator[Problem]:
     INFO,
     effects={
         "gz, gazebo-classic": "spawn the joint at 0, outside its limits",
-        "moveit": "reports that the start state is outside its bounds",
+        "moveit": "reports that a start state at 0 is outside its bounds",
     },
     group="robot",
 )
