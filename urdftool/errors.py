@@ -38,6 +38,7 @@ class UrdftoolError(Exception):
         calls: The xacro calls and includes it came through, innermost first.
         notes: Further lines for whoever wants to know more, such as the places searched.
         rule: The lint rule that says the same of a file that is linted, if there is one.
+        case: What of that rule's effects on readers holds, as conditions of their keys.
     """
 
     def __init__(
@@ -51,6 +52,7 @@ class UrdftoolError(Exception):
         calls: Sequence[Call] = (),
         notes: Sequence[str] = (),
         rule: str = "",
+        case: str = "",
     ) -> None:
         """Take the facts; the text is made by ``str()``."""
         if at is not None:
@@ -66,6 +68,7 @@ class UrdftoolError(Exception):
         self.notes = tuple(notes)
         self.at = at
         self.rule = rule
+        self.case = case
 
     @property
     def where(self) -> str:

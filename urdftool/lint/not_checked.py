@@ -102,6 +102,16 @@ def finding_of(
         failure.message,
         place,
         "file",
+        effects=_effects_of(rule, failure.case),
         hint="; ".join(failure.notes),
         unchecked=unchecked,
     )
+
+
+def _effects_of(name: str, case: str) -> dict[str, str]:
+    """What readers do with a failure, as the page of its rule has it."""
+    from ..rules import get_rule
+    from ..rules.rule import holding
+
+    rule = get_rule(name)
+    return rule.effects_in(holding(rule.effects, *filter(None, [case])))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
 from ..compare.change import Change
+from ..terminal import json_text
 from .counted import counted
 from .findings import Painter, clean
 
@@ -73,7 +73,7 @@ def to_json(names: tuple[str, str], changes: Sequence[Change], tolerance: float)
         "equal": not changes,
         "changes": [_record(change) for change in changes],
     }
-    return json.dumps(said, indent=1, ensure_ascii=False) + "\n"
+    return json_text(said, 1) + "\n"
 
 
 def _record(change: Change) -> dict[str, Any]:

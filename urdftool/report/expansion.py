@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..source.document import Element, parse, read_file
 from ..source.location import Call
+from ..terminal import json_text
 
 if TYPE_CHECKING:
     from ..source.expansion import Expansion
@@ -114,12 +115,10 @@ def _lines(element: Element, indent: str = "") -> list[str]:
 
 def source_map(expansion: Expansion) -> str:
     """Where each element came from, as JSON: its XPath, file, line, column and calls."""
-    import json
-
     elements: list[dict[str, Any]] = []
     _map(expansion.document().root, "", {}, elements)
     table = {"version": 1, "source": expansion.file.path, "elements": elements}
-    return json.dumps(table, indent=1, ensure_ascii=False) + "\n"
+    return json_text(table, 1) + "\n"
 
 
 def _map(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Sequence
 
 from ..finding import Finding
 from ..formats.check import Check, is_faithful
 from ..formats.said import merged
+from ..terminal import json_text
 from .findings_json import finding_record
 
 
@@ -30,4 +30,4 @@ def to_json(
         "checks": [check.as_dict() for check in checks],
         "faithful": is_faithful(checks) if checks else None,
     }
-    return json.dumps(report, indent=1, ensure_ascii=False) + "\n"
+    return json_text(report, 1) + "\n"

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 from typing import Any
 
 from ..extras import EXTRA_OF
 from ..finding import Finding, Fix, Severity
 from ..lint.outcome import Outcome
+from ..terminal import json_text
 
 
 def to_json(outcome: Outcome) -> str:
@@ -39,7 +39,7 @@ def to_json(outcome: Outcome) -> str:
         ]
     if outcome.known:
         table["summary"]["baselined"] = len(outcome.known)
-    return json.dumps(table, indent=1, ensure_ascii=False) + "\n"
+    return json_text(table, 1) + "\n"
 
 
 def finding_record(finding: Finding) -> dict[str, Any]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections import Counter
 from collections.abc import Iterator
@@ -15,6 +14,7 @@ from ..lint.fingerprint import fingerprint
 from ..lint.outcome import Outcome, Report
 from ..rules import FAMILY_OF, get_rule
 from ..source.location import Call, Place
+from ..terminal import json_text
 from .findings import NOT_CHECKED
 from .findings_words import call_words, clean, remarks, sentence, skipped_rules
 
@@ -50,7 +50,7 @@ def to_sarif(outcome: Outcome) -> str:
         "results": results,
     }
     log = {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
-    return json.dumps(log, indent=1, ensure_ascii=False) + "\n"
+    return json_text(log, 1) + "\n"
 
 
 def _rule(name: str) -> dict[str, Any]:

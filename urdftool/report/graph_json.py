@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 from typing import Any
 
@@ -11,6 +10,7 @@ from ..graph.faults import Fault
 from ..graph.figure import Edge, Figure, Node
 from ..model.elements import Robot
 from ..source.location import Place
+from ..terminal import json_text
 
 
 def to_json(robot: Robot, figure: Figure, faults: Iterable[Fault]) -> str:
@@ -23,7 +23,7 @@ def to_json(robot: Robot, figure: Figure, faults: Iterable[Fault]) -> str:
         "faults": [{"message": fault.message, **_where(fault.place)} for fault in faults],
         "findings": [_finding(finding) for finding in figure.findings],
     }
-    return json.dumps(graph, indent=1, ensure_ascii=False) + "\n"
+    return json_text(graph, 1) + "\n"
 
 
 def _node(node: Node) -> dict[str, Any]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..inertia.fill import Filling, Refusal
 from ..inertia.tensor import six_numbers
 from ..model.elements import Robot
+from ..terminal import json_text
 from .counted import counted
 from .findings import clean
 from .inertia_robot import place_dict
@@ -86,7 +86,7 @@ def as_json(filling: Filling, robot: Robot) -> str:
         "left": [_refusal(refusal) for refusal in filling.left],
         "refused": [_refusal(refusal) for refusal in filling.refused],
     }
-    return json.dumps(found, indent=1, ensure_ascii=False) + "\n"
+    return json_text(found, 1) + "\n"
 
 
 def _refusal(refusal: Refusal) -> dict[str, Any]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 from ..inertia.lump import Lumped
 from ..inertia.rounding import round_properties
 from ..inertia.tensor import MassProperties, six_numbers
 from ..model.elements import Robot
+from ..terminal import json_text
 from .findings import clean
 from .inertia import SIX, numbers
 
@@ -58,7 +58,7 @@ def as_json(lumped: Lumped, robot: Robot) -> str:
         "whole": {"frame": lumped.root, "properties": _dict(lumped.whole)},
         "notes": list(lumped.notes),
     }
-    return json.dumps(found, indent=1, ensure_ascii=False) + "\n"
+    return json_text(found, 1) + "\n"
 
 
 def _dict(properties: MassProperties | None) -> dict[str, Any] | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -12,6 +11,7 @@ from ..inertia.link_review import LinkReview
 from ..inertia.rounding import number_text, round_properties
 from ..inertia.tensor import MassProperties, six_numbers
 from ..source.location import Place
+from ..terminal import json_text
 from .counted import counted
 from .findings import Painter, clean
 from .inertia import numbers
@@ -196,7 +196,7 @@ def as_dict(reviews: Sequence[LinkReview], name: str, path: str) -> dict[str, An
 
 def as_json(found: dict[str, Any]) -> str:
     """A JSON form as text."""
-    return json.dumps(found, indent=1, ensure_ascii=False) + "\n"
+    return json_text(found, 1) + "\n"
 
 
 def place_dict(place: Place) -> dict[str, Any]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict
@@ -11,6 +10,7 @@ from typing import Any
 from ..info.counts import Counts, Named
 from ..info.size import Measured
 from ..model.elements import Robot
+from ..terminal import json_text
 from .counted import counted
 from .findings import Painter, clean
 
@@ -112,4 +112,4 @@ def to_json(robot: Robot, counts: Counts, measured: Measured) -> str:
     said["bounds"] = None if bounds is None else {"low": bounds.low, "high": bounds.high}
     said["meshes"] = [{**asdict(mesh), "reason": mesh.reason or None} for mesh in measured.meshes]
     said["triangles"] = {kind: measured.triangles(kind) for kind in ("visuals", "collisions")}
-    return json.dumps(said, indent=1, ensure_ascii=False) + "\n"
+    return json_text(said, 1) + "\n"

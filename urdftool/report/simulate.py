@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from ..model.elements import Robot
+from ..terminal import json_text
 from .counted import counted
 from .findings import Painter, clean
 
@@ -139,7 +139,7 @@ def to_json(robot: Robot, verdicts: Sequence[Verdict], *, timings: bool = False)
         "stands": all(verdict.stands for verdict in verdicts),
         "trials": [_trial(verdict, timings) for verdict in verdicts],
     }
-    return json.dumps(said, ensure_ascii=False) + "\n"
+    return json_text(said) + "\n"
 
 
 def _trial(verdict: Verdict, timings: bool) -> dict[str, Any]:

@@ -6,6 +6,7 @@ import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from ..terminal import json_text
 from .findings import Painter
 from .simulate import _fault, _faults
 
@@ -26,4 +27,4 @@ def with_differences(text: str, faults: Sequence[Fault]) -> str:
     said = json.loads(text)
     said["differences"] = [_fault(fault) for fault in faults]
     said["stands"] = said["stands"] and not faults
-    return json.dumps(said, ensure_ascii=False) + "\n"
+    return json_text(said) + "\n"

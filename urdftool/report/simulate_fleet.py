@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from ..terminal import json_text
 from .findings import Painter, clean
 from .simulate import _fault
 
@@ -79,7 +79,7 @@ def to_json(rows: Sequence[Row], *, timings: bool = False) -> str:
     """Write everything but time series as JSON; with the wall-clock time of each robot if asked."""
     said = {"version": 1, "stands": all(row.stands for row in rows if not row.skipped),
             "robots": [_row(row, timings) for row in rows]}  # fmt: skip
-    return json.dumps(said, ensure_ascii=False, indent=1) + "\n"
+    return json_text(said, 1) + "\n"
 
 
 def _row(row: Row, timings: bool) -> dict[str, Any]:

@@ -56,7 +56,7 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> N
         parser.Parse(_as_expat_reads(file), True)
     except expat.ExpatError as error:
         offset = min(parser.ErrorByteIndex, len(file.data))
-        message, rule = _explain(file, error, offset)
+        message, rule, case = _explain(file, error, offset)
         if stack and "open" in message:
             line = file.position(stack[-1].start)[0]
             message += f" (<{stack[-1].tag}> of line {line} is)"
@@ -64,6 +64,7 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> N
             message,
             at=Place(file, max(offset, 0), max(offset, 0)),
             rule=rule,
+            case=case,
         ) from None
     except (LookupError, UnicodeDecodeError, ValueError) as error:
         raise XmlError(
@@ -98,26 +99,38 @@ def _as_expat_reads(file: SourceFile) -> bytes:
     return file.data
 
 
-def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[str, str]:
-    """Why expat refused the text and what would be right, in a sentence; and the rule for it."""
+def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[str, str, str]:
+    """Say why expat refused the text and what would be right, by which rule and in which case."""
     data = file.data
     reason = expat.ErrorString(error.code) or str(error)
     closing = data[offset : data.find(b">", offset)].decode(file.encoding, "replace").strip("</ ")
     if data.startswith(b"version https://git-lfs"):
-        return "is a git-lfs pointer, not the file itself; run 'git lfs pull'", "not-well-formed"
-    if b"<" not in data[:4096] and offset < 4096:
-        return "is not XML; a file that starts with <robot> is wanted", "not-well-formed"
-    if (at := data.find(b"<?xml")) > 0 and offset <= at + 5:
         return (
-            "something stands before the <?xml …?> declaration, which must be the very first; "
+            "is a git-lfs pointer, not the file itself; run 'git lfs pull'",
+            "not-well-formed",
+            "no XML",
+        )
+    if b"<" not in data[:4096] and offset < 4096:
+        return "is not XML; a file that starts with <robot> is wanted", "not-well-formed", "no XML"
+    if (at := data.find(b"<?xml")) > 0 and offset <= at + 5:
+        before = data[:at].removeprefix(b"\xef\xbb\xbf")
+        blank = not before.strip()
+        what = "a blank or line break" if blank else "something"
+        return (
+            f"{what} stands before the <?xml …?> declaration, which must be the very first; "
             "move the declaration to the start of the file",
             "content-before-declaration",
+            "blanks" if blank else "a comment" if before.lstrip()[:4] == b"<!--" else "other text",
         )
+    case = ""
     if data.startswith((b"<?xml", b"\xef\xbb\xbf<?xml")) and offset <= data.find(b"?>"):
         reason = f'the XML declaration is wrong ({reason}); <?xml version="1.0"?> is right'
+        case = "a wrong declaration"
     elif _in_comment(data, offset):
         reason = "a comment holds '--', which XML does not allow; write '- -' or '-'"
+        case = "'--' in a comment"
     else:
+        case = "an element that is not closed" if reason in _NOT_CLOSED else ""
         reason = {
             "mismatched tag": f"</{closing}> closes an element that is not open here",
             "unbound prefix": "a prefix is used that is not declared; for xacro that is "
@@ -130,10 +143,11 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
             "duplicate attribute": "an attribute stands twice in this tag",
         }.get(reason, f"not well-formed XML ({reason})")
     rule = "missing-xmlns" if error.code == _UNBOUND_PREFIX else "not-well-formed"
-    return reason, rule
+    return reason, rule, case
 
 
 _UNBOUND_PREFIX = 27
+_NOT_CLOSED = ("mismatched tag", "no element found")
 
 
 def _in_comment(data: bytes, offset: int) -> bool:

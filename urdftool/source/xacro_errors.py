@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,17 +31,34 @@ def explain(
     for cause in causes_of(error):
         if isinstance(cause, UrdftoolError) and cause.line is None and at is not None:
             if cause.path is not None:  # a file that could not be read, named where it is wanted
-                return _missing(cause.path, cause.message, at)
-            return type(cause)(cause.message, at=at, notes=cause.notes, rule=cause.rule)
+                return _missing(cause.path, cause.message, at, _argument_of(node, result))
+            return type(cause)(
+                cause.message, at=at, notes=cause.notes, rule=cause.rule, case=cause.case
+            )
         if isinstance(cause, UrdftoolError):
             return cause
     rule, message = sentence_of(Failure(error, node, failed_text, result))
+    if rule == "include-not-found":
+        message += _argument_of(node, result)
     if at is None:
         return XacroError(message, path=result.file.path, rule=rule)
     return XacroError(message, at=at, rule=rule)
 
 
-def _missing(path: str, reason: str, at: Place) -> XacroError:
+def _argument_of(include: XacroElement | None, result: Expansion) -> str:
+    """Advise to give the argument that an include takes its file from, if it was not given."""
+    if include is None:
+        return ""
+    span = include.file.attribute_spans(include.start).get("filename")
+    if span is None:
+        return ""
+    written = include.file.data[span[0] : span[1]].decode(include.file.encoding, "replace")
+    names = re.findall(r"\$\(arg\s+([^\s)]+)\s*\)", written)
+    missing = [name for name in names if name not in result.given]
+    return f"; it is the default of an argument: give {missing[0]}:=FILE" if missing else ""
+
+
+def _missing(path: str, reason: str, at: Place, argument: str) -> XacroError:
     """A file that is wanted and cannot be read, with the nearest name that can."""
     from difflib import get_close_matches
 
@@ -53,7 +71,7 @@ def _missing(path: str, reason: str, at: Place) -> XacroError:
         reason = f"there is no folder {missing}" if missing else reason
     near = get_close_matches(name, there, 1, 0.75)
     hint = f"; did you mean '{near[0]}'?" if near and near[0] != name else ""
-    return XacroError(f"{path}: {reason}{hint}", at=at, rule="include-not-found")
+    return XacroError(f"{path}: {reason}{hint}{argument}", at=at, rule="include-not-found")
 
 
 def _place(node: XacroElement, failed_text: str | None, odd: str) -> Place:

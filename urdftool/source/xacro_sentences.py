@@ -103,6 +103,12 @@ def _of_names(failure: Failure) -> tuple[str, str] | None:
     if match := _NO_ARGUMENT.search(text):
         name = match[1]
         known = ", ".join(result.arguments) or "none"
+        if failure.node is not None and failure.node.tagName == "robot":
+            return "undeclared-arg", (
+                f"the argument '{name}' has no value; give {name}:=VALUE, for xacro expands the "
+                "attributes of <robot> before it reads the default of an <xacro:arg>"
+                f"{_argument_meant(name, result)}"
+            )
         return "undeclared-arg", (
             f"the argument '{name}' has no value and no <xacro:arg> before it declares it; "
             f"give {name}:=VALUE, or declare it with a default "

@@ -97,6 +97,8 @@ def undeclared_arg(finding: Finding) -> Proposal | None:
     if root is None:
         return None
     at = file.tag_end(root.start())
+    if root.start() <= place.start < at:  # its attributes are expanded before what is in it
+        return None
     following = re.match(rb"\s*?(\r?\n[ \t]*)(?=\S)", file.data[at:])
     indent = following[1] if following else b""
     line = indent + f'<xacro:arg name="{match[1]}" default=""/>'.encode()

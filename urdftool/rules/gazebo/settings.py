@@ -63,7 +63,8 @@ def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         words = quoted(found, 6).replace("'", "")
         count = sum(map(len, found.values()))
         times = f" ({count} times)" if count > 1 else ""
-        do, them = ("do", "them") if len(found) > 1 or count > 1 else ("does", "it")
+        do = "do" if len(found) > 1 else "does"
+        them = "them" if count > 1 else "it"
         own = any(is_for_gz(plugin.element) for plugin in robot.plugins)
         remedy = f"remove {them}" if own else f"keep {them} only for Gazebo Classic"
         yield Problem(

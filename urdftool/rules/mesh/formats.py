@@ -65,7 +65,11 @@ def unsupported_mesh_format(
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}'{more} is a format that {' and '.join(who)} cannot read; "
-                f"convert it, for instance to {READ_BY[who[0]][0]}",
+                + (
+                    "it is binary STL by its ending: rename it to .stl"
+                    if ending == "stlb"
+                    else f"convert it, for instance to {READ_BY[who[0]][0]}"
+                ),
                 at=use.mesh.element.attribute_place("filename"),
                 effects=_OF_PLY if ending == "ply" and any(u.collides for u in same) else (),
             )

@@ -86,10 +86,10 @@ def dependency_circle(robot: Robot, description: Description) -> Iterator[Proble
     In a circle there is no such order, and colcon stops before it builds anything. As long as
     ``package.xml`` does not name the package that is used, it builds, and the files are there only
     where that package happens to be. Files that two packages use belong in the one that the other
-    depends on, or in a third.
+    depends on, or in a third. Descriptions in a folder ``test`` or ``tests`` are not looked at.
     """
     own = own_package(description.packages.file)
-    if own is None:
+    if own is None or _is_in_tests(description.packages.file, own[1]):
         return
     declared = _declared(own[1])
     for name, subject, at in _used_packages(robot, description, own):

@@ -24,8 +24,11 @@ def no_links(robot: Robot) -> Iterator[Problem]:
     """The robot has no link.
 
     Links are the bodies; without one there is nothing to show or to move. urdfdom, and with it ROS
-    and Gazebo, rejects the robot.
+    and Gazebo, rejects the robot. A ``<robot>`` without a name and elements is a placeholder that
+    another file includes.
     """
+    if not robot.name.strip() and not robot.element.children:
+        return
     if not robot.links and "link" not in misspelt_children(robot.element).values():
         yield Problem(robot, f"robot '{robot.name}' has no link; write <link name=\"…\"/>")
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Material, Robot
 from ...model.read import numbers
-from ..rule import ERROR, WARNING, Problem, rule
+from ..rule import ERROR, WARNING, Problem, holding, rule
 from ..words import did_you_mean
 from ..xml.vocabulary_table import misspelt_attributes
 
@@ -53,17 +53,23 @@ def undefined_material(robot: Robot) -> Iterator[Problem]:
             )
 
 
+_NAMELESS = {
+    "urdfdom, gz, gazebo-classic, pinocchio (at the top level)": (
+        "drop it, with an error in the log"
+    ),
+    "urdfdom, gz, gazebo-classic, pinocchio (in a visual)": (
+        "load the link without its visuals and collisions, with an error in the log"
+    ),
+    "pybullet (in a visual)": "rejects the robot",
+    "drake (at the top level)": "rejects the robot",
+    "drake (in a visual)": "accepts it",
+    "mujoco": "accepts it",
+}
+
+
 @rule(
     ERROR,
-    effects={
-        "urdfdom, gz, gazebo-classic, pinocchio": (
-            "drop it at the top level, with an error in the log; for a visual, load the link "
-            "without its visuals and collisions"
-        ),
-        "pybullet": "rejects the robot for a visual",
-        "drake": "rejects the robot for the top level",
-        "mujoco": "accepts it",
-    },
+    effects=_NAMELESS,
 )
 def nameless_material(robot: Robot) -> Iterator[Problem]:
     """A ``<material>`` lacks the attribute ``name``.
@@ -74,16 +80,24 @@ def nameless_material(robot: Robot) -> Iterator[Problem]:
     """
     for material in robot.materials:
         if _is_nameless(material):
-            yield Problem(material.element, 'a <material> of the robot has no name; write name="…"')
+            yield Problem(
+                material.element,
+                'a <material> of the robot has no name; write name="…"',
+                effects=holding(_NAMELESS, "at the top level"),
+            )
     for link in robot.links:
-        for visual in link.visuals:
-            if visual.material is not None and _is_nameless(visual.material):
-                yield Problem(
-                    link,
-                    f"a <material> of link '{link.name}' has no name, at which urdfdom drops the "
-                    'visual and the collisions of the link; write name="…"',
-                    at=visual.material.element,
-                )
+        materials = [visual.material for visual in link.visuals if visual.material is not None]
+        nameless = [material for material in materials if _is_nameless(material)]
+        if nameless:
+            what = "a <material>" if len(nameless) == 1 else f"{len(nameless)} <material>s"
+            have = "has" if len(nameless) == 1 else "have"
+            yield Problem(
+                link,
+                f"{what} of link '{link.name}' {have} no name, at which urdfdom drops the "
+                'visuals and the collisions of the link; write name="…"',
+                at=nameless[0].element,
+                effects=holding(_NAMELESS, "in a visual"),
+            )
 
 
 def _is_nameless(material: Material) -> bool:

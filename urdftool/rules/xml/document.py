@@ -8,14 +8,16 @@ from ...source.description import Description
 from ...source.document import Element
 from ..rule import ERROR, WARNING, Problem, rule
 
+_READERS = "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake"
+
 
 @rule(
     ERROR,
     effects={
         "xacro": "rejects the file, as every parser of Python's does",
-        "urdfdom, mujoco, pybullet, drake": (
-            "accept '--' in a comment; reject an element that is not closed"
-        ),
+        f"{_READERS} ('--' in a comment)": "accept it",
+        f"{_READERS} (a wrong declaration)": "ignore the declaration",
+        f"{_READERS} (an element that is not closed)": "reject the file",
     },
 )
 def not_well_formed() -> tuple[Problem, ...]:
@@ -31,15 +33,19 @@ def not_well_formed() -> tuple[Problem, ...]:
 @rule(
     ERROR,
     effects={
-        "urdfdom": "3 (ROS 1, ROS 2 up to Iron) accepts it; 4 and later reject it",
-        "gz, gazebo-classic, mujoco, pybullet, drake": "reject the file",
+        "xacro": "rejects the file, as every parser of Python's does",
+        f"{_READERS} (blanks)": "accept it",
+        "urdfdom (a comment)": "3 (ROS 1, ROS 2 up to Iron) accepts it; 4 and later reject it",
+        "gz, gazebo-classic, mujoco, pybullet, drake (a comment)": "reject the file",
+        f"{_READERS} (other text)": "reject the file",
     },
 )
 def content_before_declaration() -> tuple[Problem, ...]:
     """Something stands before the ``<?xml …?>`` declaration.
 
-    Usually a licence comment. The declaration must be the very first bytes of the file; a robot
-    that loaded with ROS 1 stops loading with ROS 2.
+    Usually a license comment, or an empty line. The declaration must be the very first bytes of the
+    file. Readers in C++ accept blanks before it; xacro and Python do not. With a comment before it,
+    a robot that loaded with ROS 1 stops loading with ROS 2.
     """
     return ()
 

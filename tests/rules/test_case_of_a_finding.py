@@ -1,0 +1,260 @@
+"""What a finding says of readers, and how much it matters, depends on its case."""
+
+import json
+
+import pytest
+
+from urdftool import check
+from urdftool.lint.outcome import Options
+from urdftool.lint.run import lint_file
+from urdftool.lint.settings import Settings
+from urdftool.terminal import json_text
+
+LINK = '<link name="{}"/>'
+JOINT = '<joint name="{}" type="{}"><parent link="{}"/><child link="{}"/>{}</joint>'
+LIMIT = '<limit lower="{}" upper="{}" effort="1" velocity="1"/>'
+BLUE = (
+    '<visual><geometry><box size="1 1 1"/></geometry>'
+    '<material name="blue"><color rgba="0 0 1 1"/></material></visual>'
+)
+
+
+def robot(*parts, root='name="r"'):
+    return f"<robot {root}>{''.join(parts)}</robot>"
+
+
+def one(path, rule, **options):
+    (found,) = check(path, select=[rule], **options)
+    return found
+
+
+def swing(inside, kind="revolute"):
+    return robot(LINK.format("a"), LINK.format("b"), JOINT.format("j", kind, "a", "b", inside))
+
+
+@pytest.mark.parametrize(("rpy", "count"), [("0 0 0", 0), ("0.0 -0 0", 0), ("0 0 0.5", 1)])
+def test_an_axis_turned_by_0_is_not_reported(write, rpy, count):
+    path = write("r.urdf", swing(f'<axis xyz="0 0 1" rpy="{rpy}"/>', "continuous"))
+    assert len(check(path, select=["unknown-attribute"])) == count
+
+
+def test_a_default_is_taken_for_a_misspelt_attribute_that_has_one(write):
+    path = write("r.urdf", swing('<limit lover="-1" upper="1" effort="1" velocity="1"/>'))
+    assert any("default" in says for says in one(path, "unknown-attribute").effects.values())
+    path = write("s.urdf", swing('<limit lower="-1" upper="1" efort="1" velocity="1"/>'))
+    assert list(one(path, "unknown-attribute").effects.values()) == ["ignore it, without a message"]
+
+
+@pytest.mark.parametrize(
+    ("root", "level"), [('name="r"', "error"), ('name="r" xmlns:drake="http://drake"', "info")]
+)
+def test_what_another_reader_alone_reads_is_a_remark_in_its_files(write, root, level):
+    capsule = '<collision><geometry><capsule radius="1" length="1"/></geometry></collision>'
+    path = write("r.urdf", robot(f'<link name="a">{capsule}</link>', root=root))
+    found = one(path, "feature-needs-newer-version")
+    assert found.severity.label == level
+    assert found.effects["urdfdom, gz, gazebo-classic, pinocchio"] == (
+        "drop the collisions of the link"
+    )
+    path = write(
+        "w.urdf", robot(LINK.format("a"), JOINT.format("j", "fixed", "world", "a", ""), root=root)
+    )
+    found = one(path, "unknown-parent-link")
+    assert found.severity.label == level
+    assert "loads the robot" in found.effects["drake"]
+
+
+@pytest.mark.parametrize(
+    ("attributes", "words", "pybullet"),
+    [
+        ("", "neither lower nor upper", "load the joint without limits"),
+        ('upper="1"', "no lower", "take 0"),
+        ('lower="-1"', "no upper", "takes -1"),
+    ],
+)
+def test_bounds_that_are_not_written(write, attributes, words, pybullet):
+    path = write("r.urdf", swing(f'<limit {attributes} effort="1" velocity="1"/>'))
+    found = one(path, "limit-without-bounds")
+    assert words in found.message
+    assert [says for key, says in found.effects.items() if "pybullet" in key] == [pybullet]
+
+
+@pytest.mark.parametrize(
+    ("links", "joints", "gazebo"),
+    [
+        ("a", [("a", "a")], "reject the robot: no root link found"),
+        ("ab", [("b", "b")], "load the robot without"),
+        ("ab", [("a", "b"), ("b", "b")], "crash"),
+        ("abc", [("c", "c")], None),
+    ],
+)
+def test_a_joint_of_a_link_to_itself(write, links, joints, gazebo):
+    parts = [LINK.format(name) for name in links]
+    parts += [JOINT.format(f"j{n}", "fixed", *ends, "") for n, ends in enumerate(joints)]
+    effects = one(write("r.urdf", robot(*parts)), "joint-to-itself").effects
+    said = [says for key, says in effects.items() if "gz" in key]
+    assert said == [] if gazebo is None else said[0].startswith(gazebo)
+
+
+@pytest.mark.parametrize(
+    ("part", "mujoco", "pybullet"),
+    [
+        ('<origin xyz="0 0 0 0"/>', "rejects the file: too much data", "takes the first 3"),
+        ('<origin xyz="0 0"/>', "rejects the file: not enough data", "takes 0 0 0"),
+        ('<axis xyz="0 1"/>', "rejects the file: not enough data", "rejects the robot"),
+    ],
+)
+def test_a_vector_of_a_wrong_length(write, part, mujoco, pybullet):
+    effects = one(write("r.urdf", swing(part, "continuous")), "wrong-arity").effects
+    assert effects["mujoco"] == mujoco
+    assert effects["pybullet"] == pybullet
+    assert effects["urdfdom, gz, gazebo-classic, pinocchio"] == "reject the robot"
+
+
+def test_a_wrong_vector_of_a_visual_and_of_a_color(write):
+    shape = '<visual><geometry><box size="1 1"/></geometry>{}</visual>'
+    path = write("r.urdf", robot(f'<link name="a">{shape.format("")}</link>'))
+    assert one(path, "wrong-arity").effects["mujoco"].startswith("ignores it")
+    color = BLUE.replace("0 0 1 1", "0 0 1")
+    effects = one(write("c.urdf", robot(f'<link name="a">{color}</link>')), "wrong-arity").effects
+    assert effects["mujoco"].startswith("rejects")
+    assert effects["urdfdom, gz, gazebo-classic, pinocchio"] == "load the robot without the color"
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [("1 ", "read it as meant"), ("1kg", "rejects the file"), ("nan", None)],
+)
+def test_mujoco_and_text_that_is_no_number(write, text, says):
+    path = write("r.urdf", swing(LIMIT.format(text, 2)))
+    effects = one(path, "not-a-number").effects
+    assert [effect for key, effect in effects.items() if "mujoco" in key] == [says] * bool(says)
+
+
+@pytest.mark.parametrize(
+    ("start", "case"),
+    [("\n", "accept it"), ("<!-- a -->\n", "reject the file"), ("a ", "reject the file")],
+)
+def test_what_stands_before_the_declaration(write, start, case):
+    path = write("r.urdf", f'{start}<?xml version="1.0"?><robot name="r"><link name="a"/></robot>')
+    found = one(path, "content-before-declaration")
+    assert [says for key, says in found.effects.items() if "mujoco" in key] == [case]
+    assert found.effects["xacro"].startswith("rejects the file")
+
+
+def test_a_link_without_friction_matters_more_than_one_without_a_color(write):
+    foot = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+    text = robot(
+        LINK.format("base"),
+        f'<link name="left_foot">{foot}</link>',
+        f'<link name="arm">{BLUE}</link>',
+        JOINT.format("j", "revolute", "base", "left_foot", LIMIT.format(-1, 1)),
+        JOINT.format("k", "fixed", "base", "arm", ""),
+    )
+    found = check(write("r.urdf", text), select=["missing-gazebo-tags"], targets=["gazebo-classic"])
+    assert [(f.name, f.severity.label, list(f.effects)) for f in found] == [
+        ("left_foot", "warning", ["gz, gazebo-classic"]),
+        ("arm", "info", ["gz"]),
+    ]
+
+
+def test_a_joint_that_its_limits_lock_needs_no_plugin(write):
+    for bounds, count in ((LIMIT.format(0, 0), 0), (LIMIT.format(0, 1), 1)):
+        path = write("r.urdf", swing(bounds))
+        found = check(path, select=["missing-control-plugin"], targets=["gazebo-classic"])
+        assert len(found) == count
+
+
+OLD = (
+    '<gazebo><controller:gazebo_ros_controller_manager xmlns:controller="http://x" '
+    'name="c" plugin="libgazebo_ros_controller_manager.so"/></gazebo>'
+)
+
+
+def test_a_plugin_in_an_attribute_is_a_sign_of_gazebo_classic(write):
+    kp = '<gazebo reference="a"><kp>1e6</kp></gazebo>'
+    line = Settings(select=("no-effect-in-gz", "missing-control-plugin"))
+    moved = swing(LIMIT.format(0, 1)).removesuffix("</robot>")
+    write("package.xml", "<package><name>p</name><build_type>ament_cmake</build_type></package>")
+    report = lint_file(write("r.urdf", f"{moved}{kp}{OLD}</robot>"), Options(line))
+    assert "gazebo-classic" in report.targets
+    assert report.findings == []
+    report = lint_file(write("s.urdf", f"{moved}{kp}</robot>"), Options(line))
+    assert [(f.rule, f.severity.label) for f in report.findings] == [
+        ("missing-control-plugin", "warning"),
+        ("no-effect-in-gz", "info"),
+    ]
+
+
+@pytest.mark.parametrize(("name", "count"), [("caster_1", 0), ("suspension", 0), ("elbow", 1)])
+def test_what_is_passive_by_its_name_needs_no_transmission(write, name, count):
+    text = robot(
+        LINK.format("a"),
+        LINK.format("b"),
+        JOINT.format(name, "continuous", "a", "b", ""),
+        '<gazebo><plugin name="c" filename="libgazebo_ros_control.so"/></gazebo>',
+    )
+    found = check(
+        write("r.urdf", text), select=["actuated-joint-without-transmission"], targets=["ros1"]
+    )
+    assert len(found) == count
+
+
+XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" {}>{}<link name="a"/></robot>'
+
+
+def test_a_file_that_an_argument_names_is_to_be_given(write):
+    inside = '<xacro:arg name="part" default="none.xacro"/><xacro:include filename="$(arg part)"/>'
+    path = write("r.urdf.xacro", XACRO.format('name="r"', inside))
+    assert "give part:=FILE" in one(path, "include-not-found").message
+    found = one(path, "include-not-found", args={"part": "gone.xacro"})
+    assert ":=FILE" not in found.message
+    fixed = XACRO.format('name="r"', '<xacro:include filename="gone.xacro"/>')
+    assert ":=FILE" not in one(write("s.urdf.xacro", fixed), "include-not-found").message
+
+
+def test_an_argument_of_the_root_cannot_be_declared_in_it(write):
+    inside = '<xacro:arg name="who" default="x"/>'
+    found = one(write("r.urdf.xacro", XACRO.format('name="$(arg who)"', inside)), "undeclared-arg")
+    assert "give who:=VALUE" in found.message
+    assert "declare it" not in found.message
+    (found,) = check("r.urdf.xacro", select=["undeclared-arg"], fixes=True)
+    assert found.fix is None
+
+
+def test_a_placeholder_has_no_links_on_purpose(write):
+    assert check(write("r.urdf", "<robot><!-- nothing --></robot>"), select=["no-links"]) == []
+    assert len(check(write("s.urdf", '<robot name="r"/>'), select=["no-links"])) == 1
+    material = '<robot><material name="red"><color rgba="1 0 0 1"/></material></robot>'
+    assert len(check(write("t.urdf", material), select=["no-links"])) == 1
+
+
+def test_a_brace_that_lost_its_dollar_in_plain_urdf(write):
+    found = one(write("r.urdf", robot('<link name="{side}_arm"/>')), "unexpanded-expression")
+    assert "xmlns" not in found.message
+    assert "namespace" not in found.message
+    found = one(write("s.urdf", robot('<link name="${side}_arm"/>')), "unexpanded-expression")
+    assert "namespace" in found.message
+
+
+def test_nameless_materials_of_a_link_are_one_finding(write):
+    visual = BLUE.replace(' name="blue"', "")
+    path = write("r.urdf", robot(f'<link name="a">{visual}{visual}</link>'))
+    found = one(path, "nameless-material")
+    assert found.message.startswith("2 <material>s")
+    assert found.effects["pybullet"] == "rejects the robot"
+
+
+def test_a_binary_stl_by_another_ending_is_renamed(write):
+    shape = '<visual><geometry><mesh filename="{}"/></geometry></visual>'
+    path = write("r.urdf", robot(f'<link name="a">{shape.format("a.stlb")}</link>'))
+    found = one(path, "unsupported-mesh-format", targets=["gz"])
+    assert found.message.endswith("rename it to .stl")
+    assert found.effects == {}
+
+
+def test_json_has_no_control_character():
+    text = json_text({"name": "a\u0085b\u009bc\u202ed\x7f", "plain": "é"})
+    assert text.isprintable()
+    assert "é" in text
+    assert json.loads(text) == {"name": "a\u0085b\u009bc\u202ed\x7f", "plain": "é"}
