@@ -8,7 +8,6 @@ results as they are. Colours, and clearing a line, are what urdftool itself says
 from __future__ import annotations
 
 import io
-import json
 import os
 import re
 import sys
@@ -27,15 +26,6 @@ _CONTROL = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e
 def visible(text: str) -> str:
     """A message, which has no colours, with control characters but a line's end written out."""
     return _CONTROL.sub(lambda match: match[0].encode("unicode_escape").decode(), text)
-
-
-def json_text(value: object, indent: int | None = None) -> str:
-    """Write a value as JSON in which no control character stands as it is.
-
-    JSON escapes those below U+0020 alone; a terminal obeys those of U+0080 to U+009F too.
-    """
-    text = json.dumps(value, indent=indent, ensure_ascii=False)
-    return _CONTROL.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
 def shown(data: bytes) -> bytes:

@@ -4,11 +4,12 @@ import json
 
 import pytest
 
+from tests.conftest import FIXTURES
 from urdftool import check
 from urdftool.lint.outcome import Options
 from urdftool.lint.run import lint_file
 from urdftool.lint.settings import Settings
-from urdftool.terminal import json_text
+from urdftool.report.json_text import json_text
 
 LINK = '<link name="{}"/>'
 JOINT = '<joint name="{}" type="{}"><parent link="{}"/><child link="{}"/>{}</joint>'
@@ -17,6 +18,9 @@ BLUE = (
     '<visual><geometry><box size="1 1 1"/></geometry>'
     '<material name="blue"><color rgba="0 0 1 1"/></material></visual>'
 )
+
+
+STL = FIXTURES / "meshes" / "cube.stl"
 
 
 def robot(*parts, root='name="r"'):
@@ -224,6 +228,7 @@ def test_an_argument_of_the_root_cannot_be_declared_in_it(write):
 
 def test_a_placeholder_has_no_links_on_purpose(write):
     assert check(write("r.urdf", "<robot><!-- nothing --></robot>"), select=["no-links"]) == []
+    assert len(check(write("e.urdf", "<robot/>"), select=["no-links"])) == 1
     assert len(check(write("s.urdf", '<robot name="r"/>'), select=["no-links"])) == 1
     material = '<robot><material name="red"><color rgba="1 0 0 1"/></material></robot>'
     assert len(check(write("t.urdf", material), select=["no-links"])) == 1
@@ -247,6 +252,7 @@ def test_nameless_materials_of_a_link_are_one_finding(write):
 
 def test_a_binary_stl_by_another_ending_is_renamed(write):
     shape = '<visual><geometry><mesh filename="{}"/></geometry></visual>'
+    write("a.stlb", STL.read_bytes())
     path = write("r.urdf", robot(f'<link name="a">{shape.format("a.stlb")}</link>'))
     found = one(path, "unsupported-mesh-format", targets=["gz"])
     assert found.message.endswith("rename it to .stl")

@@ -8,9 +8,9 @@ from itertools import groupby
 from typing import Any
 
 from ..compare.change import Change
-from ..terminal import json_text
 from .counted import counted
 from .findings import Painter, clean
+from .json_text import json_text
 
 _COLORS = {"added": "green", "removed": "red"}
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..source.document import Element, parse, read_file
 from ..source.location import Call
-from ..terminal import json_text
+from .json_text import json_text
 
 if TYPE_CHECKING:
     from ..source.expansion import Expansion

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from ..finding import Finding
 from ..formats.check import Check, is_faithful
 from ..formats.said import merged
-from ..terminal import json_text
 from .findings_json import finding_record
+from .json_text import json_text
 
 
 def to_json(

@@ -8,7 +8,7 @@ from typing import Any
 from ..extras import EXTRA_OF
 from ..finding import Finding, Fix, Severity
 from ..lint.outcome import Outcome
-from ..terminal import json_text
+from .json_text import json_text
 
 
 def to_json(outcome: Outcome) -> str:

@@ -14,9 +14,9 @@ from ..lint.fingerprint import fingerprint
 from ..lint.outcome import Outcome, Report
 from ..rules import FAMILY_OF, get_rule
 from ..source.location import Call, Place
-from ..terminal import json_text
 from .findings import NOT_CHECKED
 from .findings_words import call_words, clean, remarks, sentence, skipped_rules
+from .json_text import json_text
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}

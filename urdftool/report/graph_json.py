@@ -10,7 +10,7 @@ from ..graph.faults import Fault
 from ..graph.figure import Edge, Figure, Node
 from ..model.elements import Robot
 from ..source.location import Place
-from ..terminal import json_text
+from .json_text import json_text
 
 
 def to_json(robot: Robot, figure: Figure, faults: Iterable[Fault]) -> str:

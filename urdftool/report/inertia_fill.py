@@ -8,10 +8,10 @@ from typing import Any
 from ..inertia.fill import Filling, Refusal
 from ..inertia.tensor import six_numbers
 from ..model.elements import Robot
-from ..terminal import json_text
 from .counted import counted
 from .findings import clean
 from .inertia_robot import place_dict
+from .json_text import json_text
 
 
 def text(filling: Filling) -> str:

@@ -8,9 +8,9 @@ from ..inertia.lump import Lumped
 from ..inertia.rounding import round_properties
 from ..inertia.tensor import MassProperties, six_numbers
 from ..model.elements import Robot
-from ..terminal import json_text
 from .findings import clean
 from .inertia import SIX, numbers
+from .json_text import json_text
 
 _HEADS = ("body", "links", "mass [kg]", "com x", "y", "z [m]", *SIX[:5], "izz [kg m²]")
 

@@ -11,10 +11,10 @@ from ..inertia.link_review import LinkReview
 from ..inertia.rounding import number_text, round_properties
 from ..inertia.tensor import MassProperties, six_numbers
 from ..source.location import Place
-from ..terminal import json_text
 from .counted import counted
 from .findings import Painter, clean
 from .inertia import numbers
+from .json_text import json_text
 
 HEADS = (
     "link",

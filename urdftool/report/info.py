@@ -10,9 +10,9 @@ from typing import Any
 from ..info.counts import Counts, Named
 from ..info.size import Measured
 from ..model.elements import Robot
-from ..terminal import json_text
 from .counted import counted
 from .findings import Painter, clean
+from .json_text import json_text
 
 _MOST = 6
 

@@ -8,9 +8,9 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from ..model.elements import Robot
-from ..terminal import json_text
 from .counted import counted
 from .findings import Painter, clean
+from .json_text import json_text
 
 if TYPE_CHECKING:
     from ..simulation.fault import Fault

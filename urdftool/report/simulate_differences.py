@@ -6,8 +6,8 @@ import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ..terminal import json_text
 from .findings import Painter
+from .json_text import json_text
 from .simulate import _fault, _faults
 
 if TYPE_CHECKING:

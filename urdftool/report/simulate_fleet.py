@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from ..terminal import json_text
 from .findings import Painter, clean
+from .json_text import json_text
 from .simulate import _fault
 
 if TYPE_CHECKING:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Robot
+from ...source.description import Description
 from ...source.document import Element
 from ..gazebo.lumping import is_lumped
 from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, holding, rule
@@ -20,14 +21,14 @@ from ..xml.vocabulary_table import is_for_another_reader, misspelt_children
         "mujoco, drake": "load a model without a body",
     },
 )
-def no_links(robot: Robot) -> Iterator[Problem]:
+def no_links(robot: Robot, description: Description) -> Iterator[Problem]:
     """The robot has no link.
 
     Links are the bodies; without one there is nothing to show or to move. urdfdom, and with it ROS
-    and Gazebo, rejects the robot. A ``<robot>`` without a name and elements is a placeholder that
-    another file includes.
+    and Gazebo, rejects the robot. A ``<robot>`` with a comment and neither name nor element is a
+    placeholder that another file includes.
     """
-    if not robot.name.strip() and not robot.element.children:
+    if not (robot.name.strip() or robot.element.children) and description.document.comments:
         return
     if not robot.links and "link" not in misspelt_children(robot.element).values():
         yield Problem(robot, f"robot '{robot.name}' has no link; write <link name=\"…\"/>")
