@@ -42,7 +42,7 @@ _OPTIONS = (
         default=5.0,
         show_default=True,
         metavar="S",
-        help="The longest it is watched.",
+        help="Maximum simulated time [s].",
     ),
     click.option(
         "--timestep",
@@ -50,22 +50,22 @@ _OPTIONS = (
         default=0.002,
         show_default=True,
         metavar="S",
-        help="Of the engine.",
+        help="Physics time step [s].",
     ),
     click.option(
         "--height",
         type=float,
         metavar="M",
         callback=_finite,
-        help="Of the root above the plane; without it, the lowest point of what collides is just "
-        "above it.",
+        help="Spawn height of the root above the plane [m].  [default: the lowest collision "
+        "geometry is just above it]",
     ),
     click.option(
         "--hold",
         "hold",
         flag_value="all",
         default="all",
-        help="Hold every joint, within its effort: at zero or where --pose says (the default).",
+        help="Hold every joint within its effort limit, at zero or at its --pose (the default).",
     ),
     click.option(
         "--hold-actuated",
@@ -84,22 +84,22 @@ _OPTIONS = (
         multiple=True,
         metavar="JOINT=VALUE",
         callback=name_numbers,
-        help="Where a joint starts and is held, in rad or m. Repeatable.",
+        help="Start and hold a joint at a position [rad or m]. Repeatable.",
     ),
-    click.option("--fixed-base", is_flag=True, help="Nail the root to the world."),
+    click.option("--fixed-base", is_flag=True, help="Fix the root link to the world."),
     click.option(
         "--payload",
         multiple=True,
         metavar="LINK=KG",
         callback=_payloads,
-        help="Load a link, in its centre of mass. Repeatable.",
+        help="Add a point mass [kg] to a link, at its center of mass. Repeatable.",
     ),
     click.option(
         "--slope",
         type=click.FloatRange(-60, 60),
         default=0.0,
         metavar="DEG",
-        help="Let the plane fall along x.",
+        help="Slope of the plane, which falls along x [degrees].",
     ),
     click.option(
         "--friction",
@@ -107,12 +107,12 @@ _OPTIONS = (
         default=1.0,
         show_default=True,
         metavar="MU",
-        help="Where the file gives none.",
+        help="Friction coefficient of links for which the file gives none.",
     ),
     click.option(
         "--self-collision",
         is_flag=True,
-        help="Let links push each other, other than the two of a joint.",
+        help="Let links of the robot push each other, except the two of a joint.",
     ),
     click.option(
         "--trials",
@@ -120,17 +120,19 @@ _OPTIONS = (
         default=1,
         show_default=True,
         metavar="N",
-        help="Spawn it so often; all but the first time tilted and turned.",
+        help="Number of trials; all but the first start with a random tilt (up to 6°) and yaw.",
     ),
-    click.option("--seed", type=int, default=0, show_default=True, help="Of tilts and turns."),
-    click.option("--sweep", is_flag=True, help="Move each joint through its limits, too."),
+    click.option(
+        "--seed", type=int, default=0, show_default=True, help="Seed of the random tilts and yaws."
+    ),
+    click.option("--sweep", is_flag=True, help="Also move each joint through its limits."),
     click.option(
         "--time-limit",
         type=click.FloatRange(0.1, 86400),
         default=60.0,
         show_default=True,
         metavar="S",
-        help="The longest the engine may work.",
+        help="Wall-clock limit for the engine [s].",
     ),
 )
 

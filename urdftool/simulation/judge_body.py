@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..model.elements import Geometry, Mesh, Robot
+from ..model.elements import Geometry, Link, Mesh, Robot
+from ..rules.inertia.density import mass_out_of_line
+from ..source.location import Place
 from .bodies import Bodies, Body, mass_of
 from .extent import extent_of
 from .fault import Fault
@@ -37,16 +39,17 @@ def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
             rule="missing-collision",
             fails=not bodies.nailed,
         )
-    yield from _massless(robot, bodies)
-    told = set()
+    yield from _massless(robot, run)
+    told = {body.name for body in bodies.bodies if not body.mass}
     for number, body in enumerate(bodies.bodies):
         if number == 0 and bodies.nailed:
             continue
         if body.properties is not None and is_impossible(body.properties.inertia):
             told.add(body.name)
-            yield from _tensor(robot, body)
+            yield from _tensor(robot, run, body)
         for name in body.links:
             yield from judge_size(robot, robot.link[name], run)
+    yield from _out_of_line(robot, run)
     yield from _unweighed(robot, bodies)
     yield from _giants(robot, bodies)
     yield from _giant_looks(robot, bodies)
@@ -64,7 +67,9 @@ def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _massless(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
+def _massless(robot: Robot, run: Run) -> Iterator[Fault]:
+    bodies = run.bodies
+    by_name = {body.name: body for body in bodies.bodies}
     loads = {body.parent for body in bodies.bodies if body.mass}
     moving = []
     for number, body in enumerate(bodies.bodies):
@@ -77,8 +82,8 @@ def _massless(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
                 robot.link[body.name].place,
                 "link",
                 body.name,
-                "it has no <inertial> with a mass; PyBullet nails such a root to the world, Gazebo "
-                "drops it: give it one, or nail it down with --fixed-base",
+                f"it has no <inertial> with a mass; {_mass_taken(run, body)}: give it one, or fix "
+                "it to the world with --fixed-base",
                 "massless-root-body",
             )
         elif number in loads or any(has_shapes(robot, name) for name in body.links):
@@ -91,8 +96,27 @@ def _massless(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
             robot.link[moving[0]].place,
             "link",
             moving[0],
-            "it has no <inertial> with a mass; engines drop it, or invent a mass",
+            f"it has no <inertial> with a mass; {_mass_taken(run, by_name[moving[0]])}",
             "massless-moving-body",
+        )
+
+
+def _out_of_line(robot: Robot, run: Run) -> Iterator[Fault]:
+    """The one link whose mass alone is several times too large, as lint finds it."""
+    for problem in mass_out_of_line.check(robot):
+        link = problem.subject
+        assert isinstance(link, Link)
+        body = next((body for body in run.bodies.bodies if link.name in body.links), None)
+        if body is None or (body.parent < 0 and run.bodies.nailed):
+            continue
+        place = problem.at if isinstance(problem.at, Place) else link.place
+        yield Fault(
+            "mass-out-of-line",
+            problem.message,
+            place,
+            "link",
+            link.name,
+            rule="mass-out-of-line",
         )
 
 
@@ -155,7 +179,7 @@ def is_impossible(tensor: Array) -> bool:
     return not possible
 
 
-def _tensor(robot: Robot, body: Body) -> Iterator[Fault]:
+def _tensor(robot: Robot, run: Run, body: Body) -> Iterator[Fault]:
     """The link that makes the tensor of its body impossible."""
     bad = [
         link
@@ -166,17 +190,18 @@ def _tensor(robot: Robot, body: Body) -> Iterator[Fault]:
     own = mass_of(link)
     tensor = own.inertia if bad and own is not None else np.zeros((3, 3))
     low, middle, high = np.linalg.eigvalsh(tensor).tolist()
+    taken = _tensor_taken(run, body)
     if high <= 0 and low >= 0:
         said = f"is zero, and it weighs {body.mass:.4g} kg"
-        why = "nothing resists its turning; PyBullet then never turns it"
+        why = f"nothing resists its turning; {taken}"
         rule = "zero-inertia"
     elif low < -1e-9 * abs(high):
         said = f"has a principal moment of {low:.3g} kg·m²"
-        why = "every principal moment is above zero; PyBullet takes such a tensor for zero"
+        why = f"every principal moment is above zero; {taken}"
         rule = "inertia-not-positive-definite"
     else:
         said = f"breaks the triangle inequality: {high:.3g} > {low:.3g} + {middle:.3g} kg·m²"
-        why = "no body has such a tensor; PyBullet takes it for zero, and the link does not turn"
+        why = f"no body has such a tensor; {taken}"
         rule = "inertia-triangle-inequality"
     part = link.inertial.inertia or link.inertial if link.inertial is not None else link
     yield Fault(
@@ -188,6 +213,26 @@ def _tensor(robot: Robot, body: Body) -> Iterator[Fault]:
         why,
         rule,
     )
+
+
+def _mass_taken(run: Run, body: Body) -> str:
+    """What the engine that ran did with a body without mass."""
+    library = run.recording.library
+    for part in run.recording.read_back:
+        if part.name == body.name and part.what == "mass":
+            return f"{library} simulated a mass of {part.got}"
+    if body.parent < 0 and library == "PyBullet":
+        return "PyBullet holds such a root where it starts"
+    return f"{library} simulated it with none, or next to none"
+
+
+def _tensor_taken(run: Run, body: Body) -> str:
+    """What the engine that ran took instead of an impossible tensor."""
+    library = run.recording.library
+    for part in run.recording.read_back:
+        if part.name == body.name and part.what == "principal moments":
+            return f"{library} simulated principal moments of {part.got}"
+    return f"{library} simulated it as written"
 
 
 def _giants(robot: Robot, bodies: Bodies) -> Iterator[Fault]:

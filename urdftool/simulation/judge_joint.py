@@ -57,7 +57,7 @@ def judge_joints(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
             rule="zero-outside-limits",
             fails=False,
         )
-    if not recording.engine.startswith("MuJoCo"):  # which closes them
+    if recording.library != "MuJoCo":  # which closes them
         yield from _open(robot)
 
 
@@ -148,7 +148,7 @@ def _why_idle(run: Run, column: int) -> str:
     """Why a joint does not go where it is held, though it could use more effort."""
     body = run.bodies.bodies[column + 1]
     if body.properties is not None and is_impossible(body.properties.inertia):
-        return f"link '{body.name}' has an inertia that no body has, and is not turned by it"
+        return f"link '{body.name}' has a physically inconsistent inertia"
     return "it is blocked, or moves too slowly to be there in time"
 
 

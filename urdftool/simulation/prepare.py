@@ -48,7 +48,7 @@ def check_settings(robot: Robot, settings: Settings) -> None:
 
             near = get_close_matches(name, list(robot.link), 1, 0.5)
             hint = f"did you mean '{near[0]}'?" if near else "see 'urdftool graph'"
-            raise ModelError(f"the robot has no link '{name}' to load; {hint}")
+            raise ModelError(f"--payload: the robot has no link '{name}'; {hint}")
 
 
 def _unable(robot: Robot) -> Iterator[Finding]:

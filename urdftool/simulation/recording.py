@@ -103,3 +103,8 @@ class Recording:
     ended: str = "time"
     seconds: float = 0.0
     steps: int = 0
+
+    @property
+    def library(self) -> str:
+        """The name of the engine without its version: ``PyBullet`` or ``MuJoCo``."""
+        return self.engine.partition(" ")[0]

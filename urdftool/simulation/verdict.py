@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ..model.elements import Robot
 from .fault import Fault
@@ -45,9 +45,26 @@ class Verdict:
 def judge(robot: Robot, run: Run) -> Verdict:
     """Judge one trial."""
     rest = rest_of(run)
-    faults = list(_faults(robot, run, rest))
+    faults = [_caused(run, fault) for fault in _faults(robot, run, rest)]
     faults.sort(key=lambda fault: not fault.fails)
     return Verdict(run, rest, faults)
+
+
+_CONSEQUENCES = frozenset(
+    {"blew-up", "fell-through", "tipped-over", "leans", "slid", "sank-in", "not-settled"}
+)
+"""Kinds of what a free root without mass may do, whatever else the file says."""
+
+
+def _caused(run: Run, fault: Fault) -> Fault:
+    """The fault with the cause that is known before it: a root that has no mass."""
+    root = run.bodies.bodies[0]
+    if root.mass or run.bodies.nailed or fault.kind not in _CONSEQUENCES:
+        return fault
+    cause = (
+        f"the root, link '{root.name}', has no mass, so contacts and joints have nothing to push"
+    )
+    return replace(fault, cause=cause, rule="massless-root-body")
 
 
 def _faults(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:

@@ -46,7 +46,7 @@ def why_moving(run: Run, drift: float) -> str:
         return "it rolls or slides along the floor"
     velocities = np.abs(np.nan_to_num(recording.velocities[-1]))
     slow = velocities[:, :3].max() < CREEPS * run.bodies.size and velocities[:, 3:].max() < TURNS
-    if slow and not recording.engine.startswith("MuJoCo"):
+    if slow and recording.library == "PyBullet":
         return "it creeps, which may be the engine's contacts: --engine mujoco has others"
     return "parts push against each other, or it rolls"
 
