@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 from urdftool.drawing.camera import Camera
-from urdftool.drawing.contact_sheet import contact_sheet, layout_of, position_text, sweeps_of
+from urdftool.drawing.contact_sheet import (
+    contact_sheet,
+    layout_of,
+    position_text,
+    shown_links,
+    sweeps_of,
+)
 from urdftool.drawing.lettering import Words, lettered, shown
 from urdftool.drawing.shapes import robot_shapes
 
@@ -154,3 +160,61 @@ def test_no_joint_and_no_shape(tmp_path):
     assert contact_sheet(still, robot_shapes(still)).ndim == 3
     empty = read(tmp_path, link("a"), link("b"), joint("j", "a", "b"))
     assert contact_sheet(empty, robot_shapes(empty), cell=(64, 48)).ndim == 3
+
+
+def _cells(image, count, cell):
+    layout = layout_of(count, cell)
+    for number in range(count):
+        left, top = layout.place(number)
+        for side in (0, 1):
+            column = left + side * (cell[0] + 6)
+            yield image[top + layout.caption :][: cell[1], column : column + cell[0]]
+
+
+def test_limits_a_full_turn_apart_show_the_joint_at_90_degrees(tmp_path):
+    most = {"all_around": 6.2832, "half": 3.14159, "less": 3.0}
+    joints = [
+        joint(name, "a", name).replace('lower="-1" upper="2"', f'lower="-{end}" upper="{end}"')
+        for name, end in most.items()
+    ]
+    robot = read(tmp_path, link("a", SMALL), *(link(name, SMALL) for name in most), *joints)
+    ends = {sweep.joint.name: sweep.ends for sweep in sweeps_of(robot)}
+    right = math.pi / 2
+    assert ends == {"all_around": (-right, right), "half": (-right, right), "less": (-3.0, 3.0)}
+
+
+def test_a_joint_that_moves_no_shape_has_no_row(tmp_path):
+    links = [link("a", SMALL), link("b", SMALL), link("c")]
+    joints = joint("one", "a", "b", "continuous", ""), joint("two", "b", "c", "continuous", "")
+    robot = read(tmp_path, *links, *joints)
+    shapes = robot_shapes(robot)
+    sweeps = sweeps_of(robot, shown=shown_links(shapes))
+    assert [sweep.joint.name for sweep in sweeps] == ["one"]
+    layout = layout_of(1, (96, 80))
+    assert contact_sheet(robot, shapes, cell=(96, 80)).shape[:2] == (layout.height, layout.width)
+
+
+def test_what_is_hidden_shines_through(tmp_path):
+    """A wheel inside a box, which no side shows."""
+    links = [
+        link("base", visual(BOX.format("1 1 1"), "0.5 0.5 0.5 1")),
+        link("wheel", visual(BOX.format("0.5 0.5 0.5"), "0.5 0.5 0.5 1")),
+    ]
+    robot = read(tmp_path, *links, joint("turn", "base", "wheel", "continuous", ""))
+    image = contact_sheet(robot, robot_shapes(robot), cell=(120, 100))
+    for cell in _cells(image, 1, (120, 100)):
+        red, blue = cell[..., 0].astype(int), cell[..., 2].astype(int)
+        assert (red > blue + 40).sum() > 300
+
+
+def test_the_side_is_taken_that_shows_what_moves(tmp_path):
+    """A flap behind a wall, seen from behind."""
+    links = [
+        link("wall", visual(BOX.format("0.1 2 2"), "0.5 0.5 0.5 1")),
+        link("flap", visual(BOX.format("0.05 0.6 0.6"), "0.5 0.5 0.5 1")),
+    ]
+    swing = joint("swing", "wall", "flap", "continuous", "", "1 0 0", "-0.3 0 0")
+    robot = read(tmp_path, *links, swing)
+    image = contact_sheet(robot, robot_shapes(robot), cell=(120, 100))
+    for cell in _cells(image, 1, (120, 100)):
+        assert orange(cell).sum() > 300

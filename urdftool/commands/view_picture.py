@@ -218,13 +218,14 @@ def _write_sheet(
     camera: Camera | None,
     cell: tuple[int, int] | None,
 ) -> None:
-    from ..drawing.contact_sheet import contact_sheet, layout_of, sweeps_of
+    from ..drawing.contact_sheet import contact_sheet, layout_of, shown_links, sweeps_of
     from ..drawing.png_file import png
     from ..errors import ModelError
 
-    sweeps = sweeps_of(robot)
+    sweeps = sweeps_of(robot, shown=shown_links(shapes))
     if not sweeps:
-        raise ModelError("no joint of the robot moves; --picture draws it", at=robot.place)
+        what = "moves a shape" if sweeps_of(robot) else "moves"
+        raise ModelError(f"no joint of the robot {what}; --picture draws it", at=robot.place)
     layout = layout_of(len(sweeps), cell)
     if layout.width * layout.height > _MOST:
         raise click.UsageError(

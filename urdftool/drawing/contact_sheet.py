@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..model.elements import Joint, Robot
 from ..model.kinematics import limits_of, link_poses, movable_joints, with_mimics
-from ..model.pose import Pose
 from .camera import Camera, View
 from .lettering import Words, lettered
-from .picture import draw, view_of
+from .picture import view_of
 from .png_file import Image
-from .points import extent, middle
+from .points import extent
 from .raster import Indices
 from .shapes import Shapes
+from .visibility import Cloud, best_camera, draw_through
 
 TURN = math.pi / 2
 """How far a joint without limits is turned [rad]."""
@@ -27,7 +27,8 @@ _PAPER = (250, 250, 251)
 _GREY, _FADED = np.array([0.80, 0.81, 0.82]), 0.82
 _CHILD, _AFTER = np.array([0.95, 0.42, 0.10]), np.array([0.97, 0.68, 0.42])
 _MARGIN, _GAP = 16, 6
-_ASIDE = 0.1  # of the robot's size
+_HIGH = math.radians(55.0)  # how high a camera stands that looks down
+_FULL = 2 * math.pi - math.radians(2.0)  # limits as far apart show a joint twice in one place
 _SHAPE = 1.35  # width over height that a sheet is to have
 
 
@@ -38,7 +39,7 @@ class Sweep:
     Attributes:
         joint: It.
         ends: Both positions.
-        bounded: Whether these are its limits; otherwise it has none.
+        bounded: Whether these are its limits; otherwise it has none, or may turn all around.
         followers: Joints that mimic it.
     """
 
@@ -48,12 +49,17 @@ class Sweep:
     followers: tuple[str, ...]
 
 
-def sweeps_of(robot: Robot, *, slide: float = 0.1) -> list[Sweep]:
+def sweeps_of(
+    robot: Robot, *, slide: float = 0.1, shown: Collection[str] | None = None
+) -> list[Sweep]:
     """The joints that move on their own, in the order of the file; what mimics follows.
+
+    A joint without limits, or with limits a full turn apart, is turned by 90° to either side.
 
     Args:
         robot: The robot.
         slide: How far a prismatic joint without limits is moved [m].
+        shown: Links with triangles; joints that move none of them are left out. None keeps all.
     """
     movable = movable_joints(robot)
     leaders = {
@@ -67,11 +73,20 @@ def sweeps_of(robot: Robot, *, slide: float = 0.1) -> list[Sweep]:
             continue
         lower, upper = limits_of(joint)
         bounded = math.isfinite(lower) and math.isfinite(upper)
+        if joint.type != "prismatic" and upper - lower >= _FULL:
+            bounded = False
         reach = slide if joint.type == "prismatic" else TURN
         ends = (lower, upper) if bounded else (-reach, reach)
         followers = tuple(other for other in leaders if _leader(other, leaders) == name)
-        sweeps.append(Sweep(joint, ends, bounded, followers))
+        sweep = Sweep(joint, ends, bounded, followers)
+        if shown is None or not _moved(robot, sweep).isdisjoint(shown):
+            sweeps.append(sweep)
     return sweeps
+
+
+def shown_links(shapes: Shapes) -> set[str]:
+    """The links that have triangles."""
+    return {shapes.links[row] for row in np.unique(shapes.link)}
 
 
 def contact_sheet(
@@ -85,15 +100,16 @@ def contact_sheet(
 ) -> Image:
     """Two pictures a joint, at its lower and its upper limit, side by side, with its name.
 
-    The link that it moves is drawn in a strong colour, what hangs on that in a lighter one, the
-    rest in grey. Both pictures of a joint are taken from one place.
+    The link that it moves is drawn in a strong color, its descendants in a lighter one, the rest in
+    gray; where the rest hides them, they shine through it. Both pictures of a joint are taken from
+    one place. Joints that move no triangle are left out.
 
     Args:
         robot: The robot.
         shapes: Its shapes.
         positions: Where the other joints are [rad, m]; at zero without it. Mimics follow.
-        camera: Where the pictures are taken from; without it, from the side of the robot on which
-            the links are that the joint moves.
+        camera: Where the pictures are taken from; without it, from where most of the links is
+            visible that the joint moves.
         cell: Width and height of one picture in pixels; by the number of joints without it.
         progress: Told of each joint before it is drawn: its number, how many, its name.
 
@@ -105,12 +121,16 @@ def contact_sheet(
     corners, _, there = shapes.posed(link_poses(robot, with_mimics(robot, given)))
     seen = corners[there].reshape(-1, 3)
     size = extent(seen) if len(seen) else 1.0
-    sweeps = sweeps_of(robot, slide=_SLIDE * size)
+    sweeps = sweeps_of(robot, slide=_SLIDE * size, shown=shown_links(shapes))
+    left_out = len(sweeps_of(robot)) - len(sweeps)
+    cloud = Cloud(shapes)
     layout = layout_of(len(sweeps), cell)
     page = np.full((layout.height, layout.width, 3), 255, np.uint8)
     page[:] = _PAPER
     title = robot.name or "robot"
     count = f"{len(sweeps)} joint{'' if len(sweeps) == 1 else 's'}" if sweeps else "no joint moves"
+    if left_out:
+        count += f"; {left_out} more move{'s' if left_out == 1 else ''} no shape"
     words = [
         Words(
             f"{title}: {count}", (_MARGIN, _MARGIN), layout.width - 2 * _MARGIN, layout.letter + 4
@@ -120,7 +140,8 @@ def contact_sheet(
         progress(number + 1, len(sweeps), sweep.joint.name)
         left, top = layout.place(number)
         words += _captions(sweep, left, top, layout)
-        for side, image in enumerate(_pair(robot, shapes, sweep, given, camera, layout.cell)):
+        pair = _pair(robot, shapes, cloud, sweep, given, camera, layout.cell)
+        for side, image in enumerate(pair):
             row, column = top + layout.caption, left + side * (layout.cell[0] + _GAP)
             page[row : row + layout.cell[1], column : column + layout.cell[0]] = image
     return lettered(page, words)
@@ -215,6 +236,7 @@ def _leader(name: str, leaders: Mapping[str, str]) -> str | None:
 def _pair(
     robot: Robot,
     shapes: Shapes,
+    cloud: Cloud,
     sweep: Sweep,
     given: Mapping[str, float],
     camera: Camera | None,
@@ -222,6 +244,8 @@ def _pair(
 ) -> list[Image]:
     """A joint at both ends, from one place."""
     painted = _painted(robot, shapes, sweep)
+    moved = np.zeros(len(shapes), dtype=bool)
+    moved[_rows(shapes, _moved(robot, sweep))] = True
     free = {k: v for k, v in given.items() if k not in sweep.followers}
     at = [
         link_poses(robot, with_mimics(robot, {**free, sweep.joint.name: end})) for end in sweep.ends
@@ -231,32 +255,21 @@ def _pair(
         corners, _, there = shapes.posed(poses)
         both.append(corners[there])
     if camera is None:
-        camera = _facing(painted, at[0], robot, sweep)
+        camera = best_camera(cloud, at, moved, _cameras())
     lowest = min((float(some[..., 2].min()) for some in both if len(some)), default=0.0)
     view: View = view_of(np.concatenate(both), camera, cell)
-    return [draw(painted, poses, camera=view, ground=lowest) for poses in at]
+    return [draw_through(painted, poses, moved, view=view, ground=lowest) for poses in at]
 
 
-def _facing(shapes: Shapes, poses: Mapping[str, Pose], robot: Robot, sweep: Sweep) -> Camera:
-    """The camera on the side of the robot on which the links are that a joint moves."""
-    corners, _, there = shapes.posed(poses)
-    moved = np.zeros(len(shapes), dtype=bool)
-    moved[_rows(shapes, _moved(robot, sweep))] = True
-    camera = Camera()
-    if not (moved & there).any():
-        return camera
-    points = corners[there].reshape(-1, 3)
-    size = extent(points)
-    aside = middle(corners[moved & there].reshape(-1, 3)) - middle(points)
-
-    def nearness(azimuth: float) -> float:
-        return math.cos(azimuth) * float(aside[0]) + math.sin(azimuth) * float(aside[1])
-
-    sides = (camera.azimuth, -camera.azimuth, math.pi + camera.azimuth, math.pi - camera.azimuth)
-    best = max(sides, key=nearness)
-    # only where it is clearly on another side
-    usual = nearness(best) - nearness(camera.azimuth) < _ASIDE * size
-    return camera if usual else replace(camera, azimuth=best)
+def _cameras() -> list[Camera]:
+    """The sides from which a joint may be shown, the usual one first."""
+    usual = Camera()
+    around = [usual.azimuth + turn * math.pi / 4 for turn in (0, 2, -2, 4, 1, -1, 3, -3)]
+    return [
+        replace(usual, azimuth=azimuth, elevation=elevation)
+        for elevation in (usual.elevation, _HIGH)
+        for azimuth in around
+    ]
 
 
 def _moved(robot: Robot, sweep: Sweep) -> set[str]:
@@ -285,7 +298,7 @@ def _rows(shapes: Shapes, names: set[str]) -> Indices:
 
 def _captions(sweep: Sweep, left: int, top: int, layout: Layout) -> list[Words]:
     joint, letter = sweep.joint, layout.letter
-    kind = joint.type if sweep.bounded else f"{joint.type}, no limits"
+    kind = joint.type if sweep.bounded else f"{joint.type}, {_unbounded(joint)}"
     if sweep.followers:
         kind += f", {len(sweep.followers)} mimic{'s' if len(sweep.followers) == 1 else ''}"
     wide = 2 * layout.cell[0] + _GAP
@@ -296,6 +309,13 @@ def _captions(sweep: Sweep, left: int, top: int, layout: Layout) -> list[Words]:
         text = f"{label} {position_text(joint, end)}"
         words.append(Words(text, at, layout.cell[0], max(letter - 2, 10), (105, 110, 120)))
     return words
+
+
+def _unbounded(joint: Joint) -> str:
+    lower, upper = limits_of(joint)
+    if not (math.isfinite(lower) and math.isfinite(upper)):
+        return "no limits"
+    return f"limits {math.degrees(lower):.4g}° to {math.degrees(upper):.4g}°"
 
 
 def position_text(joint: Joint, value: float) -> str:
