@@ -189,3 +189,29 @@ def test_a_robot_is_equal_to_itself():
         except UrdftoolError:
             continue
         assert said(model, again) == [], path
+
+
+def test_elements_told_apart_by_a_name_show_both_names():
+    block = (
+        '<ros2_control name="c" type="system"><hardware><port name="/dev/{}"><baud>1</baud></port>'
+        "{}</hardware></ros2_control>"
+    )
+    a = of(more=block.format("47090", ""))
+    b = of(more=block.format("47093", '<led name="x"/>'))
+    found = {(change.what, change.before, change.after) for change in compare(a, b)}
+    assert found == {
+        ("hardware/port", "/dev/47090", "/dev/47093"),
+        ("hardware/led[x] added", None, None),
+    }
+
+
+def test_several_new_names_are_not_paired():
+    block = '<gazebo><plugin name="p" filename="f">{}</plugin></gazebo>'
+    a = of(more=block.format('<j name="1"/>'))
+    b = of(more=block.format('<j name="2"/><j name="3"/>'))
+    found = {change.what for change in compare(a, b)}
+    assert found == {
+        "plugin[p]/j[1] removed",
+        "plugin[p]/j[2] added",
+        "plugin[p]/j[3] added",
+    }

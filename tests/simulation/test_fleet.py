@@ -131,7 +131,7 @@ def test_a_folder_is_one_table(fleet):
     ]
     assert "stands" in lines[0]
     assert "nothing-touches" in lines[1]
-    assert lines[2] == "3 robots: 1 stand, 1 do not, 1 skipped"
+    assert lines[2] == "3 robots: 1 stand, 1 do not stand, 1 skipped"
 
 
 def test_a_robot_that_cannot_be_tried_is_a_row(fleet, tmp_path):

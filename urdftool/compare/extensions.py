@@ -47,12 +47,48 @@ def _changes(
         yield Change(tag, name, what, place=(two or one or [])[0].place)
         return
     before, after = _flat(one, renamed), _flat(two, {})
+    for path, old_name, new_name in _renamings(before, after):
+        place = after[f"{path}[{new_name}]"][1].place
+        yield Change(tag, name, path, old_name, new_name, place=place)
+        _move(after, f"{path}[{new_name}]", f"{path}[{old_name}]")
     for path in dict.fromkeys((*before, *after)):
         x, y = before.get(path), after.get(path)
+        if (x is None or y is None) and not (x or y or ("",))[0]:
+            side = x or y
+            what = f"{path} {'added' if x is None else 'removed'}"
+            yield Change(tag, name, what, place=side[1].place if side else None)
+            continue
         old, new = (None if side is None else side[0] for side in (x, y))
         if not _same(old, new, tolerance, renamed):
             side = y or x
             yield Change(tag, name, path, old, new, place=side[1].place if side else None)
+
+
+def _renamings(before: Flat, after: Flat) -> Iterator[tuple[str, str, str]]:
+    """Elements whose name alone changed: the path without it, and both names.
+
+    That is where one element of a tag is gone from a place, and another one of it is new there.
+    """
+    gone, new = (_by_tag(one, other) for one, other in ((before, after), (after, before)))
+    for path, names in gone.items():
+        if len(names) == 1 and len(new.get(path, ())) == 1:
+            yield path, names[0], new[path][0]
+
+
+def _by_tag(one: Flat, other: Flat) -> dict[str, list[str]]:
+    """The names of elements that are in one robot alone, by their path without the name."""
+    found: dict[str, list[str]] = {}
+    for path in one:
+        start, mark, end = path.rpartition("[")
+        if mark and end.endswith("]") and path not in other:
+            found.setdefault(start, []).append(end.removesuffix("]"))
+    return found
+
+
+def _move(flat: Flat, path: str, to: str) -> None:
+    """Give an element and what is below it another path."""
+    for known in [known for known in flat if known == path or known.startswith(f"{path}/")]:
+        flat[to + known.removeprefix(path)] = flat.pop(known)
 
 
 def _same(a: str | None, b: str | None, tolerance: float, renamed: Mapping[str, str]) -> bool:

@@ -40,7 +40,8 @@ def summary(rows: Sequence[Row]) -> str:
     """How many of each there are."""
     counts = {
         "stand": sum(row.stands is True for row in rows),
-        "do not": sum(row.stands is False for row in rows),
+        "stand with model errors": sum(row.stands is False and not row.fell for row in rows),
+        "do not stand": sum(row.fell for row in rows),
         "could not be tried": sum(row.error is not None for row in rows),
         "skipped": sum(bool(row.skipped) for row in rows),
     }
@@ -55,7 +56,7 @@ def _word(row: Row) -> tuple[str, str]:
         return "skipped", "yellow"
     if row.stands:
         return "stands", "green"
-    return ("does not stand" if any(fault.fell for fault in row.faults) else "stands, but"), "red"
+    return ("does not stand" if row.fell else "stands, but"), "red"
 
 
 def _what(row: Row) -> str:

@@ -60,6 +60,11 @@ class Row:
     engine: str = ""
     seconds: float = 0.0
 
+    @property
+    def fell(self) -> bool:
+        """Whether it does not stand in the plain sense; an error in its file alone is not that."""
+        return any(fault.fell for fault in self.faults)
+
 
 def row_of(path: str, name: str, verdicts: Sequence[Verdict], more: Sequence[Fault] = ()) -> Row:
     """The row of a robot that was judged.

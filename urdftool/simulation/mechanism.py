@@ -28,6 +28,9 @@ LONG = 2.0
 ASKEW = math.radians(5)
 """The angle between the axes of a rod and its cylinder."""
 
+THINNER = 0.8
+"""How wide a rod is at most, as a part of its cylinder."""
+
 OFF_AXIS = 0.25
 """How far the middle of a rod is from the axis of its cylinder, as a part of the thinner one."""
 
@@ -82,12 +85,14 @@ def _slides(start: Moment, between: Sequence[int]) -> bool:
 
 
 def _is_coaxial(start: Moment, ends: tuple[int, int]) -> bool:
-    """Whether two bodies are long, and lie on one axis."""
+    """Whether two bodies are long, one thinner than the other, and lie on one axis."""
     found = [_long_axis(start, number) for number in ends]
     if found[0] is None or found[1] is None:
         return False
     (middle, along, width), (other, direction, thickness) = found[0], found[1]
     if abs(float(along @ direction)) < math.cos(ASKEW):
+        return False
+    if min(width, thickness) > THINNER * max(width, thickness):
         return False
     off = np.linalg.norm(np.cross(other - middle, along))
     return bool(off < OFF_AXIS * min(width, thickness))
