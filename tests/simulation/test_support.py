@@ -116,3 +116,14 @@ def test_without_gravity_nothing_need_carry(write):
     verdict = _judged(write, BOX.replace("</robot>", more))
     assert kinds(verdict) == set()
     assert np.isfinite(verdict.run.recording.poses).all()
+
+
+@pytest.mark.parametrize("engine", ["bullet", "mj"])
+def test_a_collision_without_extent_is_left_out_as_in_an_export(write, engine):
+    flat = '<collision><geometry><box size="0.4 0 0.4"/></geometry></collision></link>'
+    robot = load(write("robot.urdf", BOX.replace("</link>", flat)))
+    (run,) = simulate(robot, Settings(), engine=engine)
+    verdict = judge(robot, run)
+    (fault,) = verdict.faults
+    assert (fault.kind, fault.fails) == ("no-extent", False)
+    assert run.recording.poses[-1, 0, 2] == pytest.approx(0.05, abs=1e-3)

@@ -16,6 +16,7 @@ from .judge_size import has_shapes, judge_size
 from .recording import Array
 from .remembered import mesh_points
 from .run import Run
+from .shapes import is_without_extent
 from .urdf import ROUNDED
 
 LARGEST = 30.0
@@ -39,6 +40,7 @@ def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
             rule="missing-collision",
             fails=not bodies.nailed,
         )
+    yield from _without_extent(robot, run)
     yield from _massless(robot, run)
     told = {body.name for body in bodies.bodies if not body.mass}
     for number, body in enumerate(bodies.bodies):
@@ -65,6 +67,22 @@ def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
             difference.kind,
             difference.name,
         )
+
+
+def _without_extent(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Collisions that were left out, as the exporters leave them out."""
+    for name in (name for body in run.bodies.bodies for name in body.links):
+        for collision in robot.link[name].collisions:
+            if is_without_extent(collision):
+                yield Fault(
+                    "no-extent",
+                    f"a collision of link '{name}' has a length of zero and is left out",
+                    collision.place,
+                    "link",
+                    name,
+                    rule="non-positive-dimension",
+                    fails=False,
+                )
 
 
 def _massless(robot: Robot, run: Run) -> Iterator[Fault]:

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import ModelError, UrdftoolError
+from ..formats.sdf.shapes import has_extent
 from ..meshes.hull import convex_hull, hull_surface
 from ..meshes.mesh import Faces
 from ..meshes.mesh import Mesh as Triangles
@@ -97,10 +98,12 @@ def shapes_of(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shape]
     """The shapes of a link whose frame is at a pose in its body.
 
     Raises:
-        UrdftoolError: A mesh is not found or cannot be read, or a shape has no extent.
+        UrdftoolError: A mesh is not found or cannot be read, or has no extent.
     """
     for number, collision in enumerate(link.collisions, first):
         geometry = collision.geometry
+        if is_without_extent(collision):
+            continue
         pose = at @ pose_of(collision.origin)
         if isinstance(geometry, Mesh):
             pieces, faces = _pieces(robot, collision, geometry)
@@ -128,14 +131,13 @@ def shapes_of(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shape]
                 at=collision.place,
                 rule="unsupported-shape",
             )
-        if not min(size) > 0:
-            raise ModelError(
-                f"a {kind} of link '{link.name}' has a size of {min(size):g} m; nothing of it "
-                "could touch",
-                at=geometry.place,
-                rule="non-positive-dimension",
-            )
         yield Shape(link.name, number, kind, tuple(size), pose=pose)
+
+
+def is_without_extent(collision: Collision) -> bool:
+    """Whether a collision is a primitive with a length of zero or less: nothing can touch it."""
+    geometry = collision.geometry
+    return isinstance(geometry, Box | Sphere | Cylinder | Capsule) and not has_extent(geometry)
 
 
 def _pieces(

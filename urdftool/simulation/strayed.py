@@ -18,7 +18,7 @@ from .moment import Moment
 from .overlap import primitive_triangles
 from .recording import Array
 from .remembered import mesh_points, remembered
-from .shapes import Shape
+from .shapes import Shape, is_without_extent
 from .solid import Solids, hulls
 
 UNLIKE = 0.45
@@ -216,9 +216,10 @@ def _touching(robot: Robot, moment: Moment, body: int, link: str) -> Solids:
 
     def make() -> Solids:
         shapes = [shape for shape in moment.bodies.bodies[body].shapes if shape.link == link]
+        collisions = [c for c in robot.link[link].collisions if not is_without_extent(c)]
         return _union(
             _solids(robot, shape, collision).moved(pose_of(collision.origin))
-            for shape, collision in zip(shapes, robot.link[link].collisions, strict=True)
+            for shape, collision in zip(shapes, collisions, strict=True)
         )
 
     return moment.once(("touching", link), make)

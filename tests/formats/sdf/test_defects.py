@@ -44,9 +44,6 @@ FORCED = {
     "unsupported-shape": (
         link("a", f"{inertial()}<collision><geometry><cone/></geometry></collision>"),
     ),
-    "non-positive-dimension": (
-        link("a", f'{inertial()}<visual><geometry><sphere radius="0"/></geometry></visual>'),
-    ),
     "bad-extension-number": (link("a"), gazebo("a", "<mu1>${mu}</mu1>")),
     "unknown-sensor-type": (link("a"), gazebo("a", '<sensor name="s" type="nose"/>')),
     "plugin-without-filename": (link("a"), '<gazebo><plugin name="p"/></gazebo>'),

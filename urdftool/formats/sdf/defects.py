@@ -17,7 +17,6 @@ from .mass import ROUNDING, shortfall, tensor_of
 from .mesh_files import MeshFiles
 from .plan import Plan
 from .sensor_types import KNOWN
-from .shapes import has_extent
 
 _WANTED = {
     "number": "a finite number",
@@ -113,9 +112,6 @@ def _shapes(link: Link) -> Iterator[Finding]:
             text = f"a {kind} of link '{link.name}' is a <{geometry.element.tag}>"
             text += ", which is no shape of URDF; there are box, cylinder, sphere, capsule and mesh"
             yield defect("unsupported-shape", text, geometry.place, "link", link.name)
-        elif not has_extent(geometry):
-            text = f"a dimension of a {kind} of link '{link.name}' is not above zero"
-            yield defect("non-positive-dimension", text, geometry.place, "link", link.name)
 
 
 def _joint(robot: Robot, joint: Joint) -> Iterator[Finding]:

@@ -43,11 +43,15 @@ def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
     """Whether a shape can be written; what cannot is said."""
     geometry = shape.geometry
     if geometry is None or isinstance(geometry, UnknownShape) or not has_extent(geometry):
-        what = "no geometry" if geometry is None else f"<{geometry.element.tag}>"
+        if geometry is None:
+            what = "has no geometry"
+        elif isinstance(geometry, UnknownShape):
+            what = f"has <{geometry.element.tag}>, which cannot be written"
+        else:
+            what = f"has a <{geometry.element.tag}> without extent"
         t.lose(
             "shape",
-            f"a {shape.element.tag} of link '{link.name}' has {what}"
-            f"{'' if geometry is None else ', which cannot be written'}; it is left out",
+            f"a {shape.element.tag} of link '{link.name}' {what}; it is left out",
             geometry or shape,
             link,
         )
