@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from lxml import etree
@@ -29,7 +30,7 @@ def changed(written: Written, planted: Planted | None) -> Written:
         root = etree.fromstring(written.text.encode())
         planted.edit(root)
         files[written.main] = etree.tostring(root)
-    return Written(written.main, files, written.losses, written.renamed)
+    return replace(written, files=files)
 
 
 def differing(form: str, planted: Planted | None) -> list[Check]:

@@ -35,6 +35,7 @@ CHANGES = (
         both(
             drop(_in(JOINT, "left_wheel_joint")),
             drop("//numeric[@name='left_wheel_joint_velocity_limit']"),
+            drop(_in(ACTUATOR, "left_wheel_joint")),
             drop("//keyframe"),
         ),
     ),

@@ -33,7 +33,7 @@ CHANGES = (
         "base",
         add(
             MODEL,
-            "<joint name='hold' type='fixed'><parent>world</parent><child>base_link</child></joint>",
+            "<joint name='a' type='fixed'><parent>world</parent><child>base_link</child></joint>",
         ),
     ),
     Planted(

@@ -94,6 +94,7 @@ def test_a_change_of_a_welded_joint_is_found(write, tmp_path, old, new, failing)
     written = write_mjcf(robot, Options())
     text, count = re.subn(old, new, written.files[written.main].decode())
     assert count
+    text = re.sub(r"(?s)<keyframe>.*</keyframe>", "", text)  # has a value for each joint
     written.files[written.main] = text.encode()
     write_directory(tmp_path / "m", written.files, main=written.main)
     again = write_mjcf(robot, Options())

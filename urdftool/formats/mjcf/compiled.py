@@ -193,6 +193,21 @@ class Compiled:
         self.mujoco.mj_fwdVelocity(self.model, self.data)
         self.mujoco.mj_camlight(self.model, self.data)
 
+    def pose_at_key(self, key: int) -> None:
+        """Put the model to a key."""
+        self.mujoco.mj_resetDataKeyframe(self.model, self.data, key)
+        self.mujoco.mj_fwdPosition(self.model, self.data)
+        self.mujoco.mj_fwdVelocity(self.model, self.data)
+
+    def positions_of_key(self, key: int) -> dict[str, float]:
+        """Return the position [rad or m] of each hinge and slide in a key, by name."""
+        model, found = self.model, {}
+        for joint in range(model.njnt):
+            if int(model.jnt_type[joint]) in (2, 3):
+                value = model.key_qpos[key][model.jnt_qposadr[joint]]
+                found[self.name("JOINT", joint)] = float(value)
+        return found
+
     def frame(self, link: str) -> Array | None:
         """The pose of a link in the root's frame, 4 × 4; None if it is no body."""
         body = self.body(link)

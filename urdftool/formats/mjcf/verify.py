@@ -22,10 +22,10 @@ from .compiled import Compiled, compile_all, copied
 from .options import Options
 from .verify_contact import contact_check, surface_check
 from .verify_drives import actuator_check
-from .verify_home import home_check
+from .verify_home import base_check, home_check
 from .verify_looks import material_check
 from .verify_loops import compare_loops, loop_ends
-from .verify_physics import base_check, gravity_flag_check, joint_physics_check, option_check
+from .verify_physics import gravity_flag_check, joint_physics_check, option_check
 from .verify_sensors import sensor_check
 from .verify_runs import runs_check
 from .verify_shapes import collision_check, visual_check
@@ -83,10 +83,10 @@ def verify(
         contact_check(source, compiled, said),
         surface_check(source, compiled, said),
         actuator_check(source, compiled, said),
+        home_check(source, compiled, said),
         sensor_check(source, mechanics, compiled, configurations[0], said),
         visual_check(robot, mechanics, compiled, configurations, said),
         material_check(source, compiled, said),
-        home_check(source, compiled, said),
         runs_check(model, said),
         repeat,
     ]

@@ -115,11 +115,9 @@ def _said(source: Source) -> Iterator[tuple[str, tuple[str, float]]]:
     for plugin in source.drive_plugins:
         for element in plugin.walk():
             for name in element.text.replace(",", " ").split():
-                named = source.robot.joint.get(name)
-                if named is not None:
-                    limits = _limits(named)
-                    steers = limits is not None and -7 < limits[0] < limits[1] < 7
-                    yield name, ("position" if steers else "velocity", 1.0)
+                part = source.robot.joint.get(name)
+                if part is not None and part.type in ("revolute", "continuous", "prismatic"):
+                    yield name, ("velocity" if _turns(part) else "position", 1.0)
     for transmission in source.robot.transmissions:
         gears = [a.mechanical_reduction for a in transmission.actuators if a.mechanical_reduction]
         for joint in transmission.joints:
@@ -133,6 +131,12 @@ def _said(source: Source) -> Iterator[tuple[str, tuple[str, float]]]:
             names = [interface.name for interface in component.command_interfaces]
             if names:
                 yield component.name, (_kind(names), 1.0)
+
+
+def _turns(joint: Joint) -> bool:
+    """Whether a joint can turn as wheels do, and does not steer."""
+    limits = _limits(joint)
+    return limits is None or not -7.0 < limits[0] < limits[1] < 7.0
 
 
 def _kind(interfaces: list[str]) -> str:

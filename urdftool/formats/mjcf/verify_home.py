@@ -1,109 +1,208 @@
-"""The key home of MuJoCo's model: within limits, consistent, held, and standing on the floor."""
+"""Where the robot starts: the pose of its root, and the key ``home``."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
 
+from ...model.elements import Joint
+from ...model.read import number, numbers
+from ...source.document import Element
 from ..check import Check
-from ..mechanics import Array
-from .announced import LIMITS, TREE, Said
+from ..mechanics import Array, turn
+from .announced import Said
 from .compiled import Compiled
-from .verify_source import Source
+from .verify_source import Source, is_locked
 
-FLOOR = 2e-6
-"""How far the lowest point of a free robot may be from the floor [m]; heights are rounded."""
+EXACT = 1e-9
+GROUND = 1e-4
+"""How near to the floor the lowest point of a free robot has to be, relative to the robot's size;
+the box of a mesh of many points is not exact."""
 
-MIMIC = 1e-9
+STATES = ("home", "default", "ready", "stand", "standing", "initial", "neutral")
+"""Names of group states that are taken for the home position, in this order."""
 
 
-def home_check(source: Source, compiled: Compiled, said: Said) -> Check:
-    """Check the key home: limits, mimics, controls of servos, and the height of a free base."""
-    check = Check("home", "key home: limits, mimics, controls, lowest point on the floor", FLOOR)
+def base_check(source: Source, compiled: Compiled) -> Check:
+    """Compare whether the root is held, and where it stands."""
+    free = source.is_free
+    what = f"root {'free, on the floor' if free else 'held'}, its pose; no other body"
+    check = Check("base", what, EXACT)
     model = compiled.model
-    key = compiled.id("KEY", "home")
-    if key < 0:
-        check.compare(math.inf, "the model has no key 'home'")
+    root = 0 if source.root == "world" else compiled.body(source.root)
+    if root < 0:
+        check.compare(math.inf, f"root link '{source.root}' is missing")
         return check
-    start = np.array(model.key_qpos[key])
-    for joint in source.robot.joints:
-        number = compiled.id("JOINT", joint.name)
-        if number < 0 or not model.jnt_limited[number]:
-            continue
-        low, high = model.jnt_range[number]
-        position = start[model.jnt_qposadr[number]]
-        off = max(low - position, position - high, 0.0)
-        follows = joint.mimic is not None
-        check.compare(float(off), f"joint '{joint.name}' is beyond its limits", known=follows)
-    for name, off in _mimics(source, compiled, start):
-        known = said.of((*TREE, *LIMITS), name)
-        check.compare(off * FLOOR / MIMIC, f"joint '{name}' is not where it mimics", known=known)
-    _controls(compiled, start, key, check)
-    if source.is_free and any(link.collisions for link in source.robot.links):
-        for what, positions in (("home", start), ("zero", np.array(model.qpos0))):
-            off = abs(_lowest(compiled, positions))
-            check.compare(off, f"lowest point at {what} is not on the floor")
+    first, count = int(model.body_jntadr[root]), int(model.body_jntnum[root])
+    kinds = [int(model.jnt_type[first + k]) for k in range(count)]
+    if kinds != ([int(compiled.mujoco.mjtJoint.mjJNT_FREE)] if free else []):
+        check.compare(math.inf, f"root link '{source.root}' is {'free' if kinds else 'held'}")
+    if root > 0 and model.body_parentid[root] != 0:
+        check.compare(math.inf, f"root link '{source.root}' is not a body of the world")
+    compiled.pose({})
+    if root > 0:
+        _compare_place(source, compiled, free, "the root", check)
+    links = {compiled.body(link.name) for link in source.robot.links}
+    for body in range(1, model.nbody):
+        if body not in links:
+            check.compare(math.inf, f"body '{compiled.name('BODY', body)}' is not a link")
     return check
 
 
-def _mimics(source: Source, compiled: Compiled, start: Array) -> Iterator[tuple[str, float]]:
-    """Followers that are within their limits where they follow, with their distance from there."""
+def home_check(source: Source, compiled: Compiled, said: Said) -> Check:
+    """Compare the key ``home``: limits, mimics, positions that are asked for, controls, floor."""
+    check = Check("home", "limits, mimics, positions asked for, controls, floor", EXACT)
     model = compiled.model
+    key = compiled.id("KEY", "home")
+    if key < 0:
+        check.compare(math.inf, "there is no key 'home'")
+        return check
+    positions = compiled.positions_of_key(key)
+    asked = _asked(source)
+    leaders = {j.mimic.joint for j in source.robot.joints if j.mimic is not None}
     for joint in source.robot.joints:
-        if joint.mimic is None:
+        if joint.name not in positions:
             continue
-        numbers = [compiled.id("JOINT", name) for name in (joint.name, joint.mimic.joint)]
-        if min(numbers) < 0 or numbers[0] == numbers[1]:
-            continue
-        own, led = (float(start[model.jnt_qposadr[number]]) for number in numbers)
-        place = joint.mimic.multiplier * led + joint.mimic.offset
-        if model.jnt_limited[numbers[0]]:
-            low, high = model.jnt_range[numbers[0]]
-            place = min(max(place, float(low)), float(high))
-        yield joint.name, abs(own - place)
+        found = positions[joint.name]
+        known = said.of(("lossy-home", "lossy-limit-inverted", "lossy-mimic"), joint.name)
+        lower, upper = _limits(joint)
+        if lower <= upper:
+            beyond = max(lower - found, found - upper, 0.0)
+            check.compare(beyond, f"joint '{joint.name}' is beyond its limits", known=known)
+        if joint.mimic is not None and joint.mimic.joint in positions:
+            leader = positions[joint.mimic.joint]
+            wanted = joint.mimic.multiplier * leader + joint.mimic.offset
+            off = abs(found - min(max(wanted, lower), upper) if lower < upper else found - wanted)
+            check.compare(off, f"joint '{joint.name}' does not follow '{joint.mimic.joint}'")
+        elif joint.mimic is None and joint.name not in leaders:
+            wanted = asked.get(joint.name, 0.0)
+            wanted = min(max(wanted, lower), upper) if lower <= upper else wanted
+            check.compare(abs(found - wanted), f"joint '{joint.name}' is at {found:g}", known=known)
+    for index in range(model.nu):
+        joint = compiled.name("JOINT", int(model.actuator_trnid[index][0]))
+        serves = float(model.actuator_biasprm[index][1]) != 0  # position is fed back
+        wanted = positions.get(joint, 0.0) if serves else 0.0
+        off = abs(float(model.key_ctrl[key][index]) - wanted)
+        check.compare(off, f"control of joint '{joint}'")
+    if np.any(model.key_qvel[key]) or np.any(model.key_act[key]):
+        check.compare(math.inf, "the robot moves")
+    compiled.pose_at_key(key)
+    if source.is_free:
+        _compare_place(source, compiled, True, "the root", check)
+    return check
 
 
-def _controls(compiled: Compiled, start: Array, key: int, check: Check) -> None:
-    """Compare the control of a servo with the position of its joint; that of others with zero."""
-    model = compiled.model
-    for number in range(model.nu):
-        joint = int(model.actuator_trnid[number][0])
-        servo = model.actuator_biastype[number] == 1 and model.actuator_biasprm[number][1] != 0
-        wanted = float(start[model.jnt_qposadr[joint]]) if servo else 0.0
-        off = abs(float(model.key_ctrl[key][number]) - wanted)
-        check.compare(off, f"control of '{compiled.name('ACTUATOR', number)}'")
+def _compare_place(source: Source, compiled: Compiled, free: bool, what: str, check: Check) -> None:
+    """Compare the pose of the root; a free one stands on the floor."""
+    root = max(compiled.body(source.root), 0)
+    place, rotation = _origin(source)
+    found = np.array(compiled.data.xpos[root])
+    low, size = lowest_point(compiled)
+    count = 2 if free and math.isfinite(low) else 3
+    check.compare(float(abs(found[:count] - place[:count]).max()), f"{what} is elsewhere")
+    if count == 2:
+        check.compare(max(abs(low) - GROUND * max(size, 0.1), 0.0), f"{what} is not on the floor")
+    off = float(abs(compiled.data.xmat[root].reshape(3, 3) - rotation).max())
+    check.compare(off, f"{what} is turned")
 
 
-def _lowest(compiled: Compiled, positions: Array) -> float:
-    """The lowest point [m] of what collides, with the joints somewhere."""
+def _origin(source: Source) -> tuple[Array, Array]:
+    """Where the description puts the whole robot."""
+    origin = source.robot.element.child("origin")
+    place = (numbers(origin.get("xyz"), 3) if origin is not None else None) or (0.0, 0.0, 0.0)
+    angles = (numbers(origin.get("rpy"), 3) if origin is not None else None) or (0.0, 0.0, 0.0)
+    rotation = np.eye(3)
+    for axis, angle in zip(np.eye(3), angles, strict=True):
+        rotation = turn(axis, angle) @ rotation
+    return np.array(place), rotation
+
+
+def lowest_point(compiled: Compiled) -> tuple[float, float]:
+    """Return the lowest point of what touches, and how high that is [m]; inf where nothing does.
+
+    Where nothing touches, what is seen counts.
+    """
     model, data = compiled.model, compiled.data
-    data.qpos[:] = positions
-    compiled.mujoco.mj_kinematics(model, data)
-    return min(
-        float(data.geom_xpos[geom][2]) - _depth(compiled, geom, data.geom_xmat[geom].reshape(3, 3))
-        for geom in range(model.ngeom)
-        if model.geom_contype[geom] or model.geom_conaffinity[geom]
-    )
+    touching = [g for g in range(model.ngeom) if model.geom_contype[g] or model.geom_conaffinity[g]]
+    low, high = math.inf, -math.inf
+    for geom in touching or range(model.ngeom):
+        if model.geom_bodyid[geom] == 0:
+            continue
+        way = data.geom_xmat[geom].reshape(3, 3)[2]
+        middle = float(data.geom_xpos[geom][2])
+        a, b = (middle + reach for reach in _reaches(compiled, geom, way))
+        low, high = min(low, a), max(high, b)
+    return low, high - low
 
 
-def _depth(compiled: Compiled, geom: int, axes: Array) -> float:
-    """How far a geom reaches below its origin [m]."""
+def _reaches(compiled: Compiled, geom: int, way: Array) -> tuple[float, float]:
+    """How far a geom reaches down and up, with the third row of its rotation."""
     model, kinds = compiled.model, compiled.mujoco.mjtGeom
-    size, up = model.geom_size[geom], axes[2]
-    kind: Any = model.geom_type[geom]
-    if kind == kinds.mjGEOM_SPHERE:
-        return float(size[0])
-    if kind == kinds.mjGEOM_CAPSULE:
-        return float(size[0] + size[1] * abs(up[2]))
-    if kind == kinds.mjGEOM_CYLINDER:
-        return float(size[0] * math.hypot(up[0], up[1]) + size[1] * abs(up[2]))
-    if kind == kinds.mjGEOM_ELLIPSOID:
-        return float(np.linalg.norm(size * up))
-    if kind == kinds.mjGEOM_MESH:
-        mesh = int(model.geom_dataid[geom])
-        first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-        return -float((model.mesh_vert[first : first + count] @ up).min())
-    return float(size @ abs(up))
+    kind, size = int(model.geom_type[geom]), model.geom_size[geom]
+    if kind == int(kinds.mjGEOM_MESH):
+        mesh = model.geom_dataid[geom]
+        first, count = model.mesh_vertadr[mesh], model.mesh_vertnum[mesh]
+        heights = model.mesh_vert[first : first + count].astype(float) @ way
+        return float(heights.min()), float(heights.max())
+    if kind == int(kinds.mjGEOM_BOX):
+        half = float(abs(way) @ size)
+    elif kind == int(kinds.mjGEOM_CYLINDER):
+        half = float(size[0] * math.hypot(way[0], way[1]) + size[1] * abs(way[2]))
+    elif kind == int(kinds.mjGEOM_CAPSULE):
+        half = float(size[0] + size[1] * abs(way[2]))
+    elif kind == int(kinds.mjGEOM_ELLIPSOID):
+        half = float(np.linalg.norm(way * size))
+    else:
+        half = float(size[0])
+    return -half, half
+
+
+def _limits(joint: Joint) -> tuple[float, float]:
+    if joint.type not in ("revolute", "prismatic") or joint.limit is None:
+        return -math.inf, math.inf
+    return joint.limit.lower or 0.0, joint.limit.upper or 0.0
+
+
+def _asked(source: Source) -> dict[str, float]:
+    """Positions that ros2_control, a group state of the SRDF, and the user ask for."""
+    found: dict[str, float] = {}
+    for control in source.robot.ros2_controls:
+        for component in control.joints:
+            single = number(component.params.get("initial_position"))
+            if single is not None:
+                found[component.name] = single
+            for interface in component.state_interfaces:
+                value = number(interface.params.get("initial_value"))
+                if interface.name == "position" and value is not None:
+                    found[component.name] = value
+    found.update(_state(source))
+    found.update(_given(source.options.pose))
+    return {
+        name: value
+        for name, value in found.items()
+        if (joint := source.robot.joint.get(name)) is not None and not is_locked(joint)
+    }
+
+
+def _given(pose: Mapping[str, float]) -> dict[str, float]:
+    return {name: float(value) for name, value in pose.items()}
+
+
+def _state(source: Source) -> dict[str, float]:
+    """The positions of a group state: the one that is named, else the likeliest."""
+    root = source.srdf
+    states: dict[str, list[Element]] = {}
+    for element in root.all("group_state") if root is not None else ():
+        states.setdefault(element.get("name") or "", []).append(element)
+    by_fold = {name.casefold(): name for name in reversed(list(states))}
+    likely = [by_fold[name] for name in STATES if name in by_fold] or list(states)
+    chosen = source.options.state or (likely[0] if likely else "")
+    found = {}
+    for state in states.get(chosen, []):
+        for joint in state.all("joint"):
+            value = number(joint.get("value"))
+            if value is not None:
+                found[joint.get("name") or ""] = value
+    return found

@@ -1,4 +1,4 @@
-"""What acts on the robot in MuJoCo's model: how it is held, gravity, springs, options."""
+"""What acts on the robot in MuJoCo's model: gravity, springs, options."""
 
 from __future__ import annotations
 
@@ -8,9 +8,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from ...model.elements import Joint
-from ...model.read import numbers
 from ..check import Check
-from ..mechanics import turn
 from .announced import Said
 from .compiled import Compiled
 from .verify_source import Source
@@ -22,46 +20,6 @@ LOSSES = ("solref", "solimp", "dampingpoly")
 
 LEAF_ARMATURE = 1e-4
 """Inertia [kg·m² or kg] that the joint of a last link without mass gets."""
-
-
-def base_check(source: Source, compiled: Compiled) -> Check:
-    """Compare whether the root is held, and where it stands."""
-    free = source.is_free
-    check = Check("base", f"root {'free' if free else 'held'}, its pose; no other body", EXACT)
-    model, root = compiled.model, compiled.body(source.root)
-    if source.root == "world":
-        root = 0
-    if root < 0:
-        check.compare(math.inf, f"root link '{source.root}' is missing")
-        return check
-    kinds = [int(model.jnt_type[model.body_jntadr[root] + k]) for k in range(_joints(model, root))]
-    wanted = [int(compiled.mujoco.mjtJoint.mjJNT_FREE)] if free else []
-    if kinds != wanted:
-        check.compare(math.inf, f"root link '{source.root}' is {'free' if kinds else 'held'}")
-    if root > 0 and model.body_parentid[root] != 0:
-        check.compare(math.inf, f"root link '{source.root}' is not a body of the world")
-    origin = source.robot.element.child("origin")
-    place = np.array((numbers(origin.get("xyz"), 3) if origin is not None else None) or (0,) * 3)
-    angles = (numbers(origin.get("rpy"), 3) if origin is not None else None) or (0.0, 0.0, 0.0)
-    rotation = np.eye(3)
-    for axis, angle in zip(np.eye(3), angles, strict=True):
-        rotation = turn(axis, angle) @ rotation
-    compiled.pose({})
-    if root > 0:
-        across = 2 if free else 3  # a free base is lifted onto the floor: see the row home
-        off = float(abs(compiled.data.xpos[root] - place)[:across].max())
-        check.compare(off, f"root link '{source.root}' is elsewhere")
-        off = float(abs(compiled.data.xmat[root].reshape(3, 3) - rotation).max())
-        check.compare(off, f"root link '{source.root}' is turned")
-    links = {compiled.body(link.name) for link in source.robot.links}
-    for body in range(1, model.nbody):
-        if body not in links:
-            check.compare(math.inf, f"body '{compiled.name('BODY', body)}' is not a link")
-    return check
-
-
-def _joints(model: object, body: int) -> int:
-    return int(model.body_jntnum[body])  # type: ignore[attr-defined]
 
 
 def gravity_flag_check(source: Source, compiled: Compiled) -> Check:

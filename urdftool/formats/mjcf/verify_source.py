@@ -103,12 +103,13 @@ class Source:
         for joint in self.whole("joint"):
             ends = [joint.child(end) for end in ("parent", "child")]
             pairs.add(frozenset(e.text.strip().rpartition("::")[2] for e in ends if e is not None))
-        for element in self._srdf.all("disable_collisions") if self._srdf else ():
+        for element in self.srdf.all("disable_collisions") if self.srdf else ():
             pairs.add(frozenset((element.get("link1") or "", element.get("link2") or "")))
         return pairs
 
     @cached_property
-    def _srdf(self) -> Element | None:
+    def srdf(self) -> Element | None:
+        """The root element of the SRDF, if there is one."""
         if self.options.srdf is None:
             return None
         packages = self.robot.source.packages if self.robot.source is not None else None
@@ -126,7 +127,7 @@ class Source:
         for element in self.whole("static"):
             if (element.get("value") or element.text).strip().lower() in ("true", "1", "yes"):
                 return False
-        virtual = self._srdf.child("virtual_joint") if self._srdf is not None else None
+        virtual = self.srdf.child("virtual_joint") if self.srdf is not None else None
         if virtual is not None:
             return virtual.get("type") in ("floating", "planar")
         return self.stands or any(self.drive_plugins)
