@@ -1,16 +1,23 @@
-"""Make each change and ask ``--verify``."""
+"""Plant changes in an export and compare it with ``--verify``."""
 
 from __future__ import annotations
 
 import tempfile
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
 from lxml import etree
 
 from urdftool.formats.check import Check
 from urdftool.formats.directory import write_directory
+from urdftool.formats.mjcf.options import Options as MjcfOptions
+from urdftool.formats.mjcf.verify import verify
+from urdftool.formats.mjcf.write import write as write_mjcf
+from urdftool.formats.sdf.options import Options as SdfOptions
+from urdftool.formats.sdf.verify.compare import compare, pair_of
+from urdftool.formats.sdf.write import write as write_sdf
 from urdftool.formats.written import Written
 from urdftool.model.elements import Robot
 from urdftool.model.load import load
@@ -19,54 +26,61 @@ from . import mjcf, sdf
 from .change import Planted
 
 FOLDER = Path(__file__).resolve().parents[2] / "fixtures" / "formats" / "everything"
-ROBOT = FOLDER / "everything.urdf"
 CHANGES: dict[str, Sequence[Planted]] = {"mjcf": mjcf.CHANGES, "sdf": sdf.CHANGES}
+MJCF = MjcfOptions(srdf=FOLDER / "everything.srdf")
+SDF = SdfOptions()
 
 
-def changed(written: Written, planted: Planted | None) -> Written:
-    """Return an export with a change in its model."""
+@dataclass(frozen=True)
+class Found:
+    """What was found of a change.
+
+    Attributes:
+        planted: The change.
+        rows: The rows that differ, by their names.
+    """
+
+    planted: Planted
+    rows: list[str]
+
+    @property
+    def is_right(self) -> bool:
+        """Whether the row that has to differ does."""
+        return self.planted.row in self.rows
+
+
+def measure(form: str) -> list[Found]:
+    """Plant each change of a format."""
+    return [Found(one, [c.name for c in differing(form, one)]) for one in CHANGES[form]]
+
+
+def differing(form: str, planted: Planted | None) -> list[Check]:
+    """Return the rows that differ in an export with a change.
+
+    Args:
+        form: ``mjcf`` or ``sdf``.
+        planted: The change; None for none, with which nothing should differ.
+    """
+    robot, written = exported(form)
     files = dict(written.files)
     if planted is not None:
         root = etree.fromstring(written.text.encode())
         planted.edit(root)
         files[written.main] = etree.tostring(root)
-    return replace(written, files=files)
-
-
-def differing(form: str, planted: Planted | None) -> list[Check]:
-    """Return the rows that find a difference in an export with a change.
-
-    Args:
-        form: ``mjcf`` or ``sdf``.
-        planted: The change; None for none, where nothing should be found.
-    """
-    return [c for c in compared(form, planted) if c.verdict == "differs"]
-
-
-def compared(form: str, planted: Planted | None) -> list[Check]:
-    """Return all rows of the comparison of an export with a change."""
+    written = replace(written, files=files)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name) / "everything"
-        return (_mjcf if form == "mjcf" else _sdf)(load(ROBOT), folder, planted)
+        write_directory(folder, written.files, main=written.main)
+        place = folder / written.main
+        if form == "mjcf":
+            checks = verify(robot, written, place, written, MJCF)
+        else:
+            checks = compare(pair_of(robot, written, place, SDF))
+    return [check for check in checks if check.verdict == "differs"]
 
 
-def _mjcf(robot: Robot, folder: Path, planted: Planted | None) -> list[Check]:
-    from urdftool.formats.mjcf.options import Options
-    from urdftool.formats.mjcf.verify import verify
-    from urdftool.formats.mjcf.write import write
-
-    options = Options(srdf=FOLDER / "everything.srdf")
-    written = changed(write(robot, options), planted)
-    write_directory(folder, written.files, main=written.main)
-    return verify(robot, written, folder / written.main, written, options)
-
-
-def _sdf(robot: Robot, folder: Path, planted: Planted | None) -> list[Check]:
-    from urdftool.formats.sdf.options import Options
-    from urdftool.formats.sdf.verify.compare import compare, pair_of
-    from urdftool.formats.sdf.write import write
-
-    options = Options()
-    written = changed(write(robot, options), planted)
-    write_directory(folder, written.files, main=written.main)
-    return compare(pair_of(robot, written, folder / written.main, options))
+@cache
+def exported(form: str) -> tuple[Robot, Written]:
+    """Return the robot and its export."""
+    robot = load(FOLDER / "everything.urdf")
+    return robot, write_mjcf(robot, MJCF) if form == "mjcf" else write_sdf(robot, SDF)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .change import Planted, add, both, drop, move, put, section
+from .change import Edit, Planted, Root, add, both, drop, move, put, section
 
 JOINT = "//worldbody//joint[@name='{}']"
 BODY = "//body[@name='{}']"
@@ -19,6 +19,33 @@ TETRAHEDRON = "0.5 0.5 0.5  0.5 -0.5 -0.5  -0.5 0.5 -0.5  -0.5 -0.5 0.5"
 
 def _in(path: str, name: str) -> str:
     return path.format(name)
+
+
+def _home(place: int, value: str) -> Edit:
+    """Set one number of the positions of the key."""
+
+    def edit(root: Root) -> None:
+        key = root.find("keyframe/key")
+        words = key.get("qpos").split()
+        assert words[place] != value
+        words[place] = value
+        key.set("qpos", " ".join(words))
+
+    return edit
+
+
+def _control(joint: str, value: str) -> Edit:
+    """Set the control of a joint in the key."""
+
+    def edit(root: Root) -> None:
+        key = root.find("keyframe/key")
+        words = key.get("ctrl").split()
+        place = [element.get("joint") for element in root.find("actuator")].index(joint)
+        assert words[place] != value
+        words[place] = value
+        key.set("ctrl", " ".join(words))
+
+    return edit
 
 
 CHANGES = (
@@ -43,6 +70,7 @@ CHANGES = (
     Planted("link on another parent", "tree", move(_in(BODY, "caster"), _in(BODY, "upper_arm"))),
     Planted("mimic lost", "tree", drop(COUPLING)),
     Planted("mimic inactive", "tree", put(COUPLING, "active", "false")),
+    Planted("mimic made soft", "tree", put(COUPLING, "solref", "0.5 1")),
     Planted("multiplier of mimic", "tree", put(COUPLING, "polycoef", "-0.001 -1 0 0 0")),
     Planted(
         "mimic the other way round",
@@ -226,6 +254,12 @@ CHANGES = (
     Planted("camera lost", "sensors", drop("//camera[@name='camera']")),
     Planted("light lost", "sensors", drop("//light")),
     Planted("light turned", "sensors", put("//light", "dir", "0 0 -1")),
+    Planted("key lost", "home", drop("//key")),
+    Planted("initial value lost", "home", _home(10, "0")),
+    Planted("start beyond a limit", "home", _home(9, "1.5")),
+    Planted("start above the floor", "home", _home(2, "1")),
+    Planted("follower that does not follow", "home", _home(12, "-0.01")),
+    Planted("control of the home position", "home", _control("elbow", "0")),
     Planted("visual lost", "visual", drop(_in(SEEN, "caster"))),
     Planted("visual moved", "visual", put(_in(SEEN, "forearm"), "pos", "0 0 0.16")),
     Planted(

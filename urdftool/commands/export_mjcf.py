@@ -130,6 +130,7 @@ def command(
     from ..api.export import cut_meshes, measure_overlap
     from ..formats import said
     from ..formats.defects import Refused
+    from ..formats.mjcf.announced import NOT_COMPARED
     from ..formats.mjcf.compiled import compile_copy
     from ..formats.mjcf.options import FILES, Options
     from ..formats.mjcf.verify import verify_copy
@@ -167,4 +168,4 @@ def command(
     put_files(
         written, target, single=bool(file), overwrite=overwrite, inputs=inputs, as_json=as_json
     )
-    return say_written(console, written, checks, target, as_json=as_json)
+    return say_written(console, written, checks, target, as_json=as_json, not_compared=NOT_COMPARED)

@@ -60,9 +60,23 @@ def put_files(
 
 
 def say_written(
-    console: Console, written: Written, checks: Sequence[Check], output: str, *, as_json: bool
+    console: Console,
+    written: Written,
+    checks: Sequence[Check],
+    output: str,
+    *,
+    as_json: bool,
+    not_compared: Sequence[str] = (),
 ) -> int:
     """Losses on stderr, the table or JSON on stdout; notes only for those who asked for more.
+
+    Args:
+        console: Where messages go.
+        written: What was exported.
+        checks: What was compared; nothing without ``--verify``.
+        output: Where it was written; ``-`` for standard output.
+        as_json: Whether the result is JSON.
+        not_compared: What ``--verify`` does not compare.
 
     Returns:
         The exit code: 1 where something differs that was not announced.
@@ -76,12 +90,12 @@ def say_written(
     if as_json:
         from ..report.exports import to_json
 
-        click.echo(to_json(output, written.files, written.losses, checks), nl=False)
+        click.echo(to_json(output, written.files, written.losses, checks, not_compared), nl=False)
     else:
         for line in said.lines(shown):
             console.note(line)
         if checks:
-            click.echo(visible(check_table(checks)), nl=False, err=output == "-")
+            click.echo(visible(check_table(checks, not_compared)), nl=False, err=output == "-")
     if output != "-":
         more = f", {counted(hidden, 'note')} (-v shows them)" if hidden else ""
         for sentence in written.advice:

@@ -81,6 +81,7 @@ def command(
     from ..api.export import check_plugins
     from ..formats import said
     from ..formats.defects import Refused
+    from ..formats.sdf.verify import NOT_COMPARED
     from ..formats.sdf.write import write
     from ..model.files import sources
     from ..model.load import robot_of
@@ -108,7 +109,7 @@ def command(
         as_json=as_json,
     )
     checks = _verified(model, options, written, place) if verified else []
-    return say_written(console, written, checks, place, as_json=as_json)
+    return say_written(console, written, checks, place, as_json=as_json, not_compared=NOT_COMPARED)
 
 
 def _options(output: str, choices: dict[str, Any]) -> Options:

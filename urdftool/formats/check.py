@@ -68,8 +68,8 @@ def is_faithful(checks: Iterable[Check]) -> bool:
     return all(check.verdict != "differs" for check in checks)
 
 
-def check_table(checks: Sequence[Check]) -> str:
-    """The comparisons as a table of text, with what differs below."""
+def check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> str:
+    """The comparisons as a table of text, with what differs below, and what is not compared."""
     rows = [("check", "compared", "worst", "tolerance", "verdict")]
     for check in checks:
         worst = "-" if check.tolerance == 0 and check.worst == 0 else f"{check.worst:.1e}"
@@ -82,6 +82,8 @@ def check_table(checks: Sequence[Check]) -> str:
         lines += [f"{check.name}: differs: {item}" for item in check.differing]
         if check.announced:
             lines.append(f"{check.name}: announced: {_some(check.announced)}")
+    if not_compared:
+        lines.append(f"not compared: {', '.join(not_compared)}")
     return "\n".join(lines) + "\n"
 
 

@@ -12,7 +12,11 @@ from .json_text import json_text
 
 
 def to_json(
-    output: str | None, files: Iterable[str], findings: Iterable[Finding], checks: Sequence[Check]
+    output: str | None,
+    files: Iterable[str],
+    findings: Iterable[Finding],
+    checks: Sequence[Check],
+    not_compared: Sequence[str] = (),
 ) -> str:
     """The report of an export as one object.
 
@@ -21,6 +25,7 @@ def to_json(
         files: The files of it.
         findings: Losses, or the defects that forbade it.
         checks: The comparisons of a verification; none where it was not asked for.
+        not_compared: What the verification does not compare.
     """
     report = {
         "version": 1,
@@ -28,6 +33,7 @@ def to_json(
         "files": sorted(files),
         "findings": [finding_record(finding) for finding in merged(findings)],
         "checks": [check.as_dict() for check in checks],
+        "not_compared": list(not_compared) if checks else [],
         "faithful": is_faithful(checks) if checks else None,
     }
     return json_text(report, 1) + "\n"

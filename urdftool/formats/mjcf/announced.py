@@ -50,6 +50,16 @@ LOOKS = ("lossy-material", "lossy-texture")
 """A colour is."""
 
 
+NOT_COMPARED = (
+    "texture coordinates and normals of meshes",
+    "names of the model, its classes, geoms, sites and materials",
+    "<visual>, <statistic> and <size>",
+    "scene.xml",
+    "comments",
+)
+"""What a model holds and no row compares."""
+
+
 @dataclass(frozen=True)
 class Said:
     """The losses of an export: pairs of what was lost, and the name of what it was of."""

@@ -34,6 +34,9 @@ from .write import write
 
 CONFIGURATIONS = 20
 
+STIFF = (0.005, 1.0, 0.95, 0.99, 0.001, 0.5, 2.0)
+"""``solref`` and ``solimp`` of every equality."""
+
 POSE, FORCE, MASS = 1e-9, 1e-8, 1e-12
 
 
@@ -196,6 +199,9 @@ def _unasked(robot: Robot, compiled: Compiled, check: Check) -> None:
             asked = asked and frozenset((one, other)) in ends
         if not asked:
             check.compare(math.inf, f"equality {number} is not in the description")
+        soft = *model.eq_solref[number], *model.eq_solimp[number]
+        if not np.allclose(soft, STIFF, rtol=1e-9, atol=0):
+            check.compare(math.inf, f"softness of equality {number}")
     for field in ("ntendon", "nflex", "nplugin", "nmocap"):
         if getattr(model, field, 0):
             check.compare(math.inf, f"{field[1:]} that is not in the description")

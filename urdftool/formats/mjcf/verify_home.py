@@ -81,11 +81,11 @@ def home_check(source: Source, compiled: Compiled, said: Said) -> Check:
             wanted = min(max(wanted, lower), upper) if lower <= upper else wanted
             check.compare(abs(found - wanted), f"joint '{joint.name}' is at {found:g}", known=known)
     for index in range(model.nu):
-        joint = compiled.name("JOINT", int(model.actuator_trnid[index][0]))
+        driven = compiled.name("JOINT", int(model.actuator_trnid[index][0]))
         serves = float(model.actuator_biasprm[index][1]) != 0  # position is fed back
-        wanted = positions.get(joint, 0.0) if serves else 0.0
+        wanted = positions.get(driven, 0.0) if serves else 0.0
         off = abs(float(model.key_ctrl[key][index]) - wanted)
-        check.compare(off, f"control of joint '{joint}'")
+        check.compare(off, f"control of joint '{driven}'")
     if np.any(model.key_qvel[key]) or np.any(model.key_act[key]):
         check.compare(math.inf, "the robot moves")
     compiled.pose_at_key(key)
