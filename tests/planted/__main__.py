@@ -12,11 +12,11 @@ PAGE = Path(__file__).resolve().parents[2] / "docs" / "verify.md"
 HEAD = """\
 # What `--verify` finds
 
-With `--verify`, `urdftool export sdf` and `export mjcf` compare what they wrote with the description.
-Here each change below was planted in the written text of a
+With `--verify`, `urdftool export sdf` and `export mjcf` compare with the description what they
+wrote. Here each change below was planted in the written text of a
 [robot with everything](https://github.com/urdftool/urdftool/tree/main/fixtures/formats/everything)
-in it, one at a time, and the comparison was asked. A change counts as found where the row that is
-about it differs; other rows may differ too. Without a change no row differs.
+in it, one at a time. A change counts as found where the row that is about it differs; other rows
+may differ too. Without a change no row differs.
 
 Written by `python -m tests.planted --write`; `tests/formats/test_planted.py` repeats it.
 """
