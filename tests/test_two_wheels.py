@@ -69,3 +69,21 @@ def test_it_stands(robot, urdftool, engine):
     follow(robot, urdftool)
     result = urdftool("simulate", "--engine", engine, robot.name)
     assert result.out.startswith("two_wheels: stands\n"), result.err
+
+
+def test_it_drives(robot, urdftool):
+    """Both wheels at 4 rad/s and 0.05 m take it ahead with 0.2 m/s, as its plugin would."""
+    mujoco = pytest.importorskip("mujoco")
+    follow(robot, urdftool)
+    result = urdftool("export", "mjcf", robot.name, "-o", "model", "--scene", "--verify")
+    assert result.code == 0, result.out
+    assert "free base" in result.err
+    model = mujoco.MjModel.from_xml_path("model/scene.xml")
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    for step in range(2000):
+        data.ctrl[:] = min(4, step / 250)
+        mujoco.mj_step(model, data)
+    assert data.qvel[0] == pytest.approx(0.2, rel=0.02)
+    assert abs(data.qpos[1]) < 0.01
+    assert abs(data.qpos[2] - 0.03) < 0.001

@@ -56,16 +56,22 @@ KNOWN = frozenset(
 """Keywords that are carried, or need not be."""
 
 
-def link_friction(robot: Robot, link: str) -> str | None:
-    """The friction of a link's collisions as MuJoCo writes it; None where Gazebo says nothing."""
+def link_friction(robot: Robot, link: str) -> dict[str, str]:
+    """Return the attributes of a link's collision geoms for the friction that Gazebo is told.
+
+    MuJoCo takes the larger friction of two geoms, Gazebo the smaller. A friction below MuJoCo's
+    default gets a priority, by which it is taken as it is; a caster of friction 0 slides.
+    """
     sliding = None
     for block in robot.extensions.get(link, ()):
         for keyword in ("mu1", "mu"):
             value = number(block.value(keyword))
             sliding = value if value is not None and value >= 0 else sliding
     if sliding is None:
-        return None
-    return " ".join([number_text(sliding), *DEFAULT_FRICTION.split()[1:]])
+        return {}
+    usual = DEFAULT_FRICTION.split()
+    attributes = {"friction": " ".join([number_text(sliding), *usual[1:]])}
+    return attributes | ({"priority": "1"} if sliding < float(usual[0]) else {})
 
 
 def link_is_weightless(robot: Robot, link: str) -> bool:

@@ -41,15 +41,15 @@ def visual_geoms(
 
 
 def collision_geoms(
-    link: Link, assets: Assets, names: Names, written: Written, friction: str | None
+    link: Link, assets: Assets, names: Names, written: Written, friction: dict[str, str]
 ) -> Iterator[etree._Element]:
-    """The geoms of a link's collisions, with a friction if Gazebo gives one."""
+    """The geoms of a link's collisions, with attributes for their friction."""
     for collision in link.collisions:
         for index, (geom, _) in enumerate(_geoms(link, collision, assets, written)):
             _set_name(geom, link, collision, names, index)
             geom.set("class", "collision")
-            if friction is not None:
-                geom.set("friction", friction)
+            for name, value in friction.items():
+                geom.set(name, value)
             yield geom
 
 

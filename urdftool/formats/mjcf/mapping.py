@@ -115,7 +115,12 @@ EXTENSIONS: tuple[Row, ...] = (
         EXACT,
         "`option`, `size`, `visual`, `statistic`; `compiler` but for how to read URDF",
     ),
-    ("gazebo `mu1`", CLOSE, "sliding `friction` of the link's collisions; another `mu2` is said"),
+    (
+        "gazebo `mu1`",
+        CLOSE,
+        "sliding `friction` of the link's collisions, below 1 with `priority`, as MuJoCo takes the "
+        "larger of two and Gazebo the smaller; another `mu2` is said",
+    ),
     ("gazebo `turnGravityOff`, `gravity`", EXACT, '`gravcomp="1"`'),
     ("gazebo `material`", CLOSE, "colour of visuals that have none"),
     ("gazebo `springStiffness`, `springReference`", EXACT, "`stiffness`, `springref`"),
