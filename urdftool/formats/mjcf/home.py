@@ -111,7 +111,7 @@ def home_positions(
     ):
         for name, value in positions.items():
             joint = robot.joint.get(name)
-            if joint is not None and name not in leaders and name not in structure.locked:
+            if joint is not None and name not in leaders:
                 found[name] = _within(robot, joint, value, source, written)
     return start_positions(robot, found)[0]
 
