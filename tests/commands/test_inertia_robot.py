@@ -426,3 +426,26 @@ def test_a_robot_without_links_is_refused(urdftool, write, tmp_path, command, na
     assert (done.code, done.out) == (2, "")
     assert done.err == f"{path}:1:1: the robot has no link; {right}\n"
     assert not out.exists()
+
+
+def test_a_diff_shows_what_would_be_written_and_writes_nothing(urdftool, write):
+    path = write("r.urdf", robot(link("a"), link("b", inertial(1, 0.104, 0, 0, 0.104, 0, 0.167))))
+    before = Path(path).read_bytes()
+    shown = urdftool("inertia", "robot", path, "--diff", "--mass", "a=2")
+    assert shown.code == 1
+    assert Path(path).read_bytes() == before
+    added = [line[1:] for line in shown.out.splitlines() if line.startswith("+ ")]
+    assert any('<mass value="2"/>' in line for line in added)
+    assert not [line for line in shown.out.splitlines() if line.startswith("- ")]
+    urdftool("inertia", "robot", path, "--write", "--mass", "a=2")
+    after = Path(path).read_text()
+    assert all(line in after for line in added)
+    again = urdftool("inertia", "robot", path, "--diff", "--mass", "a=2")
+    assert (again.code, again.out) == (0, "")
+
+
+def test_a_diff_has_no_output_file(urdftool, write):
+    path = write("r.urdf", robot(link("a")))
+    done = urdftool("inertia", "robot", path, "--diff", "-o", "x.urdf", "--mass", "a=2")
+    assert done.code == 2
+    assert "--diff writes nothing" in done.err

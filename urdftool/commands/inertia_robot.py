@@ -68,6 +68,7 @@ def _pairs(
 )
 @click.option("--link", "only", multiple=True, metavar="NAME", help="This link only. Repeatable.")
 @click.option("--write", is_flag=True, help="Fill in what is missing, in the source or in OUT.")
+@click.option("--diff", is_flag=True, help="Show what --write would change, and write nothing.")
 @click.option("--all", "anew", is_flag=True, help="Weigh and write anew what is written, too.")
 @click.option("--lump", is_flag=True, help="Links joined by fixed joints as one; the whole robot.")
 @click.option(
@@ -99,6 +100,7 @@ def command(
     total: float | None,
     only: tuple[str, ...],
     write: bool,
+    diff: bool,
     anew: bool,
     lump: bool,
     pose: dict[str, float],
@@ -115,13 +117,16 @@ def command(
 
     \b
         urdftool inertia robot arm.urdf.xacro
+        urdftool inertia robot arm.urdf --diff --total-mass 18.4
         urdftool inertia robot arm.urdf --write --total-mass 18.4
         urdftool inertia robot arm.urdf --write --mass base_link=4.5 --density 2700 -o filled.urdf
         urdftool inertia robot arm.urdf --lump --pose elbow=1.57
 
-    Exit 1 if something written cannot be.
+    Exit 1 if something written cannot be; with --diff, if anything would be written.
     """  # noqa: D301 -- \b is a character that click looks for
-    _check_options(density, total, write, lump, pose, output)
+    _check_options(density, total, write or diff, lump, pose, output)
+    if diff and output is not None:
+        raise click.UsageError("--diff writes nothing; leave out -o")
     from ..inertia.mass_file import read_masses
     from ..inertia.masses import Masses, check_masses
     from ..inertia.review import review
@@ -143,6 +148,8 @@ def command(
         )
     if lump:
         return _lump(console, model, found, pose, style, output)
+    if diff:
+        return _diff(console, model, found, wanted)
     if write:
         return _write(console, model, found, wanted, style, output)
     return _show(console, model, found, style, output)
@@ -161,7 +168,7 @@ def _check_options(
             "--density and --total-mass exclude each other; one follows from the other"
         )
     if write and lump:
-        raise click.UsageError("--lump and --write exclude each other")
+        raise click.UsageError("--lump excludes --write and --diff")
     if pose and not lump:
         raise click.UsageError("--pose says where the joints are for --lump; add --lump")
     if output and output.endswith((".urdf", ".xacro")) and not write:
@@ -260,3 +267,18 @@ def _write(
         console.say(line)
     console.note(report.summary(filling, files))
     return int(bool(filling.refused) or filling.still_wrong)
+
+
+def _diff(console: Console, model: Robot, found: list[LinkReview], wanted: Masses) -> int:
+    """Show what would be written as a unified diff; exit 1 if there is anything."""
+    from ..inertia.fill_check import checked_filling
+    from ..report import inertia_fill as report
+    from ..report.file_diff import file_diff
+
+    assert model.source is not None
+    filling, edited = checked_filling(model, found, wanted)
+    before = {file.path: file.data for file in model.source.files}
+    click.echo("".join(file_diff(path, before[path], edited[path]) for path in edited), nl=False)
+    for line in report.remarks(filling):
+        console.say(line)
+    return int(bool(edited) or bool(filling.refused) or filling.still_wrong)
