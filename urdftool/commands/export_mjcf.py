@@ -98,7 +98,13 @@ def _pose(
 @click.option(
     "--decompose", is_flag=True, help="Cut meshes that collide and are not convex into pieces."
 )
-@export_options(mesh_dir="assets", verify="Compile it in MuJoCo and compare.")
+@export_options(
+    mesh_dir="assets",
+    verify=(
+        "Compile it in MuJoCo and prove by comparison with IN: tree, masses, limits, base, "
+        "contacts, friction, gravity, springs, actuators, sensors, looks, home position."
+    ),
+)
 @gltf_option
 @package_options
 @click.pass_obj

@@ -52,7 +52,13 @@ if TYPE_CHECKING:
 )
 @click.option("--world", is_flag=True, help="Write a world with ground and sun around it.")
 @fix_inertia_option
-@export_options(mesh_dir="meshes", verify="Read it back and compare.")
+@export_options(
+    mesh_dir="meshes",
+    verify=(
+        "Read it back and prove by comparison with IN: tree, masses, limits, base, contacts, "
+        "friction, flags, springs, sensors, plugins, looks."
+    ),
+)
 @gltf_option
 @package_options
 @click.pass_obj
