@@ -25,6 +25,7 @@ from .verify_drives import actuator_check
 from .verify_home import base_check, home_check
 from .verify_looks import material_check
 from .verify_loops import compare_loops, loop_ends
+from .verify_meshes import SourceMeshes
 from .verify_physics import gravity_flag_check, joint_physics_check, option_check
 from .verify_sensors import sensor_check
 from .verify_runs import runs_check
@@ -72,6 +73,7 @@ def verify(
         repeat.compare(0 if written.files.get(name) == again.files.get(name) else math.inf, name)
     configurations = list(_configurations(mechanics, compiled))
     source = Source(robot, options or Options(), said.of((FREE,), robot.tree.roots[0].name))
+    meshes = SourceMeshes(robot)
     checks = [
         base_check(source, compiled),
         _tree(robot, compiled, said),
@@ -82,14 +84,14 @@ def verify(
         _limits(mechanics, compiled, said),
         joint_physics_check(source, compiled, said),
         option_check(source, compiled, said),
-        collision_check(robot, mechanics, compiled, configurations, said),
+        collision_check(robot, meshes, mechanics, compiled, configurations, said),
         contact_check(source, compiled, said),
         surface_check(source, compiled, said),
         actuator_check(source, compiled, said),
         home_check(source, compiled, said),
         sensor_check(source, mechanics, compiled, configurations[0], said),
-        visual_check(robot, mechanics, compiled, configurations, said),
-        material_check(source, compiled, said),
+        visual_check(robot, meshes, mechanics, compiled, configurations, said),
+        material_check(source, meshes, compiled, said),
         runs_check(model, said),
         repeat,
     ]

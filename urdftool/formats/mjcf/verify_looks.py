@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 
 from ...errors import UrdftoolError
-from ...meshes.load import load_named
 from ...meshes.mesh import Part
 from ...model.elements import Link, Material, Mesh, Robot, Visual
 from ..check import Check
 from ..sdf.colors import COLORS
 from .announced import LOOKS, SHAPES, Said
 from .compiled import Compiled
+from .verify_meshes import SourceMeshes
 from .verify_shapes import has_size, link_geoms, loss_names
 from .verify_source import Source
 
@@ -44,14 +44,14 @@ class Look:
     image: Image | None = None
 
 
-def material_check(source: Source, compiled: Compiled, said: Said) -> Check:
+def material_check(source: Source, meshes: SourceMeshes, compiled: Compiled, said: Said) -> Check:
     """Compare the color and the image of every geom that is seen."""
     check = Check("materials", "color, image and gloss of all that is seen", SINGLE)
     model, pictures = compiled.model, Pictures(compiled)
     plain = compiled.reference()
     for link in source.robot.links:
         known = said.of((*LOOKS, *SHAPES), *loss_names(link))
-        looks = list(_looks(source, link))
+        looks = list(_looks(source, meshes, link))
         geoms = list(link_geoms(compiled, link, VISUAL_GROUP))
         if len(looks) != len(geoms):
             text = f"link '{link.name}': {len(geoms)} parts are seen, of {len(looks)}"
@@ -76,19 +76,17 @@ def material_check(source: Source, compiled: Compiled, said: Said) -> Check:
     return check
 
 
-def _looks(source: Source, link: Link) -> Iterator[Look]:
+def _looks(source: Source, meshes: SourceMeshes, link: Link) -> Iterator[Look]:
     """How each geom of a link's visuals is to look, in the order of the file."""
-    robot = source.robot
     for visual in link.visuals:
-        if not has_size(robot, visual):
+        if not has_size(meshes, visual):
             continue
         own = _own(source, link, visual)
-        if not isinstance(visual.geometry, Mesh) or robot.source is None:
+        if not isinstance(visual.geometry, Mesh):
             yield own
             continue
-        try:
-            mesh = load_named(robot.source, visual.geometry.filename)
-        except UrdftoolError:
+        mesh = meshes.read(visual.geometry.filename, visual.geometry.scale)
+        if mesh is None:
             continue
         parts = dict.fromkeys((part.rgba, _part_image(part)) for part in mesh.parts)
         for rgba, image in parts:

@@ -7,8 +7,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ...errors import UrdftoolError
-from ...meshes.load import load_named
 from ...meshes.mesh import Faces
 from ...model.elements import (
     Box,
@@ -27,6 +25,7 @@ from ..check import Check
 from ..mechanics import Array, Mechanics, origin_matrix
 from .announced import CUT, SHAPES, TORN, Said
 from .compiled import Compiled
+from .verify_meshes import SourceMeshes
 
 SIMPLE, MESH = 1e-9, 1e-6
 SINGLE = 2.0**-23
@@ -41,6 +40,7 @@ Bounds = tuple[Array, Array]
 
 def collision_check(
     robot: Robot,
+    meshes: SourceMeshes,
     mechanics: Mechanics,
     compiled: Compiled,
     configurations: list[dict[str, float]],
@@ -59,14 +59,14 @@ def collision_check(
                 check.compare(math.inf, text, known=known)
                 continue
             for shape, geom in zip(link.collisions, geoms, strict=True):
-                expected = _bounds(robot, shape, frames.get(link.name, np.eye(4)))
+                expected = _bounds(meshes, shape, frames.get(link.name, np.eye(4)))
                 if expected is None:
                     continue
                 simple = not isinstance(shape.geometry, Mesh)
                 factor = MESH / SIMPLE if simple else _rounded(expected)  # to that of the row
                 difference = _apart(expected, _geom_bounds(compiled, geom)) * factor
                 check.compare(difference, f"a collision of link '{link.name}'", known=known)
-                apart = _surface_apart(robot, [shape], compiled, [geom], frames[link.name])
+                apart = _surface_apart(meshes, [shape], compiled, [geom], frames[link.name])
                 check.compare(apart, f"surface of a collision of link '{link.name}'", known=known)
                 kind, found = _kind(shape), _kind_of(compiled, geom)
                 if kind != found:
@@ -77,6 +77,7 @@ def collision_check(
 
 def visual_check(
     robot: Robot,
+    meshes: SourceMeshes,
     mechanics: Mechanics,
     compiled: Compiled,
     configurations: list[dict[str, float]],
@@ -90,7 +91,7 @@ def visual_check(
         known = said.of(SHAPES, *loss_names(link)) or said.any(*TORN)
         geoms = list(link_geoms(compiled, link, 2))
         frame = frames.get(link.name, np.eye(4))
-        boxes = [box for v in link.visuals if (box := _bounds(robot, v, frame)) is not None]
+        boxes = [box for v in link.visuals if (box := _bounds(meshes, v, frame)) is not None]
         if bool(boxes) != bool(geoms):
             text = f"link '{link.name}': {len(geoms)} visuals of {len(boxes)}"
             check.compare(math.inf, text, known=known)
@@ -98,7 +99,7 @@ def visual_check(
             found = _union([_geom_bounds(compiled, geom) for geom in geoms])
             difference = _apart(_union(boxes), found) * _rounded(_union(boxes))
             check.compare(difference, f"visuals of link '{link.name}'", known=known)
-            apart = _surface_apart(robot, link.visuals, compiled, geoms, frame)
+            apart = _surface_apart(meshes, link.visuals, compiled, geoms, frame)
             check.compare(apart, f"surface of the visuals of link '{link.name}'", known=known)
     return check
 
@@ -111,9 +112,9 @@ def link_geoms(compiled: Compiled, link: Link, group: int) -> Iterator[int]:
             yield geom
 
 
-def has_size(robot: Robot, shape: Visual | Collision) -> bool:
+def has_size(meshes: SourceMeshes, shape: Visual | Collision) -> bool:
     """Whether a shape has a size, and a mesh that can be read."""
-    return _bounds(robot, shape, np.eye(4)) is not None
+    return _bounds(meshes, shape, np.eye(4)) is not None
 
 
 def _apart(one: Bounds, other: Bounds) -> float:
@@ -129,18 +130,17 @@ def _union(boxes: list[Bounds]) -> Bounds:
     return np.min([box[0] for box in boxes], axis=0), np.max([box[1] for box in boxes], axis=0)
 
 
-def _bounds(robot: Robot, shape: Visual | Collision, frame: Array) -> Bounds | None:
+def _bounds(meshes: SourceMeshes, shape: Visual | Collision, frame: Array) -> Bounds | None:
     """The box of a shape of the description; None where it has no size or cannot be read."""
     pose = frame @ origin_matrix(shape.origin)
     geometry = shape.geometry
     if isinstance(geometry, Mesh):
-        if robot.source is None:
+        points = meshes.read(geometry.filename, geometry.scale)
+        if points is None:
             return None
-        try:
-            points = load_named(robot.source, geometry.filename, geometry.scale)
-        except UrdftoolError:
-            return None
-        used = points.vertices[np.unique(points.faces)]
+        is_used = np.zeros(len(points.vertices), dtype=bool)
+        is_used[points.faces] = True
+        used = points.vertices[is_used]
         placed = used @ pose[:3, :3].T + pose[:3, 3]
         return placed.min(axis=0), placed.max(axis=0)
     half = _half(geometry, pose[:3, :3]) if geometry is not None else None
@@ -148,7 +148,7 @@ def _bounds(robot: Robot, shape: Visual | Collision, frame: Array) -> Bounds | N
 
 
 def _surface_apart(
-    robot: Robot,
+    meshes: SourceMeshes,
     shapes: Sequence[Visual | Collision],
     compiled: Compiled,
     geoms: Sequence[int],
@@ -160,20 +160,19 @@ def _surface_apart(
     """
     expected, found = np.zeros(4), np.zeros(4)
     for shape in shapes:
-        if isinstance(shape.geometry, Mesh) and robot.source is not None:
-            try:
-                mesh = load_named(robot.source, shape.geometry.filename, shape.geometry.scale)
-            except UrdftoolError:
+        if isinstance(shape.geometry, Mesh):
+            mesh = meshes.read(shape.geometry.filename, shape.geometry.scale)
+            if mesh is None:
                 return 0.0
             pose = frame @ origin_matrix(shape.origin)
             expected += _area_moments(mesh.vertices @ pose[:3, :3].T + pose[:3, 3], mesh.faces)
     model = compiled.model
     for geom in geoms:
         if _kind_of(compiled, geom) == "mesh":
-            mesh, pose = model.geom_dataid[geom], compiled.geom_frame(geom)
-            first, count = model.mesh_vertadr[mesh], model.mesh_vertnum[mesh]
+            number, pose = model.geom_dataid[geom], compiled.geom_frame(geom)
+            first, count = model.mesh_vertadr[number], model.mesh_vertnum[number]
             points = model.mesh_vert[first : first + count].astype(float)
-            begin, many = model.mesh_faceadr[mesh], model.mesh_facenum[mesh]
+            begin, many = model.mesh_faceadr[number], model.mesh_facenum[number]
             faces = model.mesh_face[begin : begin + many]
             found += _area_moments(points @ pose[:3, :3].T + pose[:3, 3], faces)
     if expected[0] == found[0] == 0:

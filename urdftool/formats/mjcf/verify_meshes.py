@@ -1,0 +1,33 @@
+"""The meshes of a description, each read once for a whole comparison."""
+
+from __future__ import annotations
+
+from ...errors import UrdftoolError
+from ...meshes.load import load_named
+from ...meshes.mesh import Mesh
+from ...model.elements import Robot, Vector
+
+WHOLE: Vector = (1.0, 1.0, 1.0)
+
+
+class SourceMeshes:
+    """The meshes that a robot names."""
+
+    def __init__(self, robot: Robot) -> None:
+        """Take the robot; a mesh is read when it is asked for."""
+        self._robot = robot
+        self._read: dict[tuple[str, Vector], Mesh | None] = {}
+
+    def read(self, filename: str, scale: Vector = WHOLE) -> Mesh | None:
+        """Return a mesh in its scale; None where it cannot be read."""
+        if (filename, scale) not in self._read:
+            self._read[filename, scale] = self._load(filename, scale)
+        return self._read[filename, scale]
+
+    def _load(self, filename: str, scale: Vector) -> Mesh | None:
+        if self._robot.source is None:
+            return None
+        try:
+            return load_named(self._robot.source, filename, scale)
+        except UrdftoolError:
+            return None
