@@ -252,8 +252,8 @@ def measure_overlap(
     Returns:
         The depth; None where neither has a mesh, so that the engine's own answer is exact.
     """
-    from ..model.kinematics import link_poses
     from ..model.elements import Mesh
+    from ..model.kinematics import link_poses
     from ..simulation.overlap import triangle_overlap
 
     shapes = [*robot.link[one].collisions, *robot.link[other].collisions]

@@ -84,9 +84,7 @@ def model_text(
         keyframe_section(structure, home, drives),
         _custom(structure, name),
     )
-    exclude_overlapping(
-        structure, home.positions, sections, bodies, assets, options, written
-    )
+    exclude_overlapping(structure, home.positions, sections, bodies, assets, options, written)
     gazebo_losses(robot, written)
     _controller_losses(robot, written)
     apply_extension(robot, sections, written)

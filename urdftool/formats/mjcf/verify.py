@@ -27,8 +27,8 @@ from .verify_looks import material_check
 from .verify_loops import compare_loops, loop_ends
 from .verify_meshes import SourceMeshes
 from .verify_physics import gravity_flag_check, joint_physics_check, option_check
-from .verify_sensors import sensor_check
 from .verify_runs import runs_check
+from .verify_sensors import sensor_check
 from .verify_shapes import collision_check, visual_check
 from .verify_source import Source
 from .write import write

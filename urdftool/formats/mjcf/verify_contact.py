@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from copy import copy
 from itertools import combinations
 
 import numpy as np
@@ -23,6 +24,9 @@ SOFTNESS = (
 )  # fmt: skip
 """Fields of a geom that an export leaves at MuJoCo's defaults."""
 
+DEEP = 1e-3
+"""Depth [m] at which two links overlap at home."""
+
 MANY = 12
 """Pairs that are named one by one."""
 
@@ -40,8 +44,11 @@ def contact_check(source: Source, compiled: Compiled, said: Said) -> Check:
     _foreign(source, compiled, check)
     apart, together = [], []
     excluded = {int(signature) for signature in model.exclude_signature}
+    overlapping = _overlapping(source, compiled)
     for one, other in combinations(touching, 2):
         expected = _may_touch(source, one.name, other.name)
+        if frozenset((compiled.body(one.name), compiled.body(other.name))) in overlapping:
+            expected = False
         if _can_touch(compiled, compiled.body(one.name), compiled.body(other.name), excluded):
             if not expected:
                 together.append(f"links '{one.name}' and '{other.name}' can touch")
@@ -53,6 +60,24 @@ def contact_check(source: Source, compiled: Compiled, said: Said) -> Check:
         if len(texts) > MANY:
             check.compare(math.inf, f"{texts[-1]}, and {len(texts) - MANY} more such pairs")
     return check
+
+
+def _overlapping(source: Source, compiled: Compiled) -> set[frozenset[int]]:
+    """Find the bodies that overlap at home where nothing is excluded, if these are to be."""
+    if source.options.exclude != "touching":
+        return set()
+    mujoco, model = compiled.mujoco, copy(compiled.model)
+    model.exclude_signature[:] = 0
+    data = mujoco.MjData(model)
+    key = compiled.id("KEY", "home")
+    if key >= 0:
+        mujoco.mj_resetDataKeyframe(model, data, key)
+    mujoco.mj_forward(model, data)
+    return {
+        frozenset(int(model.geom_bodyid[geom]) for geom in contact.geom)
+        for contact in (data.contact[number] for number in range(data.ncon))
+        if contact.dist <= -DEEP
+    }
 
 
 def _count(link: Link, compiled: Compiled, check: Check, said: Said) -> int:
@@ -85,7 +110,13 @@ def _foreign(source: Source, compiled: Compiled, check: Check) -> None:
 def _may_touch(source: Source, one: str, other: str) -> bool:
     """Whether the description lets two links touch."""
     pair = frozenset((source.rigid.get(one, one), source.rigid.get(other, other)))
-    if len(pair) == 1 or pair in source.joined:
+    if len(pair) == 1:
+        return False
+    if source.options.exclude == "none":  # but for what MuJoCo's own filter keeps apart
+        return frozenset((one, other)) not in source.disabled and not (
+            pair in source.joined and (source.is_free or source.root not in pair)
+        )
+    if pair in source.joined:
         return False
     return frozenset((one, other)) not in source.separated
 

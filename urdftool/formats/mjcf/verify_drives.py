@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...model.elements import Joint
+from ..actuator_config import JointSettings
 from ..check import Check
 from .announced import LIMITS, TREE, Said
 from .compiled import Compiled
@@ -17,6 +18,12 @@ from .verify_source import Source, is_locked
 EXACT = 1e-9
 DAMPING = 1e-6
 """How exactly MuJoCo's critical damping is that of the mass matrix."""
+
+STIFFEST = 100.0
+"""How fast a servo whose gain nobody chose may swing [rad/s]."""
+
+THREE_DIGITS = 6e-3
+"""What rounding to three digits changes of a gain."""
 
 WORDS = ("position", "velocity", "effort")
 
@@ -30,12 +37,18 @@ class Wanted:
         gear: Actuator force times this is the effort of the joint.
         gain: Gain of the servo [N·m/rad, N·m·s/rad, N/m or N·s/m]; 1 for a motor.
         bound: Range of the control; None for none.
+        damping: Velocity gain of a position servo; None for critical damping.
+        force: Range of its force; None for none.
+        chosen: Whether the user chose the gain, which the inertia does not bound then.
     """
 
     kind: str
     gear: float
     gain: float
     bound: tuple[float, float] | None
+    damping: float | None = None
+    force: tuple[float, float] | None = None
+    chosen: bool = False
 
 
 def actuator_check(source: Source, compiled: Compiled, said: Said) -> Check:
@@ -74,10 +87,18 @@ def _compare(number: int, joint: str, wanted: Wanted, compiled: Compiled, check:
     if compiled.name("ACTUATOR", number) != joint:
         check.compare(math.inf, f"{about} has another name")
     gain, bias = model.actuator_gainprm[number], model.actuator_biasprm[number]
+    if wanted.kind == "position" and not wanted.chosen:
+        compiled.pose(_at_home(compiled))
+        most = STIFFEST**2 * compiled.moved_by(joint)[0]
+        compiled.pose({})
+        if wanted.gain > most > 0 and abs(gain[0] / most - 1) < THREE_DIGITS:
+            wanted = replace(wanted, gain=float(gain[0]))
     check.compare(_apart(gain[:3], [wanted.gain, 0, 0]), f"gain of {about}")
     opposed = {"motor": (0.0, 0.0), "position": (-wanted.gain, None), "velocity": (0, -wanted.gain)}
     position, velocity = opposed[wanted.kind]
     check.compare(_apart(bias[:2], [0, position]), f"feedback of {about}")
+    if wanted.damping is not None:
+        velocity = -wanted.damping
     if velocity is not None:
         check.compare(_apart(bias[2], velocity), f"damping of {about}")
     else:
@@ -91,8 +112,11 @@ def _compare(number: int, joint: str, wanted: Wanted, compiled: Compiled, check:
     elif bound is not None:
         off = _apart(model.actuator_ctrlrange[number], bound)
         check.compare(off, f"range of the control of {about}")
-    if model.actuator_forcelimited[number]:
-        check.compare(math.inf, f"{about} has a bound of its force that nothing asks for")
+    if bool(model.actuator_forcelimited[number]) != (wanted.force is not None):
+        check.compare(math.inf, f"{about} has another bound of its force")
+    elif wanted.force is not None:
+        off = _apart(model.actuator_forcerange[number], wanted.force)
+        check.compare(off, f"range of the force of {about}")
 
 
 def _wanted(source: Source) -> Iterator[tuple[str, Wanted]]:
@@ -104,10 +128,41 @@ def _wanted(source: Source) -> Iterator[tuple[str, Wanted]]:
             continue
         if is_locked(joint):
             continue
-        if choice == "auto" and joint.name in said:
-            yield joint.name, _drive(joint, *said[joint.name])
-        elif choice not in ("auto", "none") and not _follows(source, joint):
-            yield joint.name, _drive(joint, choice, 1.0)
+        if _follows(source, joint):
+            continue
+        drive: tuple[str, float] | None = said.get(joint.name)
+        if choice not in ("auto", "none"):
+            drive = choice, 1.0
+        settings = source.settings.get(joint.name, JointSettings())
+        kind = settings.type or ("position" if settings.kp is not None else None)
+        if kind is None and settings.kd is not None and (drive is None or drive[0] == "motor"):
+            kind = "velocity"
+        if kind is not None and (drive is None or drive[0] != kind):
+            drive = kind, 1.0
+        if drive is not None:
+            yield joint.name, _configured(_drive(joint, *drive, settings.force_range), settings)
+
+
+def _configured(wanted: Wanted, settings: JointSettings) -> Wanted:
+    """An actuator with the gains that the user set."""
+    wanted = replace(wanted, force=settings.force_range)
+    if wanted.kind == "position":
+        chosen = settings.kp is not None
+        gain = wanted.gain if settings.kp is None else settings.kp
+        return replace(wanted, gain=gain, damping=settings.kd, chosen=chosen)
+    if wanted.kind == "velocity" and settings.kd is not None:
+        return replace(wanted, gain=settings.kd, chosen=True)
+    return wanted
+
+
+def _at_home(compiled: Compiled) -> dict[str, float]:
+    """The positions of hinges and slides in the key home, by joint."""
+    model, key = compiled.model, compiled.id("KEY", "home")
+    return {
+        compiled.name("JOINT", number): float(model.key_qpos[key][model.jnt_qposadr[number]])
+        for number in range(model.njnt)
+        if key >= 0 and model.jnt_type[number] >= 2
+    }
 
 
 def _said(source: Source) -> Iterator[tuple[str, tuple[str, float]]]:
@@ -160,9 +215,12 @@ def _limits(joint: Joint) -> tuple[float, float] | None:
     return joint.limit.lower or 0.0, joint.limit.upper or 0.0
 
 
-def _drive(joint: Joint, kind: str, gear: float) -> Wanted:
+def _drive(
+    joint: Joint, kind: str, gear: float, force: tuple[float, float] | None = None
+) -> Wanted:
     """The actuator of a kind: its gain by effort and velocity, its bounds those of the joint."""
     effort = abs(joint.limit.effort or 0.0) if joint.limit else 0.0
+    effort = max(map(abs, force)) if force is not None else effort
     velocity = abs(joint.limit.velocity or 0.0) if joint.limit else 0.0
     slides = joint.type == "prismatic"
     if kind == "motor":

@@ -56,7 +56,7 @@ def joint_physics_check(source: Source, compiled: Compiled, said: Said) -> Check
                 check.compare(
                     _apart(rest, reference if stiffness else 0.0), f"spring reference of {name}"
                 )
-            _compare_dofs(joint, number, light, compiled, check)
+            _compare_dofs(source, joint, number, light, compiled, check)
             for field in STOPS:
                 _same_default(model, plain, f"jnt_{field}", number, f"{field} of {name}", check)
     root = compiled.id("JOINT", f"{source.root}_freejoint")
@@ -78,7 +78,9 @@ def _stiffness(source: Source, name: str) -> float:
     return source.number(name, "springStiffness") or 0.0
 
 
-def _compare_dofs(joint: Joint, number: int, light: bool, compiled: Compiled, check: Check) -> None:
+def _compare_dofs(
+    source: Source, joint: Joint, number: int, light: bool, compiled: Compiled, check: Check
+) -> None:
     """Compare what acts along each coordinate of a joint."""
     model, plain = compiled.model, compiled.reference()
     first = int(model.jnt_dofadr[number])
@@ -89,6 +91,11 @@ def _compare_dofs(joint: Joint, number: int, light: bool, compiled: Compiled, ch
         "damping": (dynamics.damping if dynamics else None) or 0.0,
         "frictionloss": (dynamics.friction if dynamics else None) or 0.0,
     }
+    settings = source.settings.get(joint.name)
+    if settings is not None:
+        rotor = source.options.armature if settings.armature is None else settings.armature
+        asked = {"armature": rotor, "damping": settings.damping, "frictionloss": settings.friction}
+        wanted |= {field: value for field, value in asked.items() if value is not None}
     for dof in range(first, first + count):
         for field, value in wanted.items():
             found = float(np.ravel(getattr(model, f"dof_{field}")[dof])[0])

@@ -18,6 +18,7 @@ from ...model.elements import Joint, Robot
 from ...model.read import number, numbers
 from ...source.description import read_description
 from ...source.document import Element
+from ..actuator_config import JointSettings, read_actuator_config
 from ..mechanics import Array, turn
 from .options import Options
 
@@ -103,9 +104,29 @@ class Source:
         for joint in self.whole("joint"):
             ends = [joint.child(end) for end in ("parent", "child")]
             pairs.add(frozenset(e.text.strip().rpartition("::")[2] for e in ends if e is not None))
-        for element in self.srdf.all("disable_collisions") if self.srdf else ():
-            pairs.add(frozenset((element.get("link1") or "", element.get("link2") or "")))
-        return pairs
+        return pairs | self.disabled
+
+    @cached_property
+    def disabled(self) -> set[frozenset[str]]:
+        """Pairs of links that an SRDF disables."""
+        return {
+            frozenset((element.get("link1") or "", element.get("link2") or ""))
+            for element in (self.srdf.all("disable_collisions") if self.srdf else ())
+        }
+
+    @cached_property
+    def settings(self) -> dict[str, JointSettings]:
+        """What the user sets of each hinge and slide that can move."""
+        names = [
+            joint.name
+            for joint in self.robot.joints
+            if joint.type in ("revolute", "continuous", "prismatic")
+            and self.moves(joint)
+            and not is_locked(joint)
+        ]
+        if self.options.actuator_config is None:
+            return dict.fromkeys(names, JointSettings())
+        return read_actuator_config(self.options.actuator_config).for_joints(names)
 
     @cached_property
     def srdf(self) -> Element | None:
