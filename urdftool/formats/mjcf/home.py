@@ -213,4 +213,6 @@ def lifted(
 
 def _neat(height: float) -> float:
     """Round a height [m] down to a number that is short to write, so that what touches, touches."""
+    if not abs(height) < 1 / NEAT:  # of no robot; a double has no micrometers left there
+        return height
     return math.floor(height / NEAT + 1e-3) / round(1 / NEAT)

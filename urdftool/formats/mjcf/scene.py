@@ -77,7 +77,7 @@ def scene_file(
     etree.SubElement(world, "light", pos="0 0 3.5", dir="0 0 -1", type="directional")
     floor = etree.SubElement(world, "geom", name=plane, type="plane", size="0 0 0.05")
     if low < -FLUSH:
-        low = math.floor(low * 1e4) / 1e4
+        low = math.floor(low * 1e4) / 1e4 if low > -1e9 else low
         floor.set("pos", f"0 0 {number_text(low)}")
         written.lose(
             "floor",
