@@ -61,7 +61,6 @@ def home_check(source: Source, compiled: Compiled, said: Said) -> Check:
         return check
     positions = compiled.positions_of_key(key)
     asked = _asked(source)
-    leaders = {j.mimic.joint for j in source.robot.joints if j.mimic is not None}
     for joint in source.robot.joints:
         if joint.name not in positions:
             continue
@@ -76,9 +75,10 @@ def home_check(source: Source, compiled: Compiled, said: Said) -> Check:
             wanted = joint.mimic.multiplier * leader + joint.mimic.offset
             off = abs(found - min(max(wanted, lower), upper) if lower < upper else found - wanted)
             check.compare(off, f"joint '{joint.name}' does not follow '{joint.mimic.joint}'")
-        elif joint.mimic is None and joint.name not in leaders:
+        elif joint.mimic is None:
+            low, high = _allowed(source, joint)
             wanted = asked.get(joint.name, 0.0)
-            wanted = min(max(wanted, lower), upper) if lower <= upper else wanted
+            wanted = min(max(wanted, low), high) if low <= high else wanted
             check.compare(abs(found - wanted), f"joint '{joint.name}' is at {found:g}", known=known)
     for index in range(model.nu):
         driven = compiled.name("JOINT", int(model.actuator_trnid[index][0]))
@@ -163,6 +163,20 @@ def _limits(joint: Joint) -> tuple[float, float]:
     if joint.type not in ("revolute", "prismatic") or joint.limit is None:
         return -math.inf, math.inf
     return joint.limit.lower or 0.0, joint.limit.upper or 0.0
+
+
+def _allowed(source: Source, joint: Joint) -> tuple[float, float]:
+    """Where a joint may start so that those that follow it are within their limits, too."""
+    low, high = _limits(joint)
+    for other in source.robot.joints:
+        mimic, bounds = other.mimic, _limits(other)
+        if mimic is None or mimic.joint != joint.name or not mimic.multiplier:
+            continue
+        if bounds[0] < bounds[1] and math.isfinite(bounds[0]):
+            ends = sorted((bound - mimic.offset) / mimic.multiplier for bound in bounds)
+            if max(low, ends[0]) <= min(high, ends[1]):
+                low, high = max(low, ends[0]), min(high, ends[1])
+    return low, high
 
 
 def _asked(source: Source) -> dict[str, float]:

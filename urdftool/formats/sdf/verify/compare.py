@@ -25,7 +25,7 @@ from .plugins import compare_plugins
 from .reader import Frames, open_model, read_model
 from .sensors import compare_sensors
 from .shapes import compare_colors, compare_shapes
-from .source import base_of, mechanism_of
+from .source import base_of, mechanism_of, pose
 from .surfaces import compare_contact, compare_looks, compare_surface
 
 CONFIGURATIONS = 20
@@ -56,6 +56,22 @@ class Pair:
     def joint(self, name: str) -> str:
         """The name of a joint in what was written."""
         return self.renamed.get(("joint", name), name)
+
+    def place(self, name: str) -> tuple[str, Array] | None:
+        """Return the body that has a link, and the link's pose in it; None for no such link.
+
+        A file without frames has only the bodies: the nearest one above over fixed joints has it.
+        """
+        inside = np.eye(4)
+        while name in self.robot.link:
+            found = self.made.frames.get(self.link(name))
+            if found is not None:
+                return found[0], found[1] @ inside
+            joint = self.robot.tree.parent_joint(name)
+            if joint is None or not joint.is_fixed:
+                return None
+            inside, name = pose(joint.origin) @ inside, joint.parent
+        return None
 
 
 def verify(robot: Robot, written: Written, options: Options, output: str | Path) -> list[Check]:

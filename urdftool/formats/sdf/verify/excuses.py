@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from ....finding import Finding
+from ....finding import Finding, Severity
 from ....model.elements import Joint, Robot
 
 MASS = frozenset(("lossy-inertia", "lossy-mass", "lossy-world", "lossy-negative-mass"))
@@ -14,9 +14,7 @@ LIMITS = MOTION | {"lossy-limit"}
 FRAMES = frozenset(("lossy-frame",))
 SHAPES = frozenset(("lossy-mesh", "lossy-shape", "lossy-capsule", "lossy-world"))
 COLORS = SHAPES | {"lossy-material", "lossy-texture"}
-BLOCKS = frozenset(
-    ("lossy-element", "lossy-extension", "lossy-reference", "lossy-name", "bad-extension-number")
-)
+BLOCKS = frozenset(("lossy-element", "lossy-extension", "lossy-reference", "bad-extension-number"))
 """What is in a block of ``<gazebo>`` is left out or changed."""
 
 MIMIC = MOTION | {"lossy-mimic"}
@@ -35,7 +33,7 @@ class Excuses:
         mimic: Joints that follow otherwise.
         shapes: Links with other shapes.
         colors: Links with other colours.
-        said: Every announcement, as its rule and the name of the link or joint it is of.
+        said: Every loss, as its rule and the name of the link or joint it is of.
     """
 
     heavy: set[str] = field(default_factory=set)
@@ -60,7 +58,8 @@ def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
     made = Excuses(massy=more)
     for loss in losses:
         rule, name = loss.rule, loss.name
-        made.said.add((rule, name))
+        if loss.severity > Severity.INFO:  # with a note the robot behaves the same
+            made.said.add((rule, name))
         if rule in MASS:
             made.massy = True
             made.heavy |= {joint.name for joint in _above(robot, name)}

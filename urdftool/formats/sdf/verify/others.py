@@ -12,6 +12,7 @@ from ....source.document import Element
 from ...check import Check
 from .excuses import BLOCKS
 from .facts import EXACT, Facts, compare_facts, facts_of
+from .mechanism import inverse
 from .said import (
     LUMPING,
     NOWHERE,
@@ -82,10 +83,10 @@ def _expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
     parts: list[Link | Joint] = [*pair.robot.links, *pair.robot.joints]
     for part in parts:
         if isinstance(part, Link):
-            frame = pair.made.frames.get(pair.link(part.name))
-            if frame is None:
+            held = pair.place(part.name)
+            if held is None:
                 continue
-            owner = frame[0]
+            owner = held[0]
         else:
             owner = pair.joint(part.name)
             if owner not in joints or part.name in pair.robot.link:
@@ -115,8 +116,10 @@ def _compare_pose(
         or (child is None and not element.child("pose"))
     ):
         return
-    inside = pair.made.frames[pair.link(name)][1]
-    place = np.linalg.inv(inside) @ pair.where.local(owner, found)
+    held = pair.place(name)
+    if held is None:
+        return
+    place = inverse(held[1]) @ pair.where.local(owner, found)
     off = float(np.abs(place - pose_of_element(pair, link, element)).max())
     check.compare(off, f"{about} is elsewhere", known=known)
 
@@ -145,7 +148,7 @@ def _compare_loops(pair: Pair, check: Check) -> None:
         for end in ("parent", "child"):
             child = block.child(end)
             text = child.text.strip() if child is not None else ""
-            frame = pair.made.frames.get(pair.link(text.rpartition("::")[2]))
+            held = pair.place(text.rpartition("::")[2])
             found = (made.findtext(end) or "").strip()
-            if frame is not None and found not in (text, frame[0], pair.link(text)):
+            if held is not None and found not in (text, held[0], pair.link(text)):
                 check.compare(np.inf, f"{end} of joint '{name}' of a loop is '{found}'")

@@ -118,8 +118,8 @@ def _expected(pair: Pair) -> Iterator[Expected]:
     parts: list[Link | Joint] = [*pair.robot.links, *pair.robot.joints]
     for part in parts:
         if isinstance(part, Link):
-            frame = pair.made.frames.get(pair.link(part.name))
-            owner = frame[0] if frame is not None else ""
+            held = pair.place(part.name)
+            owner = held[0] if held is not None else ""
         else:
             owner = pair.joint(part.name)
         there = owner in elements["link" if isinstance(part, Link) else "joint"]
@@ -161,11 +161,11 @@ def _one(pair: Pair, element: Element, owner: str, *, inside: bool = False) -> I
 def _moved(pair: Pair, wanted: Expected, element: Element) -> Expected:
     """Take the offset of a plugin from a link that became a part of another, in Classic."""
     child = element.child("bodyName")
-    link = pair.link(child.text.strip()) if child is not None else ""
-    frame = pair.made.frames.get(link)
-    if not pair.options.classic or frame is None or frame[0] == link:
+    link = child.text.strip() if child is not None else ""
+    held = pair.place(link)
+    if not pair.options.classic or held is None or held[0] == pair.link(link):
         return wanted
-    wanted.offset = frame[1] @ _offset(wanted.facts)
+    wanted.offset = held[1] @ _offset(wanted.facts)
     return wanted
 
 
@@ -258,8 +258,8 @@ def _renamed(pair: Pair, facts: Facts) -> Facts:
         if isinstance(value, str) and "oint" in tag:
             value = pair.joint(value)
         elif isinstance(value, str) and ("ink" in tag or tag in ("bodyName", "body_name")):
-            frame = pair.made.frames.get(pair.link(str(value)))
-            if frame is not None:
-                value = frame[0] if pair.options.classic else pair.link(str(value))
+            held = pair.place(str(value))
+            if held is not None:
+                value = held[0] if pair.options.classic else pair.link(str(value))
         made[path] = value
     return made

@@ -61,7 +61,7 @@ def sensed_part(pair: Pair, plugin: Element) -> Link | Joint | None:
     reference = (block.get("reference") if block is not None else None) or ""
     name = (named[0] if named else "") or reference
     if not joints:
-        return pair.robot.link.get(name) if pair.link(name) in pair.made.frames else None
+        return pair.robot.link.get(name) if pair.place(name) is not None else None
     joint = pair.robot.joint.get(name)
     made = {one.name for one in pair.made.joints}
     return joint if joint is not None and pair.joint(name) in made else None

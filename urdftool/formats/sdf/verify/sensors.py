@@ -86,8 +86,8 @@ def compare_sensors(pair: Pair) -> Check:
         _drop_collisions(found, sensor.facts)
         compare_facts(check, about, found, sensor.facts, known=known)
         if isinstance(part, Link):
-            frame = pair.made.frames.get(pair.link(part.name))
-            if frame is None or frame[0] != element[0]:
+            held = pair.place(part.name)
+            if held is None or held[0] != element[0]:
                 check.compare(np.inf, f"{about} is on '{element[0]}'", known=known)
             place = base @ there[element[0]] @ pair.where.local(element[0], element[1])
             off = float(np.abs(place - here[part.name] @ sensor.pose).max())
@@ -116,8 +116,8 @@ def _find(pair: Pair, sensor: Expected, left: list[tuple[str, Any]]) -> tuple[st
     """The sensor of a name, if it can be where it belongs."""
     part = sensor.part
     if isinstance(part, Link):
-        frame = pair.made.frames.get(pair.link(part.name))
-        owner = frame[0] if frame is not None else ""
+        held = pair.place(part.name)
+        owner = held[0] if held is not None else ""
     else:
         owner = pair.joint(part.name)
     named = [one for one in left if one[1].get("name") == sensor.name]

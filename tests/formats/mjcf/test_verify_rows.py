@@ -1,0 +1,96 @@
+"""The rows of the comparison follow the options, and the tables behind them agree."""
+
+import pytest
+
+from urdftool.formats.check import is_faithful
+from urdftool.formats.mjcf.gazebo_colors import COLORS
+from urdftool.formats.mjcf.options import Options
+from urdftool.formats.mjcf.verify import verify_copy
+from urdftool.formats.mjcf.write import write as write_mjcf
+from urdftool.formats.sdf.colors import COLORS as SDF_COLORS
+from urdftool.model.load import load
+
+from .robots import BOX, INERTIAL, joint, link, robot
+
+pytest.importorskip("mujoco")
+
+SOLID = INERTIAL + f"<collision>{BOX}</collision>"
+CHAIN = (
+    link("a", SOLID),
+    joint("j", "a", "b", inside='<limit lower="-1" upper="1" effort="3" velocity="2"/>'),
+    link("b", SOLID),
+    joint("k", "b", "c", "prismatic", inside='<limit lower="0.1" upper="0.2"/>'),
+    link("c", SOLID),
+    joint("m", "c", "d", "continuous", inside='<mimic joint="j" multiplier="2"/>'),
+    link("d", SOLID),
+)
+
+OTHERS = {
+    "plain": "",
+    "ball": joint("x", "a", "e", "ball", inside='<dynamics damping="1"/>') + link("e", SOLID),
+    "planar": joint("x", "a", "e", "planar", inside='<axis xyz="0 0 1"/>') + link("e", SOLID),
+    "floating": joint("x", "a", "e", "floating", inside="") + link("e", SOLID),
+    "no mass": joint("x", "a", "e", inside='<limit lower="-1" upper="1"/>') + link("e", ""),
+    "option": '<mujoco><option gravity="0 0 -1" timestep="0.004"><flag contact="enable"/></option>'
+    "</mujoco>",
+    "origin": '<origin xyz="1 2 3" rpy="0 0 1"/>',
+    "static": "<gazebo><static>true</static></gazebo>",
+    "drive": '<gazebo><plugin name="p" filename="libgazebo_ros_diff_drive.so">'
+    "<leftJoint>m</leftJoint></plugin></gazebo>",
+    "sky": '<gazebo reference="a"><material>Gazebo/SkyBlue</material></gazebo>',
+    "spring": '<gazebo reference="j"><springStiffness>2</springStiffness></gazebo>',
+}
+CHOICES = {
+    "auto": {},
+    "free servos": {"base": "free", "actuators": "position"},
+    "held motors": {"base": "fixed", "actuators": "motor"},
+    "velocities": {"actuators": "velocity", "keep_locked_joints": True},
+}
+
+
+@pytest.mark.parametrize("choices", CHOICES.values(), ids=CHOICES)
+@pytest.mark.parametrize("other", OTHERS.values(), ids=OTHERS)
+def test_an_export_is_faithful(write, other, choices):
+    source = load(write("r.urdf", robot(*CHAIN, other)))
+    options = Options(**choices)
+    checks = verify_copy(source, options, write_mjcf(source, options))
+    assert is_faithful(checks), [c.differing for c in checks if c.differing]
+
+
+@pytest.mark.parametrize(
+    ("made", "said", "row"),
+    [
+        ({"base": "free"}, {"base": "fixed"}, "base"),
+        ({"actuators": "motor"}, {"actuators": "position"}, "actuators"),
+        ({"actuators": "motor"}, {"actuators": "none"}, "actuators"),
+        ({"pose": {"j": 0.5}}, {}, "home"),
+    ],
+)
+def test_what_an_option_asks_for_is_expected(write, made, said, row):
+    source = load(write("r.urdf", robot(*CHAIN)))
+    checks = verify_copy(source, Options(**said), write_mjcf(source, Options(**made)))
+    assert row in [check.name for check in checks if check.verdict == "differs"]
+
+
+def test_the_two_tables_of_colors_agree():
+    for name, color in COLORS.items():
+        other = SDF_COLORS.get(f"Gazebo/{name}")
+        if other is not None:
+            assert color == (*other.diffuse, other.alpha), name
+
+
+@pytest.mark.parametrize("corners", [100, 101, 128])
+def test_no_polygon_of_a_mesh_is_lost(write, corners):
+    """MuJoCo leaves out a polygon of over 100 corners; a file that has one is converted."""
+    import math
+
+    angles = [2 * math.pi * index / corners for index in range(corners)]
+    lines = [f"v {math.cos(a):.9f} {math.sin(a):.9f} 0" for a in angles]
+    lines += ["v 0 0 1", "f " + " ".join(str(index + 1) for index in reversed(range(corners)))]
+    for index in range(corners):
+        lines.append(f"f {index + 1} {(index + 1) % corners + 1} {corners + 1}")
+    write("cone.obj", "\n".join(lines) + "\n")
+    seen = '<visual><geometry><mesh filename="cone.obj"/></geometry></visual>'
+    source = load(write("r.urdf", robot(link("a", INERTIAL + seen))))
+    written = write_mjcf(source, Options())
+    assert is_faithful(verify_copy(source, Options(), written))
