@@ -265,3 +265,26 @@ def test_transmission_on_immovable_joint(tmp_path, interface, plugin, severity):
     assert finding.severity.label == severity
     assert ("gazebo_ros_control" in finding.effects) == (severity == "error")
     assert "gz, gazebo-classic" in finding.effects
+
+
+@pytest.mark.parametrize(("mass", "count"), [(0.01, 0), (0.5, 1)])
+def test_a_light_part_of_a_body_may_have_a_small_inertia(tmp_path, mass, count):
+    robot = _robot(INERTIAL.format(mass=mass, moment=mass * 1e-5) + COLLISION, kind="fixed")
+    assert _finds(tmp_path, "inertia-below-geometry", robot) == count
+
+
+@pytest.mark.parametrize(("blade", "count"), [(0.5, 0), (0.1, 1)])
+def test_the_disc_of_a_rotor(tmp_path, blade, count):
+    visual = VISUAL.replace("0.1 0.1 0.1", f"{blade} 0.03 0.01")
+    disc = '<collision><geometry><cylinder radius="0.25" length="0.01"/></geometry></collision>'
+    robot = _robot(HEAVY + visual + disc, kind="continuous")
+    assert _finds(tmp_path, "collision-much-larger-than-visual", robot) == count
+
+
+@pytest.mark.parametrize(("mesh", "loaded"), [("box.stl", True), ("box.dae", False)])
+def test_overlaps_in_a_robot_that_mujoco_does_not_read(tmp_path, mesh, loaded):
+    other = f'<collision><geometry><mesh filename="{mesh}"/></geometry></collision>'
+    arm = COLLISION.replace("<geometry>", '<origin xyz="0.01 0 0"/><geometry>')
+    robot = _robot(HEAVY + arm, base=HEAVY + COLLISION + other, mid=HEAVY + SMALL)
+    effects = effects_of(tmp_path, "self-collision-at-zero", robot)
+    assert ("mujoco" in effects) == loaded

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ..model.elements import Robot
+from ..model.elements import Mesh, Robot
+from ..model.mesh_formats import READ_BY
 
 
 def keeps_visuals(robot: Robot) -> bool:
@@ -11,4 +12,14 @@ def keeps_visuals(robot: Robot) -> bool:
         (compiler.get("discardvisual") or "").strip() == "false"
         for mujoco in robot.element.all("mujoco")
         for compiler in mujoco.all("compiler")
+    )
+
+
+def reads_collisions(robot: Robot) -> bool:
+    """Return whether MuJoCo has a decoder for every collision mesh, by the names of the files."""
+    return all(
+        shape.geometry.filename.rpartition(".")[2].lower() in READ_BY["mujoco"]
+        for link in robot.links
+        for shape in link.collisions
+        if isinstance(shape.geometry, Mesh)
     )

@@ -160,7 +160,7 @@ def collision_much_larger_than_visual(
     Often a unit is wrong, or the diameter was written for the radius. The robot touches things that
     look far away. It is reported where the box around the collisions is more than ``ratio`` times
     as long as that around the visuals, and by more than ``least`` [m]; visuals of links that are
-    fixed to this one count as well.
+    fixed to this one count as well. The disc that the blades of a rotor sweep is not reported.
     """
     reach = reaches(robot)
     for link in robot.links:
@@ -173,6 +173,8 @@ def collision_much_larger_than_visual(
         if around is None or (axis := _larger(touches, around, ratio, least)) is None:
             continue
         a, b = touches.size[axis], around.size[axis]
+        if _is_swept(robot, link, touches, around):
+            continue
         yield Problem(
             link,
             f"link '{link.name}' collides over {a:.3g} m along {'xyz'[axis]} and its visual spans "
@@ -188,6 +190,18 @@ def _larger(touches: Bounds, seen: Bounds, ratio: float, least: float) -> int | 
         if a > ratio * b and a - b > least:
             return axis
     return None
+
+
+def _is_swept(robot: Robot, link: Link, touches: Bounds, around: Bounds) -> bool:
+    """Whether a flat disc on a turning joint is as wide as the visual is long."""
+    joint = robot.tree.parent_joint(link.name)
+    shapes = [collision.geometry for collision in link.collisions]
+    if joint is None or joint.type not in ("continuous", "revolute") or len(shapes) != 1:
+        return False
+    disc = shapes[0]
+    if not isinstance(disc, Cylinder) or disc.length > disc.radius:
+        return False
+    return max(touches.size) <= 1.1 * max(around.size)
 
 
 def _is_doubled(link: Link, touches: Bounds, seen: Bounds) -> bool:

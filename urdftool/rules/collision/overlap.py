@@ -9,6 +9,7 @@ from ...model.convex import Convex
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import MOVABLE, limits_of, motion_of
 from ...model.pose import IDENTITY, Pose, dot, pose_of, rotate, transpose
+from ..mujoco import reads_collisions
 from ..rule import GAZEBO, INFO, WARNING, Problem, rule
 from ..words import some_of
 from .pieces import Pieces, pieces
@@ -34,7 +35,7 @@ PAIRS = 150_000
             "finds the start state in collision and plans nothing, unless the SRDF disables the "
             "pair"
         ),
-        "mujoco": "pushes the two apart from the first step",
+        "mujoco (loaded)": "pushes the two apart from the first step",
     },
 )
 def self_collision_at_zero(
@@ -50,20 +51,24 @@ def self_collision_at_zero(
     finding.
     """
     found = list(resting(robot, deeper))
+    keys = ("moveit", "mujoco (loaded)") if reads_collisions(robot) else ("moveit",)
     if len(found) > together:
         (one, other, depth), rest = found[0], found[1:]
-        yield _overlap(one, other, depth, f"; so do {_pairs(rest)}")
+        yield _overlap(one, other, depth, f"; so do {_pairs(rest)}", keys)
         return
     for one, other, depth in found:
-        yield _overlap(one, other, depth, "")
+        yield _overlap(one, other, depth, "", keys)
 
 
-def _overlap(one: Link, other: Link, depth: float, more: str) -> Problem:
+def _overlap(
+    one: Link, other: Link, depth: float, more: str, effects: tuple[str, ...] | None = None
+) -> Problem:
     return Problem(
         other,
         f"links '{one.name}' and '{other.name}' overlap by {depth * 1000:.3g} mm where all joints "
         f"are at rest{more}",
         at=other.collisions[0],
+        effects=effects,
     )
 
 
@@ -292,7 +297,7 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
             f"joint '{joint.name}' moves link '{one.name}' into '{other.name}' at {where:.3g} "
             f"{unit}, which its limits allow{more if len(hits) > 1 else ''}",
             at=joint.limit or joint,
-            effects=(f"mujoco ({case})",),
+            effects=(f"mujoco ({case})",) if reads_collisions(robot) else (),
         )
 
 

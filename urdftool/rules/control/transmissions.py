@@ -266,12 +266,15 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
             driven = robot.joint.get(joint.name)
             if driven is None or not driven.is_fixed:
                 continue
-            actuated = [*transmission.joints, *transmission.actuators]
+            interfaces = [
+                *(part.hardware_interfaces for part in transmission.joints),
+                *(part.hardware_interfaces for part in transmission.actuators),
+            ]
             keys = []
             if is_lumped(robot, driven.child):
                 keys.append("gz, gazebo-classic (merged)")
                 # without a type or an interface the plugin skips the transmission
-                if loaded and transmission.type and any(a.hardware_interfaces for a in actuated):
+                if loaded and transmission.type and any(interfaces):
                     keys.append("gazebo_ros_control (loaded)")
             yield Problem(
                 transmission.element,

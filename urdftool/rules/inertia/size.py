@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from functools import partial
 
+from ...model.attached import attached_links
 from ...model.bounds import Bounds
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...model.mass_fit import (
@@ -157,13 +158,16 @@ def _has_mesh(link: Link) -> bool:
     of_motion=True,
     caused_by=_SIZE_IN_DOUBT,
 )
-def inertia_below_geometry(robot: Robot, *, least: float = 0.12) -> Iterator[Problem]:
+def inertia_below_geometry(
+    robot: Robot, *, least: float = 0.12, part: float = 0.1
+) -> Iterator[Problem]:
     """An inertia is far smaller than that of a body of the link's size.
 
     A solid box has the moments that its mass and size give; steel in its middle and plastic around
     it halve them. An eighth means that the mass is ten times too large, that the inertia lost a
     power of ten, or that the shape is larger than the body. ``least`` is the part of the solid
-    box's that is let pass.
+    box's that is let pass. A link that is less than ``part`` of the mass of the body that fixed
+    joints make of it changes little, and is not reported.
     """
     reach = reaches(robot)
     heavy = outlier(robot)
@@ -173,6 +177,8 @@ def inertia_below_geometry(robot: Robot, *, least: float = 0.12) -> Iterator[Pro
             continue
         if heavy is not None and link is heavy.link:
             continue  # the mass is reported
+        if mass < part * sum(other.mass for other, _ in attached_links(robot, link)):
+            continue
         box = reach.link(link)
         if box is None:
             continue

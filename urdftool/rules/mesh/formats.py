@@ -158,7 +158,7 @@ _UP = re.compile(rb"<up_axis\s*>\s*(\w+)\s*<")
     WARNING,
     effects={
         "rviz": "applies the unit and not the axis",
-        "moveit": "applies neither",
+        "moveit (collision)": "applies neither",
     },
 )
 def dae_unit_or_axis(
@@ -175,6 +175,7 @@ def dae_unit_or_axis(
         said = unit_and_axis(use)
         if said:
             found.setdefault(said, []).append(use)
+    colliding = {use.uri for use in mesh_uses(robot, description) if use.collides}
     for what, uses in found.items():
         several = len(uses) > together
         more = f" (and of {len(uses) - 1} more)" if several else ""
@@ -184,6 +185,7 @@ def dae_unit_or_axis(
                 f"mesh '{use.uri}'{more}: {what}, which readers take differently; "
                 "export it in metres with z up",
                 at=use.mesh.element.attribute_place("filename"),
+                effects=("rviz", "moveit (collision)") if use.uri in colliding else ("rviz",),
             )
 
 
