@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Limit, Robot
+from ..gazebo.contact import is_wheel
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..words import quoted
 from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
@@ -270,33 +271,43 @@ def dynamics_as_child_elements(robot: Robot) -> Iterator[Problem]:
     INFO,
     on=("gazebo-classic", "gz", "mujoco", "pybullet"),
     effects={
-        "mujoco, pybullet, drake": "take 0: nothing stops a swing",
+        "mujoco, drake": "take 0: nothing stops a swing",
+        "pybullet": "takes 0: its damping of every body, 0.04 by default, alone slows a swing",
         "gz, gazebo-classic": "take 0",
     },
 )
 def missing_dynamics(robot: Robot) -> Iterator[Problem]:
     """Moving joints have neither damping nor friction.
 
-    Nothing takes energy out of them: a limp joint swings for ever, and one under position control
-    swings for long. Real bearings and gears have both. The robot's joints are named once, together.
-    A joint whose two limits are equal does not swing, and is not reported.
+    Nothing takes energy out of them: a joint without a motor swings for very long, and one under
+    position control for long. Real bearings and gears have both. The robot's joints are named
+    once, together. A joint whose two limits are equal does not swing, and one that turns a wheel
+    rolls; they are not reported.
     """
     free = [
         joint
         for joint in robot.joints
-        if joint.type in _MOVING and not is_locked(joint) and _is_undamped(joint)
+        if joint.type in _MOVING
+        and not is_locked(joint)
+        and _is_undamped(joint)
+        and not _turns_wheel(robot, joint)
     ]
     if free:
         names = quoted(joint.name for joint in free)
         verb = "has" if len(free) == 1 else "have"
         yield Problem(
             free[0],
-            f"{names} {verb} neither damping nor friction, so nothing stops a swing; "
+            f"{names} {verb} neither damping nor friction, so a swing lasts; "
             'write <dynamics damping="…" friction="…"/>',
         )
 
 
 _MOVING = ("revolute", "continuous", "prismatic")
+
+
+def _turns_wheel(robot: Robot, joint: Joint) -> bool:
+    link = robot.link.get(joint.child)
+    return joint.type == "continuous" and link is not None and is_wheel(robot, link)
 
 
 def _is_undamped(joint: Joint) -> bool:
