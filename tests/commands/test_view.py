@@ -4,6 +4,7 @@ import sys
 
 import pytest
 
+from tests.conftest import FIXTURES
 from tests.viewer.robots import ARM
 from tests.viewer.serving import free_port, served
 
@@ -102,3 +103,30 @@ def test_neither_trimesh_nor_scipy_is_imported_for_shapes(arm):
     )
     done = subprocess.run([sys.executable, "-c", code, arm], capture_output=True, text=True)
     assert done.stdout.strip() == "[]", done.stderr
+
+
+def test_a_mesh_file_is_drawn(urdftool, tmp_path):
+    mesh = FIXTURES / "effects" / "robots" / "box_inverted.stl"
+    target = tmp_path / "box & <box>.png"
+    done = urdftool("view", mesh, "--picture", target, "--size", "80x60")
+    assert done.code == 0, done.err
+    assert target.read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_mesh_of_any_name_is_drawn(urdftool, tmp_path):
+    mesh = tmp_path / 'a b&"%20é.STL'
+    mesh.write_bytes((FIXTURES / "effects" / "robots" / "box_inverted.stl").read_bytes())
+    done = urdftool("view", mesh, "--picture", tmp_path / "x.png", "--size", "80x60")
+    assert done.code == 0, done.err
+
+
+@pytest.mark.parametrize("content", [None, b"junk", b""])
+def test_a_mesh_file_that_is_none_is_one_message(urdftool, tmp_path, content):
+    mesh = tmp_path / "part.stl"
+    if content is not None:
+        mesh.write_bytes(content)
+    done = urdftool("view", mesh, "--picture", tmp_path / "x.png")
+    assert done.code == 2
+    assert "part.stl" in done.err
+    assert len(done.err.splitlines()) == 1
+    assert not (tmp_path / "x.png").exists()

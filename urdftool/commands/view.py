@@ -50,7 +50,7 @@ def command(
     package: dict[str, Path],
     package_path: tuple[str, ...],
 ) -> int:
-    """Show IN on a page in the browser, with a slider for each joint.
+    """Show IN, a robot or a mesh file, on a page in the browser, with a slider for each joint.
 
     Prints the page's address and serves it until Ctrl-C. Files that change are read again: the
     description, what it includes, its meshes. The page is for this computer alone, and fetches
@@ -60,12 +60,16 @@ def command(
         urdftool view arm.urdf.xacro prefix:=left_ --open
         urdftool view arm.urdf --pose elbow=1.2 --show both
         urdftool view arm.urdf --picture arm.png --camera 30,15
+        urdftool view gripper.stl
     """  # noqa: D301 -- click reads the escape
     from .read_lax import read_lax
+    from .view_mesh import is_mesh, read_mesh_robot
 
     path, arguments = robot
 
     def read() -> Robot:
+        if is_mesh(path):
+            return read_mesh_robot(console, path, package, package_path)
         return read_lax(console, path, arguments, package, package_path)
 
     if picture is not None or contact_sheet is not None:
@@ -96,7 +100,7 @@ def command(
         port=port,
         host=host,
         opened=opened,
-        linted=not unlinted,
+        linted=not unlinted and not is_mesh(path),
         pose=pose,
         show=show,
     )
