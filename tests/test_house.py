@@ -72,7 +72,7 @@ BELOW = {
     ),
     "graph": ("finding", "model", "source", "extras", "extras", "errors"),
     "simulation": (
-        *("drawing", "formats", "finding", "meshes", "inertia", "model", "rules", "source"),
+        *("drawing", "formats", "finding", "lint", "meshes", "inertia", "model", "rules", "source"),
         *("workers", "store", "extras", "errors"),
     ),
     "report": (

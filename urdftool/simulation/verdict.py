@@ -14,6 +14,7 @@ from .judge_joint import judge_joints
 from .judge_rest import Rest, judge_rest, rest_of
 from .judge_support import judge_support
 from .judge_sweep import judge_sweep
+from .lint_words import in_lint_words
 from .run import Run
 
 
@@ -68,7 +69,7 @@ def _caused(run: Run, fault: Fault) -> Fault:
 
 
 def _faults(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
-    yield from judge_bodies(robot, run)
+    yield from in_lint_words(robot, judge_bodies(robot, run))
     yield from judge_rest(robot, run, rest)
     yield from judge_support(robot, run, rest)
     yield from judge_contacts(robot, run, rest)
