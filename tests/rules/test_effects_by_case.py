@@ -288,3 +288,23 @@ def test_overlaps_in_a_robot_that_mujoco_does_not_read(tmp_path, mesh, loaded):
     robot = _robot(HEAVY + arm, base=HEAVY + COLLISION + other, mid=HEAVY + SMALL)
     effects = effects_of(tmp_path, "self-collision-at-zero", robot)
     assert ("mujoco" in effects) == loaded
+
+
+@pytest.mark.parametrize(
+    ("joint", "keys"),
+    [("zoom", set()), ("aim", {"gz, gazebo-classic"})],
+    ids=["after one with mass", "before one with mass"],
+)
+def test_links_of_mass_zero_are_lumped_by_the_names_of_joints(tmp_path, joint, keys):
+    fixed = '<joint name="{}" type="fixed"><parent link="{}"/><child link="{}"/></joint>'
+    more = "".join(
+        [
+            f'<link name="eye">{NOTHING}</link><link name="lens">{HEAVY}</link>',
+            fixed.format(joint, "arm", "eye"),
+            fixed.format("focus", "arm", "lens"),
+        ]
+    )
+    path = tmp_path / "r.urdf"
+    path.write_text(_robot(NOTHING, kind="fixed", first=more))
+    findings = lint_file(path, Options(Settings(select=("zero-mass",)))).findings
+    assert {key for finding in findings for key in finding.effects} == keys

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from ...model.attached import attached_links
 from ...model.body_inertia import BodyInertia, combined_inertia
 from ...model.elements import Link, Robot
+from ..gazebo.lumping import is_lumped
 
 _KEEPERS = ("preserveFixedJoint", "disableFixedJointLumping")
 _TRUE = ("true", "1", "yes")
@@ -34,6 +35,30 @@ def bodies(robot: Robot) -> dict[str, list[Link]]:
             owner[name] = name
         found.setdefault(owner[name], []).append(robot.link[name])
     return found
+
+
+def massless_pairs(robot: Robot) -> Iterator[tuple[Link, Link]]:
+    """List links without mass that sdformat 12.3 lumps, each with the link it is lumped into.
+
+    It lumps the children of a link in the order of the names of their joints, each after its own
+    children, and divides by the sum of the masses so far. Where that is 0, the center of mass is
+    not a number, nor is that of the body, which has to have a mass for it to be kept.
+    """
+    pairs = []
+    lumps: dict[str, tuple[float, bool]] = {}
+    for name in reversed(robot.tree.order):
+        link = robot.link[name]
+        mass, has_inertial = link.mass, link.inertial is not None
+        for joint in sorted(robot.tree.child_joints(name), key=lambda joint: joint.name):
+            added, counts = lumps.get(joint.child, (0.0, False))
+            if counts and is_lumped(robot, joint.child):
+                has_inertial, mass = True, mass + added
+                if mass == 0:
+                    pairs.append((link, robot.link[joint.child]))
+        lumps[name] = mass, has_inertial
+    if pairs:
+        kept = {one.name for links in bodies(robot).values() if mass_of(links) > 0 for one in links}
+        yield from (pair for pair in reversed(pairs) if pair[0].name in kept)
 
 
 def mass_of(links: list[Link]) -> float:

@@ -12,7 +12,7 @@ from ...source.document import Element
 from ..mesh.outlines import Reaches, reaches
 from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
-from .bodies import bodies, mass_of
+from .bodies import bodies, mass_of, massless_pairs
 from .solids import solid_volume
 from .tensors import six_of
 
@@ -99,6 +99,7 @@ def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
         "gz, gazebo-classic (root)": (
             "load nothing: a model must have at least one link (sdformat 12.3)"
         ),
+        "gz, gazebo-classic (both)": "reject the robot: pose values must be finite (sdformat 12.3)",
         "gz, gazebo-classic, pinocchio (part)": "add the inertia to the body that it is fixed to",
         "mujoco": "rejects the file: mass of moving bodies must be positive",
         "mujoco (part)": "ignores the inertia",
@@ -115,11 +116,13 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     one with a mass is merged into it and keeps its shapes, which is how a link says that it adds no
     mass. A root of mass 0 is PyBullet's way to say that a model is static: it is an error for
     Gazebo, and of a robot with joints that move a remark. An inertia next to a mass of 0 is added
-    to the body by Gazebo and pinocchio, and Drake makes such a link weigh 1 kg.
+    to the body by Gazebo and pinocchio, and Drake makes such a link weigh 1 kg. Two links of mass 0
+    that are fixed to each other are one too many for Gazebo, which divides by the sum.
     """
     zero = [link for link in robot.links if link.inertial and link.inertial.mass == 0.0]
     if not zero:
         return
+    yield from _pairs_without_mass(robot, targets)
     body = {link.name: links for links in bodies(robot).values() for link in links}
     for link in zero:
         if link.name == "world" or link.inertial is None:
@@ -161,6 +164,22 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
             at=at,
             severity=severity,
             effects=_AS_ROOT if joint is None else keys,
+        )
+
+
+def _pairs_without_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+    for parent, link in massless_pairs(robot):
+        if link.inertial is None:
+            continue
+        yield Problem(
+            link,
+            f"links '{parent.name}' and '{link.name}' are fixed to each other and have mass 0, at "
+            f"which sdformat 12.3 rejects the robot; remove the <inertial> of '{link.name}'",
+            at=link.inertial,
+            severity=INFO if targets.isdisjoint(GAZEBO) else ERROR,
+            group="{count} links of mass 0 are fixed to links of mass 0, at which sdformat 12.3 "
+            "rejects the robot; remove their <inertial>: {names}",
+            effects=("gz, gazebo-classic (both)",),
         )
 
 
