@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 
-from ..errors import SourceError, UrdftoolError
+from ..errors import PackageNotFound, SourceError, UrdftoolError
 from ..finding import Finding, Severity
 from ..source.description import Description
 from ..source.document import Element
@@ -102,16 +102,22 @@ def finding_of(
         failure.message,
         place,
         "file",
-        effects=_effects_of(rule, failure.case),
+        effects=_effects_of(rule, failure),
         hint="; ".join(failure.notes),
         unchecked=unchecked,
     )
 
 
-def _effects_of(name: str, case: str) -> dict[str, str]:
-    """What readers do with a failure, as the page of its rule has it."""
+def _effects_of(name: str, failure: UrdftoolError) -> dict[str, str]:
+    """Select what readers do with a failure, as the page of its rule has it.
+
+    A package that is missing here is one that xacro looks for; no other reader comes that far.
+    """
     from ..rules import get_rule
     from ..rules.rule import holding
 
     rule = get_rule(name)
-    return rule.effects_in(holding(rule.effects, *filter(None, [case])))
+    keys = holding(rule.effects, failure.case)
+    if isinstance(failure, PackageNotFound):
+        keys = [key for key in rule.effects if key.partition(" (")[0] == "xacro"]
+    return rule.effects_in(keys)

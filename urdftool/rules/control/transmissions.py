@@ -31,14 +31,14 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
     one misspelt name leaves the whole robot limp. Drivers of real hardware do much the same.
     """
     driven = {joint.name for transmission in robot.transmissions for joint in transmission.joints}
-    idle = [name for name in robot.joint if name not in driven]
+    idle = [name for name, joint in robot.joint.items() if name not in driven and joint.has_axis]
     for transmission in robot.transmissions:
         for joint in transmission.joints:
             if joint.name and joint.name not in robot.joint and not is_unexpanded(joint.name):
                 yield Problem(
                     transmission.element,
                     f"{called(transmission)} names joint '{joint.name}', "
-                    f"which is not there{did_you_mean(joint.name, idle)}",
+                    f"which is not there{did_you_mean(joint.name, idle, 0.8)}",
                     at=joint.element.attribute_place("name"),
                 )
 

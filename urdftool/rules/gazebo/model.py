@@ -189,7 +189,7 @@ def root_not_anchored(robot: Robot) -> Iterator[Problem]:
     if len(starts) == 1 and len(arms) >= 4 and weight < 2 * moved:
         yield Problem(
             robot,
-            f"arm '{robot.name}' stands loose on '{root.name}'; add a link 'world' and a fixed "
+            f"robot '{robot.name}' stands loose on '{root.name}'; add a link 'world' and a fixed "
             "joint to it",
             at=root,
         )

@@ -74,7 +74,7 @@ def _is_unclear(robot: Robot) -> bool:
 
 
 @rule(
-    WARNING,
+    INFO,
     on=("gazebo-classic",),
     effects={
         "gz": "takes URDF's color (sdformat 12.3)",

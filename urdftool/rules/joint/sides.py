@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -15,7 +16,7 @@ from ..words import quoted
 @rule(
     INFO,
     effects={
-        "urdfdom, gz, gazebo-classic, mujoco": "place the joint as written: the robot is crooked",
+        "urdfdom, gz, gazebo-classic, mujoco": "place the joint as written",
     },
     group="robot",
 )
@@ -31,12 +32,24 @@ def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
         right = pair.right_joint
         if right.is_fixed:
             continue
+        copied = right.parent != pair.left_joint.parent and _has_the_same_origin(pair)
+        if copied:
+            so = "both have the same <origin>: the limbs are copies, or one sign is wrong"
+        else:
+            so = "one of the two is misplaced"
         yield Problem(
             right,
             f"joint '{right.name}' is {gap * 1000:.3g} mm from where '{pair.left_joint.name}' has "
-            "its mirror image; one of the two is misplaced",
+            f"its mirror image; {so}",
             at=right.origin or right,
         )
+
+
+def _has_the_same_origin(pair: Pair) -> bool:
+    one, other = pair.left_joint.origin, pair.right_joint.origin
+    if one is None or other is None:
+        return one is other
+    return (one.xyz, one.rpy) == (other.xyz, other.rpy)
 
 
 @rule(
@@ -55,7 +68,8 @@ def limits_not_mirrored(
     Left and right are told by the names of the links. Where both axes turn mirrored, the limits are
     the same; where one turns the other way, they are swapped with the other sign. An axis that was
     flipped alone, or limits that were, break that. ``tolerance`` [rad or m] is the difference that
-    is let pass. More than ``together`` such joints are one finding.
+    is ignored. Grippers of equal limits are copies, and not reported. More than ``together`` such
+    joints are one finding.
     """
     found = sides(robot)
     if found.normal is None:
@@ -68,6 +82,9 @@ def limits_not_mirrored(
     yield from problems
 
 
+_GRIPPER = re.compile(r"gripper|finger|thumb|knuckle", re.IGNORECASE)
+
+
 def _unlike(found: Sides, tolerance: float) -> Iterator[Problem]:
     for pair in found.pairs:
         alike = found.turns_alike(pair)
@@ -77,6 +94,8 @@ def _unlike(found: Sides, tolerance: float) -> Iterator[Problem]:
         opposite = (-left[1], -left[0])
         wanted, other = (left, opposite) if alike else (opposite, left)
         if _near(right, wanted, tolerance):
+            continue
+        if _near(right, left, tolerance) and _GRIPPER.search(pair.right_joint.name):
             continue
         name, twin = pair.right_joint.name, pair.left_joint.name
         low, high = wanted

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ...source.description import Description
 from ...source.document import Element
-from ..rule import ERROR, WARNING, Problem, rule
+from ..rule import ERROR, WARNING, Problem, holding, rule
 
 _READERS = "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake"
 
@@ -80,14 +80,17 @@ def fault_of_root(root: Element) -> str:
     return f"the root element is <{root.tag}>; {belongs}"
 
 
+_NAMELESS = {
+    "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake (a robot)": "reject it",
+    "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake (a link or joint)": "reject the robot",
+    "mujoco (a robot)": "accepts it",
+    "mujoco (a joint)": "rejects the file",
+}
+
+
 @rule(
     WARNING,
-    effects={
-        "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake": (
-            "reject a robot, link or joint without a name"
-        ),
-        "mujoco": "accepts a robot without a name; rejects a joint without one",
-    },
+    effects=_NAMELESS,
 )
 def missing_name(description: Description) -> Iterator[Problem]:
     """A robot, link, joint or transmission has no name.
@@ -106,6 +109,11 @@ def missing_name(description: Description) -> Iterator[Problem]:
             at = element.attribute_place("name") if "name" in element.attributes else None
             how = "an empty name" if at else "no name"
             severity = WARNING if element.tag == "transmission" else ERROR
+            case = (f"a {element.tag}", *["a link or joint"] * (element.tag in ("link", "joint")))
             yield Problem(
-                element, f'<{element.tag}> has {how}; write name="…"', at=at, severity=severity
+                element,
+                f'<{element.tag}> has {how}; write name="…"',
+                at=at,
+                severity=severity,
+                effects=holding(_NAMELESS, *case),
             )

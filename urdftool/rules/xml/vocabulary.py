@@ -41,7 +41,7 @@ _ELSEWHERE = {
     ("collision", "surface"): "it is SDF; for URDF, "
     'write mu1, mu2, kp and kd inside <gazebo reference="the link">',
     ("collision", "max_contacts"): 'write <maxContacts> inside <gazebo reference="the link">',
-    ("collision", "material"): "what collides has no colour; write it inside <visual>",
+    ("collision", "material"): "a collision has no color; remove it, or write it in <visual>",
     ("inertial", "pose"): "it is SDF; URDF has <origin>",
     ("inertial", "ixx"): "write the six numbers as attributes of <inertia>",
     ("inertia", "ixx"): "it is SDF; in URDF the six numbers are attributes",
