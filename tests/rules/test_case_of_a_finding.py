@@ -264,3 +264,57 @@ def test_json_has_no_control_character():
     assert text.isprintable()
     assert "é" in text
     assert json.loads(text) == {"name": "a\u0085b\u009bc\u202ed\x7f", "plain": "é"}
+
+
+def test_a_name_that_is_missing_matters_to_who_reads_it(write):
+    unnamed = '<transmission><type>x</type><joint name="j"/></transmission>'
+    path = write("r.urdf", swing(LIMIT.format(0, 1)).replace("</robot>", f"{unnamed}</robot>"))
+    assert one(path, "missing-name").effects == {}
+    path = write("s.urdf", swing(LIMIT.format(0, 1)).replace('name="j"', ""))
+    assert one(path, "missing-name").effects["mujoco"] == "rejects the file"
+    path = write("t.urdf", robot(LINK.format("a"), root=""))
+    assert one(path, "missing-name").effects["mujoco"] == "accepts it"
+
+
+@pytest.mark.parametrize(("kind", "meant"), [("revolute", True), ("fixed", False)])
+def test_a_transmission_means_a_joint_that_moves(write, kind, meant):
+    joint = JOINT.format("left_elbow_joint", kind, "a", "b", LIMIT.format(0, 1))
+    drive = (
+        '<transmission name="t"><type>x</type><joint name="left_elbw_joint">'
+        "<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>"
+        "</joint></transmission>"
+    )
+    path = write("r.urdf", robot(LINK.format("a"), LINK.format("b"), joint, drive))
+    assert ("did you mean" in one(path, "transmission-unknown-joint").message) == meant
+
+
+def limbs(name, *, same, right_y):
+    """Make a robot of two mirrored arms of three links, with a fourth of a name on each."""
+    parts = [LINK.format("base")]
+    for side, sign in (("left", 1), ("right", -1)):
+        above = "base"
+        for number, y in enumerate((0.2, 0.1, 0.1)):
+            link = f"{side}_{number}"
+            parts.append(LINK.format(link))
+            inside = f'<origin xyz="0 {sign * y} 0"/><axis xyz="0 1 0"/>{LIMIT.format(-1, 1)}'
+            parts.append(JOINT.format(f"{link}_joint", "revolute", above, link, inside))
+            above = link
+        y = 0.1 if side == "left" else right_y
+        inside = f'<origin xyz="0 {y} 0"/><axis xyz="1 0 0"/>{LIMIT.format(0, same)}'
+        parts.append(LINK.format(f"{side}_{name}"))
+        parts.append(
+            JOINT.format(f"{side}_{name}_joint", "revolute", above, f"{side}_{name}", inside)
+        )
+    return robot(*parts)
+
+
+@pytest.mark.parametrize(("name", "count"), [("gripper", 0), ("elbow", 1)])
+def test_grippers_of_equal_limits_are_copies(write, name, count):
+    path = write("r.urdf", limbs(name, same=1, right_y=-0.1))
+    assert len(check(path, select=["limits-not-mirrored"])) == count
+
+
+@pytest.mark.parametrize(("y", "words"), [(0.1, "same <origin>"), (-0.3, "is misplaced")])
+def test_joints_of_one_origin_may_be_copies(write, y, words):
+    path = write("r.urdf", limbs("hand", same=1, right_y=y))
+    assert words in one(path, "joint-not-mirrored").message
