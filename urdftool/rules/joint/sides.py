@@ -26,21 +26,18 @@ def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
     Left and right are told by the names of the links, and nothing is said of names with two such
     words that may be paired in several ways. It is said of robots of which most such pairs
     mirror each other, of joints that move, and of the first from which a limb is off, not of those
-    below.
+    below. Limbs whose joints have the same ``<origin>`` on both sides are copies, and not reported.
     """
     for pair, gap in sides(robot).off:
         right = pair.right_joint
         if right.is_fixed:
             continue
-        copied = right.parent != pair.left_joint.parent and _has_the_same_origin(pair)
-        if copied:
-            so = "both have the same <origin>: the limbs are copies, or one sign is wrong"
-        else:
-            so = "one of the two is misplaced"
+        if right.parent != pair.left_joint.parent and _has_the_same_origin(pair):
+            continue
         yield Problem(
             right,
             f"joint '{right.name}' is {gap * 1000:.3g} mm from where '{pair.left_joint.name}' has "
-            f"its mirror image; {so}",
+            "its mirror image; one of the two is misplaced",
             at=right.origin or right,
         )
 
