@@ -169,6 +169,16 @@ def test_a_joint_that_its_limits_lock_needs_no_plugin(write):
         assert len(found) == count
 
 
+def test_a_plugin_that_a_condition_leaves_out_is_not_missed(write):
+    part = '<gazebo><plugin name="control" filename="gz_ros2_control-system"/></gazebo>'
+    gazebo = '<gazebo reference="a"><mu1>1</mu1></gazebo>'
+    head = 'name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    for inside, count in ((f'<xacro:if value="false">{part}</xacro:if>', 0), ("", 1)):
+        text = swing(LIMIT.format(0, 1)).replace("</robot>", f"{gazebo}{inside}</robot>")
+        path = write("r.urdf.xacro", text.replace('name="r"', head, 1))
+        assert len(check(path, select=["missing-control-plugin"], targets=["gz"])) == count
+
+
 OLD = (
     '<gazebo><controller:gazebo_ros_controller_manager xmlns:controller="http://x" '
     'name="c" plugin="libgazebo_ros_controller_manager.so"/></gazebo>'
@@ -318,3 +328,11 @@ def test_grippers_of_equal_limits_are_copies(write, name, count):
 def test_joints_of_one_origin_on_both_limbs_are_copies(write, y, count):
     path = write("r.urdf", limbs("hand", same=1, right_y=y))
     assert len(check(path, select=["joint-not-mirrored"])) == count
+
+
+def test_an_effort_of_0_makes_a_joint_passive_in_drake(write):
+    text = swing('<limit lower="-1" upper="1" effort="0" velocity="1"/>')
+    assert one(write("r.urdf", text), "zero-effort-limit").severity.label == "warning"
+    path = write("s.urdf", text.replace('name="r"', 'name="r" xmlns:drake="http://drake"', 1))
+    assert one(path, "zero-effort-limit").severity.label == "info"
+    assert one(path, "zero-effort-limit", targets=["gz"]).severity.label == "error"

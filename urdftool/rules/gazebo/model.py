@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Robot
+from ...source.description import Description
+from ...source.document import parse
 from ..joint.range import is_locked
 from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
 from ..words import quoted
@@ -115,12 +117,15 @@ _REPORTS = re.compile(r"joint[-_]?state", re.IGNORECASE)
         "gz, gazebo-classic": "load the robot, and nothing drives its joints",
     },
 )
-def missing_control_plugin(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+def missing_control_plugin(
+    robot: Robot, description: Description, targets: frozenset[str]
+) -> Iterator[Problem]:
     """Joints move, and no plugin drives or reports them.
 
     In Gazebo a joint without a plugin swings freely: the arm collapses as soon as it is spawned.
     And nobody publishes joint states, so that RViz has no transforms past the first joint. Joints
-    that their limits lock need no plugin. Of a robot with two wheels on one axle that turn about
+    that their limits lock need no plugin, and where a condition of xacro leaves out a part for
+    Gazebo, nothing is reported. Of a robot with two wheels on one axle that turn about
     its y axis, the numbers of a differential drive are given.
     """
     joints = [
@@ -136,6 +141,8 @@ def missing_control_plugin(robot: Robot, targets: frozenset[str]) -> Iterator[Pr
         f"{plugin.filename} {plugin.name}" for block in robot.gazebo for plugin in block.plugins
     ]
     plugins += robot.old_plugins
+    if not plugins and _has_a_part_for_gazebo(description):
+        return
     acting = [text for text in plugins if _DRIVES.search(text)]
     reported = any(_REPORTS.search(text) for text in acting)
     if any(not _REPORTS.search(text) for text in acting):
@@ -158,6 +165,22 @@ def missing_control_plugin(robot: Robot, targets: frozenset[str]) -> Iterator[Pr
         )
     acts = "drives them" if reported else "drives or reports any joint"
     yield Problem(robot, f"{names} {verb} and no Gazebo plugin {acts}; add {remedy}")
+
+
+_FOR_GAZEBO = re.compile(r"gazebo|(?<![a-z])(gz|ign|sim)(?![a-z])", re.IGNORECASE)
+
+
+def _has_a_part_for_gazebo(description: Description) -> bool:
+    """Tell whether a condition of xacro decides on an include or element for Gazebo."""
+    if description.expansion is None:
+        return False
+    return any(
+        part.tag == "gazebo" or _FOR_GAZEBO.search(part.get("filename") or "")
+        for file in description.files
+        for element in parse(file).root.walk()
+        if element.tag in ("xacro:if", "xacro:unless")
+        for part in element.walk()
+    )
 
 
 @rule(

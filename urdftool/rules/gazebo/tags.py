@@ -64,7 +64,7 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
                 severity=None if role else INFO,
                 effects=holding(_WITHOUT_BLOCK, *cases),
                 group="{count} links have no <gazebo> block of their own, and need "
-                f"{' and '.join(needs)}: {{names}}",
+                f"{' and '.join(needs).replace(' its ', ' their ')}: {{names}}",
             )
 
 

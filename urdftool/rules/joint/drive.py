@@ -9,7 +9,7 @@ from ...model.elements import Joint, Limit, Robot
 from ..gazebo.contact import is_wheel
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..words import quoted
-from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
+from ..xml.vocabulary_table import is_for_another_reader, misspelt_attributes, misspelt_children
 from .range import is_locked
 
 _UNITS = {"prismatic": ("N", "m/s")}
@@ -24,13 +24,14 @@ _UNITS = {"prismatic": ("N", "m/s")}
     },
     group="robot",
 )
-def zero_effort_limit(robot: Robot) -> Iterator[Problem]:
+def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A moving joint's effort limit is 0.
 
     It says that the motor has no force at all. Gazebo's physics believes it and the joint never
     moves by itself; MuJoCo takes it for "no limit". Write what the drive can do, from its data
-    sheet.
+    sheet. In a file with elements of Drake's, where it makes a joint passive, it is a remark.
     """
+    passive = "gz" not in targets and is_for_another_reader(robot.element)
     for joint, limit in _driven(robot):
         if limit.effort == 0.0:
             yield Problem(
@@ -38,6 +39,7 @@ def zero_effort_limit(robot: Robot) -> Iterator[Problem]:
                 f"effort limit of joint '{joint.name}' is 0, so nothing can drive it; "
                 f"write the {'force [N]' if joint.type == 'prismatic' else 'torque [N·m]'} it has",
                 at=limit.element.attribute_place("effort"),
+                severity=INFO if passive else None,
             )
 
 
