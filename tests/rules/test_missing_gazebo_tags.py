@@ -29,7 +29,7 @@ def test_robot_for_another_simulator_gets_none(tmp_path):
 
 def test_classic_wants_colours_and_friction():
     assert _found(CART, targets=["gazebo-classic"]) == [
-        ("link", "chassis", "warning"),
+        ("link", "chassis", "info"),
         ("link", "wheel", "warning"),
     ]
 

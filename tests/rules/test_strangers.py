@@ -53,6 +53,6 @@ def test_a_colour_of_what_collides_is_one_finding_and_does_not_sound_missing(tmp
     file.write_text(f'<robot name="r">\n{links}</robot>')
     found = [f.message for f in check(file, select=["unknown-element"])]
     assert found == [
-        "<material> does not belong in <collision> of link 'l0' (and 1 more); what collides has no "
-        "colour; write it inside <visual>"
+        "<material> does not belong in <collision> of link 'l0' (and 1 more); a collision has no "
+        "color; remove it, or write it in <visual>"
     ]
