@@ -100,6 +100,7 @@ def export_mjcf(
     actuator_config: str | Path | None = None,
     armature: float | None = None,
     exclude: Exclude = "touching",
+    fuse: bool = False,
     mesh_dir: str = "assets",
     force: bool = False,
     verify: bool = False,
@@ -130,6 +131,7 @@ def export_mjcf(
         armature: Rotor inertia reflected at every joint [kg·m², kg of a slide].
         exclude: Pairs of links that never collide: ``"adjacent"`` that a joint joins,
             ``"touching"`` also those that overlap at home, ``"none"``.
+        fuse: Whether to merge links that are fixed to another into it; their frames become sites.
         mesh_dir: The folder of the meshes, relative to the model.
         force: Whether to go on past errors where a robot is left.
         verify: Whether to compare the result, compiled in MuJoCo, with the robot; ``checks`` has
@@ -167,6 +169,7 @@ def export_mjcf(
         actuator_config=None if actuator_config is None else Path(actuator_config),
         armature=armature,
         exclude=exclude,
+        fuse=fuse,
         overlap=measure_overlap,
     )
     written = write(robot, options)

@@ -77,6 +77,11 @@ def _pose(
     "at home (touching), or none but those of --srdf.",
 )
 @click.option(
+    "--fuse",
+    is_flag=True,
+    help="Merge links that are fixed to another into it; their frames become sites.",
+)
+@click.option(
     "--actuator-config",
     metavar="FILE",
     type=Path,

@@ -91,6 +91,10 @@ def fill_bodies(
             body.insert(index, part)
         if link_is_weightless(structure.robot, name) and body.tag == "body":
             body.set("gravcomp", "1")
+    for name, body in bodies.items():
+        for geom in body.iterchildren("geom"):
+            if geom.get("class") == "collision" and not geom.get("name"):
+                geom.set("name", names.take(f"{name}_collision"))
 
 
 def _joints(

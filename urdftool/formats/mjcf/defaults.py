@@ -6,6 +6,7 @@ from collections import Counter
 
 from lxml import etree
 
+from .classes import add_foot_class, add_joint_classes
 from .gazebo import DEFAULT_FRICTION
 
 # attribute -> what MuJoCo takes where neither the element nor a class says it
@@ -16,12 +17,15 @@ VISUAL = {"contype": "0", "conaffinity": "0", "group": "2"}
 COLLISION = {"group": "3"}
 
 
-def default_section(model: str, world: etree._Element) -> etree._Element:
+def default_section(
+    model: str, world: etree._Element, actuators: etree._Element | None = None
+) -> etree._Element:
     """``<default>`` with the robot's class; what it says is taken off the elements.
 
     Args:
         model: The model's name, which is that of the class.
         world: ``<worldbody>``, whose joints and geoms are changed.
+        actuators: ``<actuator>``, whose elements are changed.
     """
     section = etree.Element("default")
     robot = etree.SubElement(section, "default", {"class": model})
@@ -33,6 +37,7 @@ def default_section(model: str, world: etree._Element) -> etree._Element:
         for ball in world.iter("joint"):
             if ball.get("type") == "ball":
                 _restore(ball, joint, {k: v for k, v in JOINT.items() if k != "axis"})
+    add_joint_classes(robot, world, actuators, model)
     for name, fixed, shared in (
         ("visual", VISUAL, {"type": "sphere"}),
         ("collision", COLLISION, GEOM),
@@ -44,6 +49,8 @@ def default_section(model: str, world: etree._Element) -> etree._Element:
             _share(default, geoms, shared)
             for attribute, value in fixed.items():
                 default.set(attribute, value)
+            if name == "collision":
+                add_foot_class(group, world)
     return section
 
 

@@ -15,8 +15,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-TIMESTEP = 0.005
-"""The longest physics time step [s] at which the servos must be stable."""
+TIMESTEP = 0.002
+"""Physics time step [s] for which gains are bounded: MuJoCo's default."""
 
 PART = 0.25
 """The largest position gain, as a part of M/Δt²."""

@@ -17,6 +17,7 @@ from .defaults import default_section
 from .document import assemble, note_losses
 from .equality import equality_section
 from .extension import apply_extension
+from .fuse import fuse_links
 from .gazebo import gazebo_losses
 from .home import Home
 from .home_contacts import exclude_overlapping
@@ -89,8 +90,10 @@ def model_text(
     _controller_losses(robot, written)
     apply_extension(robot, sections, written)
     share_colors(world, materials.elements)
-    sections["default"] = default_section(name, world)
+    sections["default"] = default_section(name, world, actuators)
     sections["asset"] = _asset(assets, materials)
+    if options.fuse:
+        fuse_links(structure, bodies, sections, masses, written)
     note_losses(written.losses, bodies)
     return assemble(name, sections)
 

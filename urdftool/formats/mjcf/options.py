@@ -48,6 +48,7 @@ class Options:
         actuator_config: A TOML file with gains, armature and losses of joints.
         exclude: Pairs of links that never collide: ``adjacent`` are those that a joint joins,
             ``touching`` also those that overlap at home, which MuJoCo is asked for.
+        fuse: Merge each link that is fixed to another into it, and keep its frame as a site.
         overlap: Measures authored geometry, to tell an overlap of convex hulls; None does not
             look for overlaps unless ``exclude`` asks for them.
         armature: Rotor inertia [kg·m² or kg] added to every joint that the file says nothing of.
@@ -69,4 +70,5 @@ class Options:
     actuator_config: Path | None = None
     armature: float | None = None
     exclude: Exclude = "adjacent"
+    fuse: bool = False
     overlap: Overlap | None = None

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +23,7 @@ from .compiled import Compiled, compile_all, copied
 from .options import Options
 from .verify_contact import contact_check, surface_check
 from .verify_drives import actuator_check
+from .verify_fuse import fuse_check
 from .verify_home import base_check, home_check
 from .verify_looks import material_check
 from .verify_loops import compare_loops, loop_ends
@@ -45,7 +47,33 @@ def verify_copy(robot: Robot, options: Options, written: Written) -> list[Check]
     """Compile and compare a copy of an export, before anything of the user's is touched."""
     with copied(written) as folder:
         compile_all(written, folder)
-        return verify(robot, written, folder / written.main, write(robot, options), options)
+        model, again = folder / written.main, write(robot, options)
+        if not options.fuse:
+            return verify(robot, written, model, again, options)
+        whole = replace(options, fuse=False)
+        apart = write(robot, whole)
+        with copied(apart) as place:
+            checks = verify(robot, apart, place / apart.main, apart, whole)
+            merged = _fused(robot, apart, place / apart.main, model)
+        runs = runs_check(model, Said.by(written.losses))
+    own = {"repeats": _repeats(written, again), "runs": runs}
+    return [*(own.get(check.name, check) for check in checks), merged]
+
+
+def _fused(robot: Robot, apart: Written, whole: Path, merged: Path) -> Check:
+    """Compare the model whose links are merged with that of all links."""
+    robot, _ = with_world(robot)
+    mechanics = Mechanics(robot)
+    plain, fused = (Compiled(path, mechanics.root, apart.renamed) for path in (whole, merged))
+    links = [link.name for link in robot.links]
+    return fuse_check(links, plain, fused, list(_configurations(mechanics, plain)))
+
+
+def _repeats(written: Written, again: Written) -> Check:
+    repeat = Check("repeats", "a second export has the same bytes", 0)
+    for name in sorted(written.files.keys() | again.files.keys()):
+        repeat.compare(0 if written.files.get(name) == again.files.get(name) else math.inf, name)
+    return repeat
 
 
 def verify(
@@ -68,9 +96,6 @@ def verify(
     said = Said.by(written.losses)
     mechanics = Mechanics(robot)
     compiled = Compiled(model, mechanics.root, written.renamed)
-    repeat = Check("repeats", "a second export has the same bytes", 0)
-    for name in sorted(written.files.keys() | again.files.keys()):
-        repeat.compare(0 if written.files.get(name) == again.files.get(name) else math.inf, name)
     configurations = list(_configurations(mechanics, compiled))
     source = Source(robot, options or Options(), said.of((FREE,), robot.tree.roots[0].name))
     meshes = SourceMeshes(robot)
@@ -93,7 +118,7 @@ def verify(
         visual_check(robot, meshes, mechanics, compiled, configurations, said),
         material_check(source, meshes, compiled, said),
         runs_check(model, said),
-        repeat,
+        _repeats(written, again),
     ]
     clean = Check("loads", "MuJoCo compiles and poses it without a warning", 0)
     for warning in compiled.warnings:

@@ -1,0 +1,235 @@
+"""Links that are fixed to another, merged into it: fewer bodies, and every frame as a site.
+
+MuJoCo welds a body without a joint to its parent, and still pays for it in every step. The merged
+body has the exact mass properties of its links, and their geometry, sensors and frames where they
+were. A body stays where it has a meaning of its own: something refers to it, a force or touch
+sensor measures at it, or gravity does not act on it as on its parent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from lxml import etree
+
+from ...finding import Severity
+from ...model.elements import Vector
+from ...model.pose import Pose, rotate, rotation_of_quaternion
+from ..numbers import numbers_text
+from ..written import Written
+from .body import Bodies
+from .frame import set_pose
+from .joint import SITE
+from .link_inertia import LinkInertia, inertial_element
+from .names import Names
+from .structure import Structure
+
+REFERENCES = ("body", "body1", "body2", "objname", "refname", "target")
+"""Attributes that name a body."""
+
+AT_BODY = ("force", "torque", "touch")
+"""Sensors that measure between the body of their site and its parent, or on all of a body."""
+
+
+def fuse_links(
+    structure: Structure,
+    bodies: Bodies,
+    sections: Mapping[str, etree._Element],
+    masses: Mapping[str, LinkInertia],
+    written: Written,
+) -> None:
+    """Merge each link without a joint of its own into its parent, and keep its frame as a site.
+
+    Args:
+        structure: The tree.
+        bodies: The body of each link, which are changed.
+        sections: The model, whose exclusions are changed.
+        masses: Mass properties of the links.
+        written: Takes which links are merged.
+    """
+    kept = _kept(sections)
+    apart = _apart(sections.get("contact"))
+    sites = Names(tuple(site.get("name", "") for site in sections["worldbody"].iter("site")))
+    owner: dict[str, str] = {}
+    contacts: dict[str, set[str]] = {}
+    poses: dict[str, Pose] = {}
+    for joint in structure.joints:
+        link, body = joint.child, bodies[joint.child]
+        parent = body.getparent()
+        if structure.kind(joint) != "weld" or parent is None or parent.tag != "body":
+            continue
+        if body.get("name") in kept or body.get("gravcomp") != parent.get("gravcomp"):
+            continue
+        top = owner.get(joint.parent, joint.parent)
+        if body.getparent() is not bodies[top]:
+            continue
+        if _collides(body):
+            own = apart.get(body.get("name", ""), set())
+            of_top = apart.get(bodies[top].get("name", ""), set())
+            first = contacts.setdefault(top, of_top if _collides(bodies[top]) else own)
+            if first != own:
+                continue  # merged, links would be kept apart that are not
+        owner[link] = top
+        poses[link] = pose_of_element(body)  # those above it are merged already
+        _merge(body, bodies[top], sites)
+    groups: dict[str, list[str]] = {}
+    for link, top in owner.items():
+        groups.setdefault(top, [top]).append(link)
+    for top, links in groups.items():
+        _write_inertia(bodies[top], links, poses, masses)
+    _rename_exclusions(sections.get("contact"), owner, bodies)
+    if owner:
+        written.lose(
+            "fused",
+            f"{len(owner)} links that are fixed to another are merged into it; their frames are "
+            "sites of their names",
+            structure.robot.element.place,
+            severity=Severity.INFO,
+        )
+    for link, top in owner.items():
+        bodies[link] = bodies[top]
+
+
+def _vector(text: str | None) -> Vector:
+    x, y, z = (float(part) for part in (text or "0 0 0").split())
+    return x, y, z
+
+
+def pose_of_element(element: etree._Element) -> Pose:
+    """Read ``pos`` and ``quat`` of an element."""
+    w, a, b, c = (float(part) for part in (element.get("quat") or "1 0 0 0").split())
+    size = (w * w + a * a + b * b + c * c) ** 0.5
+    return Pose(
+        rotation_of_quaternion((w / size, a / size, b / size, c / size)),
+        _vector(element.get("pos")),
+    )
+
+
+def _kept(sections: Mapping[str, etree._Element]) -> set[str]:
+    """The names of the bodies that something refers to or measures at."""
+    names = {
+        str(element.get(attribute))
+        for name in ("equality", "sensor", "actuator")
+        for element in (sections[name].iter(etree.Element) if name in sections else ())
+        for attribute in REFERENCES
+        if element.get(attribute)
+    }
+    sensors = sections.get("sensor")
+    measured = {
+        sensor.get("site") for sensor in (sensors if sensors is not None else ())
+        if sensor.tag in AT_BODY
+    }  # fmt: skip
+    for site in sections["worldbody"].iter("site"):
+        body = site.getparent()
+        if site.get("name") in measured and body is not None:
+            names.add(body.get("name", ""))
+    return names
+
+
+def _apart(contact: etree._Element | None) -> dict[str, set[str]]:
+    """For each body that does not collide with others the names of these."""
+    found: dict[str, set[str]] = {}
+    for exclude in contact if contact is not None else ():
+        one, other = exclude.get("body1", ""), exclude.get("body2", "")
+        found.setdefault(one, set()).add(other)
+        found.setdefault(other, set()).add(one)
+    return found
+
+
+def _collides(body: etree._Element) -> bool:
+    return any(geom.get("class") != "visual" for geom in body.iterchildren("geom"))
+
+
+def _merge(body: etree._Element, into: etree._Element, sites: Names) -> None:
+    """Move what a body has into another, at the same place."""
+    at = pose_of_element(body)
+    where = into.index(body)
+    into.remove(body)
+    name = body.get("name", "")
+    frame = etree.Element("site", {"name": sites.take(name, f"{name}_frame"), **SITE})
+    set_pose(frame, at)
+    moved = [frame]
+    for child in list(body):
+        if child.tag == "inertial":
+            continue
+        if isinstance(child, etree._Comment):
+            moved.append(child)
+            continue
+        if child.tag == "light" and child.get("dir"):
+            way = rotate(at.rotation, _vector(child.get("dir")))
+            child.set("dir", numbers_text(way))
+        pose = at @ pose_of_element(child)
+        for attribute in ("pos", "quat"):
+            if attribute in child.attrib:
+                del child.attrib[attribute]
+        set_pose(child, pose)
+        moved.append(child)
+    parts = [element for element in moved if element.tag != "body"]
+    below = [element for element in moved if element.tag == "body"]
+    first = next((i for i, child in enumerate(into) if child.tag == "body"), len(into))
+    for offset, element in enumerate(parts):
+        into.insert(first + offset, element)
+    for offset, element in enumerate(below):
+        into.insert(max(where, first) + len(parts) + offset, element)
+
+
+def _write_inertia(
+    body: etree._Element,
+    links: list[str],
+    poses: Mapping[str, Pose],
+    masses: Mapping[str, LinkInertia],
+) -> None:
+    """Write the mass properties of several links as one."""
+    parts = [(masses[name], poses.get(name, Pose())) for name in links if name in masses]
+    if not parts or (len(parts) == 1 and links[0] in masses):
+        return
+    whole = composed(parts)
+    for old in body.findall("inertial"):
+        body.remove(old)
+    comments = sum(1 for _ in _leading_comments(body))
+    body.insert(comments, inertial_element(whole))
+
+
+def composed(parts: list[tuple[LinkInertia, Pose]]) -> LinkInertia:
+    """Compute the mass properties of several links that are one rigid body.
+
+    Args:
+        parts: Mass properties of each, and the pose of its link in the frame of the whole.
+    """
+    mass = sum(read.mass for read, _ in parts)
+    centers = [np.array(pose.transform(read.com)) for read, pose in parts]
+    weights = np.array([read.mass for read, _ in parts])
+    com = weights @ np.array(centers) / mass if mass > 0 else np.zeros(3)
+    tensor = np.zeros((3, 3))
+    for (read, pose), center in zip(parts, centers, strict=True):
+        turn, arm = np.array(pose.rotation), center - com
+        tensor += turn @ read.tensor @ turn.T
+        tensor += read.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return LinkInertia.about(mass, com, (tensor + tensor.T) / 2, parts[0][0].place)
+
+
+def _leading_comments(body: etree._Element) -> Iterator[etree._Element]:
+    for child in body:
+        if not isinstance(child, etree._Comment):
+            return
+        yield child
+
+
+def _rename_exclusions(
+    contact: etree._Element | None, owner: Mapping[str, str], bodies: Bodies
+) -> None:
+    """Let exclusions name the bodies into which links were merged, each pair once."""
+    if contact is None:
+        return
+    into = {bodies[link].get("name"): bodies[top].get("name") for link, top in owner.items()}
+    seen = set()
+    for exclude in list(contact):
+        names = [into.get(exclude.get(key), exclude.get(key)) for key in ("body1", "body2")]
+        pair = frozenset(names)
+        if len(pair) < 2 or pair in seen:
+            contact.remove(exclude)
+            continue
+        seen.add(pair)
+        for key, name in zip(("body1", "body2"), names, strict=True):
+            exclude.set(key, str(name))
