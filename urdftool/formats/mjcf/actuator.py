@@ -14,8 +14,8 @@ from lxml import etree
 from ...finding import Severity
 from ...model.elements import Joint, Robot
 from ..actuator_config import JointSettings
-from ..numbers import number_text, numbers_text
 from ..written import Written
+from .digits import number_text, numbers_text
 from .drives import plugin_drives
 from .equality import follows
 from .gains import PART, TIMESTEP, Gain, position_gain, velocity_gain

@@ -5,8 +5,8 @@ from __future__ import annotations
 from lxml import etree
 
 from ...model.elements import Joint, Link
-from ..numbers import numbers_text
 from ..written import Written
+from .digits import numbers_text
 from .frame import set_origin, set_pose
 from .gazebo import link_friction, link_is_weightless
 from .geom import collision_geoms, visual_geoms

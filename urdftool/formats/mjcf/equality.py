@@ -6,8 +6,8 @@ from lxml import etree
 
 from ...finding import Severity
 from ...model.elements import Joint
-from ..numbers import numbers_text
 from ..written import Written
+from .digits import numbers_text
 from .loops import STIFF, loop_equalities
 from .structure import Structure, locked_at
 

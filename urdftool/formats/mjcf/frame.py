@@ -8,7 +8,7 @@ from lxml import etree
 
 from ...model.elements import Origin
 from ...model.pose import Pose, Quaternion, quaternion_of_rotation, quaternion_of_rpy
-from ..numbers import numbers_text
+from .digits import numbers_text
 
 _SAME = 1e-15
 

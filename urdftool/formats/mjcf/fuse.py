@@ -16,9 +16,9 @@ from lxml import etree
 from ...finding import Severity
 from ...model.elements import Vector
 from ...model.pose import Pose, rotate, rotation_of_quaternion
-from ..numbers import numbers_text
 from ..written import Written
 from .body import Bodies
+from .digits import numbers_text
 from .frame import set_pose
 from .joint import SITE
 from .link_inertia import LinkInertia, inertial_element

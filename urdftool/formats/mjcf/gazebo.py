@@ -8,8 +8,8 @@ from ...finding import Finding, Severity
 from ...model.elements import GazeboExtension, Robot
 from ...model.read import number
 from ..defects import defect
-from ..numbers import number_text
 from ..written import Written
+from .digits import number_text
 
 DEFAULT_FRICTION = "1 0.005 0.0001"
 """MuJoCo's sliding, torsional [m] and rolling [m] friction."""

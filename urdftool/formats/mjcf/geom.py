@@ -18,8 +18,8 @@ from ...model.elements import (
     Visual,
 )
 from ...model.read import number
-from ..numbers import numbers_text
 from ..written import Written
+from .digits import numbers_text
 from .frame import set_origin
 from .material import Materials
 from .meshes import Assets, MeshPiece

@@ -58,8 +58,15 @@ def principal(tensor: Array) -> tuple[Array, Array]:
     gap = moments[2] - moments[0] - moments[1]
     if gap > -_SAFE * size:
         moments[:2] += max(gap, 0.0) / 2 + _LIFT * size
+        moments[:2] = [_rounded_up(moment) for moment in moments[:2]]
     moments[0] = max(moments[0], _LIFT * size)
     return moments, axes
+
+
+def _rounded_up(moment: float) -> float:
+    """The next number of twelve digits, which is above by at most 1e-11 of it."""
+    short = float(f"{moment:.11e}")
+    return short if short >= moment else float(f"{moment * (1 + 1e-11):.11e}")
 
 
 def lift(tensor: Array) -> Array:

@@ -31,6 +31,9 @@ LEAST = 2e-15
 ENOUGH = 1e-14
 """What MuJoCo takes for a mass [kg] or a moment [kg·m²] above zero, with a margin."""
 
+NEGLIGIBLE = 1e-8
+"""Part of a joint's inertia that does not count."""
+
 LEAF_ARMATURE = 1e-4
 """Inertia [kg·m² or kg] added to the joint of a massless last link, so that it can be simulated."""
 
@@ -215,6 +218,27 @@ def _repaired(
     return lifted, "lifted"
 
 
+def _part_of_tiny(structure: Structure, top: str, group: dict[str, LinkInertia]) -> float:
+    """The inertia that is given to a point mass, relative to what it has about its joint's axis.
+
+    Zero where the joint does not turn it, or moves other bodies too.
+    """
+    joint = structure.robot.tree.parent_joint(top)
+    below = set(structure.robot.tree.descendants(top)) - group.keys()
+    if joint is None or structure.kind(joint) != "hinge":
+        return 0.0
+    if any(structure.robot.link[name].mass > 0 for name in below):
+        return 0.0
+    axis = np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
+    axis = axis / np.linalg.norm(axis)
+    about = 0.0
+    for name, read in group.items():
+        pose = structure.pose_in_group(name)
+        turn, arm = np.array(pose.rotation), np.cross(axis, pose.transform(read.com))
+        about += read.mass * float(arm @ arm) + float(axis @ turn @ read.tensor @ turn.T @ axis)
+    return TINY / about if about > 0 else 1.0
+
+
 def _give_weight(
     structure: Structure, top: str, group: dict[str, LinkInertia], written: Written
 ) -> None:
@@ -225,14 +249,17 @@ def _give_weight(
     mass = sum(read.mass for read in group.values())
     if mass > ENOUGH:
         heaviest = max(group, key=lambda name: group[name].mass)
+        part = _part_of_tiny(structure, top, group)
         group[heaviest] = group[heaviest].changed(group[heaviest].tensor + TINY * np.eye(3))
         written.lose(
             "point-mass",
-            f"link '{heaviest}' is a point mass; MuJoCo wants inertia, so it has {TINY:g} kg·m²",
+            f"link '{heaviest}' is a point mass; MuJoCo requires inertia, so it has {TINY:g} kg·m²"
+            + (f", {part:.1g} of what its joint moves" if part > NEGLIGIBLE else ""),
             group[heaviest].place,
             kind="link",
             name=heaviest,
-            severity=Severity.INFO,
+            severity=Severity.WARNING if part > NEGLIGIBLE else Severity.INFO,
+            hint="write its <inertia>" if part > NEGLIGIBLE else "",
         )
         return
     group.clear()

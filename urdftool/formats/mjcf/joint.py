@@ -9,8 +9,8 @@ from lxml import etree
 from ...finding import Severity
 from ...model.elements import Joint, Limit, Vector
 from ...model.pose import cross, norm
-from ..numbers import number_text, numbers_text
 from ..written import Written
+from .digits import number_text, numbers_text
 from .gazebo import joint_spring
 from .inertials import LEAF_ARMATURE
 from .structure import Structure, bounds

@@ -8,9 +8,9 @@ from lxml import etree
 
 from ...finding import Severity
 from ..actuator_config import JointSettings, read_actuator_config
-from ..numbers import number_text
 from ..written import Written
 from .body import Bodies
+from .digits import number_text
 from .options import Options
 from .structure import Structure, locked_at
 

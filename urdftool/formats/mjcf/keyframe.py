@@ -5,8 +5,8 @@ from __future__ import annotations
 from lxml import etree
 
 from ...model.pose import Pose, quaternion_of_rotation
-from ..numbers import numbers_text
 from .actuator import Drive
+from .digits import numbers_text
 from .frame import plain
 from .home import Home
 from .joint import PLANAR_SUFFIXES

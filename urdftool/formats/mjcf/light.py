@@ -10,9 +10,9 @@ from ...model.elements import Robot, Vector
 from ...model.pose import IDENTITY, Pose, rotate, rotation_of_rpy
 from ...model.read import number, numbers
 from ...source.document import Element
-from ..numbers import number_text, numbers_text
 from ..written import Written
 from .body import Bodies
+from .digits import number_text, numbers_text
 from .names import Names
 
 DOWN: Vector = (0.0, 0.0, -1.0)

@@ -10,8 +10,8 @@ from lxml import etree
 from ...model.elements import Link, Origin, Vector
 from ...model.pose import pose_of, quaternion_of_rotation
 from ...source.location import Place
-from ..numbers import number_text, numbers_text
 from . import inertia as tensors
+from .digits import number_text, numbers_text
 from .frame import plain, quaternion_of
 from .inertia import Array
 

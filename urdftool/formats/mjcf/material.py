@@ -9,9 +9,9 @@ from lxml import etree
 
 from ...errors import SourceError
 from ...model.elements import Material, Robot, Visual
-from ..numbers import numbers_text
 from ..written import Written
 from .convert import Image, Rgba
+from .digits import numbers_text
 from .gazebo_colors import gazebo_color
 from .meshes import MeshPiece
 from .names import Names, file_name

@@ -15,10 +15,10 @@ from ...finding import Finding, Severity
 from ...model.elements import Collision, Mesh, Robot, Vector, Visual
 from ..defects import defect
 from ..missing import why_missing
-from ..numbers import numbers_text
 from ..written import Written
 from .convert import Converted, Image, Piece, Rgba
 from .cut import Cut, Cutter
+from .digits import numbers_text
 from .names import Names, file_name
 from .obj import obj_bytes
 from .options import Options

@@ -6,7 +6,6 @@ from lxml import etree
 
 from ...finding import Severity
 from ...model.elements import Robot
-from ..numbers import number_text
 from ..written import Written
 from .actuator import actuator_section
 from .base_sensors import add_base_sensors
@@ -14,6 +13,7 @@ from .body import body_tree, fill_bodies
 from .colors import share_colors
 from .contact import contact_section
 from .defaults import default_section
+from .digits import number_text
 from .document import assemble, note_losses
 from .equality import equality_section
 from .extension import apply_extension

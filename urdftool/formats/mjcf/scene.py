@@ -8,8 +8,8 @@ from lxml import etree
 
 from ...finding import Severity
 from ...model.elements import Vector
-from ..numbers import number_text
 from ..written import Written
+from .digits import number_text
 from .document import serialise
 from .home import Home
 from .names import Names

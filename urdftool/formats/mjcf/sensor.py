@@ -11,9 +11,9 @@ from ...model.elements import ControlComponent, Robot, Sensor
 from ...model.pose import Pose, rotation_of_quaternion, rotation_of_rpy
 from ...model.read import number, numbers
 from ...source.document import Element
-from ..numbers import number_text, numbers_text
 from ..written import Written
 from .body import Bodies
+from .digits import number_text, numbers_text
 from .frame import set_pose
 from .joint import SITE
 from .names import Names

@@ -243,9 +243,9 @@ def _follows(joint: Joint, compiled: Compiled) -> bool:
         if model.eq_obj1id[number] == compiled.id("JOINT", joint.name):
             leader = compiled.id("JOINT", joint.mimic.joint)
             data = model.eq_data[number][:5]
-            if model.eq_obj2id[number] == leader >= 0 and np.array_equal(
-                data, [joint.mimic.offset, joint.mimic.multiplier, 0, 0, 0]
-            ):
+            wanted = [joint.mimic.offset, joint.mimic.multiplier, 0, 0, 0]
+            same = np.allclose(data, wanted, rtol=1e-14, atol=0)
+            if same and model.eq_obj2id[number] == leader >= 0:
                 return True
     return False
 
