@@ -19,7 +19,7 @@ EXACT = 1e-9
 DAMPING = 1e-6
 """How exactly MuJoCo's critical damping is that of the mass matrix."""
 
-STIFFEST = 100.0
+STIFFEST = 250.0
 """How fast a position servo whose gain nobody chose may swing [rad/s]."""
 
 THREE_DIGITS = 6e-3
