@@ -32,7 +32,6 @@ MISTAKES = [
     (LASER, LASER, 11, "unknown-element", None),
     (LASER, LASER, 40, "unknown-element", None),
     (LASER, LASER, 68, "empty-geometry", '<cylinder radius="0.1" length="0.04"/>'),
-    (LASER, LASER, 77, "unknown-attribute", '<axis xyz="0 1 0"/>'),
     (LASER, LASER, 79, "unknown-element", '<dynamics damping="0.01" friction="0.01"/>'),
     (LASER, LASER, 126, "empty-geometry", '<cylinder radius="0.05" length="0.1"/>'),
     (MIRA, MIRA, 265, "unprefixed-hardware-interface", "hardware_interface/EffortJointInterface"),
