@@ -333,7 +333,7 @@ SOURCES = {
     "pybullet_data": lambda: _robots_of("pybullet_data"),
     "corpus": lambda: CORPUS if CORPUS.is_dir() else None,
 }
-LEAST = {"example-robot-data": 40, "pybullet_data": 20, "corpus": 40}
+LEAST = {"example-robot-data": 40, "pybullet_data": 20, "corpus": 35}
 """How many robots have a safe fix that some engine loads before and after it, at least."""
 
 
