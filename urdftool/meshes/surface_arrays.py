@@ -21,7 +21,7 @@ def surface_by_arrays(path: Path) -> Surface | None:
         mesh = load_mesh(path)
     except (MeshError, OSError):
         return None
-    points, faces, edges = _welded(mesh.vertices, mesh.faces)
+    points, faces, edges = welded(mesh.vertices, mesh.faces)
     corners = points[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     extent = float(np.ptp(mesh.vertices, axis=0).max())
@@ -31,8 +31,8 @@ def surface_by_arrays(path: Path) -> Surface | None:
     return Surface(len(faces), edges.open_count, int(sliver.sum()), edges.cycle, float(volume))
 
 
-def _welded(vertices: Points, faces: Faces) -> tuple[Points, Faces, Edges]:
-    """The mesh with equal points merged; nearly equal ones too where that closes it."""
+def welded(vertices: Points, faces: Faces) -> tuple[Points, Faces, Edges]:
+    """Merge equal points of a mesh; nearly equal ones too where that closes it."""
     best: tuple[Points, Faces, Edges] | None = None
     grid = WELD_TOLERANCE * float(np.ptp(vertices, axis=0).max())
     for shift in (None, 0.0, 0.5):

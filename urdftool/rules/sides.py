@@ -24,11 +24,6 @@ _WORD = re.compile(rf"(?<![a-zA-Z])(?:{_WORDS})(?![a-z])|(?<=[a-z])(?:Left|Right
 _END = re.compile(r"(?i)front|rear|back|hind|middle|mid|[flrhbm]{1,2}(?![a-z])|left|right")
 
 
-def twin_of(name: str, names: dict[str, Link] | dict[str, Joint]) -> str | None:
-    """The name of the right one to a left one's, if there is one of that name."""
-    return next(iter(twins_of(name, names)), None)
-
-
 def twins_of(name: str, names: dict[str, Link] | dict[str, Joint]) -> list[str]:
     """The names that may be that of the right one to a left one's, the likeliest first.
 
@@ -95,7 +90,12 @@ class Sides:
             self.normal = None
             self.off = [found for pair, a, b in long if (found := _nearly(pair, a, b))]
         self.off += _stacked(both, 1 if self.normal is None else self.normal)
+        self._displaced = {id(pair.left) for pair, _ in self.off}
         self.off = [found for found in self.off if is_clear(found[0].left.name)]
+
+    def is_displaced(self, pair: Pair) -> bool:
+        """Whether the joints of a pair are not where the mirror has them."""
+        return id(pair.left) in self._displaced
 
     def _steps(self, pair: Pair) -> tuple[Vector, Vector] | None:
         """From each one's parent to it, in the frame of the root [m]."""
@@ -144,7 +144,11 @@ class Sides:
         return x / length, y / length, z / length
 
 
-def _pairs(robot: Robot) -> Iterator[Pair]:
+def twin_links(robot: Robot) -> dict[str, str]:
+    """The right link to each left one, by their names.
+
+    Where a name has several, it is the one whose place mirrors that of the left one.
+    """
     links = robot.link
     several = {name: others for name in links if (others := twins_of(name, links))}
     twins = {name: others[0] for name, others in several.items() if len(others) == 1}
@@ -155,7 +159,11 @@ def _pairs(robot: Robot) -> Iterator[Pair]:
             if len(others) > 1 and fitting:
                 twins[name] = fitting[0]
     rights = set(twins.values())  # R_rf is that of L_rf; R_lf, a finger, is not its left one
-    twins = {name: other for name, other in twins.items() if name not in rights}
+    return {name: other for name, other in twins.items() if name not in rights}
+
+
+def _pairs(robot: Robot) -> Iterator[Pair]:
+    links, twins = robot.link, twin_links(robot)
     for name, other in twins.items():
         left, right = robot.tree.parent_joint(name), robot.tree.parent_joint(other)
         if left is None or right is None or left.type != right.type:

@@ -234,21 +234,24 @@ def _odd_one(
         if to_seen <= _CLEAR * distance < to_touches:
             return "collision", "the center of mass is at its visual"
     visual, collision = (
-        _repeats_joint(robot, link, link.visuals),
-        _repeats_joint(robot, link, link.collisions),
+        _repeated(robot, link, link.visuals),
+        _repeated(robot, link, link.collisions),
     )
-    if visual == collision:
+    if bool(visual) == bool(collision):
         return "", ""
-    return "visual" if visual else "collision", "its <origin> repeats that of the joint"
+    return "visual" if visual else "collision", visual or collision
 
 
-def _repeats_joint(robot: Robot, link: Link, shapes: list[Visual] | list[Collision]) -> bool:
-    """Whether shapes are displaced by what already displaces their link."""
+def _repeated(robot: Robot, link: Link, shapes: list[Visual] | list[Collision]) -> str:
+    """What of the origins of shapes repeats what already displaces their link, as a clause."""
     joint = robot.tree.parent_joint(link.name)
     step = pose_of(joint.origin).translation if joint is not None else IDENTITY.translation
     level = norm((*step[:2], 0.0))
-    return level > 1e-6 and any(
-        shape.origin is not None
-        and math.dist(shape.origin.xyz[:2], step[:2]) <= 1e-9 + 1e-6 * level
-        for shape in shapes
-    )
+    places = [shape.origin.xyz for shape in shapes if shape.origin is not None]
+    slack = 1e-9 + 1e-6 * level
+    same = [xyz for xyz in places if math.dist(xyz[:2], step[:2]) <= slack]
+    if level <= 1e-6 or not same:
+        return ""
+    if any(abs(xyz[2] - step[2]) <= slack for xyz in same):
+        return "its <origin> repeats that of the joint"
+    return "x and y of its <origin> repeat those of the joint"

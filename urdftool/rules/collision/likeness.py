@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ...meshes.facts import stl_facts
-from ...model.bounds import Bounds
+from ...model.bounds import Bounds, size_of
 from ...model.elements import Cylinder, Link, Robot, Sphere
 from ...model.gltf_axes import is_gltf
 from ...source.description import Description
@@ -222,13 +222,16 @@ def _is_doubled(link: Link, touches: Bounds, seen: Bounds) -> bool:
     },
     group="robot",
 )
-def collision_much_smaller_than_visual(robot: Robot, *, ratio: float = 4.0) -> Iterator[Problem]:
+def collision_much_smaller_than_visual(
+    robot: Robot, *, ratio: float = 4.0, speck: float = 0.002
+) -> Iterator[Problem]:
     """A link's collision is far smaller than its visual.
 
     Usually a unit is wrong, or a scale. It is reported where the box around the visuals is more
     than ``ratio`` times as long as that around the collisions along each of its sides; collisions
     at that place of links that are fixed to this one count as well, and what reaches into the box
-    from others of the same rigid body.
+    from others of the same rigid body. A box, cylinder or sphere of at most ``speck`` [m] is one on
+    purpose, to touch nothing, and is not reported.
     """
     reach = reaches(robot)
     for link in robot.links:
@@ -237,6 +240,9 @@ def collision_much_smaller_than_visual(robot: Robot, *, ratio: float = 4.0) -> I
             continue
         around = with_attached(reach, link, "collisions", touches, seen)
         if around is None or not _smaller(_with_held(reach, link, around, seen), seen, ratio):
+            continue
+        sizes = [size_of(collision.geometry) for collision in link.collisions]
+        if all(size is not None and max(size) <= speck for size in sizes):
             continue
         a, b = max(seen.size), max(touches.size)
         yield Problem(

@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ...model.elements import Robot
+from ...model.elements import GazeboExtension, Robot
 from ...model.read import number
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
+from .contact import contact_role
 from .keywords import NUMBERS
 
 _LEADING = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?(?:inf|nan)", re.IGNORECASE)
@@ -86,6 +87,21 @@ def half_friction(robot: Robot) -> Iterator[Problem]:
 
 
 _MU = ("mu1", "mu2")
+_HOLDS = re.compile(
+    r"finger|grip|jaw|(^|_)pad(_|\d|$)|thumb|hand|wheel|foot|feet|sole|track|tire", re.I
+)
+
+
+def _is_alike(block: GazeboExtension) -> bool:
+    """Whether a block writes one friction for both directions."""
+    one, other = (number(block.value(word)) for word in _MU)
+    return one is not None and one == other
+
+
+def _holds(robot: Robot, name: str | None) -> bool:
+    """Whether a link is made to grip: a finger, a wheel or a foot, by its name or its shape."""
+    link = robot.link.get(name or "")
+    return link is not None and bool(_HOLDS.search(link.name) or contact_role(robot, link))
 
 
 @rule(
@@ -101,15 +117,20 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
     Rubber on concrete has a coefficient of 1. Below zero there is none (an error), above
     ``highest`` it is a slip in the number more often than meant, and a contact with a stiffness
     ``kp`` of 0 does not hold anything. What is wrong with both frictions of a block is one finding.
+    Fingers, wheels and feet are given a high friction on purpose, the same in both directions, and
+    are not reported.
     """
     told: set[tuple[str, float]] = set()
     for block in robot.gazebo:
         found: dict[str, Problem] = {}
+        meant = _holds(robot, block.reference) and _is_alike(block)
         for child in block.element.children:
             if child.tag not in ("mu1", "mu2", "kp"):
                 continue
             value = number((child.get("value") or child.text).strip())
             if value is None or (child.tag, value) in told:
+                continue
+            if child.tag != "kp" and value > highest and meant:
                 continue
             told.add((child.tag, value))
             wrong = f"{child.tag} is {value:g}"

@@ -9,6 +9,12 @@ from ...model.body_inertia import BodyInertia, combined_inertia
 from ...model.elements import Link, Robot
 from ..gazebo.lumping import is_lumped
 
+LIGHT = 1e-3
+"""Part of a robot's mass below which the place of a link's mass does not matter."""
+
+_SMALL_RADIUS = 0.01
+"""Radius of gyration [m] of a body below which its parts do not matter."""
+
 _KEEPERS = ("preserveFixedJoint", "disableFixedJointLumping")
 _TRUE = ("true", "1", "yes")
 
@@ -77,3 +83,32 @@ def body_inertia(robot: Robot, links: Iterable[Link]) -> BodyInertia:
     names = {link.name for link in members}
     around = attached_links(robot, members[0])
     return combined_inertia([(link, pose) for link, pose in around if link.name in names])
+
+
+def negligible(robot: Robot, light: float) -> set[str]:
+    """The links whose center of mass hardly matters to that of the robot, or of their body."""
+    least = light * mass_of(robot.links)
+    return {
+        link.name
+        for links in bodies(robot).values()
+        for link in links
+        if link.mass < max(least, 10 * light * mass_of(links))
+    }
+
+
+def slight_parts(robot: Robot) -> set[str]:
+    """The links whose inertia is next to nothing beside that of the body they are part of."""
+    found: set[str] = set()
+    for links in bodies(robot).values():
+        if len(links) > 1:
+            whole = body_inertia(robot, links)
+            most = 10 * LIGHT * sum(whole.tensor[i] for i in (0, 3, 5))
+            most = max(most, whole.mass * _SMALL_RADIUS**2)
+            found.update(
+                link.name
+                for link in links
+                if link.inertial is not None
+                and link.inertial.inertia is not None
+                and 0 < sum(link.inertial.inertia.moments) < most
+            )
+    return found

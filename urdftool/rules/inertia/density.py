@@ -12,6 +12,9 @@ from ..mesh.outlines import reaches
 from ..rule import WARNING, Problem, rule
 from .tensors import is_zero, tensors
 
+DENSER, DENSEST, FILLED, FITS, OTHERS = 3.0, 1.2, 0.35, 3.0, 4.0
+"""The thresholds of :func:`mass_out_of_line`."""
+
 _THINNEST = 0.002
 """Length [m] below which a bounding box is flat, and has no density."""
 
@@ -30,11 +33,11 @@ class _Body(NamedTuple):
 def mass_out_of_line(
     robot: Robot,
     *,
-    denser: float = 3.0,
-    densest: float = 1.2,
-    filled: float = 0.35,
-    fits: float = 3.0,
-    others: float = 4,
+    denser: float = DENSER,
+    densest: float = DENSEST,
+    filled: float = FILLED,
+    fits: float = FITS,
+    others: float = OTHERS,
 ) -> Iterator[Problem]:
     """One mass is several times too large for the robot's other links, and for its own inertia.
 
@@ -71,11 +74,11 @@ class Outlier(NamedTuple):
 
 def outlier(
     robot: Robot,
-    denser: float = 3.0,
-    densest: float = 1.2,
-    filled: float = 0.35,
-    fits: float = 3.0,
-    others: float = 4,
+    denser: float = DENSER,
+    densest: float = DENSEST,
+    filled: float = FILLED,
+    fits: float = FITS,
+    others: float = OTHERS,
 ) -> Outlier | None:
     """Find the one link of a robot whose mass is several times too large, if there is one.
 

@@ -11,6 +11,7 @@ from ...model.millimeters import shapes_in_millimeters
 from ...source.document import Element
 from ..mesh.outlines import Reaches, reaches
 from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
+from ..words import some_of
 from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
 from .bodies import bodies, mass_of, massless_pairs
 from .solids import solid_volume
@@ -270,7 +271,7 @@ def implausible_density(
     as much. A remark is also a link of at most ``dummy`` [kg] that is fixed to
     another, as sensors have it to survive Gazebo. Of a mesh, or of several shapes, the box around
     them counts: one that is all of steel has ``most_of_box``, and one lighter than air is hollow
-    beyond belief. More than ``together`` remarks are one, which names the links.
+    beyond belief. More than ``together`` remarks are one, which names some of the links.
     """
     reach = reaches(robot)
     remarks: list[tuple[Problem, float]] = []
@@ -304,7 +305,7 @@ def implausible_density(
         else:
             remarks.append((problem, density))
     if len(remarks) > together:
-        others = ", ".join(f"'{one.name}' {density:.3g}" for one, density in remarks[1:])
+        others = some_of([f"'{one.name}' {density:.3g}" for one, density in remarks[1:]], "links")
         remarks[0][0].message += f"; densities are as odd of {others}"
         del remarks[1:]
     yield from (problem for problem, _ in remarks)

@@ -66,8 +66,8 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             several = "; MuJoCo gives each of them the density of water"
         elif link.name in heavy:
             others = [one for one, _ in attached_links(robot, link) if one.mass > 0]
-            severity, so = INFO, f" and adds no mass to '{others[0].name}', which it is fixed to"
-            several = " and add no mass to the links that they are fixed to"
+            severity, so = INFO, f", and is fixed to '{others[0].name}', which has one"
+            several = ", and are fixed to links that have one"
         elif held:
             severity, so = INFO, " and is fixed to the world, where its mass has no effect"
             several = " and are fixed to the world, where their mass has no effect"

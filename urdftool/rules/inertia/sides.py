@@ -11,13 +11,18 @@ from ...model.elements import Link, Robot, Vector
 from ...model.pose import norm, rotate, transpose
 from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
-from ..sides import Pair, Sides, family_of, sides, twin_of
+from ..sides import Pair, Sides, family_of, sides, twin_links
+from .tensors import is_accepted, is_zero, moments_of, six_of
+
+_CHECKING = "gz, gazebo-classic, mujoco, drake"
 
 
 @rule(
     INFO,
     effects={
-        "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take the two as written",
+        _CHECKING: "take the two as written",
+        "pinocchio": "takes the two as written",
+        "pybullet": "takes the two as written",
     },
     of_motion=True,
     caused_by=(
@@ -41,9 +46,9 @@ def left_right_asymmetry(
     part that its threshold says. Links that are parts of two rigid bodies are not reported where
     the bodies mirror each other as a whole.
     """
+    twins = twin_links(robot)
     for link in robot.links:
-        name = twin_of(link.name, robot.link)
-        other = robot.link.get(name) if name else None
+        other = robot.link.get(twins.get(link.name, ""))
         if other is None or link.inertial is None or other.inertial is None:
             continue
         if link.mass <= 0 or other.mass <= 0:
@@ -61,6 +66,7 @@ def left_right_asymmetry(
                 f"link '{other.name}' weighs {other.mass:g} kg and '{link.name}' {link.mass:g} kg; "
                 "mirror images weigh the same",
                 at=other.inertial,
+                effects=[*_readers_of(link, other), "pybullet"],
             )
             continue
         here, there = _com(link), _com(other)
@@ -70,16 +76,40 @@ def left_right_asymmetry(
                 f"centre of mass of link '{other.name}' is {there:.3g} m from its frame and that "
                 f"of '{link.name}' {here:.3g} m; mirror images have it at one distance",
                 at=other.inertial.origin or other.inertial,
+                effects=[*_readers_of(link, other), "pybullet"],
             )
             continue
         one, two = _spread(link), _spread(other)
-        if one > 0 and two > 0 and _differ(one, two, inertia_difference):
+        if not (_has_moments(link) and _has_moments(other)):
+            continue  # zero-inertia and others say what is wrong with it
+        if _differ(one, two, inertia_difference):
             yield Problem(
                 other,
                 f"moments of inertia of link '{other.name}' are {two / one:.2g} times those of "
                 f"'{link.name}', which is its mirror image",
                 at=other.inertial.inertia or other.inertial,
+                effects=_readers_of(link, other),
             )
+
+
+def _readers_of(link: Link, other: Link) -> list[str]:
+    """The readers that take the tensors of two links as written, as keys of effects."""
+    accepted = all(
+        one.inertial is not None
+        and one.inertial.inertia is not None
+        and is_accepted(six_of(one.inertial.inertia))
+        for one in (link, other)
+    )
+    return [*[_CHECKING] * accepted, "pinocchio"]
+
+
+def _has_moments(link: Link) -> bool:
+    """Whether an inertia has none but positive moments, beyond rounding."""
+    inertia = link.inertial.inertia if link.inertial is not None else None
+    if inertia is None:
+        return False
+    six = six_of(inertia)
+    return not is_zero(six, link.mass) and moments_of(six)[0] > 0
 
 
 def _bodies(robot: Robot, link: Link, other: Link) -> tuple[BodyInertia, BodyInertia] | None:

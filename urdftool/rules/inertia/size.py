@@ -7,37 +7,34 @@ from collections.abc import Iterator
 from functools import partial
 
 from ...model.attached import attached_links
-from ...model.bounds import Bounds
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...model.mass_fit import (
     ALLOWED,
     CERTAIN,
-    MARGIN,
     ROUNDING,
-    misfit_of_com,
     misfit_of_spread,
 )
 from ...model.pose import pose_of
 from ...model.tensor3 import Six, turned
 from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
+from .bodies import slight_parts
 from .density import outlier
 from .frame import about_com
 from .proposals import remedy_text
-from .solids import centre_of_solids, is_dummy, solid_moments, solid_text
-from .tensors import is_positive, is_zero, moments_of, six_of, tensors
+from .solids import is_dummy, solid_moments, solid_text
+from .tensors import is_accepted, is_positive, is_zero, moments_of, tensors
 
-_SIZE_IN_DOUBT = ("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line")
+SIZE_IN_DOUBT = ("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line")
 _SINGULAR = 1e-9  # the part of the largest moment that counts as zero
+_CHECKING = "gz, gazebo-classic, mujoco, drake"
 _CENTER = ("com-outside-geometry", "inertial-not-at-com-suspect")
 
 
 @rule(
     INFO,
     effects={
-        "gz, gazebo-classic, mujoco, pinocchio, drake": (
-            "take it as written: the link swings like a flywheel"
-        ),
+        "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
     },
     group="robot",
     of_motion=True,
@@ -49,8 +46,11 @@ def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
     turns like a flywheel and its motors look too weak. A link of a few millimeters is a dummy whose
     inertia is made up to keep a simulation stable; only one that turns like a flywheel is reported.
     """
+    slight = slight_parts(robot)
     for link, inertial, six in tensors(robot):
-        if not _is_placeholder(link, six):
+        if not is_placeholder(link, six):
+            continue
+        if link.name in slight:
             continue
         moment = six[0]
         radius = math.sqrt(moment / inertial.mass) if inertial.mass and inertial.mass > 0 else 0.0
@@ -71,7 +71,7 @@ def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
         )
 
 
-def _is_placeholder(link: Link, six: Six) -> bool:
+def is_placeholder(link: Link, six: Six) -> bool:
     """Whether a tensor is a power of ten times the identity, and not by chance the right one."""
     xx, xy, xz, yy, yz, zz = six
     if not xx == yy == zz > 0 or xy or xz or yz:
@@ -86,7 +86,8 @@ def _is_placeholder(link: Link, six: Six) -> bool:
 @rule(
     WARNING,
     effects={
-        "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
+        _CHECKING: "take it as written",
+        "pinocchio": "takes it as written",
     },
     of_motion=True,
     group="robot",
@@ -109,8 +110,11 @@ def inertia_exceeds_geometry(
     count, too. ``urdftool inertia robot`` judges in the same way.
     """
     reach = reaches(robot)
+    slight = slight_parts(robot)
     for link, inertial, six in tensors(robot):
-        if link.mass <= 0 or _is_placeholder(link, six) or not is_positive(moments_of(six)):
+        if link.mass <= 0 or is_placeholder(link, six) or not is_positive(moments_of(six)):
+            continue
+        if link.name in slight:
             continue
         low, middle, high = moments_of(six)
         if low + middle < high * 0.99:
@@ -120,7 +124,7 @@ def inertia_exceeds_geometry(
             misfit_of_spread,
             mass=link.mass,
             tensor=turned(six, pose.rotation),
-            has_mesh=_has_mesh(link),
+            has_mesh=has_mesh(link),
             allowed=allowed,
             certain=certain,
             rounding=rounding,
@@ -139,11 +143,18 @@ def inertia_exceeds_geometry(
                 f"inertia of link '{link.name}' {found.sentence}{remedy_text(link, inertial, six)}",
                 at=inertial.inertia,
                 severity=None if found.certain else INFO,
-                caused_by=(*_SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits else ())),
+                caused_by=(*SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits else ())),
+                effects=_readers_of(six),
             )
 
 
-def _has_mesh(link: Link) -> bool:
+def _readers_of(six: Six) -> list[str]:
+    """The readers that take a tensor as written, as keys of effects."""
+    return [*[_CHECKING] * is_accepted(six), "pinocchio"]
+
+
+def has_mesh(link: Link) -> bool:
+    """Whether one of a link's shapes is a mesh."""
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
     return any(isinstance(shape.geometry, Mesh) for shape in shapes)
 
@@ -151,12 +162,11 @@ def _has_mesh(link: Link) -> bool:
 @rule(
     INFO,
     effects={
-        "gz, gazebo-classic, mujoco, pinocchio, drake": (
-            "take it as written: the same force turns the link faster"
-        ),
+        _CHECKING: "take it as written",
+        "pinocchio": "takes it as written",
     },
     of_motion=True,
-    caused_by=_SIZE_IN_DOUBT,
+    caused_by=SIZE_IN_DOUBT,
 )
 def inertia_below_geometry(
     robot: Robot, *, least: float = 0.12, part: float = 0.1
@@ -171,9 +181,12 @@ def inertia_below_geometry(
     """
     reach = reaches(robot)
     heavy = outlier(robot)
+    slight = slight_parts(robot)
     for link, inertial, six in tensors(robot):
         mass = link.mass
         if mass <= 0 or is_zero(six, mass) or not is_positive(moments_of(six)):
+            continue
+        if link.name in slight:
             continue
         if heavy is not None and link is heavy.link:
             continue  # the mass is reported
@@ -182,7 +195,7 @@ def inertia_below_geometry(
         box = reach.link(link)
         if box is None:
             continue
-        if _is_placeholder(link, six):
+        if is_placeholder(link, six):
             continue
         solid = mass / 12 * sum(length * length for length in box.size)
         written = sum(six[i] for i in (0, 3, 5)) / 2
@@ -194,119 +207,15 @@ def inertia_below_geometry(
                 f"of its {mass:g} kg and size, {x} × {y} × {z} m; is the mass or the inertia off "
                 "by a power of ten?",
                 at=inertial.inertia,
+                effects=_readers_of(six),
             )
 
 
 @rule(
     WARNING,
     effects={
-        "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
-    },
-    of_motion=True,
-    group="robot",
-    caused_by=_SIZE_IN_DOUBT,
-)
-def com_outside_geometry(
-    robot: Robot, *, margin: float = MARGIN, together: float = 6
-) -> Iterator[Problem]:
-    """A link's centre of mass is outside the box around its shapes.
-
-    The mean of a body's mass is inside its hull. Millimetres, or the pose of another frame, put it
-    elsewhere; the link then falls to a side it should not. ``margin`` is the part of the box's
-    diagonal that is let pass, of a mesh twice that. A mesh often shows the cover and not the motor
-    that weighs most, so there it is a warning only beyond half a diagonal; more than ``together``
-    that are none are one finding, which names the links. Shapes of attached links without a mass of
-    their own count, too.
-    """
-    remarks: list[tuple[Problem, str]] = []
-    reach = reaches(robot)
-    for link in robot.links:
-        inertial = link.inertial
-        if inertial is None or not inertial.mass:
-            continue
-        box = reach.link(link)
-        if box is None:
-            continue
-        com, has_mesh = pose_of(inertial.origin).translation, _has_mesh(link)
-        if misfit_of_com(box, com, has_mesh, margin=margin) is None:
-            continue
-        box = reach.meant(link, box)
-        found = misfit_of_com(box, com, has_mesh, margin=margin) if box is not None else None
-        if found is None:
-            continue
-        problem = Problem(
-            link,
-            f"centre of mass of link '{link.name}' {found.sentence}",
-            at=inertial.origin if inertial.origin is not None else inertial,
-            severity=None if found.certain else INFO,
-        )
-        if found.certain:
-            yield problem
-        else:
-            what = f"'{link.name}' by {found.amount:.3g} m along {'xyz'[found.axis]}"
-            remarks.append((problem, what))
-    if len(remarks) > together:
-        remarks[0][0].message += f"; so are those of {', '.join(said for _, said in remarks[1:])}"
-        del remarks[1:]
-    yield from (problem for problem, _ in remarks)
-
-
-@rule(
-    INFO,
-    effects={
-        "gz, gazebo-classic, mujoco, pinocchio, drake": (
-            "put the center of mass of the link at its origin"
-        ),
-    },
-    of_motion=True,
-    group="robot",
-)
-def inertial_not_at_com_suspect(robot: Robot, *, far: float = 0.2) -> Iterator[Problem]:
-    """An ``<inertial>`` has no origin though the link's shapes lie to one side.
-
-    The mass then sits at the frame of the link, that is on the axis of its joint, and gravity turns
-    nothing. Mostly the ``<origin>`` was forgotten.
-    """
-    reach = reaches(robot)
-    for link in robot.links:
-        inertial = link.inertial
-        if inertial is None or not inertial.mass:
-            continue
-        if inertial.origin is not None and any(inertial.origin.xyz):
-            continue
-        if inertial.inertia is not None and _is_placeholder(link, six_of(inertial.inertia)):
-            continue  # all of it is made up, which is said
-        box = reach.link(link)
-        if box is None or not _is_off_centre(link, box, far):
-            continue
-        around = reach.meant(link, box)
-        if around is None or not _is_off_centre(link, around, far):
-            continue
-        shown = " ".join(f"{value:.4g}" for value in box.centre)
-        yield Problem(
-            link,
-            f"mass of link '{link.name}' is at its frame, while its shapes are centred at "
-            f"{shown}; write that as the <origin> of its <inertial>",
-            at=inertial.origin if inertial.origin is not None else inertial,
-        )
-
-
-def _is_off_centre(link: Link, box: Bounds, far: float) -> bool:
-    """Whether the frame of a link is inside a box and far from its middle."""
-    lower, upper = box
-    slack = 0.02 * math.dist(lower, upper)
-    if max(lower) - slack > 0 or min(upper) + slack < 0:
-        return False  # the centre of mass is outside, which is more than a suspicion
-    solid = centre_of_solids(link)
-    if solid is not None and math.hypot(*solid) <= far * math.dist(lower, upper):
-        return False  # what lies to one side is thin
-    return math.hypot(*box.centre) > far * math.dist(lower, upper)
-
-
-@rule(
-    WARNING,
-    effects={
-        "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
+        _CHECKING: "take it as written",
+        "pinocchio": "takes it as written",
     },
     of_motion=True,
 )
@@ -325,9 +234,12 @@ def radius_of_gyration(
     a tensor that is zero or negative about an axis has a finding of its own.
     """
     reach = reaches(robot)
+    slight = slight_parts(robot)
     for link, inertial, six in tensors(robot):
         mass = link.mass
-        if mass <= 0 or is_zero(six, mass) or _is_placeholder(link, six):
+        if mass <= 0 or is_zero(six, mass) or is_placeholder(link, six):
+            continue
+        if link.name in slight:
             continue
         if inertial.mass is None or reach.link(link) is not None:
             continue
@@ -349,4 +261,5 @@ def radius_of_gyration(
             f"inertia of link '{link.name}' puts its {mass:g} kg {radius:.2g} m from its centre"
             f"{remedy}",
             at=inertial.inertia,
+            effects=_readers_of(six),
         )

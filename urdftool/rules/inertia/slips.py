@@ -13,13 +13,15 @@ from ..mesh.outlines import reaches
 from ..rule import ERROR, WARNING, Problem, rule
 from .proposals import attributes_text, proposal_of
 from .solids import solid_tensor
-from .tensors import SIX, is_zero, tensors
+from .tensors import SIX, is_rejected_by_gazebo, is_zero, tensors
+
+_GAZEBO = "gz, gazebo-classic"
 
 
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
+        _GAZEBO: "reject the model (sdformat 12.3: Error 18)",
         "mujoco": "rejects the file",
     },
     of_motion=True,
@@ -39,16 +41,15 @@ def inertia_component_slip(robot: Robot) -> Iterator[Problem]:
                 f"the numbers of the inertia of link '{link.name}' are in the wrong order; "
                 f"write {attributes_text(slip.tensor)}",
                 at=inertial.inertia,
+                effects=["mujoco", *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
             )
 
 
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": (
-            "reject the model where the triangle inequality is broken (sdformat 12.3: Error 18)"
-        ),
-        "mujoco": "rejects the file where the triangle inequality is broken",
+        _GAZEBO: "reject the model (sdformat 12.3: Error 18)",
+        "mujoco": "rejects the file",
     },
     of_motion=True,
 )
@@ -68,6 +69,7 @@ def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
                 f"{slip.name} of link '{link.name}' is off by a power of ten, so no rigid body has "
                 f"this inertia; write {value:.12g}",
                 at=inertial.inertia.element.attribute_place(slip.name),
+                effects=["mujoco", *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
             )
 
 

@@ -17,16 +17,27 @@ from .joint_inertia import joint_inertia
 from .proposals import remedy_text
 from .slips import slip_of
 from .solids import solid_text
-from .tensors import SIX, is_positive, is_zero, moments_of, six_of, tensors
+from .tensors import (
+    EXACT,
+    SIX,
+    is_positive,
+    is_rejected_by_gazebo,
+    is_zero,
+    moments_of,
+    rounding_of,
+    six_of,
+    tensors,
+)
+
+_GAZEBO = "gz, gazebo-classic"
+_PART = "gz, gazebo-classic (part)"
+_NOT_GAZEBO = ("mujoco", "pybullet", "urdfdom, KDL, pinocchio", "drake")
 
 
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": (
-            "reject the model (sdformat 12.3: Error 18), unless a fixed joint lumps the link into "
-            "one that makes it possible"
-        ),
+        _GAZEBO: "reject the model (sdformat 12.3: Error 18)",
         "mujoco": "rejects the file",
         "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
         "urdfdom, KDL, pinocchio": "accept it without a message",
@@ -50,16 +61,14 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
             f"inertia of link '{link.name}' has a negative principal moment ({_shown(moments)}); "
             f"all three must be positive{remedy_text(link, inertial, six)}",
             at=_component(inertial, six, min(six[0], six[3], six[5])),
+            effects=[*_NOT_GAZEBO, *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
         )
 
 
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": (
-            "reject the model (sdformat 12.3: Error 18), unless a fixed joint lumps the link into "
-            "one that makes it possible"
-        ),
+        _GAZEBO: "reject the model (sdformat 12.3: Error 18)",
         "mujoco": "rejects the file: inertia must satisfy A + B >= C",
         "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
         "urdfdom, KDL, pinocchio": "accept it without a message",
@@ -73,19 +82,30 @@ def inertia_triangle_inequality(
 
     No rigid body is like that: a moment sums squared distances from its axis, and of three axes at
     right angles each distance counts in two. At best, for a flat plate, the largest equals the sum.
-    A radius and a length that were swapped are the usual cause.
+    A radius and a length that were swapped are the usual cause. An excess of at most the part
+    ``rounding`` that the digits as written leave open is ``inertia-triangle-inequality-rounding``.
     """
     for link, inertial, six in tensors(robot):
         moments = low, middle, high = moments_of(six)
-        if low + middle >= high * (1 - rounding) or not is_positive(moments, tolerance):
+        excess = high - low - middle
+        if excess <= EXACT * high or not is_positive(moments, tolerance):
+            continue
+        if inertial.inertia is None:
+            continue
+        if excess <= min(rounding * high, rounding_of(inertial.inertia)):
             continue
         if is_zero(six, link.mass) or slip_of(link, inertial, six, robot) is not None:
             continue
+        shown = [f"{value:.4g}" for value in (high, low, middle)]
+        if float(shown[0]) <= float(shown[1]) + float(shown[2]):
+            shown = [f"{value:.9g}" for value in (high, low, middle)]
         yield Problem(
             link,
             f"inertia of link '{link.name}' belongs to no rigid body: principal moment "
-            f"{high:.4g} is larger than {low:.4g} + {middle:.4g}{remedy_text(link, inertial, six)}",
+            f"{shown[0]} is larger than {shown[1]} + {shown[2]}"
+            f"{remedy_text(link, inertial, six)}",
             at=_component(inertial, six, max(six[0], six[3], six[5])),
+            effects=[*_NOT_GAZEBO, *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
         )
 
 
@@ -94,40 +114,35 @@ def inertia_triangle_inequality(
     raised={"mujoco": ERROR, "gz": ERROR},
     effects={
         "mujoco": "rejects the file",
-        "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
-        "gz, gazebo-classic (part)": "accept it: the body that it is a part of has no such inertia",
+        _GAZEBO: "reject the model (sdformat 12.3: Error 18)",
+        _PART: "accept it: the body that it is a part of has no such inertia",
         "pybullet": "takes zero with URDF_USE_INERTIA_FROM_FILE",
         "drake": "warns, and takes another inertia",
-        "urdfdom, pinocchio": "accept it without a message",
+        "urdfdom, KDL, pinocchio": "accept it without a message",
     },
     group="robot",
 )
 def inertia_triangle_inequality_rounding(
-    robot: Robot, *, tolerance: float = 1e-12, rounding: float = 0.01
+    robot: Robot, *, tolerance: float = EXACT, rounding: float = 0.01
 ) -> Iterator[Problem]:
     """The largest principal moment is larger than the sum of the others by a rounding error.
 
     For a flat plate the largest moment equals the sum of the others, and a few digits too few push
-    it above. Gazebo and MuJoCo allow nothing for that.
+    it above. Gazebo and MuJoCo allow nothing for that. How much the rounding may come to is told
+    by the digits that are written; more is ``inertia-triangle-inequality``.
     """
-    whole: dict[str, list[Link]] | None = None
     for link, inertial, six in tensors(robot):
         low, middle, high = moments_of(six)
         excess = high - low - middle
-        if low >= 0 and tolerance * high < excess <= rounding * high:
-            whole = whole or {one.name: body for body in bodies(robot).values() for one in body}
-            links = whole.get(link.name, [link])
-            least, between, most = moments_of(body_inertia(robot, links).tensor)
-            is_accepted = len(links) > 1 and least + between >= most
+        if inertial.inertia is None or low < 0 or excess <= tolerance * high:
+            continue
+        if excess <= min(rounding * high, rounding_of(inertial.inertia)):
             yield Problem(
                 link,
                 f"principal moment {high:.9g} of link '{link.name}' is larger than the sum of the "
                 f"others by {excess:.1g}; write the moments with more digits, or lower the largest",
                 at=inertial.inertia,
-                effects=(
-                    "gz, gazebo-classic" + (" (part)" if is_accepted else ""),
-                    *("mujoco", "pybullet", "drake", "urdfdom, pinocchio"),
-                ),
+                effects=[*_NOT_GAZEBO, _GAZEBO if is_rejected_by_gazebo(robot, link) else _PART],
             )
 
 
@@ -135,8 +150,9 @@ def inertia_triangle_inequality_rounding(
     WARNING,
     raised={"mujoco": ERROR},
     effects={
-        "gz, gazebo-classic": "accept it (sdformat 12.3)",
-        "mujoco": "rejects a moving body",
+        "gz, gazebo-classic (accepted)": "accept it (sdformat 12.3)",
+        "gz, gazebo-classic (noise)": "reject the model (sdformat 12.3: Error 18)",
+        "mujoco": "rejects the file",
         "pinocchio": (
             "keeps the zeros: the mass matrix is singular where the center of mass is on the axis"
         ),
@@ -163,21 +179,26 @@ def zero_inertia(robot: Robot, *, part: float = 0.25) -> Iterator[Problem]:
         if (is_part and link.mass < part * mass_of(links)) or is_fixed_to_world(robot, link):
             continue
         nothing = "as good as zero" if any(six) else "zero"
+        joint = robot.tree.parent_joint(links[0].name)
+        in_gazebo = "noise" if is_rejected_by_gazebo(robot, link) else "accepted"
         yield Problem(
             link,
             f"inertia of link '{link.name}' is {nothing}, though it weighs {link.mass:g} kg"
             f"{solid_text(link) or '; urdftool inertia computes it'}",
             at=inertial.inertia,
             severity=INFO if is_part else None,
+            effects=[
+                f"gz, gazebo-classic ({in_gazebo})",
+                *["mujoco"] * (not is_part and joint is not None and not joint.is_fixed),
+                *["pinocchio"] * (not is_part),
+            ],
         )
 
 
 @rule(
     WARNING,
     effects={
-        "gz, gazebo-classic, pinocchio, drake": (
-            "accept it: nothing resists a turn about that axis"
-        ),
+        "gz, gazebo-classic, pinocchio, drake": "accept it",
         "pybullet": (
             "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, keeps the zero"
         ),

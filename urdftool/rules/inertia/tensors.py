@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from decimal import Decimal, InvalidOperation
 
 from ...model.elements import Inertia, Inertial, Link, Robot, Vector
 from ...model.read import number
 from ...model.tensor3 import SMALLEST_RADIUS, Six, eigenvalues
+from .bodies import bodies, body_inertia
 
 SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
@@ -54,3 +57,41 @@ def is_positive(moments: Vector, tolerance: float = 1e-6) -> bool:
     """Whether no principal moment is negative, but for rounding."""
     low, _, high = moments
     return low >= -tolerance * max(abs(low), abs(high))
+
+
+EXACT = 1e-12
+"""Part of the largest moment by which computing the moments may be off."""
+
+
+def is_accepted(six: Six) -> bool:
+    """Whether Gazebo and MuJoCo accept a tensor: positive, and no moment above the others' sum."""
+    low, middle, high = moments_of(six)
+    return low > EXACT * high and high - low - middle <= EXACT * high
+
+
+def is_rejected_by_gazebo(robot: Robot, link: Link) -> bool:
+    """Whether Gazebo rejects the inertia of a link, after it lumped what is fixed together."""
+    whole = next((links for links in bodies(robot).values() if link in links), [link])
+    low, middle, high = moments_of(body_inertia(robot, whole).tensor)
+    return low < -EXACT * abs(high) or high - low - middle > EXACT * high
+
+
+def rounding_of(inertia: Inertia) -> float:
+    """How far the largest moment may exceed the others' sum for want of digits [kg·m²].
+
+    Each number may be off by half a unit of its last digit, and each moment by the norm of that.
+    """
+    halves = [_half_a_digit(inertia.element.attributes.get(name, "")) for name in SIX]
+    xx, xy, xz, yy, yz, zz = halves
+    norm = math.hypot(xx, yy, zz, *(math.sqrt(2) * part for part in (xy, xz, yz)))
+    return 2 * norm + xx + yy + zz
+
+
+def _half_a_digit(text: str) -> float:
+    """Half a unit of the last digit of a number as it is written; 0 for one that is exactly 0."""
+    try:
+        value = Decimal(text.strip())
+    except InvalidOperation:
+        return 0.0
+    exponent = value.as_tuple().exponent
+    return 0.5 * 10.0**exponent if value and isinstance(exponent, int) else 0.0

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ...model.elements import Joint, Robot, Vector
+from ...model.elements import Joint, Link, Robot, Vector
 from ..rule import INFO, Problem, rule
 from ..sides import Pair, Sides, family_of, sides
 from ..words import quoted
@@ -66,12 +66,13 @@ def limits_not_mirrored(
     the same; where one turns the other way, they are swapped with the other sign. An axis that was
     flipped alone, or limits that were, break that. ``tolerance`` [rad or m] is the difference that
     is ignored. Grippers of equal limits are copies, and not reported. More than ``together`` such
-    joints are one finding.
+    joints are one finding. Joints that are not where the mirror has them are left out, and those
+    that carry neither mass nor shapes.
     """
     found = sides(robot)
     if found.normal is None:
         return
-    problems = list(_unlike(found, tolerance))
+    problems = list(_unlike(robot, found, tolerance))
     if len(problems) > together:
         names = ", ".join(f"'{problem.name}'" for problem in problems[1:])
         problems[0].message += f"; the same is true of {names}"
@@ -82,8 +83,21 @@ def limits_not_mirrored(
 _GRIPPER = re.compile(r"gripper|finger|thumb|knuckle", re.IGNORECASE)
 
 
-def _unlike(found: Sides, tolerance: float) -> Iterator[Problem]:
+def _carries_nothing(robot: Robot, link: Link) -> bool:
+    """Whether a link and all below it are frames."""
+    names = (link.name, *robot.tree.descendants(link.name))
+    return all(
+        one.mass == 0 and not one.visuals and not one.collisions
+        for one in (robot.link[name] for name in names if name in robot.link)
+    )
+
+
+def _unlike(robot: Robot, found: Sides, tolerance: float) -> Iterator[Problem]:
     for pair in found.pairs:
+        if found.is_displaced(pair):
+            continue
+        if any(_carries_nothing(robot, link) for link in (pair.left, pair.right)):
+            continue
         alike = found.turns_alike(pair)
         left, right = _range(pair.left_joint), _range(pair.right_joint)
         if alike is None or left is None or right is None:

@@ -9,9 +9,11 @@ from ...meshes.facts import StlFacts, stl_facts
 from ...model.elements import Robot
 from ...model.mesh_formats import READ_BY
 from ...source.description import Description
+from ..mujoco import keeps_visuals
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
+_OF_TEXT = ("pybullet", "rviz", "gz", "pinocchio")
 _facts: dict[Stamp, StlFacts] = {}
 
 
@@ -96,7 +98,7 @@ def _stl(use: MeshUse) -> StlFacts | None:
     INFO,
     raised={"mujoco": ERROR},
     effects={
-        "mujoco": "rejects the file for a collision",
+        "mujoco": "rejects the file",
         "pybullet": "loads the link without the shape",
         "rviz": "does not load it: rviz reads binary STL only",
         "gz": "reads it",
@@ -109,6 +111,7 @@ def ascii_stl(robot: Robot, description: Description) -> Iterator[Problem]:
     It is five times as large as the binary form and slow to read; MuJoCo rejects it, PyBullet and
     RViz show nothing of it.
     """
+    keeps = keeps_visuals(robot)
     for use in _first_uses(robot, description):
         facts = _stl(use)
         if facts is not None and facts.kind == "ascii":
@@ -116,6 +119,7 @@ def ascii_stl(robot: Robot, description: Description) -> Iterator[Problem]:
                 use.link,
                 f"mesh '{use.uri}' is STL as text; write it as binary STL",
                 at=use.mesh.element.attribute_place("filename"),
+                effects=[*["mujoco"] * (keeps or use.collides), *_OF_TEXT],
             )
 
 
@@ -157,7 +161,9 @@ _UP = re.compile(rb"<up_axis\s*>\s*(\w+)\s*<")
 @rule(
     WARNING,
     effects={
-        "rviz": "applies the unit and not the axis",
+        "rviz, pybullet (unit)": "apply the unit",
+        "rviz, pybullet (axis)": "pass over the axis: z of the file is up",
+        "rviz, pybullet (both)": "apply the unit and not the axis",
         "moveit (collision)": "applies neither",
     },
 )
@@ -170,41 +176,46 @@ def dae_unit_or_axis(
     mesh is lying in one and standing in the next, or larger by a thousand. Export it in metres,
     with z up. More than ``together`` meshes that say the same are one finding.
     """
-    found: dict[str, list[MeshUse]] = {}
+    found: dict[tuple[tuple[str, str], ...], list[MeshUse]] = {}
     for use in _first_uses(robot, description):
         said = unit_and_axis(use)
         if said:
-            found.setdefault(said, []).append(use)
+            found.setdefault(tuple(said.items()), []).append(use)
     colliding = {use.uri for use in mesh_uses(robot, description) if use.collides}
-    for what, uses in found.items():
+    for facts, uses in found.items():
         several = len(uses) > together
         more = f" (and of {len(uses) - 1} more)" if several else ""
+        what = " and ".join(text for _, text in facts)
+        case = facts[0][0] if len(facts) == 1 else "both"
         for use in uses[:1] if several else uses:
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}'{more}: {what}, which readers take differently; "
                 "export it in metres with z up",
                 at=use.mesh.element.attribute_place("filename"),
-                effects=("rviz", "moveit (collision)") if use.uri in colliding else ("rviz",),
+                effects=(
+                    f"rviz, pybullet ({case})",
+                    *(("moveit (collision)",) if use.uri in colliding else ()),
+                ),
             )
 
 
-def unit_and_axis(use: MeshUse) -> str:
-    """What a COLLADA file says of its unit and axes, if that is not metres with z up."""
+def unit_and_axis(use: MeshUse) -> dict[str, str]:
+    """What a COLLADA file says of its ``unit`` and ``axis``, as far as not metres with z up."""
+    said: dict[str, str] = {}
     if use.path is None or not use.exists or _ending(use) != "dae":
-        return ""
+        return said
     try:
         with open(use.path, "rb") as file:
             head = file.read(16384)
     except OSError:
-        return ""
+        return said
     unit, up = _UNIT.search(head), _UP.search(head)
-    said = []
     if unit and not _is_one(unit[1]):
-        said.append(f"its unit is {unit[1].decode('ascii', 'replace')} m")
+        said["unit"] = f"its unit is {unit[1].decode('ascii', 'replace')} m"
     if up and up[1].upper() != b"Z_UP":
-        said.append(f"it says {up[1].decode('ascii', 'replace')}")
-    return " and ".join(said)
+        said["axis"] = f"it says {up[1].decode('ascii', 'replace')}"
+    return said
 
 
 def _is_one(text: bytes) -> bool:

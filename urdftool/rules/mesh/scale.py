@@ -256,7 +256,9 @@ def mesh_scale_out_of_line(
     """One mesh is scaled by another power of ten than all others of the robot.
 
     The meshes of a robot come from one program in one unit. Where ``several`` or more of a format
-    have one scale and a single one is off by a power of ten, a zero was lost.
+    have one scale and a single one is off by a power of ten, a zero was lost. A factor of 1000 is
+    that of a file in another unit, meters or millimeters, and not reported;
+    ``mesh-in-millimetres`` and ``mesh-scaled-twice`` say where the file itself shows it wrong.
     """
     formats: dict[str, dict[str, MeshUse]] = {}
     for use in mesh_uses(robot, description):
@@ -270,6 +272,8 @@ def mesh_scale_out_of_line(
             continue
         use, factor = others[0], abs(others[0].mesh.scale[0]) / usual
         power = math.log10(factor) if factor > 0 else 0.5
+        if abs(abs(power) - 3) < 0.01:
+            continue
         if abs(power - round(power)) < 0.01 and "scale" in use.mesh.element.attributes:
             yield Problem(
                 use.link,

@@ -16,11 +16,22 @@ if TYPE_CHECKING:
     from ...meshes.surface import Surface
 
 
+MOST_SLIVERS = 0.2
+"""Part of a mesh's triangles that may have no area without harm."""
+
+
 @Remembered
 def _surface(key: Stamp) -> Surface | None:
     from ...meshes.surface import surface
 
     return surface(Path(key[0]))
+
+
+@Remembered
+def _change_by_closing(key: Stamp) -> float | None:
+    from ...meshes.closing import change_by_closing
+
+    return change_by_closing(key[0])
 
 
 @Remembered
@@ -64,21 +75,34 @@ def _together(found: list[tuple[MeshUse, str]], message: Callable[[MeshUse], str
         "mujoco": "loads it, with a center and size that the hole moves",
     },
 )
-def not_watertight(robot: Robot, description: Description) -> Iterator[Problem]:
+def not_watertight(
+    robot: Robot, description: Description, *, change: float = 0.01
+) -> Iterator[Problem]:
     """The surface of a collision mesh has a hole.
 
-    What is open has no inside: volume, centre of mass and inertia computed from it mean nothing,
-    and tools that cut a mesh into convex pieces want it closed. One finding names the links.
+    What is open has no inside: volume, center of mass and inertia computed from it are wrong, and
+    tools that cut a mesh into convex pieces want it closed. Small holes do no harm: it is reported
+    where closing them changes one of the three by more than the part ``change``. One finding names
+    the links.
     """
-    found = [
-        (use, f"{surface.open_edges} open edges")
-        for use, _, surface in _surfaces(robot, description)
-        if surface.open_edges
-    ]
+    found: list[tuple[MeshUse, str]] = []
+    for use, key, surface in _surfaces(robot, description):
+        if not surface.open_edges:
+            continue
+        changed = _change_by_closing(key)
+        if changed is not None and changed > change:
+            much = f"by {changed * 100:.0f} %" if changed < 1 else "altogether"
+            found.append(
+                (
+                    use,
+                    f"{surface.open_edges} open edges, and closing them changes its volume, "
+                    f"center or inertia {much}",
+                )
+            )
     yield from _together(
         found,
         lambda use: (
-            f"collision mesh '{use.uri}' of link '{use.link.name}' is not closed, it has {{}}"
+            f"collision mesh '{use.uri}' of link '{use.link.name}' is not closed: it has {{}}"
         ),
     )
 
@@ -115,13 +139,13 @@ def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
     },
 )
 def degenerate_triangles(
-    robot: Robot, description: Description, *, most: float = 0.01
+    robot: Robot, description: Description, *, most: float = MOST_SLIVERS
 ) -> Iterator[Problem]:
-    """Triangles of a collision mesh have no area.
+    """Many triangles of a collision mesh have no area.
 
-    Two of their corners are one, or all three lie on a line. They have no normal, contacts on them
-    are not a number, and programs that make hulls stumble. ``most`` is the part that is let pass.
-    One finding names the links.
+    Two of their corners are one, or all three lie on a line. They have no normal and add nothing to
+    the shape; some are left by every exporter, and that many tell of a broken one. ``most`` is the
+    part that is let pass. One finding names the links.
     """
     found = [
         (use, f"{surface.flat} of its {surface.faces} triangles")
@@ -136,7 +160,7 @@ def degenerate_triangles(
 
 
 def with_slivers(
-    robot: Robot, description: Description, most: float = 0.01
+    robot: Robot, description: Description, most: float = MOST_SLIVERS
 ) -> list[tuple[MeshUse, Surface]]:
     """The collision meshes of which more than a part of the triangles has no area."""
     return [

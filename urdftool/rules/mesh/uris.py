@@ -164,7 +164,7 @@ def malformation(use: MeshUse) -> str:
         right = re.sub("/{2,}", "/", rest)
         return f"mesh '{uri}' has a doubled slash; write '{scheme}://{right}'"
     if separator and (" " in uri or "%20" in uri):
-        return f"mesh '{uri}' has a blank in it, which no URI may have; rename the file"
+        return f"mesh '{uri}' has a blank in it, which no URI may have; take it out of the name"
     return ""
 
 

@@ -1,0 +1,96 @@
+"""How much the holes of a mesh move what is computed of it: volume, center of mass, inertia."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import MeshError
+from .load import load_mesh
+from .mesh import Faces, Points
+from .surface_arrays import welded
+
+
+def change_by_closing(path: str | Path) -> float | None:
+    """Compare a mesh file as it is with itself, each hole being closed by a fan from its middle.
+
+    As it is, volume and moments are sums over tetrahedra whose tip is the mean of the surface, as
+    MuJoCo computes them.
+
+    Returns:
+        The largest relative change of the volume, of the center of mass (of the mesh's largest
+        length) and of the second moments; infinite where the closed mesh has no volume, and None
+        where the file cannot be read.
+    """
+    try:
+        mesh = load_mesh(Path(path))
+    except (MeshError, OSError):
+        return None
+    points, faces, _ = welded(mesh.vertices, mesh.faces)
+    corners = points[faces]
+    areas = np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
+    if not areas.sum() > 0:
+        return None
+    points = points - np.average(corners.mean(axis=1), axis=0, weights=areas)
+    corners = points[faces]
+    extent = float(np.ptp(corners.reshape(-1, 3), axis=0).max())
+    here = _moments(corners)
+    there = _moments(np.concatenate([corners, _fans(points, faces)]))
+    if not abs(there[0]) > 1e-9 * extent**3 or not here[0]:
+        return float("inf")
+    volume = abs(here[0] / there[0] - 1)
+    centers = here[1:4] / here[0], there[1:4] / there[0]
+    center = float(np.linalg.norm(centers[0] - centers[1])) / extent
+    spreads = here[4:] / here[0], there[4:] / there[0]
+    spread = float(np.abs(spreads[0] - spreads[1]).max() / np.abs(spreads[1]).max())
+    return float(max(volume, center, spread))
+
+
+def _moments(corners: Points) -> Points:
+    """Sum volume, first and second moments over the tetrahedra from the origin to triangles."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    six = np.einsum("ij,ij->i", a, np.cross(b, c))
+    total = a + b + c
+    first = (six[:, None] * total).sum(axis=0) / 24
+    squares = (a * a + b * b + c * c + total * total) * six[:, None]
+    return np.concatenate([[six.sum() / 6], first, squares.sum(axis=0) / 120])
+
+
+def _fans(points: Points, faces: Faces) -> Points:
+    """Make the triangles that close each hole: from the middle of a rim to its edges, turned."""
+    starts, ends = faces.reshape(-1), np.roll(faces, -1, axis=1).reshape(-1)
+    both = np.sort(np.stack([starts, ends], axis=1), axis=1)
+    edges, which = np.unique(both, axis=0, return_inverse=True)
+    net = np.bincount(which.reshape(-1), weights=np.where(starts == both[:, 0], 1, -1))
+    rim = (net != 0) & (edges[:, 0] != edges[:, 1])
+    edges, net = edges[rim], net[rim].astype(int)
+    labels = _rims(len(points), edges)
+    on_rim = np.unique(edges)
+    count = np.bincount(labels[on_rim], minlength=len(points))
+    middles = (
+        np.stack(
+            [np.bincount(labels[on_rim], points[on_rim, axis], len(points)) for axis in range(3)],
+            axis=1,
+        )
+        / np.maximum(count, 1)[:, None]
+    )
+    turned = np.where((net > 0)[:, None], edges[:, ::-1], edges)
+    fans = np.stack([*points[turned].swapaxes(0, 1), middles[labels[edges[:, 0]]]], axis=1)
+    return np.repeat(fans, np.abs(net), axis=0)
+
+
+def _rims(count: int, edges: Faces) -> Faces:
+    """Label each point with the smallest point that edges connect it with."""
+    labels = np.arange(count)
+    while True:
+        least = labels[edges].min(axis=1)
+        new = labels.copy()
+        for column in (edges[:, 0], edges[:, 1]):
+            np.minimum.at(new, column, least)
+        new = new[new]
+        if (new == labels).all():
+            return labels
+        labels = new

@@ -1,0 +1,133 @@
+"""The center of mass against the shapes of the link."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ...model.bounds import Bounds
+from ...model.elements import Link, Robot
+from ...model.mass_fit import MARGIN, misfit_of_com
+from ...model.pose import pose_of
+from ..mesh.outlines import reaches
+from ..rule import INFO, WARNING, Problem, rule
+from .bodies import LIGHT, negligible
+from .size import SIZE_IN_DOUBT, has_mesh, is_placeholder
+from .solids import centre_of_solids
+from .tensors import six_of
+
+
+@rule(
+    WARNING,
+    effects={
+        "gz, gazebo-classic, mujoco, pinocchio, drake": "take it as written",
+    },
+    of_motion=True,
+    group="robot",
+    caused_by=SIZE_IN_DOUBT,
+)
+def com_outside_geometry(
+    robot: Robot, *, margin: float = MARGIN, together: float = 6, light: float = LIGHT
+) -> Iterator[Problem]:
+    """A link's centre of mass is outside the box around its shapes.
+
+    The mean of a body's mass is inside its hull. Millimetres, or the pose of another frame, put it
+    elsewhere; the link then falls to a side it should not. ``margin`` is the part of the box's
+    diagonal that is let pass, of a mesh twice that. A mesh often shows the cover and not the motor
+    that weighs most, so there it is a warning only beyond half a diagonal; more than ``together``
+    that are none are one finding, which names the links. Shapes of attached links without a mass of
+    their own count, too. A link with less than the part ``light`` of the robot's mass is left out,
+    and one with less than ten times that part of the links that are fixed together.
+    """
+    remarks: list[tuple[Problem, str]] = []
+    reach = reaches(robot)
+    skipped = negligible(robot, light)
+    for link in robot.links:
+        inertial = link.inertial
+        if inertial is None or not inertial.mass or link.name in skipped:
+            continue
+        box = reach.link(link)
+        if box is None:
+            continue
+        com, of_mesh = pose_of(inertial.origin).translation, has_mesh(link)
+        if misfit_of_com(box, com, of_mesh, margin=margin) is None:
+            continue
+        box = reach.meant(link, box)
+        found = misfit_of_com(box, com, of_mesh, margin=margin) if box is not None else None
+        if found is None:
+            continue
+        problem = Problem(
+            link,
+            f"centre of mass of link '{link.name}' {found.sentence}",
+            at=inertial.origin if inertial.origin is not None else inertial,
+            severity=None if found.certain else INFO,
+        )
+        if found.certain:
+            yield problem
+        else:
+            what = f"'{link.name}' by {found.amount:.3g} m along {'xyz'[found.axis]}"
+            remarks.append((problem, what))
+    if len(remarks) > together:
+        remarks[0][0].message += f"; so are those of {', '.join(said for _, said in remarks[1:])}"
+        del remarks[1:]
+    yield from (problem for problem, _ in remarks)
+
+
+@rule(
+    INFO,
+    effects={
+        "gz, gazebo-classic, mujoco, pinocchio, drake": (
+            "put the center of mass of the link at its origin"
+        ),
+    },
+    of_motion=True,
+    group="robot",
+)
+def inertial_not_at_com_suspect(
+    robot: Robot, *, far: float = 0.2, light: float = LIGHT
+) -> Iterator[Problem]:
+    """An ``<inertial>`` has no origin though the link's shapes lie to one side.
+
+    The mass then sits at the frame of the link, for most on the axis of a joint, and gravity turns
+    nothing. Mostly the ``<origin>`` was forgotten. A link with less than the part ``light`` of the
+    robot's mass is left out, and one with less than ten times that part of the links that are fixed
+    together.
+    """
+    reach = reaches(robot)
+    skipped = negligible(robot, light)
+    for link in robot.links:
+        inertial = link.inertial
+        if inertial is None or not inertial.mass or link.name in skipped:
+            continue
+        if inertial.origin is not None and any(inertial.origin.xyz):
+            continue
+        if inertial.inertia is not None and is_placeholder(link, six_of(inertial.inertia)):
+            continue  # all of it is made up, which is said
+        box = reach.link(link)
+        if box is None or not _is_off_centre(link, box, far):
+            continue
+        around = reach.meant(link, box)
+        if around is None or not _is_off_centre(link, around, far):
+            continue
+        noise = 1e-3 * math.dist(*box)
+        digits = 1 - math.floor(math.log10(noise))
+        centre = [0.0 if abs(value) < noise else round(value, digits) for value in box.centre]
+        shown = " ".join(f"{value:g}" for value in centre)
+        yield Problem(
+            link,
+            f"mass of link '{link.name}' is at its frame, while its shapes are centred at "
+            f"{shown} m; write its center of mass as the <origin> of its <inertial>",
+            at=inertial.origin if inertial.origin is not None else inertial,
+        )
+
+
+def _is_off_centre(link: Link, box: Bounds, far: float) -> bool:
+    """Whether the frame of a link is inside a box and far from its middle."""
+    lower, upper = box
+    slack = 0.02 * math.dist(lower, upper)
+    if max(lower) - slack > 0 or min(upper) + slack < 0:
+        return False  # the centre of mass is outside, which is more than a suspicion
+    solid = centre_of_solids(link)
+    if solid is not None and math.hypot(*solid) <= far * math.dist(lower, upper):
+        return False  # what lies to one side is thin
+    return math.hypot(*box.centre) > far * math.dist(lower, upper)
