@@ -298,6 +298,9 @@ def test_a_transmission_means_a_joint_that_moves(write, kind, meant):
     assert ("did you mean" in one(path, "transmission-unknown-joint").message) == meant
 
 
+SHAPE = '<visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>'
+
+
 def limbs(name, *, same, right_y):
     """Make a robot of two mirrored arms of three links, with a fourth of a name on each."""
     parts = [LINK.format("base")]
@@ -311,7 +314,7 @@ def limbs(name, *, same, right_y):
             above = link
         y = 0.1 if side == "left" else right_y
         inside = f'<origin xyz="0 {y} 0"/><axis xyz="1 0 0"/>{LIMIT.format(0, same)}'
-        parts.append(LINK.format(f"{side}_{name}"))
+        parts.append(f'<link name="{side}_{name}">{SHAPE}</link>')
         parts.append(
             JOINT.format(f"{side}_{name}_joint", "revolute", above, f"{side}_{name}", inside)
         )

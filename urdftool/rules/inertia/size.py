@@ -181,12 +181,9 @@ def inertia_below_geometry(
     """
     reach = reaches(robot)
     heavy = outlier(robot)
-    slight = slight_parts(robot)
     for link, inertial, six in tensors(robot):
         mass = link.mass
         if mass <= 0 or is_zero(six, mass) or not is_positive(moments_of(six)):
-            continue
-        if link.name in slight:
             continue
         if heavy is not None and link is heavy.link:
             continue  # the mass is reported
