@@ -196,3 +196,12 @@ def test_a_driven_pendulum_is_not_a_wheel(write):
         base, link("end", LEG), joint("left", "trunk", "end", "continuous", swing), DRIVEN[0]
     )
     assert not is_free(export(write("r.urdf", text)))
+
+
+@pytest.mark.parametrize(("base", "cone"), [("free", "elliptic"), ("fixed", None)])
+def test_contacts_of_a_free_base_have_elliptic_cones(write, base, cone):
+    path = write("r.urdf", quadruped())
+    assert tree(export(path, base=base)).find("option").get("cone") == cone
+    own = '<mujoco><option cone="pyramidal"/></mujoco></robot>'
+    path = write("s.urdf", quadruped().replace("</robot>", own))
+    assert tree(export(path, base=base)).find("option").get("cone") == "pyramidal"

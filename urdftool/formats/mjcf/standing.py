@@ -112,9 +112,9 @@ def free_reason(
 ) -> str | None:
     """Say on what a robot stands that is not held; None where it is held.
 
-    It is free where it stands on a driven wheel or on two wheels; where only what moves against the root reaches the
-    ground: on two or more chains, below the center of mass, and not named as hands are; and where
-    two or more chains end in links that are named as feet or legs are.
+    It is free where it stands on a driven wheel or on two wheels; where only what moves against the
+    root reaches the ground: on two or more chains, below the center of mass, and not named as hands
+    are; and where two or more chains end in links that are named as feet or legs are.
 
     Args:
         structure: The tree.

@@ -140,6 +140,8 @@ def option_check(source: Source, compiled: Compiled, said: Said) -> Check:
 def _asked(source: Source) -> str:
     """``<option>`` with what the description asks for."""
     values = {"integrator": "implicitfast"}
+    if source.is_free or any(joint.type == "floating" for joint in source.robot.joints):
+        values["cone"] = "elliptic"
     flags: dict[str, str] = {}
     for extension in source.robot.element.all("mujoco"):
         for option in extension.all("option"):
