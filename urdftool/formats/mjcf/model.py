@@ -137,8 +137,8 @@ def _option(structure: Structure) -> etree._Element:
 
     Where a heavy base on the ground carries light links, Newton's method ends before the forces of
     MuJoCo's pyramidal cones are found, and speeds run away: measured in MuJoCo 4.0 for 1 s on 13
-    free robots of example-robot-data, in three (TIAGo's) of them, in none with elliptic cones, in no
-    more time.
+    free robots of example-robot-data, in three (TIAGo's) of them; in none with elliptic cones, in
+    no more time.
     """
     option = etree.Element("option", integrator="implicitfast")
     if structure.free or any(structure.kind(joint) == "free" for joint in structure.moving):
