@@ -111,8 +111,8 @@ def export_mjcf(
     Args:
         robot: A robot from ``load``.
         output: A folder, or a file that ends in .xml or .mjcf; None writes nothing.
-        actuators: ``"auto"`` as transmissions and ros2_control say, ``"none"``, or ``"position"``,
-            ``"velocity"`` or ``"motor"`` for all joints.
+        actuators: ``"auto"`` as transmissions, ros2_control and drive plugins say, ``"none"``, or
+            ``"position"``, ``"velocity"`` or ``"motor"`` for all joints.
         base: Whether the root is ``"fixed"`` or ``"free"``; ``"auto"`` is free where the robot
             stands on legs or driven wheels, or where the description says so.
         scene: Whether to write also a scene with floor and light.
