@@ -205,3 +205,29 @@ def test_contacts_of_a_free_base_have_elliptic_cones(write, base, cone):
     own = '<mujoco><option cone="pyramidal"/></mujoco></robot>'
     path = write("s.urdf", quadruped().replace("</robot>", own))
     assert tree(export(path, base=base)).find("option").get("cone") == "pyramidal"
+
+
+@pytest.mark.corpus
+@pytest.mark.parametrize(
+    ("path", "free"),
+    [
+        ("ROBOTIS-GIT__turtlebot3/turtlebot3_description/urdf/turtlebot3_burger.urdf", True),
+        ("ros2__urdf/urdf/test/test_robot.urdf", True),
+        ("TheRobotStudio__SO-ARM100/Simulation/SO100/so100.urdf", False),
+        ("frankaemika__franka_description/robots/fr3/fr3.urdf.xacro", False),
+        ("frankaemika__franka_description/robots/multi_arm/multi_arm.urdf.xacro", False),
+    ],
+)
+def test_real_robots(path, free):
+    from tests.conftest import CORPUS
+    from urdftool.formats.mjcf.base import with_base
+    from urdftool.formats.mjcf.home import home_positions
+    from urdftool.formats.mjcf.shape_box import ShapeBoxes
+    from urdftool.formats.mjcf.structure import structure_of
+    from urdftool.formats.written import Written
+    from urdftool.model.load import load
+
+    made, written = load(CORPUS / path), Written("x")
+    structure = structure_of(made)
+    home = home_positions(structure, {}, "", None, written)
+    assert with_base(structure, "auto", None, ShapeBoxes(made), home, written).free == free
