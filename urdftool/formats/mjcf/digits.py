@@ -2,7 +2,7 @@
 
 xacro computes ``2.3749999999999997e-06`` of a mass and a size, and a rotation of an inertia tensor
 leaves the like. A number within a few units in the last place of one with at
-most twelve digits is that one: it changes by less than 2e-15 of itself.
+most ten digits is that one: it changes by less than 2e-15 of itself.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Iterable
 
 from .. import numbers
 
-DIGITS = 12
+DIGITS = 10
 """The most digits of a number that somebody wrote."""
 
 NOISE = 8
@@ -20,7 +20,7 @@ NOISE = 8
 
 
 def snapped(value: float) -> float:
-    """Return the number of at most twelve digits that a number is, up to rounding; or itself."""
+    """Return the number of at most ten digits that a number is, up to rounding; or itself."""
     if not math.isfinite(value) or value == 0:
         return value
     short = float(f"{value:.{DIGITS}g}")

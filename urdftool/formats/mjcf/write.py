@@ -24,6 +24,7 @@ from .options import Options
 from .scene import scene_file
 from .shape_box import ShapeBoxes
 from .srdf import read_srdf
+from .srdf_near import offer_srdf
 from .structure import Structure, structure_of
 
 _NOISE = re.compile(r"(?:[\s_.-]+(?:urdf|xacro|sldasm|v\d+(?:[._]\d+)*))+\s*$", re.IGNORECASE)
@@ -65,6 +66,8 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         refuse(found, force=options.force)
     packages = robot.source.packages if robot.source is not None else None
     srdf = read_srdf(options.srdf, robot, written, packages) if options.srdf else None
+    if srdf is None:
+        offer_srdf(robot, written)
     structure = structure_of(robot, keep_locked=options.keep_locked_joints)
     boxes = ShapeBoxes(robot)
     positions = home_positions(structure, options.pose, options.state, srdf, written)

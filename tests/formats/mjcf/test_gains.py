@@ -1,0 +1,149 @@
+"""Gains that the inertia bounds, and those that an actuator file sets."""
+
+from pathlib import Path
+
+import pytest
+
+from urdftool.errors import ConfigError
+from urdftool.formats.actuator_config import read_actuator_config
+from urdftool.formats.mjcf.gains import PART, TIMESTEP, position_gain
+from urdftool.formats.mjcf.verify import verify_copy
+from urdftool.model.load import load
+
+from .robots import INERTIAL, export, find, joint, link, robot, rules, tree
+
+TINY = (
+    '<inertial><origin xyz="0.1 0 0"/><mass value="0.05"/>'
+    '<inertia ixx="1e-5" ixy="0" ixz="0" iyy="1e-5" iyz="0" izz="1e-5"/></inertial>'
+)
+LIMIT = '<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="1000" velocity="3"/>'
+FINGERS = robot(
+    link("base"), link("one", TINY), link("two", TINY),
+    joint("left_knee", "base", "one", inside=LIMIT),
+    joint("right_knee", "base", "two", inside=LIMIT),
+)  # fmt: skip
+
+
+def test_a_placeholder_effort_is_bounded_by_the_inertia(write):
+    written = export(write("r.urdf", FINGERS), actuators="position")
+    inertia = 0.05 * 0.1**2 + 1e-5
+    gain = float(next(e.get("kp") for e in tree(written).iter("position") if e.get("kp")))
+    assert gain == pytest.approx(PART * inertia / TIMESTEP**2, rel=6e-3)
+    assert gain < 10 * 1000
+    assert "lossy-gains" in rules(written)
+
+
+def test_a_gain_below_the_bound_is_that_of_the_effort():
+    assert position_gain("hinge", 3.0, 1.0).value == 30.0
+    assert position_gain("slide", None, 1.0).value == 1000.0
+
+
+@pytest.mark.library("mujoco")
+def test_bounded_gains_run_and_those_of_the_effort_do_not(write, tmp_path):
+    from urdftool.formats.mjcf.verify_runs import run_at_home
+
+    written = export(write("r.urdf", FINGERS), actuators="position", exclude="touching")
+    text = written.text
+    model = tmp_path / "model.xml"
+    model.write_text(text)
+    assert run_at_home(model, 0.005).faults() == []
+    gain = next(e.get("kp") for e in tree(written).iter("position") if e.get("kp"))
+    model.write_text(text.replace(f'kp="{gain}"', 'kp="1000000"'))
+    assert run_at_home(model, 0.005).faults()
+
+
+def test_a_follower_gets_no_servo(write):
+    text = robot(
+        link("base"), link("a"), link("b"),
+        joint("lead", "base", "a", inside=LIMIT),
+        joint("follow", "base", "b", inside=LIMIT + '<mimic joint="lead"/>'),
+        '<ros2_control name="c" type="system">'
+        '<joint name="lead"><command_interface name="position"/></joint>'
+        '<joint name="follow"><command_interface name="position"/></joint></ros2_control>',
+    )  # fmt: skip
+    written = export(write("r.urdf", text))
+    assert [e.get("joint") for e in tree(written).find("actuator")] == ["lead"]
+    assert "lossy-mimic-actuator" in rules(written)
+
+
+CONFIG = """
+[joints."*_knee"]
+kp = 12
+kd = 0.5
+armature = 0.01
+force-range = 30
+
+[joints.left_knee]
+kp = 20
+damping = 0.1
+"""
+
+
+@pytest.mark.library("mujoco")
+def test_an_actuator_file_by_name_and_pattern(write):
+    path = write("r.urdf", FINGERS)
+    from urdftool.formats.mjcf.options import Options
+    from urdftool.formats.mjcf.write import write as write_mjcf
+
+    options = Options(actuator_config=Path(write("a.toml", CONFIG)))
+    found = load(path)
+    written = write_mjcf(found, options)
+    model = tree(written)
+    left, right = (find(model, "position", name) for name in ("left_knee", "right_knee"))
+    assert (left.get("kp"), left.get("kv"), left.get("forcerange")) == ("20", "0.5", "-30 30")
+    assert right.get("kp") == "12"
+    assert find(model, "joint", "left_knee").get("damping") == "0.1"
+    assert find(model, "joint", "right_knee").get("actuatorfrcrange") is None
+    checks = verify_copy(found, options, written)
+    assert [c.name for c in checks if c.verdict == "differs"] == []
+
+
+@pytest.mark.library("mujoco")
+def test_armature_of_all_joints_bounds_gains_less(write):
+    plain = export(write("r.urdf", FINGERS), actuators="position").text
+    written = export(write("r.urdf", FINGERS), actuators="position", armature=0.02)
+    (default,) = (e for e in tree(written).iter("joint") if e.get("armature"))
+    assert default.get("armature") == "0.02"
+    gains = [
+        float(next(e.get("kp") for e in tree(w).iter("position") if e.get("kp")))
+        for w in (export(write("r.urdf", FINGERS), actuators="position"), written)
+    ]
+    assert gains[0] < gains[1]
+    assert "armature" not in plain
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[joints.x", "not valid TOML"),
+        ("[joint.x]", r"unknown table \[joint\]"),
+        ("[joints.left_knee]\nkpp = 1", "unknown key 'kpp'; did you mean 'kp'"),
+        ("[joints.left_knee]\nkp = -1", "kp must be a number, zero or above"),
+        ("[joints.left_knee]\nkp = true", "kp must be a number"),
+        ("[joints.left_knee]\nforce-range = [2, 1]", "force-range must be"),
+        ("[joints.left_knee]\ntype = 'servo'", "type must be position, velocity or motor"),
+        ("[joints]\nleft_knee = 3", "must be a table"),
+        ("[joints.left_nee]\nkp = 1", "did you mean 'left_knee'"),
+        ('[joints."*_hip"]\nkp = 1', "no joint that moves has this pattern"),
+    ],
+)
+def test_errors_of_an_actuator_file_name_the_key(write, text, message):
+    path = write("a.toml", text)
+    with pytest.raises(ConfigError, match=message) as caught:
+        read_actuator_config(Path(path)).for_joints(["left_knee", "right_knee"])
+    assert caught.value.path == str(path)
+
+
+def test_a_name_counts_before_a_pattern_and_a_later_pattern_before_an_earlier(write):
+    text = '[joints.ab]\nkp = 1\n[joints."*"]\nkp = 2\nkd = 2\n[joints."a*"]\nkp = 3\n'
+    found = read_actuator_config(Path(write("a.toml", text))).for_joints(["ab", "ac", "b"])
+    assert [(s.kp, s.kd) for s in found.values()] == [(1, 2), (3, 2), (2, 2)]
+
+
+def test_a_file_of_gains_is_refused_from_the_command_line(urdftool, write, tmp_path):
+    path = write("r.urdf", robot(link("a", INERTIAL), link("b"), joint("j", "a", "b")))
+    config = write("a.toml", "[joints.k]\nkp = 1\n")
+    result = urdftool("export", "mjcf", path, "-o", tmp_path / "o", "--actuator-config", config)
+    assert result.code == 2
+    assert 'a.toml: [joints."k"]: no joint that moves has this name' in result.err
+    assert not (tmp_path / "o").exists()

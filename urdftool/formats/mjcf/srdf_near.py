@@ -1,0 +1,58 @@
+"""Finds the SRDF of a robot, which is offered and never used without being asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from ...errors import SourceError
+from ...finding import Severity
+from ...model.elements import Robot
+from ...source.document import parse, read_file
+from ...source.packages import own_package, shown_path
+from ..written import Written
+
+
+def offer_srdf(robot: Robot, written: Written) -> None:
+    """Report the SRDF files of a robot that lie beside it or in its MoveIt configuration."""
+    found = srdf_files(robot)
+    if found:
+        names = " or ".join(shown_path(path) for path in found)
+        written.lose(
+            "srdf-not-used",
+            f"robot '{robot.name}' has an SRDF, which is not used: --srdf {names} takes over its "
+            "disabled collisions, group states and virtual joint",
+            robot.element.place,
+            severity=Severity.INFO,
+        )
+
+
+def srdf_files(robot: Robot) -> list[Path]:
+    """Find the SRDF files of a robot's name.
+
+    They lie beside the description, or in ``config`` of a package ``…_moveit_config`` next to that
+    of the description or inside it.
+    """
+    if robot.source is None or robot.source.path == "-":
+        return []
+    path = Path(robot.source.path).absolute()
+    return [file for file in dict.fromkeys(_candidates(path)) if _is_of(file, robot)]
+
+
+def _candidates(path: Path) -> Iterator[Path]:
+    yield from sorted(path.parent.glob("*.srdf"))
+    own = own_package(path)
+    if own is None:
+        return
+    yield from sorted(own[1].glob("srdf/*.srdf"))
+    yield from sorted(own[1].glob("config/*.srdf"))
+    for folder in (own[1], own[1].parent):
+        yield from sorted(folder.glob("*_moveit_config/config/*.srdf"))
+
+
+def _is_of(file: Path, robot: Robot) -> bool:
+    try:
+        root = parse(read_file(shown_path(file))).root
+    except SourceError:
+        return False
+    return root.tag == "robot" and root.get("name") == robot.name
