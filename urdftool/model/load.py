@@ -28,6 +28,11 @@ def robot_of(description: Description) -> Robot:
     return robot
 
 
+def read_again(robot: Robot) -> Robot:
+    """Return a robot as its description has it, whatever became of this one since it was read."""
+    return robot if robot.source is None else robot_of(robot.source)
+
+
 def without_links(robot: Robot) -> str:
     """What is said of a robot that has no link, as a file of macros has none; else empty."""
     if robot.links:

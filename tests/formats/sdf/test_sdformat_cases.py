@@ -224,8 +224,9 @@ def test_parameters_of_joints():
 @pytest.mark.parametrize("choices", [{}, {"fixed_joints": "lump"}, CLASSIC])
 def test_every_case_is_the_same_robot(path, choices, tmp_path):
     robot = load(path)
-    written = write(robot, Options(force=True, file="m.sdf", **choices))
+    options = Options(force=True, file="m.sdf", **choices)
+    written = write(robot, options)
     place = tmp_path / "m.sdf"
     place.write_bytes(written.files["m.sdf"])
-    checks = compare(pair_of(robot, written, place))
+    checks = compare(pair_of(robot, written, place, options))
     assert is_faithful(checks), [check.differing for check in checks]

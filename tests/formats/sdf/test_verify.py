@@ -31,7 +31,8 @@ def checks_of(tmp_path, change=lambda text: text, quiet=False, **choices):
     changed = change(text)
     assert changed != text or change("") == ""
     place.write_text(changed)
-    return {check.name: check for check in compare(pair_of(source, written, place))}
+    pair = pair_of(source, written, place, Options(**choices))
+    return {check.name: check for check in compare(pair)}
 
 
 @pytest.mark.parametrize("fixed_joints", ["keep", "lump"])

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from ...model.elements import Joint, Robot
+from ...model.load import read_again
 from ...model.world import with_world
 from ..check import Check
 from ..mechanics import Mechanics
@@ -92,7 +93,7 @@ def verify(
         MissingDependency: MuJoCo is not installed.
         OutputError: MuJoCo does not compile it.
     """
-    robot, _ = with_world(robot)
+    robot, _ = with_world(read_again(robot))
     said = Said.by(written.losses)
     mechanics = Mechanics(robot)
     compiled = Compiled(model, mechanics.root, written.renamed)

@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ....model.elements import Robot
+from ....model.load import read_again
 from ...check import Check
 from ...written import Written
 from ..forced import left_of
@@ -84,8 +85,9 @@ def verify(robot: Robot, written: Written, options: Options, output: str | Path)
         output: Where it was written: the file or the folder.
     """
     place = Path(output) if options.file else Path(output) / written.main
+    anew = read_again(robot)
     try:
-        pair = pair_of(left_of(robot) if options.force else robot, written, place, options)
+        pair = pair_of(left_of(anew) if options.force else anew, written, place, options)
     except (ElementTree.ParseError, OSError, LookupError, StopIteration, ValueError) as error:
         return [Check("file", "can be read back", 0.0, differing=[f"{place}: {error!r}"])]
     checks = compare(pair)

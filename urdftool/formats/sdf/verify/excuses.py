@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from ....finding import Finding, Severity
@@ -14,7 +14,15 @@ LIMITS = MOTION | {"lossy-limit"}
 FRAMES = frozenset(("lossy-frame",))
 SHAPES = frozenset(("lossy-mesh", "lossy-shape", "lossy-capsule", "lossy-world"))
 COLORS = SHAPES | {"lossy-material", "lossy-texture"}
-BLOCKS = frozenset(("lossy-element", "lossy-extension", "lossy-reference", "bad-extension-number"))
+BLOCKS = frozenset(
+    (
+        "lossy-element",
+        "lossy-extension",
+        "lossy-reference",
+        "bad-extension-number",
+        "lossy-bad-extension-number",
+    )
+)
 """What is in a block of ``<gazebo>`` is left out or changed."""
 
 MIMIC = MOTION | {"lossy-mimic"}
@@ -60,6 +68,8 @@ def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
         rule, name = loss.rule, loss.name
         if loss.severity > Severity.INFO:  # with a note the robot behaves the same
             made.said.add((rule, name))
+            if rule in BLOCKS and not name:
+                made.said |= {(rule, block) for block in _blocks_at(robot, loss)}
         if rule in MASS:
             made.massy = True
             made.heavy |= {joint.name for joint in _above(robot, name)}
@@ -83,6 +93,15 @@ def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
         if rule in COLORS:
             made.colors.add(name)
     return made
+
+
+def _blocks_at(robot: Robot, loss: Finding) -> Iterator[str]:
+    """What the block of ``<gazebo>`` refers to in which something was lost."""
+    for block in robot.gazebo:
+        element, place = block.element, loss.place
+        same = element.place.path == place.path
+        if same and element.start <= place.start < element.end:
+            yield block.reference or ""
 
 
 def _carried(robot: Robot, name: str) -> bool:
