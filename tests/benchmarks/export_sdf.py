@@ -63,7 +63,7 @@ def measure(path: Path, mode: str, folder: Path) -> dict[str, bool | str]:
     row["written"] = True
     place = folder / "robot.sdf"
     place.write_bytes(written.files["robot.sdf"])  # type: ignore[arg-type]
-    pair = pair_of(robot, written, place)
+    pair = pair_of(robot, written, place, options)
     own = compare(pair)
     row["shapes"] = all(c.verdict == "equal" for c in own if c.name in ("collisions", "visuals"))
     row["own"] = all(check.verdict == "equal" for check in own)

@@ -95,3 +95,44 @@ def test_no_polygon_of_a_mesh_is_lost(write, corners):
     source = load(write("r.urdf", robot(link("a", INERTIAL + seen))))
     written = write_mjcf(source, Options())
     assert is_faithful(verify_copy(source, Options(), written))
+
+
+FUSED = (
+    "mass by 0.01 %",
+    "axis the other way round",
+    "spring lost",
+    "armature added",
+    "lower effort bound",
+    "gravity of the moon",
+    "gravity flag lost",
+    "box for a cylinder",
+    "friction by 1 %",
+    "actuator on another joint",
+    "gear 1 for 50",
+    "gain lost",
+    "IMU 0.5 m off",
+    "noise of a sensor",
+    "camera turned",
+    "field of view",
+    "initial value lost",
+    "color by 1 %",
+    "exclusion added",
+)
+
+
+@pytest.mark.parametrize("what", FUSED)
+def test_a_change_of_a_model_with_merged_links_is_found(what):
+    from dataclasses import replace
+
+    from lxml import etree
+
+    from tests.planted.measure import FOLDER, MJCF
+    from tests.planted.mjcf import CHANGES
+
+    source, options = load(FOLDER / "everything.urdf"), replace(MJCF, fuse=True)
+    written = write_mjcf(source, options)
+    root = etree.fromstring(written.text.encode())
+    next(planted for planted in CHANGES if planted.what == what).edit(root)
+    written.files[written.main] = etree.tostring(root)
+    checks = verify_copy(source, options, written)
+    assert "fused" in [check.name for check in checks if check.verdict == "differs"]

@@ -44,7 +44,7 @@ def test_all_are_the_same_robots(choices, allowed, tmp_path):
         written = write(robot, options)
         place = tmp_path / "m.sdf"
         place.write_bytes(written.files["m.sdf"])
-        checks = compare(pair_of(robot, written, place))
+        checks = compare(pair_of(robot, written, place, options))
         assert is_faithful(checks), (path, [check.differing for check in checks])
         if any(check.verdict != "equal" for check in checks):
             other.append(path.stem)

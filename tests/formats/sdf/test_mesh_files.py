@@ -141,11 +141,8 @@ def test_textures_are_verified(write, tmp_path, target, spoiled):
         (name,) = [name for name in written.files if name.endswith(".png")]
         written.files[name] = b"other"
     write_export(tmp_path / "out", written, single=False)
-    colours = next(
-        check
-        for check in compare(pair_of(robot, written, tmp_path / "out" / "model.sdf"))
-        if check.name == "colours"
-    )
+    pair = pair_of(robot, written, tmp_path / "out" / "model.sdf", options)
+    colours = next(check for check in compare(pair) if check.name == "colours")
     assert colours.verdict == ("differs" if spoiled else "equal")
 
 

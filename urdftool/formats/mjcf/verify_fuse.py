@@ -13,6 +13,19 @@ from .compiled import Compiled
 
 FRAME = 1e-9
 
+FAMILIES = ("jnt_", "dof_", "actuator_", "sensor_", "key_", "mat_", "tex_", "numeric_", "eq_sol",
+            "eq_active", "eq_type", "cam_fovy", "cam_resolution", "cam_mode", "light_diffuse",
+            "light_specular", "light_type", "light_cutoff", "light_active")  # fmt: skip
+"""Fields of MuJoCo's model that merging links leaves as they are."""
+
+COUNTED = ("id", "adr", "num", "invweight0", "length", "length0", "acc0", "M0", "lengthrange")
+"""Ends of fields that number bodies, or that MuJoCo derives."""
+
+OF_GEOMS = (
+    "contype", "conaffinity", "condim", "friction", "solref", "solimp", "margin", "gap",
+    "priority", "solmix", "rgba", "matid",
+)  # fmt: skip
+
 
 def fuse_check(
     links: Sequence[str],
@@ -29,7 +42,9 @@ def fuse_check(
         configurations: Positions of the joints by name [rad or m].
     """
     check = Check(
-        "fused", "merged and whole model: frames, mass matrix, shapes, contacts, sensors", FRAME
+        "fused",
+        "merged and whole model: frames, masses, shapes, contacts, joints, actuators, sensors, key",
+        FRAME,
     )
     for what in ("nq", "nv", "nu", "neq", "nsensor", "ngeom", "ncam", "nlight"):
         same = getattr(plain.model, what) == getattr(fused.model, what)
@@ -56,10 +71,41 @@ def fuse_check(
         one, other = plain.mass_matrix(everything), fused.mass_matrix(everything)
         check.compare(_relative(one, other) * FRAME / plain.tensor_rounding, "the mass matrix")
         check.compare(_relative(plain.data.qfrc_bias, fused.data.qfrc_bias), "gravity")
-        check.compare(_relative(*(_shapes(c) for c in (plain, fused))), "place of a shape")
+        check.compare(_relative(*(_shapes(c) for c in (plain, fused))), "a shape")
+        for compiled in (plain, fused):
+            compiled.mujoco.mj_passive(compiled.model, compiled.data)
+        force = plain.data.qfrc_passive, fused.data.qfrc_passive
+        check.compare(_relative(*force), "springs or gravity flags")
+    _compare_fields(plain, fused, check)
     for pair in _touching(plain) ^ _touching(fused):
         check.compare(math.inf, f"contact of shapes {sorted(pair)}")
     return check
+
+
+def _compare_fields(plain: Compiled, fused: Compiled, check: Check) -> None:
+    """Compare joints, actuators, sensors, keys, looks and options field by field."""
+    for name in dir(plain.model):
+        if not name.startswith(FAMILIES) or name.endswith(COUNTED):
+            continue
+        one, other = getattr(plain.model, name), getattr(fused.model, name)
+        if isinstance(one, np.ndarray):
+            same = one.shape == other.shape and np.allclose(one, other, rtol=1e-6, atol=1e-12)
+            check.compare(0 if same else math.inf, f"{name} of MuJoCo's model")
+    for name, value in plain.written_options.items():
+        same = bool(np.array_equal(value, fused.written_options[name]))
+        check.compare(0 if same else math.inf, f"option {name}")
+    for number in range(plain.model.nu):
+        joints = [c.name("JOINT", int(c.model.actuator_trnid[number][0])) for c in (plain, fused)]
+        check.compare(0 if joints[0] == joints[1] else math.inf, f"joint of actuator {number}")
+    for number in range(plain.model.nsensor):
+        names = [c.name("SITE", int(c.model.sensor_objid[number])) for c in (plain, fused)]
+        check.compare(0 if names[0] == names[1] else math.inf, f"site of sensor {number}")
+    for number in range(plain.model.ncam):
+        other = fused.id("CAMERA", plain.name("CAMERA", number))
+        off = math.inf
+        if other >= 0:
+            off = float(abs(plain.camera_frame(number) - fused.camera_frame(other)).max())
+        check.compare(off, f"camera '{plain.name('CAMERA', number)}'")
 
 
 def _frame(compiled: Compiled, link: str) -> Array | None:
@@ -74,12 +120,17 @@ def _frame(compiled: Compiled, link: str) -> Array | None:
 
 
 def _shapes(compiled: Compiled) -> Array:
-    """Kind, group, size and place of every shape, in an order that bodies have no part in."""
+    """Kind, group, size, place, grip and look of every shape, in an order without bodies."""
     model = compiled.model
     rows = [
         [
             float(model.geom_type[geom]), float(model.geom_group[geom]), *model.geom_size[geom],
             *compiled.geom_frame(geom)[:3].ravel(),
+            *(
+                float(value)
+                for field in OF_GEOMS
+                for value in np.ravel(getattr(model, f"geom_{field}")[geom])
+            ),
         ]
         for geom in range(model.ngeom)
     ]  # fmt: skip
