@@ -243,6 +243,7 @@ def _depth(around: Convex, at: tuple[float, float, float]) -> float:
 
 @rule(
     INFO,
+    default=False,
     effects={
         "mujoco (contact)": "the contact stops the joint before its limit",
         "mujoco (neighbors)": (
