@@ -26,7 +26,8 @@ MENU = {
         *("howto/classic-to-gz", "howto/mujoco-scene", "howto/strangers", "howto/two-wheels"),
     ),
     "To look up": (
-        *("rules/index", "configuration", "formats/sdf", "formats/mjcf", "python", "completion"),
+        *("rules/index", "configuration", "formats/sdf", "formats/mjcf", "formats/mjcf_runs"),
+        *("python", "completion"),
         *(
             "benchmarks",
             "fidelity",

@@ -3,12 +3,13 @@
 A servo asks for the whole effort of its joint at a small error. Many descriptions have a
 placeholder as effort, and a servo of 10 times that would be stiffer than any time step can
 integrate. So a gain is bounded by the inertia M that the joint moves at home: the servo swings at
-100 rad/s at most, which is a quarter of M/Δt² at a time step of 5 ms.
+250 rad/s at most, which is M/Δt² / 4 at MuJoCo's time step of 2 ms, and 1.56 M/Δt² at 5 ms.
 
-Measured in MuJoCo 4.0 with ``implicitfast`` and critical damping, on 159 robots of
-example-robot-data and pybullet_data without contacts: all are stable up to 1 M/Δt², one diverges at
-4 M/Δt², four at 16 M/Δt² (at 2 ms or 5 ms). Without a bound 18 do. Velocity servos, which
-``implicitfast`` integrates implicitly, are stable up to 1000 M/Δt: they need no bound.
+Measured in MuJoCo 4.0 with ``implicitfast`` and critical damping, on the 104 robots of
+example-robot-data and pybullet_data that have joints, without contacts, at 2 ms and 5 ms: with
+gains of up to 1.56 M/(5 ms)² all but two hold still, which do not have the effort for it; six do
+not at 4, seventeen at 16, and twenty-one without a bound. Velocity servos, which ``implicitfast``
+integrates implicitly, are stable up to 1000 M/Δt: they need no bound.
 """
 
 from __future__ import annotations

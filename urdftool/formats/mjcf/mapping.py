@@ -36,16 +36,32 @@ ROBOT: tuple[Row, ...] = (
         "its end; then the whole name is the text `robot_name` in `custom`",
     ),
     ("`robot/origin`", EXACT, "pose of the root body"),
-    ("`link@name`", EXACT, "`body@name`: one body a link, also for fixed and massless ones"),
+    (
+        "`link@name`",
+        EXACT,
+        "`body@name`: one body a link, also for fixed and massless ones; `site@name` with `--fuse`",
+    ),
     ("root link `world`", EXACT, "`worldbody`; a mass of it is said and dropped"),
     ("root link", EXACT, "held by the world, or with `freejoint` (`--base`)"),
-    ("`inertial`", EXACT, "`inertial` with `diaginertia` or `fullinertia`, numbers as written"),
+    (
+        "`inertial`",
+        EXACT,
+        "`inertial` with `diaginertia` or `fullinertia`, numbers as written, without float noise",
+    ),
     ("inertia no body has, welded", EXACT, "the surplus moves to a link of the same rigid body"),
     ("inertia no body has, moving", LOST_MARK, "an error; `--fix-inertia` changes it and says how"),
     ("no mass, moving", CLOSE, '2e-15 kg; a last link\'s joint gets `armature="0.0001"`'),
     ("`visual`", EXACT, '`geom class="visual"`, group 2, one for each material of a mesh'),
-    ("`collision`", EXACT, '`geom class="collision"`, group 3'),
-    ("`visual@name`, `collision@name`", EXACT, "`geom@name`, made unique by the link's name"),
+    (
+        "`collision`",
+        EXACT,
+        '`geom class="collision"`, group 3; `class="foot"` of links named `foot`, `toe` or `sole`',
+    ),
+    (
+        "`visual@name`, `collision@name`",
+        EXACT,
+        "`geom@name`, made unique by the link's name; a collision without name is `LINK_collision`",
+    ),
     ("`box`, `cylinder`, `sphere`, `capsule`", EXACT, "the same, half sizes"),
     ("`drake:ellipsoid`, `drake:capsule`", EXACT, "`ellipsoid`, `capsule`"),
     ("a shape without size", LOST_MARK, "dropped"),
@@ -92,7 +108,8 @@ JOINT: tuple[Row, ...] = (
     (
         "`mimic`",
         EXACT,
-        '`equality/joint` with `polycoef="offset multiplier 0 0 0"` (soft, as all are)',
+        '`equality/joint` with `polycoef="offset multiplier 0 0 0"` (soft, as all are); no '
+        "actuator of its own",
     ),
     ("`safety_controller`, `calibration`", LOST_MARK, "they belong to a controller"),
     (
