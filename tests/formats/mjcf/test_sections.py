@@ -19,8 +19,18 @@ def chain(*extra, base="base", root=COLLIDES):
 
 
 def actuators(write, text, **choices):
-    section = tree(export(write("r.urdf", text), **choices)).find("actuator")
-    return [] if section is None else [(e.tag, dict(e.attrib)) for e in section]
+    """The actuators as a reader has them, with what their class says."""
+    model = tree(export(write("r.urdf", text), **choices))
+    section = model.find("actuator")
+    found = []
+    for element in section if section is not None else ():
+        said = dict(element.attrib)
+        name = said.pop("class", "")
+        for default in model.iter("default"):
+            if default.get("class") == name:
+                said = {**default.find(element.tag).attrib, **said}
+        found.append((element.tag, said))
+    return found
 
 
 def test_auto_without_a_word_is_none(write):
