@@ -7,7 +7,9 @@ import pytest
 from urdftool.errors import ConfigError
 from urdftool.formats.actuator_config import read_actuator_config
 from urdftool.formats.mjcf.gains import PART, TIMESTEP, position_gain
+from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify import verify_copy
+from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load
 
 from .robots import INERTIAL, export, find, joint, link, robot, rules, tree
@@ -52,6 +54,19 @@ def test_bounded_gains_run_and_those_of_the_effort_do_not(write, tmp_path):
     assert run_at_home(model, 0.005).faults()
 
 
+@pytest.mark.library("mujoco")
+@pytest.mark.parametrize("stiff", [False, True])
+def test_verify_steps_the_model(write, stiff):
+    found, options = load(write("r.urdf", FINGERS)), Options(actuators="position")
+    written = write_mjcf(found, options)
+    if stiff:
+        gain = next(e.get("kp") for e in tree(written).iter("position") if e.get("kp"))
+        text = written.text.replace(f'kp="{gain}"', 'kp="1000000"')
+        written.files[written.main] = text.encode()
+    (runs,) = (c for c in verify_copy(found, options, written) if c.name == "runs")
+    assert runs.verdict == ("differs" if stiff else "equal"), runs.differing
+
+
 def test_a_follower_gets_no_servo(write):
     text = robot(
         link("base"), link("a"), link("b"),
@@ -82,9 +97,6 @@ damping = 0.1
 @pytest.mark.library("mujoco")
 def test_an_actuator_file_by_name_and_pattern(write):
     path = write("r.urdf", FINGERS)
-    from urdftool.formats.mjcf.options import Options
-    from urdftool.formats.mjcf.write import write as write_mjcf
-
     options = Options(actuator_config=Path(write("a.toml", CONFIG)))
     found = load(path)
     written = write_mjcf(found, options)
