@@ -7,7 +7,7 @@ import pytest
 from urdftool.formats.check import is_faithful
 from urdftool.formats.directory import write_directory
 from urdftool.formats.sdf.options import Options
-from urdftool.formats.sdf.verify.compare import compare, pair_of
+from urdftool.formats.sdf.verify.compare import compare, pair_of, verify
 from urdftool.formats.sdf.write import write
 
 from .robots import BOX, gazebo, inertial, joint, link, robot
@@ -140,3 +140,29 @@ def test_a_change_is_found_in_its_row(tmp_path, part, old, new, row):
     lump = {"fixed_joints": "lump"} if part == "light" else {}
     checks = checks_of(made(PARTS[part]), tmp_path, change, **lump)
     assert checks[row].verdict == "differs"
+
+
+WORLDS = [
+    ("<mass>1.0</mass>|<mass>1</mass>", "<mass>2</mass>", "mass is 2, not 1"),
+    ('<world name="default">', '<world name="a"><gravity>0 0 -1.62</gravity>', "gravity"),
+    ("gz-sim-sensors-system", "gz-sim-other-system", "the system 'sensors' is missing"),
+    ('<model name="ground_plane">', '<model name="flat">', "2 models beside the ground"),
+]
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "said"),
+    [*(("", *row) for row in WORLDS), *(("m.sdf", *row) for row in WORLDS[1:]), ("", "", "", "")],
+)
+def test_a_world_is_compared(tmp_path, file, old, new, said):
+    options = Options(folder="m", file=file, uri="file", world=True)
+    source = made(PARTS["scanner"])
+    written = write(source, options)
+    name = file or "world.sdf"
+    text, count = re.subn(old, new, written.files[name].decode(), count=1)
+    assert count
+    written.files[name] = text.encode()
+    write_directory(tmp_path / "m", written.files, main=written.main)
+    checks = verify(source, written, options, tmp_path / "m" / file)
+    (differing,) = [check.differing for check in checks if check.name == "world"]
+    assert [said in text for text in differing] == ([True] if said else [])

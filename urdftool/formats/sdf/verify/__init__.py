@@ -6,7 +6,7 @@ has the algebra for both, ``compare`` the checks, ``loader`` asks Gazebo's own r
 
 NOT_COMPARED = (
     "names of the model, its visuals and collisions",
-    "model.config, world.sdf and names.json",
+    "model.config and names.json",
     "comments",
 )
 """What a file of an export holds and no row compares."""

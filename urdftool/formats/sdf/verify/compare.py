@@ -28,6 +28,7 @@ from .sensors import compare_sensors
 from .shapes import compare_colors, compare_shapes
 from .source import base_of, mechanism_of, pose
 from .surfaces import compare_contact, compare_looks, compare_surface
+from .world import compare_world
 
 CONFIGURATIONS = 20
 FRAMES, MASSES, WEIGHTS, LIMITS, TOTALS = 1e-9, 1e-8, 1e-8, 1e-9, 1e-8
@@ -91,6 +92,8 @@ def verify(robot: Robot, written: Written, options: Options, output: str | Path)
     except (ElementTree.ParseError, OSError, LookupError, StopIteration, ValueError) as error:
         return [Check("file", "can be read back", 0.0, differing=[f"{place}: {error!r}"])]
     checks = compare(pair)
+    if options.world:
+        checks.append(compare_world(pair, place))
     checks.append(_same_again(robot, written, options))
     loaded = loads(robot, options, place)
     return checks if loaded is None else [*checks, loaded]

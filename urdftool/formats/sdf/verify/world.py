@@ -1,0 +1,74 @@
+"""The world around the robot: the same robot, ground, gravity, and the systems of its sensors."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...check import Check
+from .facts import EXACT, compare_facts, facts_of, value_of
+
+if TYPE_CHECKING:
+    from .compare import Pair
+
+GROUND = "ground_plane"
+RENDERING = ("camera", "lidar")
+"""Parts of the types of sensors that one system of gz renders."""
+
+WORDS = {
+    "air_pressure": "air-pressure", "air_speed": "air-speed", "altimeter": "altimeter",
+    "contact": "contact", "dvl": "dvl", "force_torque": "forcetorque", "imu": "imu",
+    "logical_camera": "logical-camera", "magnetometer": "magnetometer", "navsat": "navsat",
+}  # fmt: skip
+"""Words in the libraries of the systems that run other sensors."""
+
+
+def compare_world(pair: Pair, place: Path) -> Check:
+    """Compare a world with the model.
+
+    Args:
+        pair: The robot and the model.
+        place: The file of the model.
+    """
+    check = Check("world", "the same model, gravity, ground, systems of its sensors", EXACT)
+    path = place if pair.options.file else place.parent / "world.sdf"
+    try:
+        world = ET.parse(path).getroot().find("world")
+    except (OSError, ET.ParseError) as error:
+        check.differing.append(f"{path.name} cannot be read: {error}")
+        return check
+    if world is None:
+        check.differing.append(f"{path.name} has no <world>")
+        return check
+    models = [model for model in world.findall("model") if model.get("name") != GROUND]
+    if len(models) != 1:
+        check.compare(np.inf, f"{len(models)} models beside the ground")
+        return check
+    compare_facts(check, "the model", facts_of(models[0]), facts_of(pair.where.model))
+    gravity = value_of(world.findtext("gravity") or "0 0 -9.8")
+    if gravity != (0.0, 0.0, -9.8):
+        check.compare(np.inf, f"gravity is {world.findtext('gravity')}")
+    if world.find("physics") is not None:
+        check.compare(np.inf, "<physics>, which nothing asks for")
+    included = [(uri.text or "").strip() for uri in world.iterfind("include/uri")]
+    ground = world.find(f"model[@name='{GROUND}']")
+    flat = ground is not None and ground.find("link/collision/geometry/plane") is not None
+    if f"model://{GROUND}" not in included and not flat:
+        check.compare(np.inf, "there is no ground")
+    if not pair.options.classic:
+        _compare_systems(pair, world, check)
+    return check
+
+
+def _compare_systems(pair: Pair, world: ET.Element, check: Check) -> None:
+    libraries = [plugin.get("filename") or "" for plugin in world.findall("plugin")]
+    kinds = {sensor.get("type") or "" for sensor in pair.where.model.iter("sensor")}
+    wanted = {"physics", *(WORDS[kind] for kind in kinds & WORDS.keys())}
+    if any(part in kind for kind in kinds - WORDS.keys() for part in RENDERING):
+        wanted.add("sensors")
+    for word in sorted(wanted):
+        if not any(library.endswith(f"-{word}-system") for library in libraries):
+            check.compare(np.inf, f"the system '{word}' is missing")
