@@ -244,8 +244,9 @@ def _pair(
 ) -> list[Image]:
     """A joint at both ends, from one place."""
     painted = _painted(robot, shapes, sweep)
+    names = _moved(robot, sweep)
     moved = np.zeros(len(shapes), dtype=bool)
-    moved[_rows(shapes, _moved(robot, sweep))] = True
+    moved[_rows(shapes, names)] = True
     free = {k: v for k, v in given.items() if k not in sweep.followers}
     at = [
         link_poses(robot, with_mimics(robot, {**free, sweep.joint.name: end})) for end in sweep.ends
@@ -255,7 +256,7 @@ def _pair(
         corners, _, there = shapes.posed(poses)
         both.append(corners[there])
     if camera is None:
-        camera = best_camera(cloud, at, moved, _cameras())
+        camera = best_camera(cloud, at, names, _cameras())
     lowest = min((float(some[..., 2].min()) for some in both if len(some)), default=0.0)
     view: View = view_of(np.concatenate(both), camera, cell)
     return [draw_through(painted, poses, moved, view=view, ground=lowest) for poses in at]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -10,8 +10,10 @@ import numpy.typing as npt
 from ..model.pose import Pose
 from .camera import Camera, View
 from .clip import clipped, nearest
+from .gather import LARGEST
 from .picture import draw
 from .png_file import Image
+from .points import turned
 from .raster import Floats, front
 from .shapes import Shapes
 
@@ -26,53 +28,63 @@ _NEAR = 0.01  # of the scene's depth: points of one surface are this close to ea
 
 
 class Cloud:
-    """Points spread over the triangles of a robot.
+    """Points spread over the triangles of a robot, each in the frame of its link.
 
     Attributes:
-        shapes: Its triangles.
-        triangle: The triangle of each point, shape (n,).
+        links: Names of the links.
+        link: Row of ``links`` of each point, shape (n,).
+        points: Where each is [m], shape (n, 3).
     """
 
     def __init__(self, shapes: Shapes) -> None:
         """Spread points over triangles by their area, the same each time."""
-        self.shapes = shapes
+        self.links = shapes.links
         edges = shapes.corners[:, 1:] - shapes.corners[:, :1]
         areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
         total = float(areas.sum()) if len(areas) else 0.0
-        if not 0 < total < np.inf:
-            self.triangle = np.zeros(0, dtype=np.int64)
-            self._weights = np.zeros((0, 3))
-            return
         chance = np.random.default_rng(0)
-        spread = chance.choice(len(areas), size=POINTS, p=areas / total)
-        self.triangle = np.sort(np.concatenate([spread, np.arange(len(areas))[:POINTS]]))
-        u, v = np.sort(chance.random((2, len(self.triangle))), axis=0)
-        self._weights = np.column_stack([u, v - u, 1 - v])
+        chosen = np.zeros(0, dtype=np.int64)
+        if 0 < total < np.inf:
+            chosen = np.sort(chance.choice(len(areas), size=POINTS, p=areas / total))
+        u, v = np.sort(chance.random((2, len(chosen))), axis=0)
+        weights = np.column_stack([u, v - u, 1 - v])
+        self.points: Floats = np.einsum("ij,ijk->ik", weights, shapes.corners[chosen])
+        self.link = shapes.link[chosen]
 
-    def at(self, corners: Floats) -> Floats:
-        """The points for corners of the triangles somewhere, shape (n, 3)."""
-        found: Floats = np.einsum("ij,ijk->ik", self._weights, corners[self.triangle])
-        return found
+    def at(self, poses: Mapping[str, Pose]) -> Floats:
+        """The points in the world, not a number where a link has no pose, shape (n, 3)."""
+        placed = np.full_like(self.points, np.nan)
+        for row in np.unique(self.link):
+            pose = poses.get(self.links[row])
+            if pose is not None:
+                some = self.link == row
+                turn, shift = np.array(pose.rotation), np.array(pose.translation)
+                placed[some] = turned(self.points[some], turn, shift)
+        return placed
 
 
 def best_camera(
-    cloud: Cloud, poses: Sequence[Mapping[str, Pose]], moved: Mask, cameras: Iterable[Camera]
+    cloud: Cloud,
+    poses: Sequence[Mapping[str, Pose]],
+    moved: Collection[str],
+    cameras: Iterable[Camera],
 ) -> Camera:
-    """The camera in whose pictures most of the moved triangles is visible.
+    """The camera in whose pictures most of the moved links is visible.
 
     The first camera is taken unless another shows clearly more.
 
     Args:
         cloud: Points on the robot.
         poses: Of the links, of each picture.
-        moved: Which triangles move, shape (m,).
+        moved: The links that move.
         cameras: At least one.
     """
-    points, moves = [], moved[cloud.triangle]
+    moves = np.isin(cloud.link, [row for row, name in enumerate(cloud.links) if name in moved])
+    points = []
     for some in poses:
-        corners, _, there = cloud.shapes.posed(some)
-        placed = cloud.at(corners)
-        points.append((placed[there[cloud.triangle]], moves[there[cloud.triangle]]))
+        placed = cloud.at(some)
+        there = np.isfinite(placed).all(axis=1) & (np.abs(placed) < LARGEST).all(axis=1)
+        points.append((placed[there], moves[there]))
     everything = np.concatenate([placed for placed, _ in points])
     first, *others = cameras
     if not len(everything) or not moves.any():
@@ -104,18 +116,19 @@ def _visible(points: Sequence[tuple[Floats, Mask]], view: View) -> int:
     return min(counts)
 
 
-def owners(shapes: Shapes, poses: Mapping[str, Pose], view: View) -> npt.NDArray[np.int64]:
-    """The triangle that is in front at each pixel, -1 where there is none, (height, width)."""
+def hidden_pixels(shapes: Shapes, poses: Mapping[str, Pose], moved: Mask, view: View) -> Mask:
+    """The pixels at which others are in front of moved triangles, shape (height, width)."""
     corners, _, there = shapes.posed(poses)
     rows = np.flatnonzero(there)
-    found = np.full(view.size[0] * view.size[1], -1, dtype=np.int64)
-    if len(rows):
+    hidden = np.zeros(view.size[0] * view.size[1], dtype=bool)
+    if moved[rows].any():
         seen = view.seen(corners[rows])
         flat, owner = clipped(seen, view.reach, view.size, nearest(seen))
+        moves = moved[rows][owner]
         first, _ = front(flat, view.size)
-        some = first >= 0
-        found[some] = rows[owner[first[some]]]
-    return found.reshape(view.size[1], view.size[0])
+        behind, _ = front(flat[moves], view.size)
+        hidden = (behind >= 0) & ~moves[first]
+    return hidden.reshape(view.size[1], view.size[0])
 
 
 def draw_through(
@@ -131,12 +144,10 @@ def draw_through(
         ground: Height of the floor [m].
     """
     image = draw(shapes, poses, camera=view, ground=ground)
-    links = {shapes.links[row] for row in np.unique(shapes.link[moved])}
-    alone = {name: pose for name, pose in poses.items() if name in links}
-    covered = owners(shapes, alone, view) >= 0
-    hiding = owners(shapes, poses, view)
-    hidden = covered & (hiding >= 0) & ~moved[hiding]
+    hidden = hidden_pixels(shapes, poses, moved, view)
     if hidden.any():
+        links = {shapes.links[row] for row in np.unique(shapes.link[moved])}
+        alone = {name: pose for name, pose in poses.items() if name in links}
         behind = draw(shapes, alone, camera=view, ground=False)
         mixed = (1 - _THROUGH) * image[hidden] + _THROUGH * behind[hidden]
         image[hidden] = np.rint(mixed).astype(image.dtype)
