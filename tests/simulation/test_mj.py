@@ -213,3 +213,12 @@ def test_links_in_a_row_that_are_too_many_are_said(write):
     with pytest.raises(ModelError, match="more links in a row") as raised:
         _run(write, text)
     assert raised.value.line == 1
+
+
+def test_a_joint_with_equal_limits_is_read_as_it_is_written(write):
+    limit = '<limit effort="9" velocity="1" lower="0" upper="0"/>'
+    robot, run = _run(write, PENDULUM.format(kind="revolute", more=limit), duration=0.5)
+    assert run.recording.read_back == []
+    assert run.recording.positions.shape[1] == 1
+    assert np.abs(run.recording.positions).max() < 0.01
+    assert "read-otherwise" not in kinds(judge(robot, run))

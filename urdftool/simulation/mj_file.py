@@ -36,9 +36,15 @@ def write_model(robot: Robot, bodies: Bodies, settings: Settings, folder: Path) 
     held = bodies.nailed or bodies.bodies[0].name != root.name
     model = _to_collide(robot, settings, rename=not held)
     written = write(
-        model, Options(actuators="none", base="fixed" if held else "free", file="robot.xml",
-                       force=True)
-    )  # fmt: skip
+        model,
+        Options(
+            actuators="none",
+            base="fixed" if held else "free",
+            file="robot.xml",
+            force=True,
+            keep_locked_joints=True,  # each joint of the file has a position to record
+        ),
+    )
     for name, content in written.files.items():
         target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)
