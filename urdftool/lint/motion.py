@@ -6,6 +6,7 @@ from ..model.elements import Robot
 from ..source.document import Element
 
 UNUSED_LINK = "does not use it, because the link is fixed to the world"
+WELDED = "does not use it: it fixes the root link to the world"
 UNUSED_JOINT = "does not use it, because the joint is fixed"
 
 
@@ -17,7 +18,7 @@ def why_unused(robot: Robot | None, element: Element) -> str:
     if element.tag == "joint":
         joint = robot.joint.get(name)
         return UNUSED_JOINT if joint is not None and joint.is_fixed else ""
-    if element.tag != "link" or "world" not in robot.link:
+    if element.tag != "link":
         return ""
     seen: set[str] = set()
     while name != "world" and name not in seen:
@@ -27,3 +28,15 @@ def why_unused(robot: Robot | None, element: Element) -> str:
             return ""
         name = joint.parent
     return UNUSED_LINK if name == "world" else ""
+
+
+def is_welded_in_mujoco(robot: Robot | None, element: Element) -> bool:
+    """Whether MuJoCo's reader of URDF fixes a link to the world: the root, and what is fixed to it.
+
+    Its ``world`` body has no mass, so that of such a link is lost. A root named ``world`` is the
+    world itself.
+    """
+    name = element.get("name")
+    if robot is None or element.tag != "link" or name not in robot.tree.bodies:
+        return False
+    return robot.tree.parent_joint(robot.tree.bodies[name]) is None

@@ -22,7 +22,7 @@ from ..source.document import Document, Element, parse, read_file
 from ..source.location import SourceFile
 from ..source.well_formed import mend
 from .merge import in_order, merge
-from .motion import UNUSED_LINK, why_unused
+from .motion import UNUSED_LINK, WELDED, is_welded_in_mujoco, why_unused
 from .not_checked import finding_of, refuse_other_files, refuse_other_roots, refuse_srdf
 from .outcome import Options, Report
 from .settings import Settings, check_selectors, check_targets, settings_for
@@ -364,6 +364,8 @@ def _finding(
                 return None
             if unused:
                 severity, effects = Severity.INFO, {"every reader": unused}
+            elif is_welded_in_mujoco(robot, problem.element):
+                effects = _without_mujoco(effects)
     causes = rule.caused_by if problem.caused_by is None else problem.caused_by
     concerned = targets if rule.on is None else targets.intersection(rule.on)
     return Finding(
@@ -380,6 +382,18 @@ def _finding(
         group=Group(rule.group, problem.group) if rule.group else None,
         cause=Cause(causes, _site(problem.cause_element)) if causes else None,
     )
+
+
+def _without_mujoco(effects: dict[str, str]) -> dict[str, str]:
+    """Say of MuJoCo that it does not use a value, where it is one of several that take it."""
+    found = {}
+    for key, effect in effects.items():
+        readers = key.split(", ")
+        others = ", ".join(reader for reader in readers if reader != "mujoco")
+        found[others if len(readers) > 2 else key] = effect
+        if len(readers) > 2 and "mujoco" in readers:
+            found["mujoco"] = WELDED
+    return found
 
 
 def _site(element: Element) -> Site:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from ...model.convex import Convex
-from ...model.elements import Joint, Link, Robot
+from ...model.elements import Joint, Link, Mesh, Robot
 from ...model.kinematics import MOVABLE, limits_of, motion_of
 from ...model.pose import IDENTITY, Pose, dot, pose_of, rotate, transpose
 from ..mujoco import reads_collisions
@@ -35,7 +35,7 @@ PAIRS = 150_000
             "finds the start state in collision and plans nothing, unless the SRDF disables the "
             "pair"
         ),
-        "mujoco (loaded)": "pushes the two apart from the first step",
+        "mujoco (loaded)": "pushes the two apart from the first step, once it loads the robot",
     },
 )
 def self_collision_at_zero(
@@ -45,27 +45,40 @@ def self_collision_at_zero(
 
     A planner finds the robot in collision before it has moved, and a simulator that lets links
     collide throws them apart. Links that are fixed to each other count as one, neighbours overlap
-    at their joint, and pairs that an SRDF disables are let be; a mesh counts as its convex hull,
-    which may overlap by a centimetre. A joint that cannot be at zero rests in the middle of its
-    range. ``deeper`` [m] is the overlap that is let pass; more than ``together`` pairs are one
-    finding.
+    at their joint, and pairs that an SRDF disables are let be. A mesh counts as its convex hull,
+    as in MuJoCo, which may overlap by a centimetre; the meshes themselves, which MoveIt compares,
+    may be apart. A joint that cannot be at zero rests in the middle of its range. ``deeper`` [m] is
+    the overlap that is let pass; more than ``together`` pairs are one finding.
     """
+    loaded = ("mujoco (loaded)",) if reads_collisions(robot) else ()
     found = list(resting(robot, deeper))
-    keys = ("moveit", "mujoco (loaded)") if reads_collisions(robot) else ("moveit",)
-    if len(found) > together:
-        (one, other, depth), rest = found[0], found[1:]
-        yield _overlap(one, other, depth, f"; so do {_pairs(rest)}", keys)
-        return
-    for one, other, depth in found:
-        yield _overlap(one, other, depth, "", keys)
+    hulls = [pair for pair in found if any(map(_has_mesh, pair[:2]))]
+    exact = [pair for pair in found if not any(map(_has_mesh, pair[:2]))]
+    for pairs, what, keys in (
+        (exact, "links", ("moveit", *loaded)),
+        (hulls if loaded else [], "the convex hulls of links", loaded),
+    ):
+        shown = pairs if len(pairs) <= together else pairs[:1]
+        more = "" if shown is pairs else f"; so do {_pairs(pairs[1:])}"
+        for one, other, depth in shown:
+            yield _overlap(one, other, depth, more, keys, what)
+
+
+def _has_mesh(link: Link) -> bool:
+    return any(isinstance(collision.geometry, Mesh) for collision in link.collisions)
 
 
 def _overlap(
-    one: Link, other: Link, depth: float, more: str, effects: tuple[str, ...] | None = None
+    one: Link,
+    other: Link,
+    depth: float,
+    more: str,
+    effects: tuple[str, ...] | None = None,
+    what: str = "links",
 ) -> Problem:
     return Problem(
         other,
-        f"links '{one.name}' and '{other.name}' overlap by {depth * 1000:.3g} mm where all joints "
+        f"{what} '{one.name}' and '{other.name}' overlap by {depth * 1000:.3g} mm where all joints "
         f"are at rest{more}",
         at=other.collisions[0],
         effects=effects,

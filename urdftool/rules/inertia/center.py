@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from ...model.bounds import Bounds
 from ...model.elements import Link, Robot
+from ...model.gltf_axes import is_gltf
 from ...model.mass_fit import MARGIN, misfit_of_com
 from ...model.pose import pose_of
 from ..mesh.outlines import reaches
@@ -44,7 +45,7 @@ def com_outside_geometry(
     skipped = negligible(robot, light)
     for link in robot.links:
         inertial = link.inertial
-        if inertial is None or not inertial.mass or link.name in skipped:
+        if inertial is None or not inertial.mass or link.name in skipped or _is_turned(link):
             continue
         box = reach.link(link)
         if box is None:
@@ -97,7 +98,7 @@ def inertial_not_at_com_suspect(
     skipped = negligible(robot, light)
     for link in robot.links:
         inertial = link.inertial
-        if inertial is None or not inertial.mass or link.name in skipped:
+        if inertial is None or not inertial.mass or link.name in skipped or _is_turned(link):
             continue
         if inertial.origin is not None and any(inertial.origin.xyz):
             continue
@@ -119,6 +120,11 @@ def inertial_not_at_com_suspect(
             f"{shown} m; write its center of mass as the <origin> of its <inertial>",
             at=inertial.origin if inertial.origin is not None else inertial,
         )
+
+
+def _is_turned(link: Link) -> bool:
+    """Whether a mesh of a link is glTF, which readers turn from Y to Z up or do not."""
+    return any(map(is_gltf, link.visuals)) or any(map(is_gltf, link.collisions))
 
 
 def _is_off_centre(link: Link, box: Bounds, far: float) -> bool:

@@ -74,10 +74,11 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
         else:
             severity, so = WARNING, " and so has no mass"
             several = " and so have no mass"
+        has_shapes = bool(link.visuals or link.collisions)
         yield Problem(
             link,
             f"link '{link.name}' has no <inertial>{so}",
-            hint="'urdftool inertia' computes one from its shapes",
+            hint="'urdftool inertia robot' computes one from its shapes" if has_shapes else "",
             severity=severity,
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
             effects=_effects_without_inertial(

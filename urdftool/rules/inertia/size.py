@@ -55,7 +55,7 @@ def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
         moment = six[0]
         radius = math.sqrt(moment / inertial.mass) if inertial.mass and inertial.mass > 0 else 0.0
         large = moment == 1.0 or radius > 1.0
-        dummy = is_dummy(link)
+        dummy, has_shapes = is_dummy(link), bool(link.visuals or link.collisions)
         if dummy and not large:
             continue
         far = f", as if its {link.mass:g} kg were {radius:.2g} m from the centre" if large else ""
@@ -65,7 +65,7 @@ def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
             f"{'' if dummy else solid_text(link)}",
             at=inertial.inertia,
             severity=WARNING if large else INFO,
-            hint="" if dummy else "'urdftool inertia' computes it",
+            hint="'urdftool inertia robot' computes it" if has_shapes and not dummy else "",
             group="inertia of {count} links is a placeholder, the same power of ten about every "
             "axis: {names}",
         )

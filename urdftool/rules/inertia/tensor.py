@@ -184,7 +184,7 @@ def zero_inertia(robot: Robot, *, part: float = 0.25) -> Iterator[Problem]:
         yield Problem(
             link,
             f"inertia of link '{link.name}' is {nothing}, though it weighs {link.mass:g} kg"
-            f"{solid_text(link) or '; urdftool inertia computes it'}",
+            f"{solid_text(link) or '; urdftool inertia robot computes it'}",
             at=inertial.inertia,
             severity=INFO if is_part else None,
             effects=[

@@ -237,7 +237,7 @@ def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem
     """A collision is a COLLADA file.
 
     Materials, lights and a tree of scenes are of no use to a contact, and units and axes may go
-    wrong on the way. STL says what is needed; MuJoCo reads that alone.
+    wrong on the way. OBJ says what is needed, and MuJoCo, Drake and PyBullet read it.
     """
     uses = [u for u in mesh_uses(robot, description) if u.collides and _ending(u) == "dae"]
     if uses:
@@ -245,6 +245,6 @@ def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem
         more = f" (and {count - 1} more)" if count > 1 else ""
         yield Problem(
             uses[0].link,
-            f"collision mesh '{uses[0].uri}'{more} is COLLADA; STL is enough for a collision",
+            f"collision mesh '{uses[0].uri}'{more} is COLLADA; OBJ is enough for a collision",
             at=uses[0].mesh.element.attribute_place("filename"),
         )

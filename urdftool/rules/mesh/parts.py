@@ -24,7 +24,7 @@ _MOST = 4_000_000  # bytes that are looked at
 @rule(
     WARNING,
     effects={
-        "mujoco, pybullet, drake": "load the robot all the same",
+        "mujoco, pybullet, drake": "do not reject the robot for it",
     },
 )
 def missing_mesh_dependency(
