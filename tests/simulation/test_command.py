@@ -89,7 +89,6 @@ def test_a_box_that_is_dropped_stands(urdftool, write):
         (BOX.replace('value="2"', 'value="nan"'), "not a finite number"),
         (BOX.replace('value="2"', 'value="-2"'), "weighs -2 kg"),
         (BOX.replace('<box size="0.4 0.3 0.2"/>', '<mesh filename="a.glb"/>'), "no such mesh"),
-        (BOX.replace('<box size="0.4 0.3 0.2"/>', '<box size="0 1 1"/>'), "size of 0 m"),
         (BOX.replace('<box size="0.4 0.3 0.2"/>', TINY), "could touch"),
         ('<robot name="r"/>', "no link"),
     ],
@@ -100,6 +99,14 @@ def test_what_no_engine_can_be_given_is_refused_in_one_message(urdftool, write, 
     assert said in result.err
     assert "r.urdf:" in result.err.splitlines()[0]
     assert result.out == ""
+
+
+def test_a_robot_that_collides_with_a_flat_box_alone_falls(urdftool, write):
+    flat = BOX.replace('<box size="0.4 0.3 0.2"/>', '<box size="0 1 1"/>')
+    result = urdftool("simulate", write("r.urdf", flat), "--duration", "1")
+    assert result.code == 1
+    assert "nothing-touches" in result.out
+    assert "has a length of zero and is left out" in result.out
 
 
 @pytest.mark.slow
