@@ -8,7 +8,9 @@ from urdftool.simulation.judge_joint import _why_idle
 BOX = '<collision><geometry><box size=".1 .1 .1"/></geometry></collision>'
 
 
-@pytest.mark.parametrize(("largest", "said"), [(0.01, "blocked"), (0.1, "no body has")])
+@pytest.mark.parametrize(
+    ("largest", "said"), [(0.01, "blocked"), (0.1, "physically inconsistent inertia")]
+)
 def test_why_a_joint_is_idle(write, largest, said):
     text = (
         f'<robot name="r"><link name="a">{inertial(1, 0.01, 0.01, 0.01)}{BOX}</link>'

@@ -42,7 +42,7 @@ def test_a_broken_configuration_is_not_told_by_the_judges(write):
 
 def test_only_links_that_matter_in_the_run_are_told(write):
     """A light link with a placeholder that is fixed to a heavy one, which lint reports."""
-    light = f'<link name="b">{inertial(1e-3, 1e-3, 1e-3, 1e-3)}<visual><geometry>'
+    light = f'<link name="b">{inertial(0.3, 0.1, 0.1, 0.1)}<visual><geometry>'
     light += '<box size="0.1 0.1 0.1"/></geometry></visual></link><joint name="j" type="fixed">'
     light += '<parent link="a"/><child link="b"/></joint></robot>'
     path = write("r.urdf", body(BOX, 20, (0.2, 0.3, 0.4)).replace("</robot>", light))
