@@ -136,3 +136,28 @@ def test_a_change_of_a_model_with_merged_links_is_found(what):
     written.files[written.main] = etree.tostring(root)
     checks = verify_copy(source, options, written)
     assert "fused" in [check.name for check in checks if check.verdict == "differs"]
+
+
+@pytest.mark.parametrize(
+    ("base", "old", "new", "said"),
+    [
+        ("fixed", "", "", None),
+        ("free", "", "", None),
+        ("fixed", 'pos="0 0 -1.5"', "", "the floor is at z = 0"),
+        ("free", 'name="floor"', 'name="floor" pos="0 0 -0.5"', "the floor is at z = -0.5"),
+        ("fixed", 'type="plane"', 'type="plane" quat="1 0.1 0 0"', "the floor is tilted"),
+        ("free", 'type="plane"', 'type="plane" contype="0"', "nothing touches the floor"),
+        ("free", "<worldbody>", "<worldbody><geom size='1'/>", "floors"),
+        ("fixed", "<asset>", "<option gravity='0 0 -1.62'/><asset>", "option gravity"),
+    ],
+)
+def test_a_scene_is_compared(write, base, old, new, said):
+    source = load(write("r.urdf", robot(*CHAIN)))
+    options = Options(scene=True, base=base)
+    written = write_mjcf(source, options)
+    text = written.files["scene.xml"].decode()
+    assert old in text
+    written.files["scene.xml"] = text.replace(old, new, 1).encode()
+    (check,) = [c for c in verify_copy(source, options, written) if c.name == "scene"]
+    assert all(said is not None and said in text for text in check.differing)
+    assert bool(check.differing) == (said is not None)

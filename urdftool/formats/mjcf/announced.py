@@ -54,7 +54,6 @@ NOT_COMPARED = (
     "texture coordinates and normals of meshes",
     "names of the model, its classes, geoms, sites and materials",
     "<visual>, <statistic> and <size>",
-    "scene.xml",
     "comments",
 )
 """What a model holds and no row compares."""

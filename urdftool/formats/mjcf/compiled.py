@@ -106,6 +106,7 @@ class Compiled:
     Attributes:
         model: MuJoCo's model.
         root: The body of the robot's root link; 0 is the world.
+        renamed: New names by kind and old name.
         warnings: What the compiler said, which should be nothing.
         written_options: The options of the physics by name, as the file has them; the model's own
             gravity is the one that mechanics are compared with.
@@ -127,7 +128,7 @@ class Compiled:
         """
         self.mujoco = mujoco_module()
         self._reference: Any = None
-        self._renamed = dict(renamed or {})
+        self.renamed = dict(renamed or {})
         self.model, self.warnings = compile_file(path)
         self.mujoco.set_mju_user_warning(self._warn)
         self.written_options = self._options(self.model)
@@ -173,7 +174,7 @@ class Compiled:
 
     def body(self, link: str) -> int:
         """Number of a link's body; -1 if there is none. The world is 0."""
-        return self.id("BODY", self._renamed.get(("link", link), link))
+        return self.id("BODY", self.renamed.get(("link", link), link))
 
     def name(self, kind: str, number: int) -> str:
         """The name of an object; empty if it has none."""

@@ -31,6 +31,7 @@ from .verify_loops import compare_loops, loop_ends
 from .verify_meshes import SourceMeshes
 from .verify_physics import gravity_flag_check, joint_physics_check, option_check
 from .verify_runs import runs_check
+from .verify_scene import scene_check
 from .verify_sensors import sensor_check
 from .verify_shapes import collision_check, visual_check
 from .verify_source import Source
@@ -125,6 +126,9 @@ def verify(
     clean = Check("loads", "MuJoCo compiles and poses it without a warning", 0)
     for warning in compiled.warnings:
         clean.compare(math.inf, warning, known=said.any("lossy-massless"))
+    if source.options.scene:
+        name = f"{Path(source.options.file).stem}_scene.xml" if source.options.file else "scene.xml"
+        checks.append(scene_check(source, compiled, model.parent / name))
     return [clean, *checks]
 
 

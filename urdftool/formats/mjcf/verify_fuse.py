@@ -76,16 +76,25 @@ def fuse_check(
             compiled.mujoco.mj_passive(compiled.model, compiled.data)
         force = plain.data.qfrc_passive, fused.data.qfrc_passive
         check.compare(_relative(*force), "springs or gravity flags")
-    _compare_fields(plain, fused, check)
+    compare_fields(plain, fused, check)
     for pair in _touching(plain) ^ _touching(fused):
         check.compare(math.inf, f"contact of shapes {sorted(pair)}")
     return check
 
 
-def _compare_fields(plain: Compiled, fused: Compiled, check: Check) -> None:
-    """Compare joints, actuators, sensors, keys, looks and options field by field."""
+def compare_fields(
+    plain: Compiled, fused: Compiled, check: Check, families: tuple[str, ...] = FAMILIES
+) -> None:
+    """Compare joints, actuators, sensors, keys, looks and options field by field.
+
+    Args:
+        plain: A model.
+        fused: Another of the same robot.
+        check: The row that notes what differs.
+        families: How the names of the fields of MuJoCo's model begin.
+    """
     for name in dir(plain.model):
-        if not name.startswith(FAMILIES) or name.endswith(COUNTED):
+        if not name.startswith(families) or name.endswith(COUNTED):
             continue
         one, other = getattr(plain.model, name), getattr(fused.model, name)
         if isinstance(one, np.ndarray):

@@ -1,0 +1,74 @@
+"""The scene around a model: the same robot, and a floor below it."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import OutputError
+from ..check import Check
+from .compiled import Compiled
+from .verify_fuse import compare_fields
+from .verify_home import lowest_point
+from .verify_source import Source
+
+FLOOR = 1e-4
+"""How near to its height the floor has to be, relative to the size of the robot."""
+
+FLUSH = 1e-3
+"""How far below z = 0 [m] a robot that is held may reach with the floor still there."""
+
+ROBOT = ("jnt_", "dof_", "actuator_", "sensor_", "key_", "eq_sol", "eq_active", "eq_type",
+         "body_mass", "body_inertia", "body_pos", "body_quat", "body_ipos", "body_iquat",
+         "body_gravcomp")  # fmt: skip
+"""Fields of MuJoCo's model that a scene leaves as they are."""
+
+
+def scene_check(source: Source, compiled: Compiled, path: Path) -> Check:
+    """Compare a scene with the model it includes.
+
+    Args:
+        source: What the description asks for.
+        compiled: The model.
+        path: The file of the scene.
+
+    Raises:
+        OutputError: MuJoCo does not compile it.
+    """
+    check = Check("scene", "the same robot, a floor at z = 0 or at its lowest point", FLOOR)
+    try:
+        scene = Compiled(path, source.root, compiled.renamed)
+    except OutputError as error:
+        check.differing.append(error.message)
+        return check
+    compare_fields(compiled, scene, check, ROBOT)
+    model, kinds = scene.model, scene.mujoco.mjtGeom
+    planes = [g for g in range(model.ngeom) if int(model.geom_type[g]) == int(kinds.mjGEOM_PLANE)]
+    own = sum(int(kind) == int(kinds.mjGEOM_PLANE) for kind in compiled.model.geom_type)
+    if len(planes) != own + 1 or model.ngeom != compiled.model.ngeom + 1:
+        check.compare(math.inf, f"{len(planes) - own} floors")
+        return check
+    floor = planes[-1] if planes else 0
+    if not model.geom_contype[floor] == model.geom_conaffinity[floor] == 1:
+        check.compare(math.inf, "nothing touches the floor")
+    height, size = _floor_height(source, compiled)
+    scene.pose({})
+    found = float(scene.data.geom_xpos[floor][2])
+    check.compare(abs(found - height) / max(size, 0.1), f"the floor is at z = {found:g}")
+    up = scene.data.geom_xmat[floor].reshape(3, 3)[2]
+    check.compare(float(np.abs(up - (0.0, 0.0, 1.0)).max()), "the floor is tilted")
+    return check
+
+
+def _floor_height(source: Source, compiled: Compiled) -> tuple[float, float]:
+    """Where the floor has to be, and how high the robot is [m]."""
+    compiled.pose({})
+    low, size = lowest_point(compiled)
+    key = compiled.id("KEY", "home")
+    if key >= 0:
+        compiled.pose_at_key(key)
+        low = min(low, lowest_point(compiled)[0])
+    held = not source.is_free and math.isfinite(low)
+    return low if held and low < -FLUSH else 0.0, size if math.isfinite(size) else 0.0
