@@ -43,6 +43,8 @@ def scene_check(source: Source, compiled: Compiled, path: Path) -> Check:
     except OutputError as error:
         check.differing.append(error.message)
         return check
+    for posed in (compiled, scene):
+        posed.pose({})
     compare_fields(compiled, scene, check, ROBOT)
     model, kinds = scene.model, scene.mujoco.mjtGeom
     planes = [g for g in range(model.ngeom) if int(model.geom_type[g]) == int(kinds.mjGEOM_PLANE)]
@@ -54,7 +56,6 @@ def scene_check(source: Source, compiled: Compiled, path: Path) -> Check:
     if not model.geom_contype[floor] == model.geom_conaffinity[floor] == 1:
         check.compare(math.inf, "nothing touches the floor")
     height, size = _floor_height(source, compiled)
-    scene.pose({})
     found = float(scene.data.geom_xpos[floor][2])
     check.compare(abs(found - height) / max(size, 0.1), f"the floor is at z = {found:g}")
     up = scene.data.geom_xmat[floor].reshape(3, 3)[2]
