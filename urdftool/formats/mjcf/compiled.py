@@ -214,6 +214,13 @@ class Compiled:
         body = self.body(link)
         return None if body < 0 else self._in_root(self.data.xpos[body], self.data.xmat[body])
 
+    def geoms(self, body: int) -> range:
+        """Return the numbers of the geoms of a body, in the order of the file."""
+        if body < 0:
+            return range(0)
+        first = int(self.model.body_geomadr[body])
+        return range(first, first + int(self.model.body_geomnum[body])) if first >= 0 else range(0)
+
     def geom_frame(self, geom: int) -> Array:
         """The pose of a geom in the root's frame, 4 × 4."""
         return self._in_root(self.data.geom_xpos[geom], self.data.geom_xmat[geom])

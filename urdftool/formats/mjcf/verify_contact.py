@@ -83,8 +83,7 @@ def _overlapping(source: Source, compiled: Compiled) -> set[frozenset[int]]:
 def _count(link: Link, compiled: Compiled, check: Check, said: Said) -> int:
     """Compare how many geoms of a link touch; return how many do."""
     model, body = compiled.model, compiled.body(link.name)
-    geoms = [geom for geom in range(model.ngeom) if model.geom_bodyid[geom] == body >= 0]
-    solid = [g for g in geoms if model.geom_contype[g] or model.geom_conaffinity[g]]
+    solid = [g for g in compiled.geoms(body) if model.geom_contype[g] or model.geom_conaffinity[g]]
     known = said.of((*SHAPES, *CUT), *loss_names(link))
     if len(solid) != len(link.collisions):
         text = f"link '{link.name}': {len(solid)} geoms touch, of {len(link.collisions)} collisions"
@@ -143,9 +142,7 @@ def surface_check(source: Source, compiled: Compiled, said: Said) -> Check:
         body = compiled.body(link.name)
         sliding = source.number(link.name, "mu1", "mu")
         grip = GRIP if sliding is None or sliding < 0 else (sliding, *GRIP[1:])
-        for geom in range(model.ngeom):
-            if model.geom_bodyid[geom] != body or body < 0:
-                continue
+        for geom in compiled.geoms(body):
             if not (model.geom_contype[geom] or model.geom_conaffinity[geom]):
                 continue
             off = float(abs(model.geom_friction[geom] - grip).max())

@@ -107,8 +107,8 @@ def visual_check(
 def link_geoms(compiled: Compiled, link: Link, group: int) -> Iterator[int]:
     """Yield the geoms of a link in a group, in the order of the file."""
     body = compiled.body(link.name)
-    for geom in range(compiled.model.ngeom):
-        if compiled.model.geom_bodyid[geom] == body and compiled.model.geom_group[geom] == group:
+    for geom in compiled.geoms(body):
+        if compiled.model.geom_group[geom] == group:
             yield geom
 
 
