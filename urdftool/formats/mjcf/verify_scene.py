@@ -17,6 +17,9 @@ from .verify_source import Source
 FLOOR = 1e-4
 """How near to its height the floor has to be, relative to the size of the robot."""
 
+ROUNDED = 1.01e-4
+"""What the height [m] of a floor is rounded by."""
+
 FLUSH = 1e-3
 """How far below z = 0 [m] a robot that is held may reach with the floor still there."""
 
@@ -57,7 +60,8 @@ def scene_check(source: Source, compiled: Compiled, path: Path) -> Check:
         check.compare(math.inf, "nothing touches the floor")
     height, size = _floor_height(source, compiled)
     found = float(scene.data.geom_xpos[floor][2])
-    check.compare(abs(found - height) / max(size, 0.1), f"the floor is at z = {found:g}")
+    off = max(abs(found - height) - ROUNDED, 0.0)
+    check.compare(off / max(size, 0.1), f"the floor is at z = {found:g}")
     up = scene.data.geom_xmat[floor].reshape(3, 3)[2]
     check.compare(float(np.abs(up - (0.0, 0.0, 1.0)).max()), "the floor is tilted")
     return check
