@@ -161,3 +161,11 @@ def test_a_scene_is_compared(write, base, old, new, said):
     (check,) = [c for c in verify_copy(source, options, written) if c.name == "scene"]
     assert all(said is not None and said in text for text in check.differing)
     assert bool(check.differing) == (said is not None)
+
+
+def test_merged_links_without_shapes_are_equal(write):
+    welded = joint("w", "a", "b", "fixed", inside="")
+    source = load(write("r.urdf", robot(link("a"), welded, link("b"))))
+    options = Options(fuse=True, scene=True)
+    checks = verify_copy(source, options, write_mjcf(source, options))
+    assert is_faithful(checks), [c.differing for c in checks if c.differing]

@@ -143,7 +143,7 @@ def _shapes(compiled: Compiled) -> Array:
         ]
         for geom in range(model.ngeom)
     ]  # fmt: skip
-    table: Array = np.array(rows).reshape(len(rows), -1)
+    table: Array = np.array(rows)
     return table
 
 
