@@ -58,7 +58,7 @@ def test_what_another_reader_alone_reads_is_a_remark_in_its_files(write, root, l
     found = one(path, "feature-needs-newer-version")
     assert found.severity.label == level
     assert found.effects["urdfdom, gz, gazebo-classic, pinocchio"] == (
-        "drop the collisions of the link"
+        "drop the collisions of the link, at least from this one on"
     )
     path = write(
         "w.urdf", robot(LINK.format("a"), JOINT.format("j", "fixed", "world", "a", ""), root=root)

@@ -82,7 +82,8 @@ def test_an_srdf_of_another_description_is_not_compared(write):
     assert len(check(other, select=("srdf-unknown-joint",), targets=("moveit",))) == 1
 
 
-SEEN = """<link name="l{0}"><inertial><origin xyz="{1}"/><mass value="{2}"/></inertial>
+SEEN = """<link name="l{0}"><inertial><origin xyz="{1}"/><mass value="{2}"/>
+<inertia ixx="0.002" ixy="0" ixz="0" iyy="0.002" iyz="0" izz="0.002"/></inertial>
 <visual><geometry><mesh filename="{3}"/></geometry></visual>
 <collision><geometry><mesh filename="{3}"/></geometry></collision></link>
 """

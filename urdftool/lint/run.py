@@ -353,14 +353,14 @@ def _finding(
     targets: frozenset[str],
     robot: Robot | None,
 ) -> Finding | None:
-    """Make a finding of a problem; None for a remark on motion about what cannot move."""
+    """Make a finding of a problem; None for one on the motion of what is fixed to the world."""
     severity = settings.severity.get(rule.name)
     effects = rule.effects_in(problem.effects)
     if severity is None:
         severity = problem.severity or rule.severity_for(targets)
         if rule.of_motion and severity is not Severity.ERROR:
             unused = why_unused(robot, problem.element)
-            if unused == UNUSED_LINK and severity is Severity.INFO:
+            if unused == UNUSED_LINK:
                 return None
             if unused:
                 severity, effects = Severity.INFO, {"every reader": unused}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,6 +18,9 @@ from .apart import compare_places, measured, with_attached
 from .displaced import displaced
 
 _SIMPLER = "'urdftool collision' makes simpler shapes, and measures how far off they are"
+
+_FOR_CONTACT = re.compile(r"collision|convex|hull|simpl|low[-_]?poly", re.IGNORECASE)
+"""Names of meshes that were made for contacts, and are shown for want of another."""
 
 _faces: dict[Stamp, int] = {}
 
@@ -79,7 +83,7 @@ def visual_mesh_as_collision(
         if not use.collides:
             seen.setdefault(use.link.name, set()).add(use.uri)
             continue
-        if use.uri not in seen.get(use.link.name, ()):
+        if use.uri not in seen.get(use.link.name, ()) or _FOR_CONTACT.search(use.uri):
             continue
         faces = faces_of(use.path) if use.exists else 0
         if faces > dense:

@@ -76,8 +76,7 @@ _INSTEAD = {
     ERROR,
     effects={
         _UNKNOWN_SHAPE: (
-            "load the link without its visuals and collisions, also the right ones, with an "
-            "error in the log"
+            "load the link without its shapes, at least from this one on, with an error in the log"
         ),
         "pybullet": "rejects the file, except for a <plane> with a normal, which it loads",
         "drake": "rejects the file",

@@ -243,7 +243,7 @@ def command_without_state(robot: Robot) -> Iterator[Problem]:
     WARNING,
     on=("ros2",),
     effects={
-        "ros2_control": "has no interface for the joint, so no broadcaster reports it",
+        "ros2_control": "has no interface for the joint, so no broadcaster reports its motion",
     },
 )
 def joint_outside_ros2_control(robot: Robot) -> Iterator[Problem]:

@@ -18,7 +18,7 @@ def colon_space_in_comment(problem: Problem, around: Around) -> Proposal | None:
     for comment in parse(document.file).comments:
         if b"urdftool-ignore" in data[comment.start : comment.end]:
             continue
-        for match in re.finditer(rb": ", data[comment.start : comment.end]):
+        for match in re.finditer(rb":(?=\s)", data[comment.start : comment.end]):
             start = comment.start + match.start()
             blank = b"-" if data[start - 1 : start].isspace() else b" -"
             if data[start + 2 : start + 3] == b"-" or data[start - 1 : start] == b"-":

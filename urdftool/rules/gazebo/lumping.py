@@ -68,6 +68,7 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
 
     Fixed joints do not exist in the simulated robot: their links are joined into one body. A force
     sensor at one, or a plugin, goes with it and nothing is said. ``preserveFixedJoint`` keeps it.
+    Settings of the joint alone have no effect at one that does not move, and are a warning.
     """
     for block in robot.gazebo:
         joint = robot.joint.get(block.reference or "")
@@ -81,11 +82,15 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
         ):
             continue
         what = quoted(dict.fromkeys(f"<{child.tag}>" for child in lost)).replace("'", "")
+        settles = all(child.tag in JOINT_KEYWORDS for child in lost)
+        remedy = "add <preserveFixedJoint>true</preserveFixedJoint>"
+        if settles:
+            remedy = f"remove the block, or {remedy} for a sensor"
         yield Problem(
             block.element,
-            f"joint '{joint.name}' is fixed, so Gazebo lumps it and drops {what}; "
-            "add <preserveFixedJoint>true</preserveFixedJoint>",
+            f"joint '{joint.name}' is fixed, so Gazebo lumps it and drops {what}; {remedy}",
             at=block.element.attribute_place("reference"),
+            severity=WARNING if settles else None,
         )
 
 

@@ -175,11 +175,11 @@ def _pairs_without_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
         yield Problem(
             link,
             f"links '{parent.name}' and '{link.name}' are fixed to each other and have mass 0, at "
-            f"which sdformat 12.3 rejects the robot; remove the <inertial> of '{link.name}'",
+            f"which sdformat 12.3 rejects the robot; write a mass of 1e-5 kg for '{link.name}'",
             at=link.inertial,
             severity=INFO if targets.isdisjoint(GAZEBO) else ERROR,
             group="{count} links of mass 0 are fixed to links of mass 0, at which sdformat 12.3 "
-            "rejects the robot; remove their <inertial>: {names}",
+            "rejects the robot; write a mass of 1e-5 kg for each: {names}",
             effects=("gz, gazebo-classic (both)",),
         )
 
@@ -365,6 +365,8 @@ def _masses(robot: Robot) -> Iterator[tuple[Link, float, Element]]:
     """Links with a mass that is written and can be read, and its element."""
     for link in robot.links:
         if link.inertial is not None and link.inertial.mass is not None:
+            if link.inertial.inertia is None:
+                continue  # readers reject the inertial or the robot, which is reported
             mass = link.inertial.element.child("mass")
             if mass is not None:
                 yield link, link.inertial.mass, mass

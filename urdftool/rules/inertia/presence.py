@@ -194,6 +194,18 @@ def _moves_something(robot: Robot, links: list[Link]) -> bool:
     return any(not joint.is_fixed for link in links for joint in robot.tree.child_joints(link.name))
 
 
+def _is_broken(robot: Robot) -> bool:
+    """Whether names are there twice, or a joint names a link that is not there."""
+    twice = len(robot.link) < len(robot.links) or len(robot.joint) < len(robot.joints)
+    return twice or any(
+        name not in robot.link for joint in robot.joints for name in (joint.parent, joint.child)
+    )
+
+
+_SLIGHT = 1e-3
+"""Mass [kg] below which a root without shapes is a frame."""
+
+
 @rule(
     INFO,
     on=ROS,
@@ -211,11 +223,15 @@ def root_link_has_inertia(robot: Robot) -> Iterator[Problem]:
     the root, cures it.
     """
     root = robot.tree.root
-    if root is not None and root.inertial is not None and root.inertial.mass != 0.0:
+    if root is None or len(robot.tree.roots) > 1 or _is_broken(robot):
+        return  # another link may be the root once it is mended
+    if root.inertial is not None and root.inertial.mass != 0.0:
+        remedy = "put a link without one above it, on a fixed joint"
+        if root.mass < _SLIGHT and not (root.visuals or root.collisions):
+            remedy = "remove its <inertial>"
         yield Problem(
             root,
-            f"root link '{root.name}' has an inertia, which KDL does not support; "
-            f"put a link without one above it, on a fixed joint",
+            f"root link '{root.name}' has an inertia, which KDL does not support; {remedy}",
         )
 
 

@@ -36,8 +36,9 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
         if limit.effort == 0.0:
             yield Problem(
                 joint,
-                f"effort limit of joint '{joint.name}' is 0, so nothing can drive it; "
-                f"write the {'force [N]' if joint.type == 'prismatic' else 'torque [N·m]'} it has",
+                f"effort limit of joint '{joint.name}' is 0, so Gazebo's physics cannot drive it; "
+                f"write the {'force [N]' if joint.type == 'prismatic' else 'torque [N·m]'} of its "
+                "drive, if it has one",
                 at=limit.element.attribute_place("effort"),
                 severity=INFO if passive else None,
             )
@@ -274,7 +275,7 @@ def dynamics_as_child_elements(robot: Robot) -> Iterator[Problem]:
     on=("gazebo-classic", "gz", "mujoco", "pybullet"),
     effects={
         "mujoco, drake": "take 0: nothing stops a swing",
-        "pybullet": "takes 0: its damping of every body, 0.04 by default, alone slows a swing",
+        "pybullet": "takes 0: the motor that it adds holds the joint until it is switched off",
         "gz, gazebo-classic": "take 0",
     },
 )
@@ -299,7 +300,7 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
         verb = "has" if len(free) == 1 else "have"
         yield Problem(
             free[0],
-            f"{names} {verb} neither damping nor friction, so a swing lasts; "
+            f"{names} {verb} neither damping nor friction, so nothing slows a motion; "
             'write <dynamics damping="…" friction="…"/>',
         )
 

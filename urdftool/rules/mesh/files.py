@@ -23,7 +23,7 @@ from .uris import malformation
 from .uses import MeshUse, actual_case, mesh_uses
 
 _MAX_FILES = 5000
-_WITHOUT_FILE = ("rviz", "gz", "pybullet, drake", "urdfdom, gz, gazebo-classic")
+_WITHOUT_FILE = ("rviz", "gz", "urdfdom, gz, gazebo-classic")
 
 
 @rule(
@@ -31,7 +31,8 @@ _WITHOUT_FILE = ("rviz", "gz", "pybullet, drake", "urdfdom, gz, gazebo-classic")
     effects={
         "rviz": "shows nothing there, and reports 'Could not load mesh resource'",
         "gz": "shows nothing there",
-        "pybullet, drake": "reject the robot",
+        "pybullet, drake (nowhere)": "reject the robot",
+        "drake (above)": "rejects the robot",
         "mujoco": "rejects the robot",
         "urdfdom, gz, gazebo-classic": "load the robot without opening the file (sdformat 12.3)",
     },
@@ -82,7 +83,15 @@ def mesh_not_found(
 def _of_missing(keeps: bool, uses: list[MeshUse]) -> list[str]:
     """The effects of a missing file: MuJoCo opens that of a visual only where it keeps visuals."""
     opened = keeps or any(use.collides for use in uses)
-    return [*_WITHOUT_FILE, *["mujoco"] * opened]
+    rejecting = "drake (above)" if all(map(_is_above, uses)) else "pybullet, drake (nowhere)"
+    return [*_WITHOUT_FILE, rejecting, *["mujoco"] * opened]
+
+
+def _is_above(use: MeshUse) -> bool:
+    """Whether PyBullet finds a file: it looks in each folder above that of the description."""
+    path = use.uri.removeprefix("package://").removeprefix("file://")
+    folder = Path(use.mesh.element.file.path).resolve().parent
+    return any((above / path).is_file() for above in (folder, *folder.parents[:-1]))
 
 
 def _is_in_own_package(use: MeshUse, description: Description) -> bool:

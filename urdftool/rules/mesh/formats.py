@@ -162,7 +162,6 @@ _UP = re.compile(rb"<up_axis\s*>\s*(\w+)\s*<")
     WARNING,
     effects={
         "rviz, pybullet (unit)": "apply the unit",
-        "rviz, pybullet (axis)": "pass over the axis: z of the file is up",
         "rviz, pybullet (both)": "apply the unit and not the axis",
         "moveit (collision)": "applies neither",
     },
@@ -170,16 +169,17 @@ _UP = re.compile(rb"<up_axis\s*>\s*(\w+)\s*<")
 def dae_unit_or_axis(
     robot: Robot, description: Description, *, together: float = 3
 ) -> Iterator[Problem]:
-    """A COLLADA file is not in metres with z up.
+    """A COLLADA file is not in meters.
 
     It may say its unit and which way is up, and readers differ in what they do with it: the same
-    mesh is lying in one and standing in the next, or larger by a thousand. Export it in metres,
-    with z up. More than ``together`` meshes that say the same are one finding.
+    mesh is larger in one than in another by a hundred or a thousand. Export it in meters. An axis
+    other than z alone is not reported: RViz, MoveIt, Gazebo, PyBullet and Pinocchio do not turn the
+    mesh. More than ``together`` meshes that say the same are one finding.
     """
     found: dict[tuple[tuple[str, str], ...], list[MeshUse]] = {}
     for use in _first_uses(robot, description):
         said = unit_and_axis(use)
-        if said:
+        if "unit" in said:
             found.setdefault(tuple(said.items()), []).append(use)
     colliding = {use.uri for use in mesh_uses(robot, description) if use.collides}
     for facts, uses in found.items():
@@ -191,7 +191,7 @@ def dae_unit_or_axis(
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}'{more}: {what}, which readers take differently; "
-                "export it in metres with z up",
+                "export it in meters",
                 at=use.mesh.element.attribute_place("filename"),
                 effects=(
                     f"rviz, pybullet ({case})",

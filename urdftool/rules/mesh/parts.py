@@ -18,6 +18,7 @@ from .uses import MeshUse, mesh_uses
 _OBJ = re.compile(rb"^mtllib[ \t]+(.+?)[ \t\r]*$", re.MULTILINE)
 _DAE = re.compile(rb"<init_from\s*>(?:\s*<ref\s*>)?\s*([^<]+?)\s*<")
 _GLTF = re.compile(rb'"uri"\s*:\s*"([^"]+)"')
+_RELIEF = re.compile(r"normal|bump|height|specular|_nrm", re.IGNORECASE)
 _MOST = 4_000_000  # bytes that are looked at
 
 
@@ -73,6 +74,8 @@ def _look(path: Path) -> Iterator[str]:
         return
     for name in dict.fromkeys(match[1] for match in pattern.finditer(data)):
         text = unquote(name.decode("utf-8", "replace")).removeprefix("file://")
+        if ending == ".dae" and _RELIEF.search(text):
+            continue  # readers of COLLADA for robots use the diffuse image alone
         if text.startswith(("data:", "http:", "https:", "#")) or (
             ending == ".dae" and "." not in text
         ):

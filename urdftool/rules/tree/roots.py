@@ -50,11 +50,16 @@ def multiple_roots(robot: Robot) -> Iterator[Problem]:
     yield Problem(others[0], f"{message} by joints")
 
 
+_STANDARD = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
+
+
 def _joined_in_drake(robot: Robot) -> set[str]:
     """Find the roots that a ``<drake:joint>`` joins to another link."""
     roots = {link.name for link in robot.tree.roots}
     found = set()
     for joint in robot.element.all("drake:joint"):
+        if joint.get("type") in _STANDARD:
+            continue  # Drake rejects it
         parent, child = joint.child("parent"), joint.child("child")
         if parent is not None and child is not None and parent.get("link") in robot.link:
             found.add(child.get("link") or "")

@@ -27,9 +27,11 @@ _SCALARS = {
 _OF_URDFDOM = {
     "urdfdom, gz, gazebo-classic, pinocchio (in a joint)": "reject the robot",
     "urdfdom, gz, gazebo-classic, pinocchio (in a visual)": (
-        "drop the visuals and collisions of the link"
+        "drop the visuals and collisions of the link, at least from this one on"
     ),
-    "urdfdom, gz, gazebo-classic, pinocchio (in a collision)": "drop the collisions of the link",
+    "urdfdom, gz, gazebo-classic, pinocchio (in a collision)": (
+        "drop the collisions of the link, at least from this one on"
+    ),
     "urdfdom, pinocchio (in an inertial)": (
         "drop the inertial, the visuals and the collisions of the link"
     ),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from ...model.elements import Robot
@@ -50,10 +51,10 @@ def unsupported_urdf_version(robot: Robot) -> Iterator[Problem]:
 
 _OF_LATER = {
     "urdfdom, gz, gazebo-classic, pinocchio (a capsule in a visual)": (
-        "drop the visuals and collisions of the link"
+        "drop the visuals and collisions of the link, at least from this one on"
     ),
     "urdfdom, gz, gazebo-classic, pinocchio (a capsule in a collision)": (
-        "drop the collisions of the link"
+        "drop the collisions of the link, at least from this one on"
     ),
     "pybullet, drake (a capsule in a visual)": "read it",
     "pybullet, drake (a capsule in a collision)": "read it",
@@ -138,6 +139,9 @@ def rpy_and_quat(robot: Robot) -> Iterator[Problem]:
             )
 
 
+_KEY = re.compile(r":(?=\s)")
+
+
 @rule(
     INFO,
     on=("ros2",),
@@ -152,7 +156,7 @@ def colon_space_in_comment(document: Document, description: Description) -> Iter
     """
     if document.file is not description.files[0]:
         return
-    found = [comment for comment in document.comments if ": " in comment.text]
+    found = [comment for comment in document.comments if _KEY.search(comment.text)]
     if found:
         more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
         yield Problem(
