@@ -35,7 +35,9 @@ PAIRS = 150_000
             "finds the start state in collision and plans nothing, unless the SRDF disables the "
             "pair"
         ),
-        "mujoco (loaded)": "pushes the two apart from the first step, once it loads the robot",
+        "mujoco (loaded)": (
+            "has contact between the two from the first step, once it loads the robot"
+        ),
     },
 )
 def self_collision_at_zero(
@@ -78,8 +80,8 @@ def _overlap(
 ) -> Problem:
     return Problem(
         other,
-        f"{what} '{one.name}' and '{other.name}' overlap by {depth * 1000:.3g} mm where all joints "
-        f"are at rest{more}",
+        f"{what} '{one.name}' and '{other.name}' overlap by up to {depth * 1000:.3g} mm where "
+        f"all joints are at rest{more}",
         at=other.collisions[0],
         effects=effects,
     )

@@ -184,7 +184,7 @@ def zero_inertia(robot: Robot, *, part: float = 0.25) -> Iterator[Problem]:
         yield Problem(
             link,
             f"inertia of link '{link.name}' is {nothing}, though it weighs {link.mass:g} kg"
-            f"{solid_text(link) or '; urdftool inertia robot computes it'}",
+            f"{solid_text(link) or _computed(link)}",
             at=inertial.inertia,
             severity=INFO if is_part else None,
             effects=[
@@ -193,6 +193,10 @@ def zero_inertia(robot: Robot, *, part: float = 0.25) -> Iterator[Problem]:
                 *["pinocchio"] * (not is_part),
             ],
         )
+
+
+def _computed(link: Link) -> str:
+    return "; urdftool inertia robot computes it" if link.visuals or link.collisions else ""
 
 
 @rule(

@@ -274,7 +274,7 @@ def dynamics_as_child_elements(robot: Robot) -> Iterator[Problem]:
     INFO,
     on=("gazebo-classic", "gz", "mujoco", "pybullet"),
     effects={
-        "mujoco, drake": "take 0: nothing stops a swing",
+        "mujoco, drake": "take 0: nothing slows a motion",
         "pybullet": "takes 0: the motor that it adds holds the joint until it is switched off",
         "gz, gazebo-classic": "take 0",
     },
