@@ -16,6 +16,7 @@ from __future__ import annotations
 import argparse
 import json
 import random
+import re
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -105,11 +106,17 @@ def _record(number: int, sample: str, name: str, path: str, finding: Finding) ->
         "line": finding.place.line,
         "rule": finding.rule,
         "severity": finding.severity.label,
-        "message": finding.message,
+        "message": _without_folders(finding.message),
         "hint": finding.hint,
         "effects": finding.effects,
         "expansions": finding.expansions,
     }
+
+
+def _without_folders(text: str) -> str:
+    """Leave out where the collections happen to be."""
+    text = text.replace(f"{CORPUS.resolve()}/", "").replace(f"{CORPUS}/", "")
+    return re.sub(r"[^' ]*/site-packages/", "", text)
 
 
 def judged() -> list[dict[str, Any]]:
