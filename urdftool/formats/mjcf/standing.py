@@ -114,13 +114,16 @@ def free_reason(
 
     It is free where it stands on a driven wheel or on two wheels; where only what moves against the
     root reaches the ground: on two or more chains, below the center of mass, and not named as hands
-    are; and where two or more chains end in links that are named as feet or legs are.
+    are; and where two or more chains end in links that are named as feet or legs are. A robot
+    without collision geometry is held.
 
     Args:
         structure: The tree.
         boxes: The boxes of its shapes.
         positions: Of the joints at home [rad, m].
     """
+    if not any(link.collisions for link in structure.robot.links):
+        return None  # it would fall through the floor
     commanded = commanded_joints(structure.robot)
     branches = [j for j in structure.moving if structure.group[j.parent] == structure.root.name]
     if not commanded and len(branches) < 2:
