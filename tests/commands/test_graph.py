@@ -169,7 +169,7 @@ def test_a_graph_too_large_for_mermaid_is_said(urdftool, write):
     ("text", "words", "said"),
     [
         (SOUND, ["-o", "x.xyz"], "'x.xyz' says no kind of graph; it ends in .gv,"),
-        (SOUND, ["-o", "nowhere/x.svg"], "nowhere/x.svg: the folder "),
+        (SOUND, ["-o", "x.urdf/x.svg"], "x.urdf/x.svg: "),
         ("<robot name='r'/>", [], "x.urdf:1:1: there is no link in it"),
         ("<sdf/>", [], "x.urdf:1:1: the root element is <sdf>"),
         ("<robot", [], "x.urdf:1:1: "),

@@ -287,7 +287,7 @@ def test_a_total_mass_is_shared_by_volume(urdftool, write):
         (["--total-mass", "3", "--mass", "base=4"], "leaves nothing for arm"),
         (["--link", "amr"], "did you mean 'arm'"),
         (["--pose", "j=1"], "--lump"),
-        (["--lump", "--write"], "exclude each other"),
+        (["--lump", "--write"], "--lump excludes --write"),
         (["--lump", "--pose", "elbo=1"], "did you mean 'elbow'"),
         (["--lump", "--pose", "elbow=inf"], "not a finite number"),
         (["--masses", "none.csv"], "none.csv: cannot be read"),

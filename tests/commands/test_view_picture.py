@@ -118,7 +118,7 @@ def test_wrong_words_are_refused(urdftool, write, words, said):
     assert not os.path.exists("p.png")
 
 
-@pytest.mark.parametrize("name", ["p.jpg", "nowhere/p.png"])
+@pytest.mark.parametrize("name", ["p.jpg", "r.urdf/p.png"])
 def test_files_that_cannot_be_written_are_refused_first(urdftool, write, name):
     path = write("r.urdf", ARM)
     for option in ("--picture", "--contact-sheet"):

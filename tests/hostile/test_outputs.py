@@ -54,7 +54,7 @@ def test_a_link_to_an_input_is_not_written_through(name, place):
 
 SECONDS = {
     "expand r.xacro -o a.urdf --depfile r.xacro": "r.xacro",
-    "expand r.xacro -o a.urdf --depfile no/such/a.d": "no/such/a.d",
+    "expand r.xacro -o a.urdf --depfile cube.obj/a.d": "cube.obj/a.d",
     "expand r.xacro -o a.urdf --depfile a.urdf": "a.urdf",
     "expand r.xacro -o r.xacro --source-map a.json": "r.xacro",
     "expand r.xacro -o a.urdf --source-map r.xacro --depfile a.d": "r.xacro",

@@ -146,9 +146,15 @@ def test_what_is_no_robot(urdftool, write, tmp_path, text):
 
 
 def test_a_place_that_is_not_there(urdftool, write):
-    result = urdftool("export", "sdf", write("r.urdf", ROBOT), "-o", "no/such/out")
+    result = urdftool("export", "sdf", write("r.urdf", ROBOT), "-o", "r.urdf/out")
     assert result.code == 2
-    assert "does not exist" in result.err
+    assert "r.urdf" in result.err
+
+
+def test_missing_folders_are_made(urdftool, write, tmp_path):
+    result = urdftool("export", "sdf", write("r.urdf", ROBOT), "-o", "not/yet/out")
+    assert result.code == 0
+    assert (tmp_path / "not/yet/out/model.sdf").is_file()
 
 
 def test_a_world(urdftool, write, tmp_path):

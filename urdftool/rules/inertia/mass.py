@@ -277,7 +277,7 @@ def implausible_density(
     remarks: list[tuple[Problem, float]] = []
     for link, mass, element in _masses(robot):
         density, in_box = _density(reach.link(link), link, mass)
-        if any(shapes_in_millimeters(link)):
+        if any(shapes_in_millimeters(link)) or _is_incomplete(link):
             continue
         if density is None or least <= density <= (most_of_box if in_box else most):
             continue
@@ -361,12 +361,15 @@ def _density(box: Bounds | None, link: Link, mass: float) -> tuple[float | None,
     return (mass / volume if volume > 0 else None), True
 
 
+def _is_incomplete(link: Link) -> bool:
+    """Whether readers reject the inertial of a link, or the robot, which is reported."""
+    return link.inertial is not None and link.inertial.inertia is None
+
+
 def _masses(robot: Robot) -> Iterator[tuple[Link, float, Element]]:
     """Links with a mass that is written and can be read, and its element."""
     for link in robot.links:
         if link.inertial is not None and link.inertial.mass is not None:
-            if link.inertial.inertia is None:
-                continue  # readers reject the inertial or the robot, which is reported
             mass = link.inertial.element.child("mass")
             if mass is not None:
                 yield link, link.inertial.mass, mass
