@@ -9,6 +9,7 @@ from ..rule import GAZEBO, INFO, WARNING, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from ..words import nearest
 from .contact import contact_role, has_friction
+from .lumping import body_of, is_lumped
 
 _FRICTION = {
     "wheel": "<mu1> and <mu2> for its grip",
@@ -50,7 +51,7 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
     for link in robot.links:
         if robot.extensions.get(link.name) or link.name in meant:
             continue
-        role = contact_role(robot, link)
+        role = None if _has_friction_by_name(robot, link) else contact_role(robot, link)
         needs = [_FRICTION[role]] if role else []
         cases = ["without friction"] if role else []
         if "gazebo-classic" in targets and _shows_colour(link, colours):
@@ -105,6 +106,15 @@ def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
             )
 
 
+def _has_friction_by_name(robot: Robot, link: Link) -> bool:
+    """Whether sdformat gives a lumped link the friction of a link whose name begins its own."""
+    return is_lumped(robot, link.name) and any(
+        link.name.startswith(f"{name}_") and has_friction(blocks)
+        for name, blocks in robot.extensions.items()
+        if name and body_of(robot, name) == body_of(robot, link.name)
+    )
+
+
 @rule(
     INFO,
     on=("gazebo-classic", "gz"),
@@ -124,7 +134,7 @@ def missing_friction(robot: Robot) -> Iterator[Problem]:
         return
     for link in robot.links:
         blocks = robot.extensions.get(link.name, [])
-        if blocks and not has_friction(blocks):
+        if blocks and not has_friction(blocks) and not _has_friction_by_name(robot, link):
             role = contact_role(robot, link)
             if role:
                 yield Problem(

@@ -153,9 +153,7 @@ def inertia_triangle_inequality_rounding(
         "gz, gazebo-classic (accepted)": "accept it (sdformat 12.3)",
         "gz, gazebo-classic (noise)": "reject the model (sdformat 12.3: Error 18)",
         "mujoco": "rejects the file",
-        "pinocchio": (
-            "keeps the zeros: the mass matrix is singular where the center of mass is on the axis"
-        ),
+        "pinocchio": ("keeps the zeros, by which the mass matrix can be singular"),
     },
     of_motion=True,
     group="robot",

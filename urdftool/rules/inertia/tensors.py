@@ -71,7 +71,12 @@ def is_accepted(six: Six) -> bool:
 
 def is_rejected_by_gazebo(robot: Robot, link: Link) -> bool:
     """Whether Gazebo rejects the inertia of a link, after it lumped what is fixed together."""
-    whole = next((links for links in bodies(robot).values() if link in links), [link])
+    whole = next((links for links in bodies(robot).values() if link in links), None)
+    if whole is None:
+        joint = robot.tree.parent_joint(link.name)
+        if joint is not None and joint.is_fixed:
+            return False  # in a broken tree it is not known what it would be lumped into
+        whole = [link]
     low, middle, high = moments_of(body_inertia(robot, whole).tensor)
     return low < -EXACT * abs(high) or high - low - middle > EXACT * high
 

@@ -200,7 +200,10 @@ def _orphans(robot: Robot, joint: Joint) -> list[str]:
 def _remedy(name: str, robot: Robot) -> str:
     if name == "world":
         return '; add <link name="world"/>'
-    return did_you_mean(name, robot.link) or f'; add <link name="{name}"/>'
+    remedy = f'; add <link name="{name}"/>'
+    if robot.source is not None and robot.source.expansion is not None:
+        remedy += ", or check the file that includes this one"
+    return did_you_mean(name, robot.link) or remedy
 
 
 @rule(
