@@ -102,6 +102,8 @@ def write_packaged() -> None:
     """Write what rule pages quote, made of the table and the recorded versions."""
     text = json.dumps(table.packaged(), indent=0, ensure_ascii=False)
     table.PACKAGED.write_text(text + "\n", "utf-8")
+    text = json.dumps(table.rejections(), indent=0, ensure_ascii=False)
+    table.REJECTIONS.write_text(text + "\n", "utf-8")
 
 
 if __name__ == "__main__":

@@ -36,6 +36,7 @@ TABLE = ROOT / "fixtures" / "effects"
 RULES = ROOT / "fixtures" / "rules"
 RUNS = TABLE / "runs"
 VERSIONS = TABLE / "readers.json"
+REJECTIONS = ROOT / "urdftool" / "rules" / "effect_rejections.json"
 PACKAGED = ROOT / "urdftool" / "rules" / "effect_sources.json"
 
 AS_WRITTEN = "as written:"
@@ -149,6 +150,34 @@ def record_of(rule: str) -> dict[str, dict[str, Any]]:
 def versions() -> dict[str, str]:
     """The versions of the recorded readers, with their names as pages write them."""
     return json.loads(VERSIONS.read_text("utf-8"))  # type: ignore[no-any-return]
+
+
+_PROGRAMS = {"gz": "sdformat", "gazebo-classic": "sdformat"}
+
+
+def rejections() -> dict[str, dict[str, list[str]]]:
+    """List the readers that reject a robot with a defect: by rule and by key of the effect.
+
+    A reader does so where all its runs of the row end in a rejection or a crash.
+    """
+    found: dict[str, dict[str, list[str]]] = {}
+    for row in rows():
+        readers = row.key.partition(" (")[0].split(", ")
+        ends = {
+            reader: [
+                run.expected.get("outcome")
+                for run in row.runs
+                if run.reader == _PROGRAMS.get(reader, reader)
+            ]
+            for reader in readers
+        }
+        rejecting = [r for r, all_of in ends.items() if all_of and set(all_of) <= _REJECTED]
+        if rejecting:
+            found.setdefault(row.rule, {})[row.key] = rejecting
+    return found
+
+
+_REJECTED = {"rejects", "crashes"}
 
 
 def packaged() -> dict[str, dict[str, str]]:

@@ -90,6 +90,11 @@ def test_versions_are_recorded():
     assert set(titles) <= set(READERS)
 
 
+def test_lint_knows_which_readers_reject_a_robot():
+    assert json.loads(table.REJECTIONS.read_text("utf-8")) == table.rejections()
+    assert table.rejections()["unknown-parent-link"]
+
+
 def test_rule_pages_quote_the_table():
     packaged = json.loads(table.PACKAGED.read_text("utf-8"))
     assert packaged == table.packaged(), "python -m tests.effects --pages"

@@ -22,6 +22,7 @@ from ..source.document import Document, Element, parse, read_file
 from ..source.location import SourceFile
 from ..source.well_formed import mend
 from .merge import in_order, merge
+from .moot import Rejections
 from .motion import UNUSED_LINK, WELDED, is_welded_in_mujoco, why_unused
 from .not_checked import finding_of, refuse_other_files, refuse_other_roots, refuse_srdf
 from .outcome import Options, Report
@@ -261,6 +262,7 @@ def _check_description(
     }
     ran: set[str] = set()
     origins: dict[int, Any] = {}
+    rejections = Rejections()
     for rule in rules:
         if "robot" in rule.needs and robot is None:
             continue
@@ -273,6 +275,8 @@ def _check_description(
                 if finding is None:
                     continue
                 findings.append(finding)
+                if finding.effects:
+                    rejections.add(rule.name, problem.effects or rule.effects)
                 if options.fixes and rule.name in FIXABLE:
                     origins[id(finding)] = problem, subjects["document"]
     suppressions, wrong = read_suppressions(documents)
@@ -288,6 +292,7 @@ def _check_description(
 
         made = {number: Origin(*origin) for number, origin in origins.items()}
         add_fixes(report, findings, made, robot, description, options)
+    findings = [rejections.without_moot(finding) for finding in findings]
     report.findings = in_order(merge(findings))
 
 
@@ -390,9 +395,11 @@ def _without_mujoco(effects: dict[str, str]) -> dict[str, str]:
     for key, effect in effects.items():
         readers = key.split(", ")
         others = ", ".join(reader for reader in readers if reader != "mujoco")
-        found[others if len(readers) > 2 else key] = effect
-        if len(readers) > 2 and "mujoco" in readers:
-            found["mujoco"] = WELDED
+        if len(readers) < 3 or "mujoco" not in readers:
+            found[key] = effect
+            continue
+        found[others] = effect
+        found["mujoco"] = WELDED
     return found
 
 

@@ -9,6 +9,7 @@ from ...model.convex import Convex
 from ...model.elements import Joint, Link, Mesh, Robot
 from ...model.kinematics import MOVABLE, limits_of, motion_of
 from ...model.pose import IDENTITY, Pose, dot, pose_of, rotate, transpose
+from ...model.read import numbers
 from ..mujoco import reads_collisions
 from ..rule import GAZEBO, INFO, WARNING, Problem, rule
 from ..words import some_of
@@ -100,13 +101,20 @@ def resting(robot: Robot, deeper: float = 0.001) -> list[tuple[Link, Link, float
     if _resting is None or _resting[0] is not robot:
         found = []
         known = pieces(robot)
-        pairs, complete = known.strangers(RESTING)
+        pairs, complete = known.strangers(RESTING) if _has_known_poses(robot) else ([], True)
         for one, other in pairs:
             deepest = known.deepest(one, other, least=deeper)
             if deepest is not None:
                 found.append(deepest)
         _resting = robot, found, complete
     return _resting[1]
+
+
+def _has_known_poses(robot: Robot) -> bool:
+    """Whether the origins of all joints are three numbers each; readers differ in others."""
+    origins = (joint.origin.element for joint in robot.joints if joint.origin is not None)
+    texts = (element.get(name) for element in origins for name in ("xyz", "rpy"))
+    return all(text is None or numbers(text, 3) is not None for text in texts)
 
 
 def resting_in_part(robot: Robot) -> bool:

@@ -59,6 +59,8 @@ def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
     none.
     """
     for transmission in robot.transmissions:
+        if not transmission.name:
+            continue  # it is not read, which is reported
         for joint in transmission.joints:
             for child in joint.element.all("hardwareInterface"):
                 name = child.text.strip()

@@ -84,8 +84,11 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
         what = quoted(dict.fromkeys(f"<{child.tag}>" for child in lost)).replace("'", "")
         settles = all(child.tag in JOINT_KEYWORDS for child in lost)
         remedy = "add <preserveFixedJoint>true</preserveFixedJoint>"
+        child = robot.link.get(joint.child)
+        if child is not None and child.mass == 0:
+            remedy += f" and give link '{child.name}' an <inertial>"
         if settles:
-            remedy = f"remove the block, or {remedy} for a sensor"
+            remedy = f"remove the block; for a sensor {remedy}"
         yield Problem(
             block.element,
             f"joint '{joint.name}' is fixed, so Gazebo lumps it and drops {what}; {remedy}",

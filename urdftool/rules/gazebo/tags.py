@@ -101,8 +101,8 @@ def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
                 f"link '{link.name}' has a colour that Gazebo Classic does not show; write "
                 f'<material> into its <gazebo reference="{link.name}">',
                 at=blocks[0],
-                group="{count} links have a colour that Gazebo Classic does not show; write "
-                "<material> into their <gazebo> blocks: {names}",
+                group="{count} links with a <gazebo> block have a color that Gazebo Classic does "
+                "not show; write <material> into their <gazebo> blocks: {names}",
             )
 
 

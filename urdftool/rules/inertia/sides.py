@@ -143,7 +143,7 @@ def _spread(link: Link) -> float:
 
 @rule(
     WARNING,
-    effects={"mujoco, pybullet, pinocchio": "the center of mass of the robot is to one side"},
+    effects={"mujoco, pybullet, pinocchio": "take it as written"},
 )
 def com_not_mirrored(
     robot: Robot, *, least: float = 0.002, similar: float = 0.1, clear: float = 0.05

@@ -117,8 +117,8 @@ def inertia_exceeds_geometry(
         if link.name in slight:
             continue
         low, middle, high = moments_of(six)
-        if low + middle < high * 0.99:
-            continue
+        if low + middle < high:
+            continue  # no body has it, whatever its size
         pose = pose_of(inertial.origin)
         judge = partial(
             misfit_of_spread,

@@ -155,6 +155,8 @@ def continuous_with_bounds(robot: Robot) -> Iterator[Problem]:
             continue
         if limit.lower is None and limit.upper is None:
             continue
+        if limit.lower is not None and limit.upper is not None and limit.lower > limit.upper:
+            continue  # which is reported
         name = "lower" if limit.lower is not None else "upper"
         if not (limit.lower or limit.upper):
             remedy = "take lower and upper out"

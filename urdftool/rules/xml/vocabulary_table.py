@@ -42,7 +42,7 @@ VOCABULARY: dict[str, Kind] = {
     "visual": Kind(("origin", "geometry", "material"), words=("name",)),
     "collision": Kind(("origin", "geometry"), words=("name",)),
     "origin": Kind(numbers={"xyz": 3, "rpy": 3, "quat_xyzw": 4}),
-    "geometry": Kind(("box", "cylinder", "sphere", "mesh", "capsule")),
+    "geometry": Kind(("box", "cylinder", "sphere", "mesh", "capsule"), words=("name",)),
     "box": Kind(numbers={"size": 3}),
     "cylinder": Kind(numbers=_scalars("radius", "length")),
     "sphere": Kind(numbers=_scalars("radius")),

@@ -1,0 +1,63 @@
+"""Leave out what a reader does with a defect, where it rejects the robot for another one."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+from .. import rules
+from ..finding import Finding
+
+_THROUGH_URDFDOM = ("pinocchio", "KDL", "robot_state_publisher", "rviz", "moveit", "check_urdf")
+"""Readers that read a robot with urdfdom, and get none where it rejects one."""
+
+_IRREGULAR = {"have": "has", "do": "does", "are": "is", "go": "goes"}
+
+
+class Rejections:
+    """The readers that reject one robot, each with the rules that say so."""
+
+    def __init__(self) -> None:
+        """Read which effects are rejections: what ``python -m tests.effects`` recorded."""
+        path = Path(rules.__file__).with_name("effect_rejections.json")
+        self._table: dict[str, dict[str, list[str]]] = json.loads(path.read_text("utf-8"))
+        self._by_reader: dict[str, set[str]] = {}
+
+    def add(self, rule: str, keys: Iterable[str]) -> None:
+        """Take the effects of a finding, by their keys with the case."""
+        known = self._table.get(rule)
+        if not known:
+            return
+        for key in keys:
+            for reader in known.get(key, ()):
+                others = _THROUGH_URDFDOM if reader == "urdfdom" else ()
+                for one in (reader, *others):
+                    self._by_reader.setdefault(one, set()).add(rule)
+
+    def without_moot(self, finding: Finding) -> Finding:
+        """Leave out of a finding the readers that reject the robot for other defects alone."""
+        effects = {}
+        for key, effect in finding.effects.items():
+            readers = key.split(", ")
+            left = [r for r in readers if finding.rule in self._by_reader.get(r, {finding.rule})]
+            if left:
+                one = len(left) == 1 < len(readers)
+                effects[", ".join(left)] = in_singular(effect) if one else effect
+        return finding if effects == finding.effects else replace(finding, effects=effects)
+
+
+def in_singular(effect: str) -> str:
+    """Write what one reader does, of what several do: ``take it`` becomes ``takes it``."""
+    verb, space, rest = effect.partition(" ")
+    verb, colon = (verb[:-1], ":") if verb.endswith(":") else (verb, "")
+    if verb in _IRREGULAR:
+        verb = _IRREGULAR[verb]
+    elif verb.endswith(("s", "sh", "ch", "x")):
+        verb += "es"
+    elif verb.endswith("y") and not verb.endswith(("ay", "ey", "oy")):
+        verb = verb[:-1] + "ies"
+    else:
+        verb += "s"
+    return f"{verb}{colon}{space}{rest}"
