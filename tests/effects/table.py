@@ -77,6 +77,7 @@ class Row:
     says: str
     runs: tuple[Run, ...]
     sources: tuple[str, ...]
+    rejects: tuple[str, ...] = ()
 
 
 @cache
@@ -88,7 +89,7 @@ def rows() -> tuple[Row, ...]:
 def _rows_of(path: Path) -> Iterator[Row]:
     for rule, effects in (yaml.safe_load(path.read_text("utf-8")) or {}).items():
         for key, row in effects.items():
-            unknown = set(row) - {"says", "runs", "sources"}
+            unknown = set(row) - {"says", "runs", "sources", "rejects"}
             if unknown:
                 raise ValueError(f"{path.name}: {rule}: {key}: unknown {sorted(unknown)}")
             runs = tuple(
@@ -96,7 +97,8 @@ def _rows_of(path: Path) -> Iterator[Row]:
                 for readers, robot, expected in row.get("runs", ())
                 for reader in readers.split(", ")
             )
-            yield Row(rule, key, row["says"], runs, tuple(row.get("sources", ())))
+            more = (tuple(row.get(name, ())) for name in ("sources", "rejects"))
+            yield Row(rule, key, row["says"], runs, *more)
 
 
 def robot_of(rule: str, robot: str) -> Robot:
@@ -158,7 +160,8 @@ _PROGRAMS = {"gz": "sdformat", "gazebo-classic": "sdformat"}
 def rejections() -> dict[str, dict[str, list[str]]]:
     """List the readers that reject a robot with a defect: by rule and by key of the effect.
 
-    A reader does so where all its runs of the row end in a rejection or a crash.
+    A reader does so where all its runs of the row end in a rejection or a crash, or where the row
+    says so, as other runs of it are of a case that the finding excludes.
     """
     found: dict[str, dict[str, list[str]]] = {}
     for row in rows():
@@ -171,7 +174,11 @@ def rejections() -> dict[str, dict[str, list[str]]]:
             ]
             for reader in readers
         }
-        rejecting = [r for r, all_of in ends.items() if all_of and set(all_of) <= _REJECTED]
+        rejecting = [
+            reader
+            for reader, found_ends in ends.items()
+            if reader in row.rejects or (found_ends and set(found_ends) <= _REJECTED)
+        ]
         if rejecting:
             found.setdefault(row.rule, {})[row.key] = rejecting
     return found

@@ -69,7 +69,7 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
     ERROR,
     effects={
         _GAZEBO: "reject the model (sdformat 12.3: Error 18)",
-        "mujoco": "rejects the file: inertia must satisfy A + B >= C",
+        "mujoco": "rejects the file",
         "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, zero",
         "urdfdom, KDL, pinocchio": "accept it without a message",
         "drake": "warns, and takes another inertia",
