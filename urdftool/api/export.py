@@ -30,6 +30,7 @@ def export_sdf(
     world: bool = False,
     fix_inertia: FixInertia = "none",
     mesh_dir: str = "meshes",
+    actuator_config: str | Path | None = None,
     force: bool = False,
     verify: bool = False,
     overwrite: bool = False,
@@ -46,6 +47,7 @@ def export_sdf(
         world: Whether to write a world with ground and sun around it.
         fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` mends tensors that no rigid body has.
         mesh_dir: The folder of the meshes, relative to the model.
+        actuator_config: A TOML file with damping, friction and force range of joints.
         force: Whether to go on past errors where a robot is left.
         verify: Whether to read the result back and compare it; ``checks`` has what was found.
         overwrite: Whether to replace also what urdftool did not write.
@@ -64,8 +66,19 @@ def export_sdf(
         known = ", ".join(VERSIONS.get(target, ()))
         raise ConfigError(f"'{target}' does not read SDF {version}; it reads {known or 'nothing'}")
     folder, file = folder_and_file(output or robot.name or "robot")
+    config = None if actuator_config is None else Path(actuator_config)
     options = Options(
-        target, version, fixed_joints, uri, world, force, folder, file, mesh_dir, fix_inertia
+        target,
+        version,
+        fixed_joints,
+        uri,
+        world,
+        force,
+        folder,
+        file,
+        mesh_dir,
+        fix_inertia,
+        config,
     )
     written = write(robot, options)
     written.losses += check_plugins(robot, target)

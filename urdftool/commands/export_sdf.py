@@ -51,6 +51,13 @@ if TYPE_CHECKING:
     help="How meshes are named; with package and file none is copied.",
 )
 @click.option("--world", is_flag=True, help="Write a world with ground and sun around it.")
+@click.option(
+    "--actuator-config",
+    metavar="FILE",
+    type=Path,
+    help='TOML file: under [joints."NAME or PATTERN"] damping, friction, force-range; the same '
+    "file as for export mjcf.",
+)
 @fix_inertia_option
 @export_options(
     mesh_dir="meshes",
@@ -111,7 +118,7 @@ def command(
         place,
         single=bool(options.file),
         overwrite=overwrite,
-        inputs=sorted(sources(model)),
+        inputs=sorted([*sources(model), *filter(None, [str(options.actuator_config or "")])]),
         as_json=as_json,
     )
     checks = _verified(model, options, written, place) if verified else []
@@ -127,6 +134,7 @@ def _options(output: str, choices: dict[str, Any]) -> Options:
         known = ", ".join(VERSIONS[target])
         raise click.UsageError(f"{target} reads SDF {known}; {version} is for the other Gazebo")
     folder, file = folder_and_file(MODEL if output == "-" else output)
+    config = choices.pop("actuator_config")
     choices = {name: value or "" if value is None else value for name, value in choices.items()}
     if output == "-" and not choices["uri"]:
         choices["uri"] = "file"  # nothing can lie beside standard output
@@ -134,6 +142,7 @@ def _options(output: str, choices: dict[str, Any]) -> Options:
         version=version,
         folder=folder,
         file=file,
+        actuator_config=config,
         **choices,
     )
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 from ...finding import Severity
 from ...model.elements import Joint
 from ...model.pose import norm
+from ..actuator_config import JointSettings
 from ..defects import BALL_TYPES
 from ..numbers import number_text, numbers_text
 from .extensions import joint_extensions, note_dissolved_joint
 from .joint_base import axis_of, start
+from .joint_settings import effort_of
 from .planar import planar
 from .sensors import joint_sensors
 from .translation import Translation
@@ -68,13 +70,16 @@ def _axis(node: Node, t: Translation, part: Joint) -> None:
     limit = add(axis, "limit")
     _bounds(limit, t, part)
     _most(limit, t, part)
-    dynamics = part.dynamics
-    if dynamics is not None and (dynamics.damping is not None or dynamics.friction is not None):
+    settings = t.settings.get(part.name, JointSettings())
+    found = {
+        name: getattr(part.dynamics, name, None) if chosen is None else chosen
+        for name, chosen in (("damping", settings.damping), ("friction", settings.friction))
+    }
+    if any(value is not None for value in found.values()):
         made = add(axis, "dynamics")
-        if dynamics.damping is not None:
-            add(made, "damping", number_text(dynamics.damping))
-        if dynamics.friction is not None:
-            add(made, "friction", number_text(dynamics.friction))
+        for name, value in found.items():
+            if value is not None:
+                add(made, name, number_text(value))
     _mimic(axis, t, part)
 
 
@@ -104,10 +109,13 @@ def _bounds(node: Node, t: Translation, part: Joint) -> None:
 def _most(node: Node, t: Translation, part: Joint) -> None:
     """Effort and velocity: in SDF a negative number is no bound, in URDF it is one by its size."""
     limit = part.limit
+    chosen = t.settings.get(part.name, JointSettings()).force_range
+    if chosen is not None:
+        add(node, "effort", number_text(effort_of(chosen)))
     if limit is None:
         return
     for name, value in (("effort", limit.effort), ("velocity", limit.velocity)):
-        if value is None:
+        if value is None or (name == "effort" and chosen is not None):
             continue
         if value < 0:
             text = f"{name} limit of joint '{part.name}' is negative; its size is written"

@@ -55,6 +55,7 @@ class Options:
         file: The name of the file, where it is one file; empty for a folder.
         mesh_dir: Where meshes go, relative to the output.
         fix_inertia: What becomes of a tensor that no rigid body has.
+        actuator_config: A TOML file with damping, friction and force range of joints.
     """
 
     target: str = "gz"
@@ -67,6 +68,7 @@ class Options:
     file: str = ""
     mesh_dir: str = "meshes"
     fix_inertia: FixInertia = "none"
+    actuator_config: Path | None = None
 
     @property
     def classic(self) -> bool:

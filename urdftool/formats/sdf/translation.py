@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from ...finding import Severity
 from ...model.elements import Joint, Link, Part, Robot
 from ...source.document import Element
+from ..actuator_config import JointSettings
 from ..written import Written
 from .mesh_files import MeshFiles
 from .names import Names
@@ -24,6 +26,7 @@ class Translation:
     names: Names
     meshes: MeshFiles
     written: Written
+    settings: Mapping[str, JointSettings] = field(default_factory=dict)
 
     def lose(
         self,

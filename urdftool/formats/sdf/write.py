@@ -16,6 +16,7 @@ from ..written import Written
 from .config import config
 from .defects import inertia_defects, mesh_defects, written_defects
 from .forced import FATAL, INSTEAD, left_of, tree_defects
+from .joint_settings import joint_settings
 from .mesh_files import find_meshes
 from .model import model
 from .names import make_names, model_name
@@ -54,7 +55,8 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     refuse(found, force=options.force, fatal=FATAL)
     names = make_names(robot, anchored=plan.anchored)
     written = Written(options.file or MODEL, renamed=names.renamed)
-    t = Translation(robot, options, plan, names, meshes, written)
+    settings = joint_settings(robot, options, written)
+    t = Translation(robot, options, plan, names, meshes, written, settings)
     root = _root(options)
     node = model(root, t)
     _note_names(t)

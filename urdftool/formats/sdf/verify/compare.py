@@ -109,7 +109,8 @@ def pair_of(robot: Robot, written: Written, place: Path, options: Options | None
     made = read_model(where, place, find)
     excuses = excuses_of(written.losses, robot)
     options = options or Options()
-    return Pair(robot, mechanism_of(robot), made, written.renamed, excuses, options, where)
+    source = mechanism_of(robot, options.actuator_config)
+    return Pair(robot, source, made, written.renamed, excuses, options, where)
 
 
 def compare(pair: Pair) -> list[Check]:

@@ -25,6 +25,7 @@ from ....model.elements import (
     Visual,
 )
 from ....model.gltf_axes import is_gltf
+from ...actuator_config import JointSettings, read_actuator_config
 from .mechanism import Array, Body, Hinge, Mechanism, Shape, by_quaternion, matrix, turned
 
 KINDS = {
@@ -39,8 +40,13 @@ KINDS = {
 }
 
 
-def mechanism_of(robot: Robot) -> Mechanism:
-    """The mechanism of a robot of trees; a root named ``world`` is the world."""
+def mechanism_of(robot: Robot, actuator_config: Path | None = None) -> Mechanism:
+    """The mechanism of a robot of trees; a root named ``world`` is the world.
+
+    Args:
+        robot: The robot.
+        actuator_config: A file that sets damping, friction and force range of joints.
+    """
     made = Mechanism()
     anchored = base_of(robot) is None
     for link in robot.links:
@@ -51,7 +57,25 @@ def mechanism_of(robot: Robot) -> Mechanism:
             for shape in shapes:
                 getattr(made, kind).append(_shape(robot, link, shape))
     made.joints = [_hinge(joint) for joint in robot.joints]
+    if actuator_config is not None:
+        kinds = ("revolute", "prismatic", "continuous")
+        movable = [joint.name for joint in robot.joints if joint.type in kinds]
+        settings = read_actuator_config(actuator_config).for_joints(movable)
+        for hinge in made.joints:
+            _set(hinge.limits, settings.get(hinge.name))
     return made
+
+
+def _set(limits: dict[str, float], settings: JointSettings | None) -> None:
+    """Put what a user sets in the place of what the description says."""
+    if settings is None:
+        return
+    if settings.damping is not None:
+        limits["damping"] = settings.damping
+    if settings.friction is not None:
+        limits["friction"] = settings.friction
+    if settings.force_range is not None:
+        limits["effort"] = max(abs(bound) for bound in settings.force_range)
 
 
 def base_of(robot: Robot) -> str | None:

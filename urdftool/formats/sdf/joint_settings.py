@@ -1,0 +1,52 @@
+"""What an actuator file sets of joints, as far as SDF has a place for it."""
+
+from __future__ import annotations
+
+from ...finding import Severity
+from ...model.elements import Robot
+from ..actuator_config import JointSettings, read_actuator_config
+from ..numbers import number_text
+from ..written import Written
+from .options import Options
+
+_TYPES = ("revolute", "continuous", "prismatic")
+_OF_CONTROLLERS = ("kp", "kd", "armature", "type")
+
+
+def joint_settings(robot: Robot, options: Options, written: Written) -> dict[str, JointSettings]:
+    """Choose the settings of each joint that can move, by its name.
+
+    Gains and the kind of an actuator belong to a controller in Gazebo, and SDF has no armature:
+    what the file says of them is reported. An effort limit of SDF holds in both directions.
+
+    Raises:
+        ConfigError: The file cannot be read, or has settings of a joint that does not move.
+    """
+    if options.actuator_config is None:
+        return {}
+    names = [joint.name for joint in robot.joints if joint.type in _TYPES]
+    found = read_actuator_config(options.actuator_config).for_joints(names)
+    for name, settings in found.items():
+        texts = []
+        left = [word for word in _OF_CONTROLLERS if getattr(settings, word) is not None]
+        if left:
+            texts.append(f"{', '.join(left)} of joint '{name}' has no place in SDF")
+        low, high = settings.force_range or (0.0, 0.0)
+        if abs(low) != abs(high):
+            most = number_text(effort_of(settings.force_range))
+            texts.append(
+                f"force range of joint '{name}' is {low:g} to {high:g}; SDF gets {most} both ways"
+            )
+        if texts:
+            _lose(robot, name, "; ".join(texts), written)
+    return found
+
+
+def effort_of(force_range: tuple[float, float] | None) -> float:
+    """Return the effort limit of a force range [N·m or N]."""
+    return max(map(abs, force_range or (0.0,)))
+
+
+def _lose(robot: Robot, name: str, text: str, written: Written) -> None:
+    place = robot.joint[name].place
+    written.lose("actuator-config", text, place, kind="joint", name=name, severity=Severity.INFO)
