@@ -241,7 +241,12 @@ def _dressed(
         return surface
     material = gathering.materials.of(shape)
     bare = ~surface.colored
-    if material is None or not bare.any():
+    if not bare.any():
+        return surface
+    if material is None:
+        if (tint := gathering.materials.tint(shape)) != PLAIN:
+            surface.colors = surface.colors.copy()
+            surface.colors[bare] = tint
         return surface
     surface.colors = surface.colors.copy()
     surface.image = surface.image.copy()

@@ -10,6 +10,17 @@ PLAIN: Rgba = (0.76, 0.78, 0.80, 1.0)
 """What has no colour of its own."""
 
 
+TINTS: tuple[Rgba, ...] = (
+    PLAIN,
+    (0.60, 0.69, 0.80, 1.0),
+    (0.82, 0.73, 0.60, 1.0),
+    (0.64, 0.76, 0.66, 1.0),
+    (0.80, 0.65, 0.63, 1.0),
+    (0.70, 0.66, 0.80, 1.0),
+)
+"""Colors by which the links of a robot without any are told apart."""
+
+
 class Materials:
     """The materials of a robot, by name."""
 
@@ -25,6 +36,17 @@ class Materials:
         ):
             if material is not None and material.name and (material.color or material.texture):
                 self._defined.setdefault(material.name, material)
+        shown = [link for link in robot.links if link.visuals]
+        plain = not any(self.of(visual) for link in shown for visual in link.visuals)
+        self._tints = {
+            id(visual): TINTS[number % len(TINTS)]
+            for number, link in enumerate(shown if plain and len(shown) > 1 else [])
+            for visual in link.visuals
+        }
+
+    def tint(self, visual: Visual) -> Rgba:
+        """Choose a color for a visual without one: that of its link, in a robot without colors."""
+        return self._tints.get(id(visual), PLAIN)
 
     def of(self, visual: Visual) -> Material | None:
         """The material with the colour or image of a visual; None where it has neither."""
