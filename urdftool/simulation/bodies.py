@@ -12,8 +12,9 @@ from ..formats.mjcf.gazebo import joint_spring, link_is_weightless
 from ..inertia.lump import placed as moved
 from ..inertia.tensor import MassProperties, combine, tensor_from_six
 from ..model.elements import Joint, Link, Robot
-from ..model.kinematics import limits_of, link_poses, movable_joints, with_mimics
+from ..model.kinematics import limits_of, link_poses, movable_joints
 from ..model.pose import IDENTITY, Pose, pose_of
+from ..model.start import start_positions
 from .control import NONE
 from .recording import Array
 from .settings import Settings
@@ -159,7 +160,7 @@ def bodies_of(robot: Robot, settings: Settings) -> Bodies:
     top = _top(robot)
     made = _lumps(robot, settings, top)
     nailed = settings.fixed_base or _is_world(robot.link[top])
-    positions, clamped = start_positions(robot, settings)
+    positions, clamped = start_positions(robot, settings.pose)
     positions = {b.joint.name: positions[b.joint.name] for b in made if b.joint is not None}
     poses = link_poses(robot, positions)
     back = poses[top].inverse()
@@ -291,23 +292,6 @@ def joint_of(joint: Joint, robot: Robot) -> JointOf:
         stiffness,
         spring_rest,
     )
-
-
-def start_positions(robot: Robot, settings: Settings) -> tuple[dict[str, float], dict[str, float]]:
-    """Where each joint starts [rad, m], and those of them that zero is no place for."""
-    wanted = dict(settings.pose)
-    clamped = {}
-    for joint in robot.joints:
-        lower, upper = limits_of(joint)
-        free = joint.name not in wanted and joint.mimic is None
-        if free and joint.is_limited and lower <= upper and not lower <= 0.0 <= upper:
-            wanted[joint.name] = clamped[joint.name] = lower if lower > 0 else upper
-    found = with_mimics(robot, wanted)
-    for joint in robot.joints:
-        lower, upper = limits_of(joint)
-        if joint.mimic is not None and joint.name not in wanted and lower < upper:
-            found[joint.name] = min(max(found.get(joint.name, 0.0), lower), upper)
-    return found, clamped
 
 
 def actuated_joints(robot: Robot) -> set[str]:
