@@ -21,7 +21,7 @@ def test_links_without_color_are_told_apart(write):
     assert tints(write, "", "", "") == list(TINTS[:3])
 
 
-def test_with_many_links_the_tints_begin_anew(write):
+def test_with_many_links_the_tints_repeat(write):
     assert tints(write, *[""] * 7)[6] == TINTS[0]
 
 

@@ -93,7 +93,7 @@ def home_positions(
 
     Raises:
         ConfigError: The SRDF has no such state.
-        ModelError: There is no such joint, or it mimics another.
+        ModelError: The joint does not exist, or it mimics another.
     """
     robot = structure.robot
     check_positions(robot, pose)
