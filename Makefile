@@ -6,7 +6,8 @@ BIN    := $(VENV)/bin
 DEMO   := fixtures/robots/demo_arm/urdf/arm.urdf.xacro
 SOUND  := fixtures/robots/demo_arm/urdf/arm_sound.urdf.xacro
 
-.PHONY: demo test test-core test-programs test-all check format docs site bench bench-peers fidelity clean
+.PHONY: demo test test-core test-programs test-all check format docs site bench bench-peers fidelity record compare \
+  clean
 
 $(BIN)/urdftool: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -92,6 +93,14 @@ fuzz: $(VENV)/.dev
 platforms: $(VENV)/.dev
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check nox
 	$(BIN)/nox
+
+# what commands print and write: `make record` before a change, `make compare` after it
+record: $(VENV)/.dev
+	$(BIN)/python -m tests.record record build/record
+
+compare: $(VENV)/.dev
+	$(BIN)/python -m tests.record record build/record-now
+	$(BIN)/python -m tests.record compare build/record build/record-now
 
 clean:
 	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
