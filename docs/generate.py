@@ -25,10 +25,10 @@ from urdftool import cli
 from urdftool.finding import Severity
 from urdftool.report.file_diff import file_diff
 from urdftool.report.rule_pages import facts
-from urdftool.rules import RULES, all_rules, get_rule
+from urdftool.rules import all_rules, get_rule
 from urdftool.rules.effect_sources import effect_source
-from urdftool.rules.fix_table import FIX_FILE, FIXABLE
 from urdftool.rules.rule import TARGETS, Rule
+from urdftool.rules.table import FIXES, RULES
 
 DOCS = Path(__file__).resolve().parent
 FIXTURES = DOCS.parent / "fixtures" / "rules"
@@ -66,7 +66,7 @@ def rule_page(rule: Rule) -> str:
                 parts.append(f"## {title}\n\n```xml\n{text}\n```")
                 parts += _controllers(path)
                 break
-    if rule.name in FIXABLE:
+    if rule.name in FIXES:
         parts.append(fix_shown(rule.name))
     parts.append(
         f"Silence it where it is meant: `<!-- urdftool-ignore[{rule.name}] reason -->` "
@@ -85,8 +85,8 @@ def _controllers(path: Path) -> list[str]:
 
 def fix_shown(rule: str) -> str:
     """What the fix of a rule makes of a fixture, as a diff."""
-    option = "--fix" if FIXABLE[rule] == "safe" else "--fix --unsafe-fixes"
-    option += " --fix-meshes" if FIX_FILE[rule] == "mesh_files" else ""
+    option = "--fix" if FIXES[rule].applicability == "safe" else "--fix --unsafe-fixes"
+    option += " --fix-meshes" if FIXES[rule].writes_meshes else ""
     lines: list[str] = []
     found = sorted((FIXTURES / rule).glob("fixed*"), key=lambda path: (path.is_dir(), path.name))
     stem = found[0].name.split(".")[0]
@@ -99,7 +99,7 @@ def fix_shown(rule: str) -> str:
             bad = fixed.with_name(fixed.name.replace("fixed", "bad", 1))
             lines += _difference(bad, fixed, bad.name)
     text = "\n".join(line.rstrip() for line in lines)
-    how = f"`urdftool lint {option}`, which is {FIXABLE[rule]}:"
+    how = f"`urdftool lint {option}`, which is {FIXES[rule].applicability}:"
     return f"## Fixed\n\n{how}\n\n```diff\n{text}\n```"
 
 
@@ -155,7 +155,7 @@ def rule_index() -> str:
             rule = get_rule(name)
             off = "" if rule.default else " *(off)*"
             fact = _markdown(rule.fact).replace("|", "\\|")
-            fix = FIXABLE.get(name, "")
+            fix = FIXES[name].applicability if name in FIXES else ""
             lines.append(f"| [{name}]({name}.md) | {rule.severity.label} | {fact}{off} | {fix} |")
     lines += ["", "## Said by another rule", "", "| what | rule |", "|---|---|"]
     for what, rules in ELSEWHERE.items():

@@ -173,4 +173,5 @@ def test_rooms_neither_print_nor_exit(path):
 @pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
 def test_a_file_is_one_idea(path):
     assert path.stem not in ("utils", "util", "common", "helpers", "misc", "core")
-    assert len(path.read_text("utf-8").splitlines()) <= 500
+    text = path.read_text("utf-8")
+    assert len(text.splitlines()) <= 500 or "Written by ``python -m" in text

@@ -19,9 +19,9 @@ exit code in ``urdftool.cli`` alone::
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .source.location import Call, Place
@@ -39,6 +39,7 @@ class UrdftoolError(Exception):
         notes: Further lines for whoever wants to know more, such as the places searched.
         rule: The lint rule that says the same of a file that is linted, if there is one.
         case: What of that rule's effects on readers holds, as conditions of their keys.
+        data: Values that are known of it, by name; nothing reads them out of the message.
     """
 
     def __init__(
@@ -53,6 +54,7 @@ class UrdftoolError(Exception):
         notes: Sequence[str] = (),
         rule: str = "",
         case: str = "",
+        data: Mapping[str, Any] | None = None,
     ) -> None:
         """Take the facts; the text is made by ``str()``."""
         if at is not None:
@@ -69,6 +71,7 @@ class UrdftoolError(Exception):
         self.at = at
         self.rule = rule
         self.case = case
+        self.data: Mapping[str, Any] = data or {}
 
     @property
     def where(self) -> str:

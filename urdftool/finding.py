@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from .source.location import Call, Place
 
@@ -147,6 +148,7 @@ class Finding:
         cause: What may explain it.
         members: The findings that this one stands for, where several are reported as one.
         consequences: The findings that this one explains, which are listed under it.
+        data: Values that the rule knows, by name; nothing reads them out of the message.
     """
 
     rule: str
@@ -168,6 +170,7 @@ class Finding:
     cause: Cause | None = None
     members: list[Finding] = field(default_factory=list)
     consequences: list[Finding] = field(default_factory=list)
+    data: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def names(self) -> list[str]:

@@ -11,10 +11,10 @@ import pytest
 
 from tests.conftest import FIXTURES
 from urdftool.rules import FAMILY_OF
-from urdftool.rules.fix_table import FIX_FILE, FIXABLE, OPTIONS
+from urdftool.rules.table import FIXES
 
 RULES = FIXTURES / "rules"
-BAD = sorted(path for rule in FIXABLE for path in (RULES / rule).glob("bad*.urdf*"))
+BAD = sorted(path for rule in FIXES for path in (RULES / rule).glob("bad*.urdf*"))
 
 ALL = ("--unsafe-fixes", "--fix-meshes")
 
@@ -67,7 +67,7 @@ def test_bad_becomes_fixed(bad, folder, urdftool):
 @pytest.mark.parametrize("bad", BAD, ids=_name)
 def test_only_safe_fixes_without_unsafe_ones(bad, folder, urdftool):
     rule = bad.parent.name
-    if FIXABLE[rule] != "unsafe":
+    if FIXES[rule].applicability != "unsafe":
         return
     there = folder(rule)
     before = _files(there)
@@ -77,14 +77,13 @@ def test_only_safe_fixes_without_unsafe_ones(bad, folder, urdftool):
     assert "Nothing to fix." in result.err
 
 
-@pytest.mark.parametrize("rule", FIXABLE)
+@pytest.mark.parametrize("rule", FIXES)
 def test_a_rule_with_a_fix_has_one_that_is_shown(rule):
     assert rule in FAMILY_OF
-    assert FIXABLE[rule] in OPTIONS
-    assert FIX_FILE[rule]
+    assert FIXES[rule].applicability in ("safe", "unsafe", "safe or unsafe")
     assert list((RULES / rule).glob("fixed*")), f"{rule} has no fixed fixture"
 
 
 def test_nothing_is_fixed_by_a_rule_without_a_fix():
     there = {path.parent.name for path in RULES.glob("*/fixed*")}
-    assert there == set(FIXABLE)
+    assert there == set(FIXES)

@@ -16,12 +16,13 @@ from tests.conftest import CORPUS, FIXTURES, XACRO
 from tests.lint.engine_views import ENGINES
 from tests.lint.fix_safety import Bench
 from urdftool.lint.discover import find_descriptions
-from urdftool.rules.fix_table import FIXABLE, UNSAFE
+from urdftool.rules.rule import UNSAFE
+from urdftool.rules.table import FIXES
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="waits for pipes")
 
 RULES = FIXTURES / "rules"
-SAFE = sorted(rule for rule, how in FIXABLE.items() if how != UNSAFE)
+SAFE = sorted(rule for rule, traits in FIXES.items() if traits.applicability != UNSAFE)
 BAD = sorted(
     path
     for rule in SAFE

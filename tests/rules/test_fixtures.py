@@ -14,11 +14,13 @@ from pathlib import Path
 
 import pytest
 
+from tests import rule_table
 from urdftool.lint.outcome import Options
 from urdftool.lint.run import lint_file
 from urdftool.lint.settings import Settings
-from urdftool.rules import FAMILY_OF, RULES, get_rule
+from urdftool.rules import FAMILY_OF, get_rule
 from urdftool.rules.rule import Rule
+from urdftool.rules.table import RULES
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "rules"
 
@@ -95,3 +97,7 @@ def test_no_fixture_without_a_rule():
 def test_no_name_twice():
     names = [n for files in RULES.values() for group in files.values() for n in group]
     assert len(names) == len(set(names))
+
+
+def test_the_table_of_rules_is_that_of_the_decorators():
+    assert rule_table.TABLE.read_text("utf-8") == rule_table.text(), "python -m tests.rule_table"

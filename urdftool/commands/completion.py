@@ -33,7 +33,7 @@ def complete_text(
 
 def _names(metavar: str) -> list[str]:
     if metavar in ("RULE", "RULES"):
-        from ..rules import RULES
+        from ..rules.table import RULES
 
         rules = [name for groups in RULES.values() for group in groups.values() for name in group]
         return rules if metavar == "RULE" else [*RULES, *rules]

@@ -10,9 +10,11 @@ from typing import Any, NamedTuple
 from ..extras import missing_library
 from ..finding import Finding, Fix, Replacement
 from ..model.elements import Robot
-from ..rules.fix_table import FIX_FILE, FIXABLE
-from ..rules.fixes.proposal import Around, Proposal, RefusedError, source_of
+from ..rules import get_rule
+from ..rules.fix import FixContext, Proposal, RefusedError
+from ..rules.fix_table import FIX_FILE
 from ..rules.rule import Problem
+from ..rules.table import FIXES
 from ..source.description import Description
 from ..source.document import Document
 from .fix_settle import Settler
@@ -25,9 +27,6 @@ class Origin(NamedTuple):
     problem: Problem
     document: Document | None
 
-
-FROM_BYTES = "failures"
-"""The file of fixers that have nothing but the finding and the bytes."""
 
 DOUBTED_SIZES = frozenset(("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line"))
 """Rules that doubt how large a mesh is: nothing is weighed by meshes while one of them speaks."""
@@ -55,20 +54,20 @@ def add_fixes(
     """
     groups: dict[tuple[Any, ...], list[Finding]] = {}
     for finding in findings:
-        if finding.rule in FIXABLE:
+        if finding.rule in FIXES:
             place = finding.place
             key: tuple[Any, ...] = (finding.rule, place.path, place.start, place.end)
             groups.setdefault(key if place.calls else (*key, finding.message), []).append(finding)
     if not groups:
         return
     settler = Settler(description)
-    around = Around(robot or Robot(description.document.root), description, report.targets)
+    context = FixContext(robot or Robot(description.document.root), description, report.targets)
     if not any(finding.rule in DOUBTED_SIZES for finding in findings):
-        around.weigh = options.weigh
+        context.compute_inertia = options.weigh
     for group in groups.values():
         name = group[0].rule
         try:
-            proposals = [_proposal(finding, origins.get(id(finding)), around) for finding in group]
+            proposals = [_proposal(finding, origins.get(id(finding)), context) for finding in group]
             whole = [proposal for proposal in proposals if proposal is not None]
             if len(whole) < len(proposals) or not whole:
                 continue
@@ -86,7 +85,6 @@ def add_fixes(
         if replacements or remakes:
             safe = all(proposal.safe for proposal in whole) and not _lost_comments(replacements)
             group[0].fix = Fix(safe, whole[0].message, replacements, remakes)
-    source_of.cache_clear()
 
 
 _COMMENT = re.compile(rb"<!--(?!\s*urdftool-).*?-->", re.DOTALL)
@@ -102,15 +100,18 @@ def _lost_comments(replacements: Sequence[Replacement]) -> bool:
     )
 
 
-def _proposal(finding: Finding, origin: Origin | None, around: Around) -> Proposal | None:
-    if (origin is None) != (FIX_FILE[finding.rule] == FROM_BYTES):
-        return None  # a rule's finding in a file that could not be expanded
-    module = import_module(f"..rules.fixes.{FIX_FILE[finding.rule]}", __package__)
-    fixer = getattr(module, finding.rule.replace("-", "_"))
-    found: Proposal | None
+def _proposal(finding: Finding, origin: Origin | None, context: FixContext) -> Proposal | None:
+    """Ask the rule of a finding for a fix.
+
+    A rule's finding in a file that could not be expanded is fixed by the fixes of files alone.
+    """
+    if (origin is None) != FIXES[finding.rule].of_file:
+        return None
+    make = get_rule(finding.rule).make_fix
+    if make is None:
+        module = import_module(f"..rules.fixes.{FIX_FILE[finding.rule]}", __package__)
+        make = getattr(module, finding.rule.replace("-", "_"))
     if origin is None:
-        found = fixer(finding)
-    else:
-        around.document, around.severity = origin.document, finding.severity
-        found = fixer(origin.problem, around)
-    return found
+        return make(finding, context)
+    context.document, context.severity = origin.document, finding.severity
+    return make(origin.problem, context)

@@ -19,8 +19,8 @@ from typing import NamedTuple
 
 from ..errors import UrdftoolError
 from ..finding import Finding, Remake
-from ..rules.fix_table import FIX_FILE
 from ..rules.fixes.remakes import remade
+from ..rules.table import FIXES
 from ..source.document import reading_instead
 from ..source.nearby import bytes_of
 from .fix_proof import REVEALING, Key, Wrong, key_of, likeness, subject_of, worse
@@ -210,7 +210,7 @@ class _Round:
             for one in part:
                 key: object = likeness(one.finding)
                 if key not in self.doubted:
-                    key = one.finding.rule in REVEALING, FIX_FILE[one.finding.rule] == "renames"
+                    key = one.finding.rule in REVEALING, FIXES[one.finding.rule].renames
                 groups.setdefault(key, []).append(one)
             for some in sorted(groups.values(), key=len, reverse=True):
                 self._halve(self._current(some))

@@ -15,7 +15,7 @@ from itertools import pairwise
 
 from ..errors import SourceError
 from ..finding import Remake, Replacement
-from ..rules.fixes.proposal import Change, Proposal, RefusedError, Span, source_of
+from ..rules.fix import Change, Proposal, RefusedError, Span
 from ..source import edit
 from ..source.description import Description
 from ..source.document import STDIN, Element
@@ -103,7 +103,7 @@ class Settler:
         if file.path not in self.sources:
             self._check_file(file)
             try:
-                self.sources[file.path] = source_of(file)
+                self.sources[file.path] = file.editable()
             except SourceError as error:
                 raise RefusedError(error.message) from None
         return self.sources[file.path]

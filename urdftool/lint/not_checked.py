@@ -105,6 +105,7 @@ def finding_of(
         effects=_effects_of(rule, failure),
         hint="; ".join(failure.notes),
         unchecked=unchecked,
+        data=failure.data,
     )
 
 

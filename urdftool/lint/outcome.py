@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 
 from ..errors import UrdftoolError
 from ..finding import Finding
-from ..rules.fix_table import Weigh
 from ..source.description import GltfUp
 from .settings import Settings
 
 if TYPE_CHECKING:
+    from ..rules.fix import ComputeInertia
     from .cache import Cache
 
 
@@ -41,7 +41,7 @@ class Options:
     config: str | None = None
     cache: Cache | None = None
     fixes: bool = False
-    weigh: Weigh | None = None
+    weigh: ComputeInertia | None = None
     gltf_up: GltfUp | None = None
 
 

@@ -14,9 +14,9 @@ from ..finding import Cause, Finding, Group, Severity, Site
 from ..inputs import listen
 from ..model.elements import Robot
 from ..model.read import read_robot
-from ..rules import ONLY_WITH, speaks_of
-from ..rules.fix_table import FIXABLE
+from ..rules import applies_to
 from ..rules.rule import Problem, Rule
+from ..rules.table import APPLIES_TO, FIXES
 from ..source.description import Description, GltfUp, is_xacro, read_description
 from ..source.document import Document, Element, parse, read_file
 from ..source.location import SourceFile
@@ -277,17 +277,17 @@ def _check_description(
                 findings.append(finding)
                 if finding.effects:
                     rejections.add(rule.name, problem.effects or rule.effects)
-                if options.fixes and rule.name in FIXABLE:
+                if options.fixes and rule.name in FIXES:
                     origins[id(finding)] = problem, subjects["document"]
     suppressions, wrong = read_suppressions(documents)
     if suppressions or wrong:
         findings, report.ignored = suppress(findings, suppressions)
         selected = set(settings.names())
         tags = _tags(description)
-        idle = {name for name in selected if not speaks_of(name, tags)}
+        idle = {name for name in selected if not applies_to(name, tags)}
         stale = unused(suppressions, ran | idle) if robot is not None else ()
         findings += [f for f in (*wrong, *stale) if f.rule in selected]
-    if options.fixes and any(f.rule in FIXABLE for f in findings):
+    if options.fixes and any(f.rule in FIXES for f in findings):
         from .fix import Origin, add_fixes
 
         made = {number: Origin(*origin) for number, origin in origins.items()}
@@ -297,7 +297,7 @@ def _check_description(
 
 
 _chosen: dict[tuple[int, frozenset[str], frozenset[str]], tuple[Settings, list[Rule]]] = {}
-_TELLING = frozenset(tag for tags in ONLY_WITH.values() for tag in tags)
+_TELLING = frozenset(tag for tags in APPLIES_TO.values() for tag in tags)
 
 
 def _rules(settings: Settings, targets: frozenset[str], description: Description) -> list[Rule]:
@@ -386,6 +386,7 @@ def _finding(
         site=_site(problem.element),
         group=Group(rule.group, problem.group) if rule.group else None,
         cause=Cause(causes, _site(problem.cause_element)) if causes else None,
+        data=problem.data,
     )
 
 

@@ -12,7 +12,7 @@ from typing import Any
 from ..configuration import Configuration
 from ..errors import ConfigError
 from ..finding import Severity
-from ..rules import FAMILIES, FAMILY_OF, get_rule, speaks_of
+from ..rules import FAMILIES, FAMILY_OF, applies_to, get_rule
 from ..rules.rule import TARGETS, Rule
 
 _LISTS = ("select", "ignore", "extend-select", "targets")
@@ -61,7 +61,7 @@ class Settings:
         named = {*(self.select or ()), *self.extend_select}
         chosen = []
         for name in self.names():
-            if speaks_of(name, tags):
+            if applies_to(name, tags):
                 rule = get_rule(name)
                 if name in named or (rule.default and rule.is_on_for(targets)):
                     chosen.append(rule)

@@ -9,7 +9,7 @@ import click
 
 from ..finding import Finding, Severity
 from ..lint.outcome import Outcome
-from ..rules.fix_table import FIXABLE
+from ..rules.table import FIXES
 from .counted import counted
 from .findings_words import call_lines, member_lines, remarks, sentence
 from .findings_words import clean as clean
@@ -133,7 +133,7 @@ def statistics(outcome: Outcome) -> Iterator[str]:
     for key, count in sorted(counts.items(), key=lambda kv: (-kv[1], kv[0][0])):
         rule, severity = key
         several = f", {places[key]} places" if places[key] > count else ""
-        fixable = f" (fix: {FIXABLE[rule]})" if rule in FIXABLE else ""
+        fixable = f" (fix: {FIXES[rule].applicability})" if rule in FIXES else ""
         yield f"{count:>6}  {severity.label:<8} {rule}{several}{fixable}"
     if outcome.not_checked:
         yield f"{len(outcome.not_checked):>6}  error    {NOT_CHECKED} (a file without its robot)"

@@ -8,7 +8,7 @@ from itertools import chain
 
 from ..finding import Finding, Severity
 from ..rules import FAMILY_OF
-from ..rules.fix_table import FIX_FILE, FIXABLE, UNSAFE
+from ..rules.table import FIXES
 from .counted import counted
 from .findings import concise, full, severity_counts
 
@@ -128,7 +128,7 @@ def advice(findings: Sequence[Finding]) -> Iterator[str]:
         if options:
             fixes = [f.fix.option for f in findings if f.rule == rule and f.fix is not None]
         else:  # nobody has asked for fixes
-            fixes = [_option(rule)] if rule in FIXABLE else []
+            fixes = [FIXES[rule].option] if rule in FIXES else []
         fix = f"{min(fixes, key=len)}, or " if fixes else ""
         yield f"  {count:>4}  {rule:<{width}}  {fix}--ignore {rule}"
     if safe:
@@ -138,9 +138,3 @@ def advice(findings: Sequence[Finding]) -> Iterator[str]:
         yield f"--fix --unsafe-fixes --diff shows {what}{' as well' if safe else ''}"
     if meshes:
         yield f"--fix-meshes adds {counted(meshes, 'fix', 'fixes')} of mesh files"
-
-
-def _option(rule: str) -> str:
-    """What applies the fixes of a rule, where it is not known of each finding."""
-    unsafe = " --unsafe-fixes" if FIXABLE[rule] == UNSAFE else ""
-    return f"--fix{unsafe}" + (" --fix-meshes" if FIX_FILE[rule] == "mesh_files" else "")

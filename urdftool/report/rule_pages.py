@@ -8,8 +8,8 @@ from ..errors import ConfigError
 from ..lint.settings import nearest_rule
 from ..rules import FAMILY_OF, all_rules, get_rule
 from ..rules.effect_sources import effect_source
-from ..rules.fix_table import FIXABLE, options_of
 from ..rules.rule import Rule
+from ..rules.table import FIXES
 
 
 def rule_list() -> str:
@@ -22,7 +22,7 @@ def rule_list() -> str:
             family = rule.family
             lines.append(f"{family}:")
         off = "" if rule.default else " (off)"
-        fix = f" [fix: {FIXABLE[rule.name]}]" if rule.name in FIXABLE else ""
+        fix = f" [fix: {FIXES[rule.name].applicability}]" if rule.name in FIXES else ""
         fact = plain(rule.fact)
         lines.append(f"  {rule.name:<{width}}  {rule.severity.label:<7}  {fact}{off}{fix}")
     return "\n".join(lines) + "\n"
@@ -63,8 +63,8 @@ def facts(rule: Rule) -> list[tuple[str, str]]:
     if not rule.default:
         on = f"when selected (--extend-select {rule.name})"
     found = [("Severity", severity), ("On", on)]
-    if rule.name in FIXABLE:
-        found.append(("Fix", options_of(rule.name)))
+    if rule.name in FIXES:
+        found.append(("Fix", FIXES[rule.name].described))
     for threshold, default in rule.thresholds.items():
         found.append(("Threshold", f"{threshold.replace('_', '-')} = {default:g}"))
     return found

@@ -1,30 +1,47 @@
-"""What a fix is made of: changes to elements, as they are after expansion.
+"""Describe fixes as changes to elements of the expanded robot.
 
-Changes are said of the robot's elements. Where in the source they are made, and whether they may
-be, is worked out from what the elements know of their origin.
+A fix stands beside its rule::
+
+    @zero_axis.fix(UNSAFE)
+    def write_z_axis(problem: Problem, context: FixContext) -> Proposal | None:
+
+It takes its values from ``problem.data``, never from the message, and returns None where this case
+is not fixed. Changes name elements of the expanded robot; :mod:`urdftool.lint.fix_settle` works
+out which bytes of the source they are, and whether they may change. Helpers that look at the source
+as it is written (:func:`is_computed`, :func:`may_vary`) parse it only when called.
+
+A fix is *safe* if everything that reads the robot has the same kinematics, masses, inertia,
+collision shapes, limits and control afterwards, or could not read them before;
+``tests/lint/test_fix_safe.py`` loads robots before and after. All others are *unsafe*: they invent
+or remove physics, guess what was meant, change what one reader loads, or remove comments.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ...finding import Remake, Severity
-from ...model.elements import Joint, Link, Robot
-from ...source.description import Description
-from ...source.document import Document, Element
-from ...source.edit import Source, literal, parsed
-from ...source.location import Place, SourceFile
-from ..fix_table import Weigh
-from ..rule import Problem
-from ..words import fold
-from ..xml.vocabulary_table import meant as the_word_for
+from ..finding import Finding, Remake, Severity
+from ..model.elements import Joint, Link, Robot
+from ..source.description import Description
+from ..source.document import Document, Element
+from ..source.location import Place, SourceFile
+from .rule import Problem
+from .words import fold
+
+if TYPE_CHECKING:
+    from ..model.elements import Vector
+    from ..model.tensor3 import Six
+
+    ComputeInertia = Callable[[Robot, Sequence[str]], "dict[str, tuple[float, Vector, Six]]"]
+else:
+    ComputeInertia = Callable
 
 Lines = tuple[str, ...]
-"""An element to be written: its lines, each level of it indented by one tab."""
+"""Lines of an element to write; each level of nesting is indented by one tab."""
 
 
 class Change(NamedTuple):
@@ -33,12 +50,12 @@ class Change(NamedTuple):
     Attributes:
         kind: ``set``, ``unset``, ``rename`` (an attribute), ``retag``, ``text``, ``remove``,
             ``insert`` (a child, last), ``first`` (a child, first), ``after``, ``replace``,
-            ``sub`` (in an attribute as it is written), ``sub-text``.
+            ``sub`` (in an attribute as written), ``sub-text``.
         element: The element.
         name: The attribute.
-        value: Its new value, the new tag or text; what a pattern becomes.
-        pattern: What is replaced by ``sub``.
-        blocks: The elements that come.
+        value: New value, tag or text; the replacement for a pattern.
+        pattern: Regular expression of ``sub`` and ``sub-text``.
+        blocks: Elements to write.
     """
 
     kind: str
@@ -50,16 +67,16 @@ class Change(NamedTuple):
 
     @property
     def what(self) -> tuple[Any, ...]:
-        """All of it but the element."""
+        """All fields but the element."""
         return self.kind, self.name, self.value, self.pattern, self.blocks
 
 
 class RefusedError(Exception):
-    """A change that is not made; its text says why."""
+    """A change cannot be made; the text says why."""
 
 
 class Span(NamedTuple):
-    """Bytes of a file that become others, where no element is concerned."""
+    """Bytes of a file to replace, where no element is concerned."""
 
     file: SourceFile
     start: int
@@ -69,11 +86,11 @@ class Span(NamedTuple):
 
 @dataclass(frozen=True)
 class Proposal:
-    """What mends a problem.
+    """Changes that fix a problem.
 
     Attributes:
-        safe: As :class:`~urdftool.finding.Fix`.
-        message: What is done, in words.
+        safe: As in :class:`~urdftool.finding.Fix`.
+        message: Description of the changes: ``write xyz="0 0 1"``.
         changes: All of them are made, or none.
     """
 
@@ -83,121 +100,130 @@ class Proposal:
 
 
 @dataclass
-class Around:
-    """What there is to know of the robot.
+class FixContext:
+    """What a fix may look at besides its problem.
 
     Attributes:
         robot: The robot.
         description: The description with its files.
-        targets: The active targets.
-        document: The file of the source, for rules that look at each.
-        weigh: As in the options; None where inertia is not to be computed from meshes.
-        severity: How much the finding matters.
+        targets: Active targets.
+        document: File of the source, for rules that look at each.
+        compute_inertia: Computes mass properties of links from their meshes; None where mesh sizes
+            are in doubt.
+        severity: Severity of the finding.
     """
 
     robot: Robot
     description: Description
     targets: frozenset[str]
     document: Document | None = None
-    weigh: Weigh | None = None
+    compute_inertia: ComputeInertia | None = None
     severity: Severity = Severity.ERROR
 
     _nearby: list[Any] | None = None
 
-    def nearby(self, look: Callable[[Around], list[Any]]) -> list[Any]:
-        """The files around the description, listed once."""
+    def nearby(self, look: Callable[[FixContext], list[Any]]) -> list[Any]:
+        """List the files around the description, once."""
         if self._nearby is None:
             self._nearby = look(self)
         return self._nearby
 
     @cached_property
     def texts(self) -> str:
-        """All texts of the robot's elements, where plugins and sensors name things."""
+        """Text of all elements, where plugins and sensors refer to names."""
         return "\n".join(one.text for one in self.robot.element.walk() if one.text)
 
     def joint(self, problem: Problem) -> Joint:
-        """The joint a problem is about."""
+        """Get the joint that a problem is about."""
         assert isinstance(problem.subject, Joint)
         return problem.subject
 
     def link(self, problem: Problem) -> Link:
-        """The link a problem is about."""
+        """Get the link that a problem is about."""
         assert isinstance(problem.subject, Link)
         return problem.subject
 
 
+MakeFix = Callable[[Problem, FixContext], Proposal | None]
+MakeFixOfFile = Callable[[Finding, FixContext], Proposal | None]
+
+
 def safe(message: str, *changes: Change | Span | Remake) -> Proposal:
-    """A proposal of a safe fix."""
+    """Propose a safe fix."""
     return Proposal(True, message, changes)
 
 
 def unsafe(message: str, *changes: Change | Span | Remake) -> Proposal:
-    """A proposal of an unsafe fix."""
+    """Propose an unsafe fix."""
     return Proposal(False, message, changes)
 
 
-def put(element: Element, name: str, value: str) -> Change:
-    """Give an attribute a value."""
+def set_attribute(element: Element, name: str, value: str) -> Change:
+    """Set an attribute."""
     return Change("set", element, name, value)
 
 
-def drop(element: Element, name: str) -> Change:
-    """Take an attribute away."""
+def remove_attribute(element: Element, name: str) -> Change:
+    """Remove an attribute."""
     return Change("unset", element, name)
 
 
-def rename(element: Element, name: str, new: str) -> Change:
-    """Call an attribute otherwise."""
+def rename_attribute(element: Element, name: str, new: str) -> Change:
+    """Rename an attribute."""
     return Change("rename", element, name, new)
 
 
-def retag(element: Element, tag: str) -> Change:
-    """Call an element otherwise."""
+def rename_element(element: Element, tag: str) -> Change:
+    """Change the tag of an element."""
     return Change("retag", element, value=tag)
 
 
-def say(element: Element, text: str) -> Change:
-    """Give an element without children another text."""
+def set_text(element: Element, text: str) -> Change:
+    """Set the text of an element without children."""
     return Change("text", element, value=text)
 
 
-def remove(element: Element) -> Change:
-    """Take an element away."""
+def remove_element(element: Element) -> Change:
+    """Remove an element."""
     return Change("remove", element)
 
 
-def insert(parent: Element, *lines: str) -> Change:
-    """Put an element into another, as the last of its children."""
+def append_child(parent: Element, *lines: str) -> Change:
+    """Add an element as the last child of another."""
     return Change("insert", parent, blocks=(lines,))
 
 
-def first(parent: Element, *lines: str) -> Change:
-    """Put an element into another, in front of its children."""
+def prepend_child(parent: Element, *lines: str) -> Change:
+    """Add an element as the first child of another."""
     return Change("first", parent, blocks=(lines,))
 
 
-def after(element: Element, *lines: str) -> Change:
-    """Put an element behind another."""
+def insert_after(element: Element, *lines: str) -> Change:
+    """Add an element behind another."""
     return Change("after", element, blocks=(lines,))
 
 
-def replace(element: Element, *blocks: Lines) -> Change:
-    """Put elements in the place of another."""
+def replace_element(element: Element, *blocks: Lines) -> Change:
+    """Replace an element by others."""
     return Change("replace", element, blocks=blocks)
 
 
-def sub(element: Element, name: str, pattern: str, new: str) -> Change:
-    """Replace what a pattern finds in an attribute as it is written, expressions and all."""
+def substitute(element: Element, name: str, pattern: str, new: str) -> Change:
+    """Replace matches of a pattern in an attribute as written, expressions included."""
     return Change("sub", element, name, new, pattern)
 
 
-def sub_text(element: Element, pattern: str, new: str) -> Change:
-    """The same in the text of an element."""
+def substitute_text(element: Element, pattern: str, new: str) -> Change:
+    """Replace matches of a pattern in the text of an element as written."""
     return Change("sub-text", element, value=new, pattern=pattern)
 
 
 def attribute_at(problem: Problem, root: Element | None = None) -> tuple[Element, str] | None:
-    """The element and attribute that a problem points at; None where it points at neither."""
+    """Find the element and attribute that a problem points at.
+
+    Returns:
+        None where it points at no attribute.
+    """
     found = element_at(problem, root)
     if found is None:
         return None
@@ -209,7 +235,12 @@ def attribute_at(problem: Problem, root: Element | None = None) -> tuple[Element
 
 
 def element_at(problem: Problem, root: Element | None = None) -> Element | None:
-    """The element whose start tag a problem points into."""
+    """Find the element whose start tag a problem points into.
+
+    Args:
+        problem: The problem.
+        root: Element to search; that of the problem's subject if None.
+    """
     at = problem.at
     if isinstance(at, Element):
         return at
@@ -224,68 +255,52 @@ def element_at(problem: Problem, root: Element | None = None) -> Element | None:
     return None
 
 
-_MEANT = re.compile(r"did you mean '([^']*)'\?")
-_WRITE = re.compile(r"; write '?<?([^\s'<>,;]+?)>?'?(?:$|[,;])")
+def is_close_enough(right: str, wrong: str) -> bool:
+    """Tell whether a suggested word is near enough to be written by a fix.
 
-
-def meant(problem: Problem, wrong: str) -> str:
-    """What a message asks whether it was meant; empty where it does not, or it is far-fetched.
-
-    For a fix it must be nearer than for a question: a slip or two, and none in a digit.
-
-    Args:
-        problem: What says so.
-        wrong: What is written.
+    It must be nearer than for a question: a slip or two, and none in a digit.
     """
-    match = _MEANT.search(problem.message)
-    if match is None:
-        return ""
-    right = match[1]
+    from .xml.vocabulary_table import meant
+
     if fold(right) == fold(wrong):
-        return right
-    if re.findall(r"\d+", right) != re.findall(r"\d+", wrong):
-        return ""
-    return right if the_word_for(wrong, [right]) else ""
+        return True
+    return re.findall(r"\d+", right) == re.findall(r"\d+", wrong) and bool(meant(wrong, [right]))
 
 
-def to_write(problem: Problem) -> str:
-    """The one word that a message says to write; empty where it says no such thing."""
-    match = _WRITE.search(problem.message)
-    return match[1] if match else ""
-
-
-def figures(values: Iterable[float], digits: int = 9) -> str:
-    """Numbers as text: no more digits than wanted, and no ``-0``."""
+def format_numbers(values: Iterable[float], digits: int = 9) -> str:
+    """Format numbers with at most so many significant digits, and without ``-0``."""
     return " ".join(f"{value + 0.0:.{digits}g}" for value in values)
 
 
-def quote(text: str) -> str:
-    """Text for an attribute in double quotes, or between tags."""
-    for plain, written in (("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ('"', "&quot;")):
-        text = text.replace(plain, written)
+def escape_attribute(text: str) -> str:
+    """Escape text for an attribute in double quotes, or between tags."""
+    for plain, escaped in (("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ('"', "&quot;")):
+        text = text.replace(plain, escaped)
     return text
 
 
-def written(element: Element, name: str) -> str:
-    """An attribute as it is written, expressions and all: for what is put beside it."""
-    raw = source_of(element.file).elements.get(element.start)
+def written_value(element: Element, name: str) -> str:
+    """Get an attribute as written, expressions included."""
+    from ..source.edit import literal
+
+    raw = element.file.editable().elements.get(element.start)
     return (literal(raw, name) if raw is not None else None) or element.get(name) or ""
 
 
 def is_computed(element: Element, name: str = "name") -> bool:
-    """Whether an attribute comes from an expression, so that it is another with other arguments."""
-    return "$" in written(element, name)
+    """Tell whether an attribute comes from an expression, so that arguments may change it."""
+    return "$" in written_value(element, name)
 
 
 def may_vary(element: Element) -> bool:
     """Tell whether other arguments may put other children into an element than it has now."""
-    raw = source_of(element.file).elements.get(element.start)
+    raw = element.file.editable().elements.get(element.start)
     return raw is None or any(one.tag.startswith("xacro:") for one in raw.walk())
 
 
 def is_always_there(element: Element) -> bool:
     """Tell whether an element is there whatever the arguments are, and once."""
-    raw = source_of(element.file).elements.get(element.start)
+    raw = element.file.editable().elements.get(element.start)
     if raw is None or any(call.macro for call in element.calls):
         return False
     parent = raw.parent
@@ -294,18 +309,18 @@ def is_always_there(element: Element) -> bool:
     return parent is None
 
 
-def stands_in(inner: Element, outer: Element) -> bool:
-    """Whether an element is written inside another, and not put there by a call."""
-    raw = source_of(outer.file).elements.get(outer.start)
+def is_written_inside(inner: Element, outer: Element) -> bool:
+    """Tell whether an element is written inside another, and not put there by a call."""
+    raw = outer.file.editable().elements.get(outer.start)
     return raw is not None and inner.file is outer.file and raw.start <= inner.start < raw.end
 
 
-def depends_on_a_call(element: Element, *parts: str) -> bool:
-    """Whether an element comes from a macro, and what is in it from the arguments of its call.
+def depends_on_arguments(element: Element, *parts: str) -> bool:
+    """Tell whether an element comes from a macro, and its content from the arguments of the call.
 
     Args:
         element: The element.
-        parts: Tags of what matters in it, with all below them.
+        parts: Tags of the children that matter, with all below them; every child if none.
     """
     if not any(call.macro for call in element.calls):
         return False
@@ -313,26 +328,29 @@ def depends_on_a_call(element: Element, *parts: str) -> bool:
         if parts and child.tag not in parts:
             continue
         for one in child.walk():
-            if not stands_in(one, element) or any(is_computed(one, n) for n in one.attributes):
+            if not is_written_inside(one, element):
+                return True
+            if any(is_computed(one, name) for name in one.attributes):
                 return True
     return False
 
 
-def same(a: Element, b: Element) -> bool:
-    """Whether two elements say the same."""
+def are_equal_elements(a: Element, b: Element) -> bool:
+    """Tell whether two elements have the same tag, attributes, text and children."""
     return (
         (a.tag, a.attributes, a.text.split()) == (b.tag, b.attributes, b.text.split())
         and len(a.children) == len(b.children)
-        and all(map(same, a.children, b.children))
+        and all(map(are_equal_elements, a.children, b.children))
     )
 
 
-def lines_of(element: Element) -> Iterator[str]:
-    """An element as it is written, comments and expressions and all, for one that comes elsewhere.
+def written_lines(element: Element) -> Iterator[str]:
+    """Get the lines of an element as written, comments and expressions included.
 
-    The elements in it are indented by tabs, as many as they are deep.
+    Yields:
+        Lines, indented by one tab a level.
     """
-    source = source_of(element.file)
+    source = element.file.editable()
     raw = source.elements[element.start]
     text = element.file.data[raw.start : raw.end].decode(element.file.encoding)
     own = len((source.indentation(raw) or b"").expandtabs(8))
@@ -344,13 +362,3 @@ def lines_of(element: Element) -> Iterator[str]:
         if bare:
             deep = len(line[: len(line) - len(bare)].expandtabs(8)) - own
             yield "\t" * max(0, round(deep / step)) + bare
-
-
-@lru_cache(maxsize=8)
-def source_of(file: SourceFile) -> Source:
-    """A file as it is written, parsed once for all that ask.
-
-    Raises:
-        SourceError: It is in an encoding that is not edited.
-    """
-    return parsed(file)

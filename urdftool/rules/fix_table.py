@@ -1,34 +1,8 @@
-"""Which rules have fixes, and where: what may be known of them without importing them.
-
-A fix is *safe* if everything that reads the robot has the same kinematics, masses, inertia,
-collision shapes, limits and control afterwards, or could not read them before;
-``tests/lint/test_fix_safe.py`` loads robots before and after. All others are *unsafe*: they invent
-or remove physics, guess what was meant, change what one reader loads, or take comments away. Some
-rules have both, depending on the case. Rules of the file ``mesh_files`` write meshes, which an
-option of its own asks for.
-"""
+"""Fixes that do not stand beside their rules yet, by the file in ``fixes``."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from ..model.elements import Robot, Vector
-    from ..model.tensor3 import Six
-
-    Weigh = Callable[[Robot, Sequence[str]], "dict[str, tuple[float, Vector, Six]]"]
-else:
-    Weigh = Callable
-
-SAFE, UNSAFE, BOTH = "safe", "unsafe", "safe or unsafe"
-
-OPTIONS = {
-    SAFE: "safe (--fix)",
-    UNSAFE: "unsafe (--fix --unsafe-fixes)",
-    BOTH: "safe (--fix) in some cases, unsafe (--fix --unsafe-fixes) in others",
-}
-"""Applicability with what applies it."""
+from .rule import BOTH, SAFE, UNSAFE
 
 FIXES: dict[str, dict[str, str]] = {
     "failures": {
@@ -255,14 +229,5 @@ FIXES: dict[str, dict[str, str]] = {
 }
 """Applicability by rule, by the file in ``fixes``."""
 
-FIXABLE = {rule: how for rules in FIXES.values() for rule, how in rules.items()}
-"""Applicability by rule."""
-
 FIX_FILE = {rule: file for file, rules in FIXES.items() for rule in rules}
 """The file in ``fixes`` by rule."""
-
-
-def options_of(rule: str) -> str:
-    """Applicability of a rule's fixes, with what applies them on the command line."""
-    text = OPTIONS[FIXABLE[rule]]
-    return text.replace(")", " --fix-meshes)") if FIX_FILE[rule] == "mesh_files" else text

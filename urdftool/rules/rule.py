@@ -33,6 +33,15 @@ Two arguments of the decorator say how findings are reported together:
     What is found matters only for what can move, such as an inertia that is too large: of a link
     that is fixed to the world, and of a fixed joint, a warning becomes an info. Errors stay,
     because readers reject the robot all the same.
+
+A fix is a function below its rule, ``@zero_axis.fix(UNSAFE)``; see :mod:`urdftool.rules.fix`. It
+takes what it needs from ``Problem(data=…)``.
+
+A file of rules that can find something only in robots with certain elements names these in
+``APPLIES_TO``, and is not imported for other robots; ``APPLIES_TO = ()`` where the rules look at
+nothing themselves, because readers of files report them. ``FILES`` of a family are its files in
+reading order. ``python -m tests.rule_table`` writes what is known without importing rules, from
+their decorators, to ``table.py``.
 """
 
 from __future__ import annotations
@@ -40,7 +49,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from types import FunctionType
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ..finding import Scope, Severity
 from ..model.elements import Part
@@ -55,6 +64,16 @@ GAZEBO = ("gazebo-classic", "gz")
 ROS = ("ros1", "ros2")
 
 Check = Callable[..., Iterable["Problem"]]
+
+SAFE, UNSAFE, BOTH = "safe", "unsafe", "safe or unsafe"
+"""Applicability of the fixes of a rule; ``BOTH`` where it depends on the case."""
+
+if TYPE_CHECKING:
+    from .fix import MakeFix, MakeFixOfFile, Proposal
+
+    Make = TypeVar("Make", MakeFix, MakeFixOfFile)
+else:
+    Make = TypeVar("Make")
 
 
 class Problem:
@@ -72,12 +91,15 @@ class Problem:
         caused_by: Instead of the rule's, where it depends on the case.
         effects: Which of the rule's effects hold, by their keys, where that depends on the case;
             None for those whose key names no case.
+        data: Values that the rule knows, by name, for fixes and other programs: texts, numbers and
+            lists of these. Nothing reads them out of the message.
     """
 
     __slots__ = (
         "at",
         "cause",
         "caused_by",
+        "data",
         "effects",
         "group",
         "hint",
@@ -98,6 +120,7 @@ class Problem:
         cause: Part | Element | None = None,
         caused_by: tuple[str, ...] | None = None,
         effects: Collection[str] | None = None,
+        data: Mapping[str, Any] | None = None,
     ) -> None:
         """Keep what was found; the place is worked out when it is reported."""
         self.subject = subject
@@ -109,6 +132,7 @@ class Problem:
         self.cause = cause
         self.caused_by = caused_by
         self.effects = effects
+        self.data: Mapping[str, Any] = data or {}
 
     @property
     def place(self) -> Place:
@@ -141,6 +165,38 @@ def _element_of(subject: Part | Element) -> Element:
     return subject if isinstance(subject, Element) else subject.element
 
 
+class FixTraits(NamedTuple):
+    """Facts about the fix of a rule, known without importing the rule.
+
+    Attributes:
+        applicability: ``SAFE``, ``UNSAFE`` or ``BOTH``.
+        of_file: Whether it edits the bytes of a file that could not be read or expanded, and takes
+            the finding in place of a problem.
+        writes_meshes: Whether it writes mesh files, which ``--fix-meshes`` asks for.
+        renames: Whether it changes names that other fixes refer to; it is tried apart from them.
+    """
+
+    applicability: str
+    of_file: bool = False
+    writes_meshes: bool = False
+    renames: bool = False
+
+    @property
+    def option(self) -> str:
+        """Options of ``lint`` that apply it: ``--fix --unsafe-fixes``."""
+        unsafe = " --unsafe-fixes" if self.applicability == UNSAFE else ""
+        return f"--fix{unsafe}" + (" --fix-meshes" if self.writes_meshes else "")
+
+    @property
+    def described(self) -> str:
+        """Applicability, with the options in parentheses."""
+        meshes = " --fix-meshes" if self.writes_meshes else ""
+        safe, unsafe = f"(--fix{meshes})", f"(--fix --unsafe-fixes{meshes})"
+        if self.applicability == BOTH:
+            return f"safe {safe} in some cases, unsafe {unsafe} in others"
+        return f"safe {safe}" if self.applicability == SAFE else f"unsafe {unsafe}"
+
+
 @dataclass
 class Rule:
     """A rule, as the engine sees it.
@@ -161,6 +217,9 @@ class Rule:
         caused_by: Rules whose finding about the same element explains one of this rule.
         of_motion: Whether it matters only for what can move: of a link that is fixed to the world,
             or of a fixed joint, a warning of it is an info.
+        make_fix: Proposes changes for a problem, or None where this case is not fixed; None where
+            the rule has no fix.
+        fix_traits: Facts about that.
     """
 
     name: str
@@ -176,6 +235,25 @@ class Rule:
     group: Scope | None = None
     caused_by: tuple[str, ...] = ()
     of_motion: bool = False
+    make_fix: Callable[..., Proposal | None] | None = None
+    fix_traits: FixTraits | None = None
+
+    def fix(
+        self,
+        applicability: str,
+        *,
+        of_file: bool = False,
+        writes_meshes: bool = False,
+        renames: bool = False,
+    ) -> Callable[[Make], Make]:
+        """Make a function the fix of this rule; the arguments are those of :class:`FixTraits`."""
+
+        def register(make: Make) -> Make:
+            self.make_fix = make
+            self.fix_traits = FixTraits(applicability, of_file, writes_meshes, renames)
+            return make
+
+        return register
 
     @property
     def fact(self) -> str:

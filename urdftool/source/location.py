@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from .edit import Source
 
 
 class SourceFile:
@@ -15,7 +18,7 @@ class SourceFile:
         encoding: The encoding the bytes are in, for counting columns.
     """
 
-    __slots__ = ("_starts", "_tags", "data", "encoding", "path")
+    __slots__ = ("_editable", "_starts", "_tags", "data", "encoding", "path")
 
     def __init__(self, path: str, data: bytes, encoding: str = "utf-8") -> None:
         """Keep the bytes; nothing is computed before it is asked for."""
@@ -24,6 +27,11 @@ class SourceFile:
         self.encoding = encoding
         self._starts: list[int] | None = None
         self._tags: dict[int, dict[str, tuple[int, int]]] = {}
+        self._editable: Source | None = None
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Pickle the bytes alone, and nothing that was computed from them."""
+        return SourceFile, (self.path, self.data, self.encoding)
 
     @property
     def line_starts(self) -> list[int]:
@@ -71,6 +79,18 @@ class SourceFile:
         from .tags import tag_end
 
         return tag_end(self.data, start)
+
+    def editable(self) -> Source:
+        """Parse the file as it is written, macros and all, once.
+
+        Raises:
+            SourceError: It is in an encoding that is not edited.
+        """
+        if self._editable is None:
+            from .edit import Source
+
+            self._editable = Source(self)
+        return self._editable
 
 
 class Call(NamedTuple):

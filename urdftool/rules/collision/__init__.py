@@ -1,1 +1,4 @@
 """What touches."""
+
+FILES = ("presence", "shapes", "likeness", "displaced", "wheels", "overlap")
+"""Files with rules, in reading order."""

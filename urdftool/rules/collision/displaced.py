@@ -11,6 +11,8 @@ from ...model.pose import Pose, Rotation, matrix_product, pose_of, transpose
 from ..mesh.outlines import outline_of, reaches
 from ..rule import WARNING, Problem, rule
 
+APPLIES_TO = ("mesh",)
+
 _SYMMETRY = 0.03
 """Largest difference of the extents of a mesh and of the mesh turned, relative to its diagonal, at
 which the two are one shape; the extents are known to about one percent."""

@@ -17,6 +17,8 @@ from ..rule import ERROR, INFO, WARNING, Problem, rule
 from .apart import compare_places, measured, with_attached
 from .displaced import displaced
 
+APPLIES_TO = ("collision",)
+
 _SIMPLER = "'urdftool collision' makes simpler shapes, and measures how far off they are"
 
 _FOR_CONTACT = re.compile(r"collision|convex|hull|simpl|low[-_]?poly", re.IGNORECASE)

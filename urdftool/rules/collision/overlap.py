@@ -15,6 +15,8 @@ from ..rule import GAZEBO, INFO, WARNING, Problem, rule
 from ..words import some_of
 from .pieces import Pieces, pieces
 
+APPLIES_TO = ("collision",)
+
 STEPS = 9
 """Positions at which a joint is looked at within its range."""
 

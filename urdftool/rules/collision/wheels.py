@@ -11,6 +11,8 @@ from ...model.millimeters import shapes_in_millimeters
 from ..rule import INFO, WARNING, Problem, rule
 from .axle import PLACE, VISUAL, Wheel, agreeing, angle_between, is_upright, wheel_of_joint
 
+APPLIES_TO = ("collision",)
+
 if TYPE_CHECKING:
     from .casters import Caster
 

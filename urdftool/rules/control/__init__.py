@@ -1,1 +1,11 @@
 """Transmissions and ros2_control."""
+
+FILES = (
+    "transmissions",
+    "ros2_control",
+    "ros2_control_form",
+    "ros2_control_simulated",
+    "controllers",
+    "parameter_types",
+)
+"""Files with rules, in reading order."""

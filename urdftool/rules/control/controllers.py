@@ -13,6 +13,8 @@ from ..rule import ROS, WARNING, Problem, rule
 from ..words import nearest
 from .controller_files import ControllerFile, Package, package_of
 
+APPLIES_TO = ("ros2_control", "transmission")
+
 _TOLD = ("Broadcaster", "StateController", "SensorController")
 _WORDS = re.compile(r"[a-z]+|\d+")
 

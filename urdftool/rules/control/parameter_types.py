@@ -13,6 +13,8 @@ from ..rule import ERROR, Problem, rule
 from ..words import some_of
 from .controller_files import ControllerFile, package_of
 
+APPLIES_TO = ("ros2_control",)
+
 _LIMITS = tuple(f"{end}_{what}" for end in ("max", "min") for what in ("velocity", "acceleration"))
 _COVARIANCE = ("pose_covariance_diagonal", "twist_covariance_diagonal")
 _STEERED = ("reference_timeout", *_COVARIANCE)

@@ -11,6 +11,8 @@ from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import did_you_mean, quoted
 
+APPLIES_TO = ("ros2_control",)
+
 
 @rule(
     ERROR,

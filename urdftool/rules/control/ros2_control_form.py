@@ -9,6 +9,8 @@ from ...model.read import number
 from ..rule import ERROR, Problem, rule
 from ..words import did_you_mean
 
+APPLIES_TO = ("ros2_control",)
+
 _TYPES = ("system", "sensor", "actuator")
 _CHILDREN = ("hardware", "properties", "joint", "sensor", "gpio", "transmission")
 

@@ -11,6 +11,8 @@ from ...source.description import Description
 from ..rule import ERROR, GAZEBO, WARNING, Problem, rule
 from ..words import did_you_mean
 
+APPLIES_TO = ("ros2_control", "plugin")
+
 _GZ = ("gz_ros2_control/", "ign_ros2_control/")
 _CLASSIC = ("gazebo_ros2_control/",)
 _GZ_PLUGINS = ("gz_ros2_control", "ign_ros2_control")

@@ -12,6 +12,8 @@ from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import did_you_mean
 
+APPLIES_TO = ("transmission", "plugin")
+
 JOINT_INTERFACES = ("EffortJointInterface", "PositionJointInterface", "VelocityJointInterface")
 
 

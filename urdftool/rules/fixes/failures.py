@@ -7,13 +7,13 @@ import re
 
 from ...finding import Finding
 from ...source.location import SourceFile
-from .proposal import Proposal, Span, safe, unsafe
+from .proposal import FixContext, Proposal, Span, safe, unsafe
 
 _XMLNS = b' xmlns:xacro="http://www.ros.org/wiki/xacro"'
 _MEANT = re.compile(r"did you mean '([^']*)'\?")
 
 
-def not_well_formed(finding: Finding) -> Proposal | None:
+def not_well_formed(finding: Finding, context: FixContext) -> Proposal | None:
     """``- -`` for ``--`` in comments, all of them."""
     if "holds '--'" not in finding.message:
         return None
@@ -28,7 +28,7 @@ def not_well_formed(finding: Finding) -> Proposal | None:
     return safe("write '- -' in comments", *spans) if spans else None
 
 
-def content_before_declaration(finding: Finding) -> Proposal | None:
+def content_before_declaration(finding: Finding, context: FixContext) -> Proposal | None:
     """The declaration first."""
     file = finding.place.file
     match = re.search(rb"<\?xml[^>]*?\?>", file.data)
@@ -50,7 +50,7 @@ def content_before_declaration(finding: Finding) -> Proposal | None:
     )
 
 
-def missing_xmlns(finding: Finding) -> Proposal | None:
+def missing_xmlns(finding: Finding, context: FixContext) -> Proposal | None:
     """The declaration, on the root."""
     file = finding.place.file
     match = re.search(rb"<(?![?!])[^\s/>]+", re.sub(rb"<!--.*?-->", _blank, file.data, flags=16))
@@ -63,7 +63,7 @@ def _blank(match: re.Match[bytes]) -> bytes:
     return b" " * len(match[0])
 
 
-def unknown_macro(finding: Finding) -> Proposal | None:
+def unknown_macro(finding: Finding, context: FixContext) -> Proposal | None:
     """The macro that was meant."""
     match = re.search(r"unknown macro '([^']+)'; did you mean '([^']+)'\?", finding.message)
     place = finding.place
@@ -83,7 +83,7 @@ def unknown_macro(finding: Finding) -> Proposal | None:
     return unsafe(f"call '{match[2]}'", *spans)
 
 
-def undeclared_arg(finding: Finding) -> Proposal | None:
+def undeclared_arg(finding: Finding, context: FixContext) -> Proposal | None:
     """The one that was meant; else declared, with an empty default, first in the robot."""
     meant = _MEANT.search(finding.message)
     match = re.search(r"the argument '([\w-]+)' has no value", finding.message)
@@ -105,7 +105,7 @@ def undeclared_arg(finding: Finding) -> Proposal | None:
     return unsafe("declare it with an empty default", Span(file, at, at, line))
 
 
-def include_not_found(finding: Finding) -> Proposal | None:
+def include_not_found(finding: Finding, context: FixContext) -> Proposal | None:
     """The file that was meant; safely, where only capitals differ."""
     match = _MEANT.search(finding.message)
     missing = finding.message.partition(": ")[0]
@@ -129,7 +129,7 @@ def _in_value(finding: Finding, old: str, new: str, harmless: bool) -> Proposal 
 _TRUTHS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
 
 
-def non_boolean_conditional(finding: Finding) -> Proposal | None:
+def non_boolean_conditional(finding: Finding, context: FixContext) -> Proposal | None:
     """``true`` for ``yes``, ``false`` for ``no``; a comparison as an expression."""
     place = finding.place
     start = _tag(place.file, place.start)
@@ -162,7 +162,7 @@ def _tag(file: SourceFile, at: int) -> int:
     return at if file.data[at : at + 1] == b"<" else file.data.rfind(b"<", 0, at)
 
 
-def unknown_rule(finding: Finding) -> Proposal | None:
+def unknown_rule(finding: Finding, context: FixContext) -> Proposal | None:
     """The rule that was meant."""
     match = re.search(r"no rule is called '([^']+)'; did you mean '?([\w*-]+)'?", finding.message)
     if match is None:
@@ -170,7 +170,7 @@ def unknown_rule(finding: Finding) -> Proposal | None:
     return _in_value(finding, match[1], match[2], False)
 
 
-def unused_suppression(finding: Finding) -> Proposal | None:
+def unused_suppression(finding: Finding, context: FixContext) -> Proposal | None:
     """Gone, with its line where nothing else stands on it."""
     place, data = finding.place, finding.place.file.data
     start, end = place.start, place.end

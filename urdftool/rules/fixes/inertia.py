@@ -99,9 +99,9 @@ def _of_shapes(link: Link, around: Around) -> tuple[str, ...] | None:
 
 def _weighed(link: Link, around: Around) -> tuple[float, tuple[float, float, float], Six] | None:
     """Mass, centre and tensor of a link in its frame, as its meshes have them."""
-    if around.weigh is None:
+    if around.compute_inertia is None:
         return None
-    return around.weigh(around.robot, [link.name]).get(link.name)
+    return around.compute_inertia(around.robot, [link.name]).get(link.name)
 
 
 def massless_moving_body(problem: Problem, around: Around) -> Proposal | None:

@@ -15,6 +15,8 @@ from .contact import is_wheel
 from .drive_wheels import Drive, Pair, Told, Wheel, drives, wheel_of
 from .wheel_pair import radius_about
 
+APPLIES_TO = ("plugin", "ros2_control", "transmission")
+
 _SLIP = 2.5  # a base that skids is often told of a wider track, since it turns less than it rolls
 
 

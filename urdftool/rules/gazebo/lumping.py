@@ -10,6 +10,8 @@ from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
 from ..words import quoted
 from .keywords import JOINT_KEYWORDS, SURFACE, is_true
 
+APPLIES_TO = ("gazebo",)
+
 _KEEPERS = ("preserveFixedJoint", "disableFixedJointLumping")
 
 

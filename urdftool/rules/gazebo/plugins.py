@@ -12,6 +12,8 @@ from ..unexpanded import is_unexpanded
 from ..words import did_you_mean, quoted
 from .systems import CLASSIC, REPLACEMENTS, SYSTEMS
 
+APPLIES_TO = ("plugin",)
+
 _GZ = ("gz-sim-", "libgz-sim-", "ignition-gazebo-", "libignition-gazebo-", "gz_ros2_control")
 
 

@@ -12,6 +12,8 @@ from ..words import did_you_mean, quoted
 from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS
 from .lumping import is_lumped, keeps_joint
 
+APPLIES_TO = ("gazebo",)
+
 
 @rule(
     ERROR,

@@ -15,6 +15,8 @@ from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
 from ..words import did_you_mean, words
 from .lumping import body_of
 
+APPLIES_TO = ("gazebo",)
+
 TYPES = words(
     "air_pressure air_speed altimeter boundingbox_camera camera contact depth depth_camera "
     "force_torque gps gpu_lidar gpu_ray imu lidar logical_camera magnetometer multicamera navsat "

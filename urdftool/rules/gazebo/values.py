@@ -12,6 +12,8 @@ from ..unexpanded import is_unexpanded
 from .contact import contact_role
 from .keywords import NUMBERS
 
+APPLIES_TO = ("gazebo",)
+
 _LEADING = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?(?:inf|nan)", re.IGNORECASE)
 
 

@@ -12,6 +12,8 @@ from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS, ROBOT_KEYWORDS
 from .plugin_parameters import LIBRARIES, PARAMETERS
 from .sdf_names import SDF_CHILDREN
 
+APPLIES_TO = ("gazebo",)
+
 _INSTEAD = {
     "mu": "write <mu1> and <mu2>",
     "friction": "write <mu1> and <mu2>, or <collision><surface><friction>…",

@@ -15,6 +15,8 @@ from .proposals import attributes_text, proposal_of
 from .solids import solid_tensor
 from .tensors import SIX, is_rejected_by_gazebo, is_zero, tensors
 
+APPLIES_TO = ("inertia",)
+
 _GAZEBO = "gz, gazebo-classic"
 
 

@@ -1,1 +1,4 @@
 """What a joint can do."""
+
+FILES = ("kind", "axis", "origin", "place", "limits", "range", "drive", "mimic", "safety", "sides")
+"""Files with rules, in reading order."""

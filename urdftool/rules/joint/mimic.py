@@ -14,6 +14,8 @@ from ..unexpanded import is_unexpanded
 from ..words import did_you_mean
 from ..xml.vocabulary_table import misspelt_attributes
 
+APPLIES_TO = ("mimic", "joint")
+
 
 @rule(
     ERROR,

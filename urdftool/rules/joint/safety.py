@@ -8,6 +8,8 @@ from ...model.elements import Robot
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_attributes
 
+APPLIES_TO = ("safety_controller",)
+
 
 @rule(
     ERROR,

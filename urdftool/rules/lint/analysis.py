@@ -11,6 +11,8 @@ from ..mesh.outlines import outline_of
 from ..mesh.uses import mesh_uses
 from ..rule import INFO, Problem, rule
 
+APPLIES_TO = ("mesh", "collision")
+
 _READ = (".stl", ".obj", ".dae", ".ply", ".gltf", ".glb")
 
 

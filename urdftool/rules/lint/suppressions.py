@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from ..rule import ERROR, WARNING, Problem, rule
 
+APPLIES_TO = ()
+
 
 @rule(WARNING)
 def unused_suppression() -> tuple[Problem, ...]:

@@ -22,6 +22,8 @@ from ..words import nearest
 from .uris import malformation
 from .uses import MeshUse, actual_case, mesh_uses
 
+APPLIES_TO = ("mesh",)
+
 _MAX_FILES = 5000
 _WITHOUT_FILE = ("rviz", "gz", "urdfdom, gz, gazebo-classic")
 

@@ -13,6 +13,8 @@ from ..mujoco import keeps_visuals
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
+APPLIES_TO = ("mesh",)
+
 _OF_TEXT = ("pybullet", "rviz", "gz", "pinocchio")
 _facts: dict[Stamp, StlFacts] = {}
 

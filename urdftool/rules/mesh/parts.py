@@ -15,6 +15,8 @@ from ..rule import WARNING, Problem, rule
 from ..words import quoted
 from .uses import MeshUse, mesh_uses
 
+APPLIES_TO = ("mesh",)
+
 _OBJ = re.compile(rb"^mtllib[ \t]+(.+?)[ \t\r]*$", re.MULTILINE)
 _DAE = re.compile(rb"<init_from\s*>(?:\s*<ref\s*>)?\s*([^<]+?)\s*<")
 _GLTF = re.compile(rb'"uri"\s*:\s*"([^"]+)"')

@@ -15,6 +15,8 @@ from ..rule import ERROR, INFO, WARNING, Problem, rule
 from .outlines import box_of
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
+APPLIES_TO = ("mesh",)
+
 _SAMPLE = 300  # triangles, from the beginning, the middle and the end
 _extents: dict[Stamp, tuple[float, float, float] | None] = {}
 

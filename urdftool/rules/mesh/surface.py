@@ -12,6 +12,8 @@ from ...source.description import Description
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
+APPLIES_TO = ("mesh",)
+
 if TYPE_CHECKING:
     from ...meshes.surface import Surface
 

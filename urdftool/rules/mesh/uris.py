@@ -15,6 +15,8 @@ from ..rule import ERROR, INFO, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_attributes
 from .uses import MeshUse, mesh_uses
 
+APPLIES_TO = ("mesh",)
+
 
 @rule(
     WARNING,

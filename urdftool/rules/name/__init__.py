@@ -1,1 +1,4 @@
 """Names and conventions."""
+
+FILES = ("spelling", "frames")
+"""Files with rules, in reading order."""

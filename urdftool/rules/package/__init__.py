@@ -1,1 +1,4 @@
 """The package around a description."""
+
+FILES = ("resolution", "manifest", "launching")
+"""Files with rules, in reading order."""

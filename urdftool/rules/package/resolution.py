@@ -11,6 +11,8 @@ from ...source.packages import has_it, own_package, shown_path
 from ..mesh.uses import MeshUse, mesh_uses
 from ..rule import WARNING, Problem, rule
 
+APPLIES_TO = ("mesh",)
+
 
 @rule(
     WARNING,

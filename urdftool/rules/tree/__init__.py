@@ -1,1 +1,4 @@
 """Links and joints as one tree."""
+
+FILES = ("links", "roots")
+"""Files with rules, in reading order."""

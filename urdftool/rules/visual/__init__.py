@@ -1,1 +1,4 @@
 """What is seen."""
+
+FILES = ("materials", "looks")
+"""Files with rules, in reading order."""

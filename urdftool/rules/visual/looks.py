@@ -14,6 +14,8 @@ from ...source.packages import shown_path
 from ..rule import INFO, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 
+APPLIES_TO = ("visual", "collision")
+
 _ON_PURPOSE = re.compile(r"transparent|invisible|virtual|dummy|hidden|none", re.IGNORECASE)
 
 

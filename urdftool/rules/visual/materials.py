@@ -10,6 +10,8 @@ from ..rule import ERROR, WARNING, Problem, holding, rule
 from ..words import did_you_mean
 from ..xml.vocabulary_table import misspelt_attributes
 
+APPLIES_TO = ("material",)
+
 _Look = tuple[tuple[float, ...] | None, str | None]
 
 

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from ..rule import ERROR, Problem, rule
 
+APPLIES_TO = ()
+
 _NOTHING: tuple[Problem, ...] = ()
 
 

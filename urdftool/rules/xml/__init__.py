@@ -1,1 +1,4 @@
 """The document as text: its elements, attributes and numbers."""
+
+FILES = ("document", "vocabulary", "shape", "numbers", "reference", "version")
+"""Files with rules, in reading order."""
