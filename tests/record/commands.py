@@ -77,7 +77,9 @@ def commands() -> Iterator[Command]:
         yield Command(f"info-{name}", ["info", *robot])
         yield Command(f"graph-{name}", ["graph", *robot, "-o", "robot.gv"])
         yield Command(f"inertia-text-{name}", ["inertia", "robot", *robot])
-        yield Command(f"fill-{name}", ["inertia", "robot", *robot, "--all", "-o", "out.urdf"])
+        yield Command(
+            f"fill-{name}", ["inertia", "robot", *robot, "--all", "--write", "-o", "out.urdf"]
+        )
         yield Command(f"mjcf-fused-{name}", ["export", "mjcf", *robot, "-o", "model", "--fuse"])
         yield Command(f"lint-targets-{name}", ["lint", *robot, "--no-cache", "--target", "gz"])
     yield Command("lint-two-wheels", ["lint", str(WHEELS), "--no-cache", "--all"])

@@ -255,6 +255,12 @@ def element_at(problem: Problem, root: Element | None = None) -> Element | None:
     return None
 
 
+def suggestion_of(problem: Problem, wrong: str) -> str:
+    """Get the name a rule suggests (``data["suggestion"]``), if it is near enough for a fix."""
+    right: str = problem.data.get("suggestion", "")
+    return right if right and is_close_enough(right, wrong) else ""
+
+
 def is_close_enough(right: str, wrong: str) -> bool:
     """Tell whether a suggested word is near enough to be written by a fix.
 

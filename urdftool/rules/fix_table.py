@@ -212,16 +212,6 @@ FIXES: dict[str, dict[str, str]] = {
         "name-style": UNSAFE,
         "non-ascii-name": UNSAFE,
     },
-    "moveit": {
-        "moveit-parameter-type": SAFE,
-        "moveit-controller-incomplete": UNSAFE,
-        "srdf-robot-name": SAFE,
-        "srdf-unknown-link": UNSAFE,
-        "srdf-unknown-joint": UNSAFE,
-        "group-state-out-of-bounds": UNSAFE,
-        "missing-virtual-joint": UNSAFE,
-        "adjacent-pair-not-disabled": UNSAFE,
-    },
     "names": {
         "colon-space-in-comment": UNSAFE,
         "duplicate-geometry-name": UNSAFE,

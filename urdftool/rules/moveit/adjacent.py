@@ -6,8 +6,17 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.description import Description
+from ...source.document import Element
 from ..collision.pieces import pieces
-from ..rule import WARNING, Problem, rule
+from ..fix import (
+    FixContext,
+    Proposal,
+    append_child,
+    escape_attribute,
+    insert_after,
+    unsafe,
+)
+from ..rule import UNSAFE, WARNING, Problem, rule
 from .semantic import semantics
 
 
@@ -46,4 +55,18 @@ def adjacent_pair_not_disabled(robot: Robot, description: Description) -> Iterat
                     f"the SRDF checks them for collisions; write <disable_collisions "
                     f'link1="{above.name}" link2="{link.name}" reason="Adjacent"/>',
                     at=document.root,
+                    data={"links": [above.name, link.name]},
                 )
+
+
+@adjacent_pair_not_disabled.fix(UNSAFE)
+def disable_collision(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add the pair behind those that are there; MoveIt then no longer checks it."""
+    root = problem.at
+    if not isinstance(root, Element):
+        return None
+    above, below = map(escape_attribute, problem.data["links"])
+    line = f'<disable_collisions link1="{above}" link2="{below}" reason="Adjacent"/>'
+    pairs = list(root.all("disable_collisions"))
+    change = insert_after(pairs[-1], line) if pairs else append_child(root, line)
+    return unsafe("let them touch", change)

@@ -14,7 +14,8 @@ from ...source.description import Description
 from ...source.nearby import file_at
 from ...source.packages import shown_path
 from ...source.yaml_tree import Node, yaml_of
-from ..rule import ERROR, Problem, rule
+from ..fix import FixContext, Proposal, Span, safe, unsafe
+from ..rule import ERROR, SAFE, UNSAFE, Problem, rule
 from ..words import did_you_mean, some_of
 from .semantic import semantics
 
@@ -63,6 +64,18 @@ def moveit_parameter_type(
                 f"write {as_double(node) or 'a number with a point'}{more}",
                 at=node.place,
             )
+
+
+@moveit_parameter_type.fix(SAFE)
+def write_doubles(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write each of the numbers with a decimal point."""
+    name = problem.place.path.replace("\\", "/").rpartition("/")[2]
+    spans = [
+        Span(node.file, node.start, node.end, text.encode())
+        for _, node in not_doubles(context.robot, context.description, name)
+        if (text := as_double(node))
+    ]
+    return safe("write doubles", *spans) if spans else None
 
 
 _FILES = ("joint_limits.yaml", "kinematics.yaml", "pilz_cartesian_limits.yaml")
@@ -181,6 +194,22 @@ def without_action(robot: Robot, description: Description) -> Iterator[tuple[Nod
             controller = fields.get(node.text or "")
             if controller is not None and _missing(controller) == ["action_ns"]:
                 yield node, controller
+
+
+@moveit_controller_incomplete.fix(UNSAFE)
+def add_action(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add the action of the controller's type, on a line before the others."""
+    for name, section in without_action(context.robot, context.description):
+        if name.place.start != problem.place.start or name.file.path != problem.place.path:
+            continue
+        data, at = section.file.data, section.start
+        text = f"action_ns: {action_of(section)}".encode()
+        if data[at : at + 1] == b"{":
+            at, text = at + 1, text + b", "
+        else:
+            text += b"\n" + data[data.rfind(b"\n", 0, at) + 1 : at]  # indented as it is
+        return unsafe("name the action of its type", Span(section.file, at, at, text))
+    return None
 
 
 def _missing(controller: Node) -> list[str]:

@@ -12,8 +12,19 @@ from ...model.read import number
 from ...source.description import Description
 from ...source.document import Document, Element, parse, read_file
 from ...source.packages import shown_path
-from ..rule import ERROR, INFO, WARNING, Problem, rule
-from ..words import did_you_mean
+from ..fix import (
+    FixContext,
+    Proposal,
+    append_child,
+    attribute_at,
+    escape_attribute,
+    safe,
+    set_attribute,
+    suggestion_of,
+    unsafe,
+)
+from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
+from ..words import did_you_mean, nearest
 
 _ON = ("moveit",)
 _last: tuple[Robot, list[Document]] | None = None
@@ -97,6 +108,7 @@ def srdf_unknown_link(robot: Robot, description: Description) -> Iterator[Proble
                     + did_you_mean(name, robot.link),
                     at=element.attribute_place(attribute),
                     severity=None if essential else WARNING,
+                    data={"suggestion": nearest(name, robot.link)},
                 )
 
 
@@ -122,7 +134,19 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
                     f"<{element.tag}> names joint '{name}', which the robot does not have"
                     + did_you_mean(name, robot.joint),
                     at=element.attribute_place(attribute),
+                    data={"suggestion": nearest(name, robot.joint)},
                 )
+
+
+@srdf_unknown_link.fix(UNSAFE)
+@srdf_unknown_joint.fix(UNSAFE)
+def rename_reference(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the suggested name."""
+    found = attribute_at(problem)
+    name = suggestion_of(problem, found[0].get(found[1]) or "") if found is not None else ""
+    if found is None or not name:
+        return None
+    return unsafe(f"write '{name}'", set_attribute(*found, name))
 
 
 @rule(
@@ -147,6 +171,13 @@ def srdf_robot_name(robot: Robot, description: Description) -> Iterator[Problem]
                 "give both one name",
                 at=document.root.attribute_place("name"),
             )
+
+
+@srdf_robot_name.fix(SAFE)
+def write_robot_name(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the name of the URDF's robot."""
+    name = context.robot.name
+    return safe(f"write '{name}'", set_attribute(problem.element, "name", name)) if name else None
 
 
 @rule(
@@ -199,7 +230,16 @@ def group_state_out_of_bounds(robot: Robot, description: Description) -> Iterato
                         f"'{joint.name}' is {value:g} in pose '{state.get('name') or ''}', and its "
                         f"limits are {low:g} to {high:g}",
                         at=element.attribute_place("value"),
+                        data={"nearest": min(max(value, low), high)},
                     )
+
+
+@group_state_out_of_bounds.fix(UNSAFE)
+def clamp_to_limits(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the nearest position inside the limits."""
+    nearest_inside = f"{problem.data['nearest']:.12g}"
+    change = set_attribute(problem.element, "value", nearest_inside)
+    return unsafe(f"write {nearest_inside}", change)
 
 
 @rule(INFO, on=_ON, effects={"moveit": "assumes a fixed joint to the world"})
@@ -221,6 +261,19 @@ def missing_virtual_joint(robot: Robot, description: Description) -> Iterator[Pr
                 "the SRDF has no <virtual_joint>; write one of type fixed, planar or floating for "
                 f"'{root.name}'",
             )
+
+
+@missing_virtual_joint.fix(UNSAFE)
+def add_fixed_virtual_joint(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add a fixed virtual joint, which MoveIt assumes."""
+    root = context.robot.tree.root
+    if root is None or "world_joint" in context.robot.joint:
+        return None
+    line = (
+        '<virtual_joint name="world_joint" type="fixed" parent_frame="world" '
+        f'child_link="{escape_attribute(root.name)}"/>'
+    )
+    return unsafe("add a fixed one", append_child(problem.element, line))
 
 
 @rule(
