@@ -136,12 +136,6 @@ FIXES: dict[str, dict[str, str]] = {
         "unsafe-file-name": UNSAFE,
         "mesh-stem-collision": UNSAFE,
     },
-    "package": {
-        "undeclared-mesh-dependency": SAFE,
-        "gazebo-path-not-exported": BOTH,
-        "directory-not-installed": UNSAFE,
-        "obsolete-cli-option": SAFE,
-    },
     "gazebo": {
         "missing-gazebo-tags": UNSAFE,
         "missing-gazebo-material": SAFE,

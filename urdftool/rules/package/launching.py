@@ -12,7 +12,8 @@ from ...source.description import Description
 from ...source.location import Place
 from ...source.nearby import file_at
 from ...source.packages import own_package
-from ..rule import INFO, ROS, Problem, rule
+from ..fix import FixContext, Proposal, Span, safe
+from ..rule import INFO, ROS, SAFE, Problem, rule
 
 _OBSOLETE = re.compile(rb"(?<![\w./-])(?:--inorder|--legacy|xacro\.py)\b")
 _INSTEAD = {
@@ -66,3 +67,17 @@ def _callers(package: Path) -> Iterator[Path]:
     for path in sorted(found)[:_MOST_FILES]:
         if os.path.isfile(path):
             yield path
+
+
+@obsolete_cli_option.fix(SAFE)
+def drop_option(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the option with a blank beside it; write ``xacro`` for ``xacro.py``."""
+    file, start, end = problem.place.file, problem.place.start, problem.place.end
+    data = file.data
+    if data[start:end] == b"xacro.py":
+        return safe("call xacro", Span(file, start, end, b"xacro"))
+    if data[start - 1 : start] in (b" ", b"\t"):
+        return safe("leave it out", Span(file, start - 1, end, b""))
+    if data[end : end + 1] in (b" ", b"\t"):
+        return safe("leave it out", Span(file, start, end + 1, b""))
+    return None

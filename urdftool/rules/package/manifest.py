@@ -10,11 +10,23 @@ from pathlib import Path
 from ...errors import PackageNotFound
 from ...model.elements import Link, Robot
 from ...source.description import Description
-from ...source.document import Element, copy_of
+from ...source.document import Document, Element, copy_of
 from ...source.location import Place
+from ...source.nearby import document_at, file_at
 from ...source.packages import own_package
+from ..fix import (
+    Change,
+    FixContext,
+    Proposal,
+    Span,
+    append_child,
+    insert_after,
+    prepend_child,
+    safe,
+    unsafe,
+)
 from ..mesh.uses import MeshUse, Stamp, mesh_uses, stamp
-from ..rule import ERROR, INFO, ROS, WARNING, Problem, rule
+from ..rule import BOTH, ERROR, INFO, ROS, SAFE, UNSAFE, WARNING, Problem, rule
 from ..words import quoted
 from .dependencies import way_between
 from .resolution import is_in_own_package
@@ -71,7 +83,51 @@ def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterat
                 f"package '{name}' is used and is not a dependency of '{own[0]}'; "
                 f"write <exec_depend>{name}</exec_depend> into its package.xml",
                 at=at,
+                data={"package": name},
             )
+
+
+@undeclared_mesh_dependency.fix(SAFE)
+def declare_dependency(problem: Problem, context: FixContext) -> Proposal | None:
+    """Declare the dependency, behind those that are there.
+
+    A package that is not found is not declared, and neither is one that depends on this one: that
+    would close a circle.
+    """
+    name: str = problem.data["package"]
+    manifest = _manifest_document(context)
+    own, packages = own_package(context.description.packages.file), context.description.packages
+    if manifest is None or own is None or not re.fullmatch(r"[\w-]+", name):
+        return None
+    try:
+        packages.find(name)
+    except PackageNotFound:
+        return None
+    if way_between(name, own[0], packages, conditional=True):
+        return None
+    tag = _run_tag(manifest.root)
+    return safe(f"add <{tag}>{name}</{tag}> to package.xml", _depends(manifest.root, name))
+
+
+def _manifest_document(context: FixContext) -> Document | None:
+    own = own_package(context.description.packages.file)
+    found = document_at(own[1] / "package.xml") if own is not None else None
+    return found if found is not None and found.root.tag == "package" else None
+
+
+def _run_tag(package: Element) -> str:
+    """Get the tag of run dependencies, which depends on the format of the manifest."""
+    return "run_depend" if (package.get("format") or "1").strip() == "1" else "exec_depend"
+
+
+def _depends(package: Element, name: str) -> Change:
+    """Add a dependency behind its like, or behind the elements that must stand before it."""
+    tag = _run_tag(package)
+    line = f"<{tag}>{name}</{tag}>"
+    others = [child for child in package.children if child.tag not in ("export", "test_depend")]
+    likes = [child for child in others if child.tag in (tag, "depend")]
+    behind = likes or others
+    return insert_after(behind[-1], line) if behind else prepend_child(package, line)
 
 
 @rule(
@@ -213,7 +269,46 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
                 "into CMakeLists.txt",
                 at=element.attribute_place("filename"),
                 severity=severity,
+                data={"folder": folder},
             )
+
+
+_INSTALL_DIRECTORY = re.compile(
+    rb"\binstall\s*\(\s*DIRECTORY(?P<folders>(?:\s+[^\s()]+)+?)\s+DESTINATION\s+"
+    rb"(?P<where>[^\s()]+)\s*\)",
+    re.IGNORECASE,
+)
+_CMAKE_COMMENT = re.compile(rb"#\[\[.*?\]\]|#[^\n]*", re.DOTALL)
+_CATKIN, _SHARE = b"${CATKIN_PACKAGE_SHARE_DESTINATION}", b"share/${PROJECT_NAME}"
+
+
+@directory_not_installed.fix(UNSAFE)
+def install_directory(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add the folder to an install() of others, or add one."""
+    own = own_package(context.description.packages.file)
+    name: str = problem.data["folder"]
+    file = file_at(own[1] / "CMakeLists.txt") if own is not None else None
+    if own is None or file is None or re.search(r"['\s();#\"]", name):
+        return None
+    folder, data = name.encode(), file.data
+    code = _CMAKE_COMMENT.sub(lambda comment: re.sub(rb"[^\n]", b" ", comment[0]), data)
+    catkin = re.search(rb"\bcatkin_package\s*\(", code) is not None
+    shares = (_CATKIN, _SHARE, b"share/" + own[0].encode())
+    for found in _INSTALL_DIRECTORY.finditer(code):
+        if found["where"].strip(b'"').rstrip(b"/") in shares:
+            *_, (gap, last) = re.findall(rb"(\s+)(\S+)", found["folders"])
+            if not last.strip(b'"').endswith(b"/") and last not in (b"FILES", b"PROGRAMS"):
+                at = found.end("folders")
+                return unsafe(f"install {name}", Span(file, at, at, gap + folder))
+    line_end = b"\r\n" if b"\r\n" in data else b"\n"
+    line = b"install(DIRECTORY %s DESTINATION %s)" % (folder, _CATKIN if catkin else _SHARE)
+    last_call = re.search(rb"^[ \t]*ament_package\s*\(", code, re.MULTILINE)
+    if last_call is not None:
+        span = Span(file, last_call.start(), last_call.start(), line + line_end)
+    else:
+        between = b"" if data.endswith(b"\n") or not data else line_end
+        span = Span(file, len(data), len(data), between + line + line_end)
+    return unsafe(f"install {name}", span)
 
 
 @rule(
@@ -257,6 +352,34 @@ def _launch_sets_path(package: Path) -> bool:
             if "RESOURCE_PATH" in text or "MODEL_PATH" in text:
                 return True
     return False
+
+
+_MODEL_PATH = '<gazebo_ros gazebo_model_path="${prefix}/.."/>'
+
+
+@gazebo_path_not_exported.fix(BOTH)
+def export_model_path(problem: Problem, context: FixContext) -> Proposal | None:
+    """Export the path.
+
+    With catkin the export takes effect only in a package that depends on gazebo_ros; a description
+    must not require Gazebo unasked.
+    """
+    manifest = _manifest_document(context)
+    if manifest is None:
+        return None
+    root, export = manifest.root, manifest.root.child("export")
+    if export is not None:
+        change = append_child(export, _MODEL_PATH)
+    else:
+        change = append_child(root, "<export>", f"\t{_MODEL_PATH}", "</export>")
+    words = {child.text.strip() for child in root.children if child.tag.endswith("depend")}
+    if "catkin" not in words or "gazebo_ros" in words:
+        return safe("export the path in package.xml", change)
+    return unsafe(
+        "export the path in package.xml, and depend on gazebo_ros",
+        _depends(root, "gazebo_ros"),
+        change,
+    )
 
 
 @rule(
