@@ -295,9 +295,9 @@ def test_a_text_becomes_the_same_triangles(write, urdftool):
 
 
 def test_nobody_is_looked_for_in_a_disk_full_of_files(write, urdftool, monkeypatch):
-    from urdftool.rules.fixes import elsewhere
+    from urdftool.rules import cross_file_references
 
-    monkeypatch.setattr(elsewhere, "_MOST_FILES", 2)
+    monkeypatch.setattr(cross_file_references, "_MOST_FILES", 2)
     write("arm.stl", INVERTED.read_bytes())
     write("notes/one.txt", "x")
     path = write("r.urdf", ROBOT.format("arm.stl"))

@@ -44,12 +44,6 @@ FIXES: dict[str, dict[str, str]] = {
         "hard-coded-name-in-macro": UNSAFE,
         "shadowed-builtin": UNSAFE,
     },
-    "tree": {
-        "unknown-parent-link": BOTH,
-        "unknown-child-link": UNSAFE,
-        "duplicate-joint-name": UNSAFE,
-        "conflicting-material": BOTH,
-    },
     "joint": {
         "unknown-joint-type": UNSAFE,
         "redundant-on-fixed": SAFE,
@@ -197,18 +191,6 @@ FIXES: dict[str, dict[str, str]] = {
         "ros2-control-unknown-imu-interface": UNSAFE,
         "controller-unknown-joint": UNSAFE,
         "controller-parameter-type": SAFE,
-    },
-    "renames": {
-        "link-joint-name-clash": UNSAFE,
-        "invalid-frame-name": UNSAFE,
-        "reserved-name": UNSAFE,
-        "not-portable-identifier": UNSAFE,
-        "name-style": UNSAFE,
-        "non-ascii-name": UNSAFE,
-    },
-    "names": {
-        "colon-space-in-comment": UNSAFE,
-        "duplicate-geometry-name": UNSAFE,
     },
 }
 """Applicability by rule, by the file in ``fixes``."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from ...model.elements import Link, Robot
 from ...model.read import numbers
 from ...source.document import Element
+from ..cross_file_references import check_not_included
 from ..gazebo.contact import contact_role
 from ..gazebo.keywords import JOINT_KEYWORDS, LINK_KEYWORDS, NOT_IN_GZ, SURFACE
 from ..gazebo.lumping import is_lumped, keeps_joint
@@ -12,7 +13,6 @@ from ..gazebo.sensors import Frameless, without_frame
 from ..gazebo.tags import _colours, _shows_colour
 from ..gazebo.wheel_pair import wheel_pair
 from ..rule import Problem
-from .elsewhere import check_not_included
 from .proposal import (
     Around,
     Change,

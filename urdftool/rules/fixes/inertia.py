@@ -9,6 +9,7 @@ from ...model.elements import Inertial, Link, Vector
 from ...model.inertia_slips import is_possible
 from ...model.pose import pose_of, transpose
 from ...model.tensor3 import Six, eigenvalues, turned
+from ..cross_file_references import check_not_included
 from ..inertia.frame import about_com
 from ..inertia.proposals import proposal_of
 from ..inertia.slips import slip_of
@@ -16,7 +17,6 @@ from ..inertia.solids import _only_shape, box_of, is_dummy, solid_tensor, solid_
 from ..inertia.tensors import SIX, is_zero, six_of
 from ..mesh.outlines import reaches
 from ..rule import INFO, Problem
-from .elsewhere import check_not_included
 from .proposal import (
     Around,
     Change,

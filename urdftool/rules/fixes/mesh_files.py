@@ -17,9 +17,9 @@ from ...finding import Remake
 from ...source.document import copy_of
 from ...source.nearby import bytes_of
 from ...source.packages import shown_path
+from ..cross_file_references import check_alone
 from ..mesh.uses import MeshUse, mesh_uses
 from ..rule import Problem
-from .elsewhere import check_alone
 from .mesh import uses_of
 from .proposal import (
     Around,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Robot, Transmission
+from ..cross_file_references import check_not_included
 from ..rule import Problem
-from .elsewhere import check_not_included
 from .proposal import Around, Change, Lines, Proposal, is_computed, quote, remove, replace, unsafe
 
 _COMMANDS = {"Position": "position", "Velocity": "velocity", "Effort": "effort"}

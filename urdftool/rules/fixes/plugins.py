@@ -8,9 +8,9 @@ from pathlib import Path
 from ...model.gazebo_plugins import SYSTEM_PLUGINS, carried, class_of, file_of, library
 from ...source.nearby import bytes_of
 from ...source.packages import own_package
+from ..cross_file_references import check_not_included
 from ..gazebo.systems import REPLACEMENTS, SYSTEMS
 from ..rule import Problem
-from .elsewhere import check_not_included
 from .proposal import (
     Around,
     Proposal,

@@ -10,6 +10,8 @@ from math import inf, isclose
 from ...model.read import number
 from ...source.document import Element
 from ...source.location import SourceFile
+from ..renaming import find_joint_references as joints_named
+from ..renaming import find_link_references as links_named
 from ..rule import Problem
 from ..xacro.definitions import definitions
 from ..xacro.tags import XMLNS
@@ -29,7 +31,6 @@ from .proposal import (
     to_write,
     unsafe,
 )
-from .renames import joints_named, links_named
 
 _FOR_LAUNCH = {"find-pkg-share": "find", "find-pkg-prefix": "find", "var": "arg"}
 

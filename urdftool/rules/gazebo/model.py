@@ -8,8 +8,10 @@ from collections.abc import Iterator
 from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
 from ...source.document import parse
+from ..fix import FixContext, Proposal
 from ..joint.range import is_locked
-from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
+from ..renaming import part_of, rename_part
+from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
 from ..words import quoted
 from .keywords import is_true
 from .wheel_pair import wheel_pair
@@ -108,6 +110,17 @@ _DRIVES = re.compile(
 )
 
 _REPORTS = re.compile(r"joint[-_]?state", re.IGNORECASE)
+
+
+@reserved_name.fix(UNSAFE, renames=True)
+def rename_reserved(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the underscores; write ``world_link`` for a ``world`` that is not the root."""
+    part = part_of(problem)
+    if part is None:
+        return None
+    return rename_part(
+        context, part, "world_link" if part.name == "world" else part.name.strip("_")
+    )
 
 
 @rule(

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Material, Robot
-from ..rule import ERROR, INFO, ROS, WARNING, Problem, rule
+from ..fix import FixContext, Proposal, attribute_at, substitute, unsafe
+from ..renaming import part_of, rename_material, rename_part
+from ..rule import ERROR, INFO, ROS, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import fold
 
@@ -44,14 +47,24 @@ def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem
         if name.startswith("/"):
             if len(slashed) > together:
                 continue
-            what = f"begins with a slash; write '{name.lstrip('/')}'"
+            what, right = "begins with a slash", name.lstrip("/")
         elif len(inner.split()) > 1:
-            what = f"has a blank in it; write '{'_'.join(inner.split())}'"
+            what, right = "has a blank in it", "_".join(inner.split())
         else:
             continue
         yield Problem(
-            link, f"name of link '{name}' {what}", at=link.element.attribute_place("name")
+            link,
+            f"name of link '{name}' {what}; write '{right}'",
+            at=link.element.attribute_place("name"),
+            data={"write": right},
         )
+
+
+@invalid_frame_name.fix(UNSAFE, renames=True)
+def rename_frame(problem: Problem, context: FixContext) -> Proposal | None:
+    """Rename one link; the names of many have one cause elsewhere."""
+    name: str | None = problem.data.get("write")
+    return None if name is None else rename_part(context, context.link(problem), name)
 
 
 @rule(
@@ -74,7 +87,15 @@ def not_portable_identifier(robot: Robot) -> Iterator[Problem]:
                 part,
                 f"name of {part.element.tag} '{part.name}' is no identifier; write '{renamed}'",
                 at=part.element.attribute_place("name"),
+                data={"write": renamed},
             )
+
+
+@not_portable_identifier.fix(UNSAFE, renames=True)
+def write_identifier(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write underscores for what is not a letter or digit."""
+    part = part_of(problem)
+    return rename_part(context, part, problem.data["write"]) if part is not None else None
 
 
 @rule(
@@ -96,6 +117,16 @@ def name_style(robot: Robot) -> Iterator[Problem]:
                 f"name of {part.element.tag} '{part.name}' is not in lower case with underscores",
                 at=part.element.attribute_place("name"),
             )
+
+
+@name_style.fix(UNSAFE, renames=True)
+def write_snake_case(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the name in lower case, with underscores between words."""
+    part = part_of(problem)
+    if part is None or not part.name.isascii():
+        return None
+    words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])|[^A-Za-z0-9]+", "_", part.name)
+    return rename_part(context, part, re.sub("_+", "_", words).strip("_").lower())
 
 
 @rule(
@@ -120,6 +151,26 @@ def non_ascii_name(robot: Robot) -> Iterator[Problem]:
                 f"name of {part.element.tag} '{part.name}' has letters outside ASCII",
                 at=part.element.attribute_place("name"),
             )
+
+
+_LETTERS = str.maketrans({"ß": "ss", "æ": "ae", "ø": "o", "ł": "l", "đ": "d", "œ": "oe", "Ø": "O"})
+
+
+@non_ascii_name.fix(UNSAFE, renames=True)
+def write_ascii(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the nearest ASCII letters; names in other scripts are left."""
+    name = problem.name
+    plain = "".join(
+        letter
+        for letter in unicodedata.normalize("NFKD", name.translate(_LETTERS))
+        if not unicodedata.combining(letter)
+    )
+    if not plain.isascii():
+        return None
+    part = part_of(problem)
+    if part is None:
+        return rename_material(context.robot, name, plain)
+    return rename_part(context, part, plain)
 
 
 @rule(
@@ -177,3 +228,18 @@ def duplicate_geometry_name(robot: Robot, targets: frozenset[str]) -> Iterator[P
 
 def _parts(robot: Robot) -> list[Link | Joint]:
     return [*robot.links, *robot.joints]
+
+
+@duplicate_geometry_name.fix(UNSAFE)
+def number_geometry_name(problem: Problem, context: FixContext) -> Proposal | None:
+    """Append a number to the second name."""
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    taken = {shape.name for _, shape in context.robot.shapes}
+    name, number = (found[0].get(found[1]) or "").strip(), 2
+    while f"{name}_{number}" in taken:
+        number += 1
+    return unsafe(
+        f"call it '{name}_{number}'", substitute(*found, r"(?<=\S)(?=\s*$)", f"_{number}")
+    )

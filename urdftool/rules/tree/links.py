@@ -2,13 +2,28 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Robot
 from ...source.description import Description
 from ...source.document import Element
+from ..cross_file_references import check_not_included
+from ..fix import (
+    FixContext,
+    Proposal,
+    attribute_at,
+    is_always_there,
+    is_computed,
+    prepend_child,
+    safe,
+    set_attribute,
+    suggestion_of,
+    unsafe,
+)
 from ..gazebo.lumping import is_lumped
-from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, holding, rule
+from ..renaming import rename_part
+from ..rule import BOTH, ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from ..words import did_you_mean, nearest
 from ..xml.vocabulary_table import is_for_another_reader, misspelt_children
@@ -82,6 +97,21 @@ def duplicate_joint_name(robot: Robot) -> Iterator[Problem]:
             )
 
 
+@duplicate_joint_name.fix(UNSAFE)
+def number_joint_name(problem: Problem, context: FixContext) -> Proposal | None:
+    """Append a number to the second name."""
+    joint = context.joint(problem)
+    name = _free_name(joint.name, {*context.robot.joint, *context.robot.link})
+    return unsafe(f"call it '{name}'", set_attribute(joint.element, "name", name))
+
+
+def _free_name(name: str, taken: set[str]) -> str:
+    number = 2
+    while f"{name}_{number}" in taken:
+        number += 1
+    return f"{name}_{number}"
+
+
 @rule(
     INFO,
     raised=dict.fromkeys(GAZEBO, ERROR),
@@ -123,6 +153,13 @@ _WITHOUT_PARENT = {
 }
 
 
+@link_joint_name_clash.fix(UNSAFE, renames=True)
+def rename_joint(problem: Problem, context: FixContext) -> Proposal | None:
+    """Append ``_joint`` to the name of the joint."""
+    joint = context.joint(problem)
+    return rename_part(context, joint, f"{joint.name}_joint")
+
+
 @rule(
     ERROR,
     effects=_WITHOUT_PARENT,
@@ -145,12 +182,42 @@ def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"parent '{name}' of joint '{joint.name}' is no link{_remedy(name, robot)}",
                 at=joint.parent_element.attribute_place("link"),
+                data={"suggestion": nearest(name, robot.link)},
                 severity=INFO if is_world and is_for_another_reader(robot.element) else None,
                 effects=holding(
                     _WITHOUT_PARENT,
                     "the parent is world" if is_world else "the parent is not world",
                 ),
             )
+
+
+@unknown_parent_link.fix(BOTH)
+def fix_parent(problem: Problem, context: FixContext) -> Proposal | None:
+    """Declare ``world``; for another name write the suggested link.
+
+    ``world`` is declared only in a description that is a robot whatever its arguments are; a part
+    that another robot includes gets it from there.
+    """
+    joint = context.joint(problem)
+    if joint.parent != "world":
+        return _write_suggestion(problem)
+    check_not_included(context)
+    made = prepend_child(context.robot.element, '<link name="world"/>')
+    parent = joint.parent_element
+    sure = parent is not None and is_always_there(parent) and not is_computed(parent, "link")
+    known = any(_WORLD.search(file.data) for file in context.description.files)
+    return (safe if sure and not known else unsafe)('add <link name="world"/>', made)
+
+
+_WORLD = re.compile(rb"<link\b[^>]*\bname\s*=\s*[\"']world[\"']")
+
+
+def _write_suggestion(problem: Problem) -> Proposal | None:
+    found = attribute_at(problem)
+    name = suggestion_of(problem, found[0].get(found[1]) or "") if found is not None else ""
+    if found is None or not name:
+        return None
+    return unsafe(f"write '{name}'", set_attribute(*found, name))
 
 
 @rule(
@@ -188,6 +255,7 @@ def unknown_child_link(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"child '{name}' of joint '{joint.name}' is no link{right}",
                 at=joint.child_element.attribute_place("link"),
+                data={"suggestion": nearest(name, robot.link), "orphan": meant},
             )
 
 
@@ -204,6 +272,19 @@ def _remedy(name: str, robot: Robot) -> str:
     if robot.source is not None and robot.source.expansion is not None:
         remedy += ", or check the file that includes this one"
     return did_you_mean(name, robot.link) or remedy
+
+
+@unknown_child_link.fix(UNSAFE)
+def fix_child(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the suggested link, if it is not the child of a joint yet."""
+    orphan: str = problem.data.get("orphan", "")
+    found = attribute_at(problem)
+    if orphan and found is not None:
+        return unsafe(f"write '{orphan}'", set_attribute(*found, orphan))
+    name = suggestion_of(problem, context.joint(problem).child)
+    if any(joint.child == name for joint in context.robot.joints):
+        return None
+    return _write_suggestion(problem)
 
 
 @rule(

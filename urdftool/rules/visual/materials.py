@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from ...model.elements import Material, Robot
 from ...model.read import numbers
-from ..rule import ERROR, WARNING, Problem, holding, rule
+from ..fix import FixContext, Proposal, are_equal_elements, remove_element, safe, unsafe
+from ..rule import BOTH, ERROR, WARNING, Problem, holding, rule
 from ..words import did_you_mean
 from ..xml.vocabulary_table import misspelt_attributes
 
@@ -179,6 +180,25 @@ def _defines(material: Material) -> bool:
 def _look(material: Material) -> _Look:
     color = material.color
     return (None if color is None else tuple(round(c, 4) for c in color)), material.texture
+
+
+@conflicting_material.fix(BOTH)
+def remove_equal_material(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the second of two that are equal.
+
+    In xacro another robot, or other arguments, may have the second alone.
+    """
+    element = problem.element
+    if element.tag != "material" or element.parent is not context.robot.element:
+        return None
+    name = element.get("name")
+    firsts = [m.element for m in context.robot.materials if m.name == name]
+    if firsts[0] is element or not are_equal_elements(firsts[0], element):
+        return None
+    if (firsts[0].file.path, firsts[0].start) == (element.file.path, element.start):
+        return None  # one place that is included twice
+    make = safe if context.description.expansion is None else unsafe
+    return make("keep the first, which is equal", remove_element(element))
 
 
 @rule(

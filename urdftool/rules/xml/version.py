@@ -7,9 +7,10 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.document import Document, Element
+from ...source.document import Document, Element, parse
 from ...source.location import Place
-from ..rule import ERROR, INFO, Problem, holding, rule
+from ..fix import FixContext, Proposal, Span, unsafe
+from ..rule import ERROR, INFO, UNSAFE, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from .owner import owner
 from .vocabulary_table import census, is_for_another_reader
@@ -164,3 +165,22 @@ def colon_space_in_comment(document: Document, description: Description) -> Iter
             f"a comment{more} holds ': ', which ROS 2 may take for YAML; write ' - '",
             at=Place(document.file, found[0].start, found[0].end),
         )
+
+
+@colon_space_in_comment.fix(UNSAFE)
+def replace_colons(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write ``-`` for the colon in all comments of the file."""
+    document = context.document
+    if document is None:
+        return None
+    data, spans = document.file.data, []
+    for comment in parse(document.file).comments:
+        if b"urdftool-ignore" in data[comment.start : comment.end]:
+            continue
+        for match in re.finditer(rb":(?=\s)", data[comment.start : comment.end]):
+            start = comment.start + match.start()
+            blank = b"-" if data[start - 1 : start].isspace() else b" -"
+            if data[start + 2 : start + 3] == b"-" or data[start - 1 : start] == b"-":
+                return None
+            spans.append(Span(document.file, start, start + 1, blank))
+    return unsafe("write ' - ' for ': ' in comments", *spans) if spans else None

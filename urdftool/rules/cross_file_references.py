@@ -8,12 +8,12 @@ from collections.abc import Collection, Iterator
 from itertools import islice
 from pathlib import Path
 
-from ...inputs import Remembered
-from ...source.document import copy_of
-from ...source.nearby import bytes_of
-from ...source.packages import own_package, shown_path
-from ..mesh.uses import Stamp, stamp
-from .proposal import Around, RefusedError
+from ..inputs import Remembered
+from ..source.document import copy_of
+from ..source.nearby import bytes_of
+from ..source.packages import own_package, shown_path
+from .fix import FixContext, RefusedError
+from .mesh.uses import Stamp, stamp
 
 DESCRIPTIONS = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf")
 _USES = (".yaml", ".yml", ".json", ".py", ".launch", ".lua", ".rviz", ".cpp", ".hpp", ".h", ".srdf")
@@ -21,11 +21,11 @@ _USES = (".yaml", ".yml", ".json", ".py", ".launch", ".lua", ".rviz", ".cpp", ".
 _MOST_FILES, _MOST_BYTES = 10_000, 2_000_000
 
 
-def check_alone(around: Around, word: str, *, robots: bool, but: Collection[str] = ()) -> None:
+def check_alone(context: FixContext, word: str, *, robots: bool, but: Collection[str] = ()) -> None:
     """Make sure that no file of the package names a word, but the description's own.
 
     Args:
-        around: The robot and its description.
+        context: The robot and its description.
         word: What is looked for, as a whole word.
         robots: Whether other descriptions count, which have links of the same names.
         but: Files that are changed with it.
@@ -33,9 +33,9 @@ def check_alone(around: Around, word: str, *, robots: bool, but: Collection[str]
     Raises:
         RefusedError: One does.
     """
-    mine = {os.path.realpath(file.path) for file in around.description.files}
+    mine = {os.path.realpath(file.path) for file in context.description.files}
     mine.update(map(os.path.realpath, but))
-    for number, file in enumerate(around.nearby(_files)):
+    for number, file in enumerate(context.nearby(_files)):
         if number >= _MOST_FILES:
             raise RefusedError(
                 f"there are too many files around it to know that none names '{word}'"
@@ -96,21 +96,21 @@ def _words_of(path: str) -> frozenset[bytes]:
 _INCLUDE = re.compile(rb"<(?:\w+:)?include\b[^>]*?filename\s*=\s*[\"']([^\"']*)[\"']")
 
 
-def check_not_included(around: Around) -> None:
+def check_not_included(context: FixContext) -> None:
     """Make sure that no other robot includes the description, which would get what is added.
 
     The packages of its workspace are looked at. A gripper that is a robot by itself for tests is
     part of an arm in another package.
 
     Args:
-        around: The robot and its description.
+        context: The robot and its description.
 
     Raises:
         RefusedError: One does.
     """
-    file = around.description.packages.file
+    file = context.description.packages.file
     own = own_package(file)
-    for folder in around.description.packages.neighbors():
+    for folder in context.description.packages.neighbors():
         for user, said in _included(str(folder)).get(file.name, ()):
             found = _FIND.match(said)
             if found is not None:
@@ -146,10 +146,10 @@ def _included(folder: str) -> dict[str, list[tuple[str, str]]]:
     return found
 
 
-def _files(around: Around) -> list[_File]:
+def _files(context: FixContext) -> list[_File]:
     """The files of the description's package, or of its folder, as many as are looked at."""
-    own = own_package(around.description.packages.file)
-    root = own[1] if own is not None else around.description.packages.file.parent
+    own = own_package(context.description.packages.file)
+    root = own[1] if own is not None else context.description.packages.file.parent
     return list(map(_File, islice(_below(root), _MOST_FILES + 1)))
 
 

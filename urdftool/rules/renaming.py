@@ -1,0 +1,90 @@
+"""Rename a link, joint or material with every reference in the description and its SRDF.
+
+It is refused where another file of the package refers to the old name, such as a list of
+controllers.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ..finding import Severity
+from ..model.elements import Joint, Link, Robot
+from ..source.document import Element
+from .cross_file_references import check_alone
+from .fix import Change, FixContext, Proposal, set_attribute, set_text, unsafe
+from .moveit.semantic import references, semantics
+from .rule import Problem
+
+_LINK_AT = {"link": "name", "parent": "link", "child": "link"}
+
+
+def rename_part(context: FixContext, part: Link | Joint, new: str) -> Proposal | None:
+    """Rename a link or joint; None where the new name is taken, or the old one is worth more.
+
+    Controllers, launch files and programs of other packages refer to the joints that move; an info
+    is not worth breaking them.
+
+    Raises:
+        RefusedError: Another file of the package refers to it.
+    """
+    robot, old = context.robot, part.name
+    if isinstance(part, Joint) and not part.is_fixed and context.severity is Severity.INFO:
+        return None
+    if not new or new == old or new in robot.link or new in robot.joint:
+        return None
+    if old in robot.link and old in robot.joint and robot.extensions.get(old):
+        return None  # the link or the joint may be meant
+    kind = "link" if isinstance(part, Link) else "joint"
+    namings = (find_link_references if kind == "link" else find_joint_references)(
+        robot.element, old
+    )
+    changes = [set_text(e, new) if not at else set_attribute(e, at, new) for e, at in namings]
+    documents = semantics(robot, context.description)
+    for document in documents:
+        for element, attribute, _ in references(document.root, kind):
+            if element.get(attribute) == old:
+                changes.append(set_attribute(element, attribute, new))
+    check_alone(context, old, robots=False, but=[d.file.path for d in documents])
+    return unsafe(f"call it '{new}', here and where it is named", *changes)
+
+
+def find_link_references(root: Element, name: str) -> Iterator[tuple[Element, str]]:
+    """Find the references to a link.
+
+    Yields:
+        The element, and the attribute; empty for the element's text.
+    """
+    for element in root.walk():
+        attribute = _LINK_AT.get(element.tag, "reference" if element.tag == "gazebo" else "")
+        if attribute and element.get(attribute) == name:
+            yield element, attribute
+        elif not attribute and element.text.strip() == name and not element.children:
+            if re.search("ame|ink|ody", element.tag):
+                yield element, ""
+
+
+def find_joint_references(root: Element, name: str) -> Iterator[tuple[Element, str]]:
+    """Find the references to a joint, as :func:`find_link_references`."""
+    for element in root.walk():
+        attribute = {"joint": "name", "mimic": "joint", "gazebo": "reference"}.get(element.tag, "")
+        if attribute and element.get(attribute) == name:
+            yield element, attribute
+        elif element.text.strip() == name and not element.children:
+            if "oint" in element.tag or element.get("name") == "mimic":
+                yield element, ""
+
+
+def part_of(problem: Problem) -> Link | Joint | None:
+    """Get the link or joint that a problem is about; None for anything else."""
+    return problem.subject if isinstance(problem.subject, Link | Joint) else None
+
+
+def rename_material(robot: Robot, old: str, new: str) -> Proposal | None:
+    """Rename a material wherever it is named; None where the new name is taken."""
+    found = [e for e in robot.element.walk() if e.tag == "material" and e.get("name") == old]
+    if any(e.tag == "material" and e.get("name") == new for e in robot.element.walk()):
+        return None
+    changes: list[Change] = [set_attribute(element, "name", new) for element in found]
+    return unsafe(f"call it '{new}', here and where it is named", *changes)
