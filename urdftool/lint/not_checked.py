@@ -105,7 +105,7 @@ def finding_of(
         effects=_effects_of(rule, failure),
         hint="; ".join(failure.notes),
         unchecked=unchecked,
-        data=failure.data,
+        data={"case": failure.case, **failure.data} if failure.case else failure.data,
     )
 
 

@@ -96,7 +96,11 @@ def check_selectors(selectors: Iterable[str], path: str | None = None) -> tuple[
             continue
         if prefix is not None and any(name.startswith(prefix) for name in FAMILY_OF):
             continue
-        raise ConfigError(f"no rule is called '{word}'{nearest_rule(word)}", path=path)
+        raise ConfigError(
+            f"no rule is called '{word}'{nearest_rule(word)}",
+            path=path,
+            data={"name": word, "suggestion": _near(word, (*FAMILY_OF, *FAMILIES))},
+        )
     return tuple(words)
 
 
@@ -107,10 +111,15 @@ def nearest_rule(word: str) -> str:
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """``; did you mean '…'?``, or nothing where no word is near."""
+    near = _near(word, known)
+    return f"; did you mean '{near}'?" if near else ""
+
+
+def _near(word: str, known: Iterable[str]) -> str:
     from difflib import get_close_matches
 
     near = get_close_matches(word, list(known), 1, 0.5)
-    return f"; did you mean '{near[0]}'?" if near else ""
+    return near[0] if near else ""
 
 
 def check_targets(targets: Iterable[str], path: str | None = None) -> frozenset[str] | None:

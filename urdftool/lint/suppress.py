@@ -18,7 +18,7 @@ from ..finding import Finding, Severity
 from ..rules import FAMILY_OF
 from ..source.document import Document
 from ..source.location import Place
-from .settings import check_selectors, nearest, nearest_rule
+from .settings import check_selectors, nearest
 
 _WORD = re.compile(r"\s*(urdftool-[\w-]+)\s*(?:\[|$)")
 _WORDS = ("urdftool-ignore", "urdftool-ignore-file")
@@ -108,13 +108,14 @@ def _faults(names: str | None, place: Place) -> Iterator[Finding]:
     for word in (names or "").split(","):
         try:
             check_selectors([word])
-        except ConfigError:
+        except ConfigError as error:
             yield Finding(
                 "unknown-rule",
                 Severity.ERROR,
-                f"no rule is called '{word.strip()}'{nearest_rule(word.strip())}",
+                error.message,
                 place,
                 "comment",
+                data=error.data,
             )
 
 

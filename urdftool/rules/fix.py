@@ -273,6 +273,26 @@ def is_close_enough(right: str, wrong: str) -> bool:
     return re.findall(r"\d+", right) == re.findall(r"\d+", wrong) and bool(meant(wrong, [right]))
 
 
+def write_inside(
+    finding: Finding, old: str, new: str, *, harmless: bool = False
+) -> Proposal | None:
+    """Replace a word that occurs once in the bytes of a finding's place.
+
+    Args:
+        finding: The finding.
+        old: Text to replace.
+        new: Text to write.
+        harmless: Whether the fix is safe.
+    """
+    place, file = finding.place, finding.place.file
+    written = file.data[place.start : place.end]
+    if written.count(old.encode()) != 1:
+        return None
+    start = place.start + written.index(old.encode())
+    span = Span(file, start, start + len(old.encode()), new.encode())
+    return Proposal(harmless, f"write {new}", (span,))
+
+
 def format_numbers(values: Iterable[float], digits: int = 9) -> str:
     """Format numbers with at most so many significant digits, and without ``-0``."""
     return " ".join(f"{value + 0.0:.{digits}g}" for value in values)

@@ -5,17 +5,6 @@ from __future__ import annotations
 from .rule import BOTH, SAFE, UNSAFE
 
 FIXES: dict[str, dict[str, str]] = {
-    "failures": {
-        "not-well-formed": SAFE,
-        "content-before-declaration": SAFE,
-        "missing-xmlns": SAFE,
-        "unknown-macro": UNSAFE,
-        "undeclared-arg": UNSAFE,
-        "include-not-found": BOTH,
-        "non-boolean-conditional": UNSAFE,
-        "unknown-rule": UNSAFE,
-        "unused-suppression": SAFE,
-    },
     "xml": {
         "missing-name": UNSAFE,
         "unknown-element": BOTH,
@@ -31,18 +20,6 @@ FIXES: dict[str, dict[str, str]] = {
         "unsupported-urdf-version": UNSAFE,
         "feature-needs-newer-version": UNSAFE,
         "rpy-and-quat": UNSAFE,
-    },
-    "xacro": {
-        "nonstandard-xmlns": SAFE,
-        "unprefixed-xacro-tag": UNSAFE,
-        "unexpanded-expression": UNSAFE,
-        "bad-substitution-command": SAFE,
-        "deprecated-global-function": SAFE,
-        "unused-arg": UNSAFE,
-        "unused-property": UNSAFE,
-        "unused-macro": UNSAFE,
-        "hard-coded-name-in-macro": UNSAFE,
-        "shadowed-builtin": UNSAFE,
     },
     "joint": {
         "unknown-joint-type": UNSAFE,

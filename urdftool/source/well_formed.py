@@ -57,7 +57,7 @@ def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> N
     except expat.ExpatError as error:
         offset = min(parser.ErrorByteIndex, len(file.data))
         message, rule, case = _explain(file, error, offset)
-        if stack and "open" in message:
+        if stack and case == "an element that is not closed":
             line = file.position(stack[-1].start)[0]
             message += f" (<{stack[-1].tag}> of line {line} is)"
         raise XmlError(

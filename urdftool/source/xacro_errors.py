@@ -33,16 +33,21 @@ def explain(
             if cause.path is not None:  # a file that could not be read, named where it is wanted
                 return _missing(cause.path, cause.message, at, _argument_of(node, result))
             return type(cause)(
-                cause.message, at=at, notes=cause.notes, rule=cause.rule, case=cause.case
+                cause.message,
+                at=at,
+                notes=cause.notes,
+                rule=cause.rule,
+                case=cause.case,
+                data=cause.data,
             )
         if isinstance(cause, UrdftoolError):
             return cause
-    rule, message = sentence_of(Failure(error, node, failed_text, result))
+    rule, message, data = sentence_of(Failure(error, node, failed_text, result))
     if rule == "include-not-found":
         message += _argument_of(node, result)
     if at is None:
-        return XacroError(message, path=result.file.path, rule=rule)
-    return XacroError(message, at=at, rule=rule)
+        return XacroError(message, path=result.file.path, rule=rule, data=data)
+    return XacroError(message, at=at, rule=rule, data=data)
 
 
 def _argument_of(include: XacroElement | None, result: Expansion) -> str:
@@ -70,8 +75,14 @@ def _missing(path: str, reason: str, at: Place, argument: str) -> XacroError:
         missing = next((p for p in reversed(Path(path).parents) if not p.exists()), None)
         reason = f"there is no folder {missing}" if missing else reason
     near = get_close_matches(name, there, 1, 0.75)
-    hint = f"; did you mean '{near[0]}'?" if near and near[0] != name else ""
-    return XacroError(f"{path}: {reason}{hint}{argument}", at=at, rule="include-not-found")
+    right = near[0] if near and near[0] != name else ""
+    hint = f"; did you mean '{right}'?" if right else ""
+    return XacroError(
+        f"{path}: {reason}{hint}{argument}",
+        at=at,
+        rule="include-not-found",
+        data={"file": path, "suggestion": right},
+    )
 
 
 def _place(node: XacroElement, failed_text: str | None, odd: str) -> Place:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, NamedTuple
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .packages import shown_path
 from .xacro_tree import XacroElement
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from .expansion import Expansion
 
@@ -70,11 +71,27 @@ class Failure(NamedTuple):
         return " ".join(str(self.error).split()) or type(self.error).__name__
 
 
-def sentence_of(failure: Failure) -> tuple[str, str]:
-    """The rule it is a case of, and the sentence."""
+class Explanation(NamedTuple):
+    """A failure of the expansion, explained.
+
+    Attributes:
+        rule: Lint rule that reports it.
+        message: One sentence: what is wrong, with what would be right.
+        data: Values for fixes, by name.
+    """
+
+    rule: str
+    message: str
+    data: Mapping[str, Any] = MappingProxyType({})
+
+
+def sentence_of(failure: Failure) -> Explanation:
+    """Explain a failure by the rule it is a case of."""
     error = failure.error
     if isinstance(error, RecursionError) or isinstance(error.__cause__, RecursionError):
-        return "endless-expansion", "the expansion does not end: a macro or property uses itself"
+        return Explanation(
+            "endless-expansion", "the expansion does not end: a macro or property uses itself"
+        )
     for speak in (_of_names, _of_macros, _of_blocks, _of_writing, _of_files):
         if found := speak(failure):
             return found
@@ -82,7 +99,7 @@ def sentence_of(failure: Failure) -> tuple[str, str]:
     text = re.sub(r"^<class '[\w.]+'>: | \(<expression>, line 1\)", "", text)
     if isinstance(_inner(error), KeyError):
         text = f"there is no key {text}"
-    return "expansion-failed", f"{text}{_in_expression(failure.failed_text)}"
+    return Explanation("expansion-failed", f"{text}{_in_expression(failure.failed_text)}")
 
 
 def _inner(error: Exception) -> object:
@@ -91,31 +108,37 @@ def _inner(error: Exception) -> object:
     return error if inner is None else inner
 
 
-def _of_names(failure: Failure) -> tuple[str, str] | None:
+def _of_names(failure: Failure) -> Explanation | None:
     """Names that mean nothing where they stand."""
     text, result, failed_text = failure.text, failure.result, failure.failed_text
     if match := _UNKNOWN_MACRO.search(text):
-        hint = _nearest(match[1], {*_TAGS, *(name for name, _ in _macros(result))})
-        return "unknown-macro", f"unknown macro '{match[1]}'{hint}"
+        near = _near(match[1], {*_TAGS, *(name for name, _ in _macros(result))})
+        hint = f"; did you mean '{near}'?" if near else ""
+        data = {"name": match[1], "suggestion": near}
+        return Explanation("unknown-macro", f"unknown macro '{match[1]}'{hint}", data)
     if match := _UNDEFINED.search(text):
         hint = _in_expression(failed_text) + _nearest(match[1], _known(result))
-        return "undefined-name", f"'{match[1]}' is not defined{hint}"
+        return Explanation("undefined-name", f"'{match[1]}' is not defined{hint}")
     if match := _NO_ARGUMENT.search(text):
         name = match[1]
         known = ", ".join(result.arguments) or "none"
+        given, near = _near(name, set(result.given)), _near(name, set(result.arguments))
+        hint = f"; was it meant by '{given}'?" if given else ""
+        hint = hint or (f"; did you mean '{near}'?" if near else "")
+        data = {"name": name, "suggestion": near, "given": given}
         if failure.node is not None and failure.node.tagName == "robot":
-            return "undeclared-arg", (
+            message = (
                 f"the argument '{name}' has no value; give {name}:=VALUE, for xacro expands the "
-                "attributes of <robot> before it reads the default of an <xacro:arg>"
-                f"{_argument_meant(name, result)}"
+                f"attributes of <robot> before it reads the default of an <xacro:arg>{hint}"
             )
-        return "undeclared-arg", (
-            f"the argument '{name}' has no value and no <xacro:arg> before it declares it; "
-            f"give {name}:=VALUE, or declare it with a default "
-            f"(declared: {known}){_argument_meant(name, result)}"
-        )
+        else:
+            message = (
+                f"the argument '{name}' has no value and no <xacro:arg> before it declares it; "
+                f"give {name}:=VALUE, or declare it with a default (declared: {known}){hint}"
+            )
+        return Explanation("undeclared-arg", message, data)
     if "circular variable definition" in text:
-        return "circular-property", text.split(" Consider ")[0]
+        return Explanation("circular-property", text.split(" Consider ")[0])
     return None
 
 
@@ -125,42 +148,45 @@ def odd_parameter(error: Exception) -> str:
     return match[1] if match else ""
 
 
-def _of_macros(failure: Failure) -> tuple[str, str] | None:
+def _of_macros(failure: Failure) -> Explanation | None:
     """Macros, and what they are called with."""
     text, node = failure.text, failure.node
     macro = node.tagName[6:] if node is not None else "?"
     if match := _NO_PARAMETERS.search(text):
         missing = ", ".join(f"'{name}'" for name in match[1].split(","))
-        return (
+        return Explanation(
             "macro-arguments-mismatch",
             f"macro '{macro}' is called without {missing}, which has no default",
         )
     if match := _ODD_PARAMETER.search(text):
         called = next(iter(getattr(failure.error, "macros", None) or ()), None)
         takes = {name.lstrip("*") for name in getattr(called, "params", ())}
-        return "macro-arguments-mismatch", (
-            f"macro '{macro}' has no parameter '{match[1]}'{_nearest(match[1], takes)}"
+        return Explanation(
+            "macro-arguments-mismatch",
+            (f"macro '{macro}' has no parameter '{match[1]}'{_nearest(match[1], takes)}"),
         )
     if match := _FORWARD.search(text):
         name = match[1]
-        return "macro-arguments-mismatch", (
+        return Explanation(
+            "macro-arguments-mismatch",
             f"macro '{macro}' takes '{name}' from where it is called ({name}:=^), and there is no "
-            f'such property; write <xacro:{macro} {name}="…"> or a default, {name}:=^|VALUE'
+            f'such property; write <xacro:{macro} {name}="…"> or a default, {name}:=^|VALUE',
         )
     if "Invalid use of macro name 'call'" in text:
-        return (
+        return Explanation(
             "expansion-failed",
             "a macro cannot be named 'call': <xacro:call> is xacro's own; write another name",
         )
     if match := _MACRO_NAME.search(text):
-        return "expansion-failed", (
+        return Explanation(
+            "expansion-failed",
             f"macro '{match[1]}' has a dot in its name, which parts a namespace from a macro; "
-            f"write {match[1].replace('.', '_')}"
+            f"write {match[1].replace('.', '_')}",
         )
     return None
 
 
-def _of_blocks(failure: Failure) -> tuple[str, str] | None:
+def _of_blocks(failure: Failure) -> Explanation | None:
     """Elements that are handed to a macro."""
     text, node, result = failure.text, failure.node, failure.result
     few = "Not enough blocks" in text
@@ -181,91 +207,105 @@ def _of_blocks(failure: Failure) -> tuple[str, str] | None:
             block = given[0].strip("<>").rpartition(":")[2]
             advice = f'take it out, or let the macro have params="*{block}" and insert it'
         names = f" ({names})" if wanted else ""
-        return "macro-arguments-mismatch", f"{wants}{names} and is given {has}; {advice}"
+        return Explanation(
+            "macro-arguments-mismatch", f"{wants}{names} and is given {has}; {advice}"
+        )
     if match := _NO_BLOCK.search(text):
         calls = node.calls if node is not None else ()
         inside = next((call.macro for call in calls if call.macro), "")
         blocks = _blocks_of(inside, result)
         near = _nearest(match[1], blocks | {name for _, name, _ in _definitions(result)})
         if not inside:
-            return "undefined-name", (
+            return Explanation(
+                "undefined-name",
                 f"there is no block '{match[1]}' here; <xacro:property name=\"{match[1]}\"> with "
-                f'elements in it makes one, and so does a macro\'s params="*{match[1]}"{near}'
+                f'elements in it makes one, and so does a macro\'s params="*{match[1]}"{near}',
             )
         known = ", ".join(sorted(blocks)) or "none"
-        return "undefined-name", (
+        return Explanation(
+            "undefined-name",
             f"macro '{inside}' has no block '{match[1]}' (its blocks: {known}); declare it with "
-            f'params="*{match[1]}"{_nearest(match[1], blocks)}'
+            f'params="*{match[1]}"{_nearest(match[1], blocks)}',
         )
     return None
 
 
-def _of_writing(failure: Failure) -> tuple[str, str] | None:
+def _of_writing(failure: Failure) -> Explanation | None:
     """What is written in a way that xacro does not take."""
     text, error, failed_text = failure.text, failure.error, failure.failed_text
     if match := _NO_ATTRIBUTE.search(text):
-        return "expansion-failed", f"<{match[1]}> lacks the attribute '{match[2]}'"
+        return Explanation("expansion-failed", f"<{match[1]}> lacks the attribute '{match[2]}'")
     if match := _EMPTY_NAME.search(text):
-        return "expansion-failed", f"<{match[1]}> makes something without a name; its name is empty"
+        return Explanation(
+            "expansion-failed", f"<{match[1]}> makes something without a name; its name is empty"
+        )
     if match := _TWO_VALUES.search(text):
-        return "expansion-failed", (
-            f"property '{match[1]}' has more than one of value, default and remove; keep one"
+        return Explanation(
+            "expansion-failed",
+            (f"property '{match[1]}' has more than one of value, default and remove; keep one"),
         )
     if match := _PROPERTY_NAME.search(text):
         name = re.sub(r"\W", "_", match[1]).lstrip("_")
         name = f"p{name}" if not name or name[0].isdigit() else name
-        return "expansion-failed", (
+        return Explanation(
+            "expansion-failed",
             f"'{match[1]}' is no name for a property, which is of letters, digits and _ and "
-            f"starts with a letter; write {name}"
+            f"starts with a letter; write {name}",
         )
     if match := _NOT_BOOLEAN.search(text):
         value = match[2] if match[1] == match[2] else f"{match[1]}, which is {match[2]!r},"
-        return (
+        return Explanation(
             "non-boolean-conditional",
             f"the condition {value} is neither true nor false; write true, false, 1, 0 or ${{…}}",
         )
     if isinstance(getattr(error, "exc", None), MemoryError):
-        return "endless-expansion", f"needs more memory than there is{_in_expression(failed_text)}"
+        return Explanation(
+            "endless-expansion", f"needs more memory than there is{_in_expression(failed_text)}"
+        )
     if match := re.search(r"invalid expression: (\$[{(].*)", text):
-        return "unclosed-expression", f"{match[1]} lacks its closing bracket"
+        return Explanation("unclosed-expression", f"{match[1]} lacks its closing bracket")
     if match := re.search(r"Unknown substitution command \[(.*?)\]", text):
-        return (
+        return Explanation(
             "bad-substitution-command",
             f"$({match[1]}) is no substitution of xacro; "
             "there are find, arg, env, optenv, dirname, cwd and eval",
         )
     if match := _ODD_CHARACTER.search(text):
-        return "bad-substitution-command", (
+        return Explanation(
+            "bad-substitution-command",
             f"'{'$' if match[1] == 'Dollar signs' else '('}' cannot stand inside {match[2]}; "
-            "write ${…} where a property is meant"
+            "write ${…} where a property is meant",
         )
     if match := _SUBSTITUTION.search(text):
-        return "bad-substitution-command", (
+        return Explanation(
+            "bad-substitution-command",
             f"$({match[2]}) does not have the words that {match[1]} takes; "
-            f"write $({match[1]} {_WANTS.get(match[1], '')})"
+            f"write $({match[1]} {_WANTS.get(match[1], '')})",
         )
     if "no attribute '_setitem'" in text:
-        return (
+        return Explanation(
             "expansion-failed",
             "a property with scope 'parent' has no parent here; it stands at the global scope",
         )
     inner = _inner(error)
     if isinstance(inner, SyntaxError) and failed_text:
-        return "expansion-failed", f"${{{failed_text}}} is no expression of Python: {inner.msg}"
+        return Explanation(
+            "expansion-failed", f"${{{failed_text}}} is no expression of Python: {inner.msg}"
+        )
     return None
 
 
-def _of_files(failure: Failure) -> tuple[str, str] | None:
+def _of_files(failure: Failure) -> Explanation | None:
     """Files that cannot be read."""
     for cause in causes_of(failure.error):
         if isinstance(cause, OSError) and cause.filename:
             reason = (cause.strerror or "cannot be read").lower()
-            return "include-not-found", f"{shown_path(cause.filename)}: {reason}"
+            return Explanation("include-not-found", f"{shown_path(cause.filename)}: {reason}")
         if type(cause).__module__.startswith("yaml"):
             mark = getattr(cause, "problem_mark", None)
             problem = getattr(cause, "problem", None) or "not valid YAML"
             where = f"{mark.name}:{mark.line + 1}:{mark.column + 1}: " if mark else ""
-            return "expansion-failed", f"{where}not valid YAML: {problem}"
+            return Explanation("expansion-failed", f"{where}not valid YAML: {problem}")
     return None
 
 
@@ -286,16 +326,17 @@ def _in_expression(failed_text: str | None) -> str:
     return f", in ${{{failed_text}}}" if "$" not in failed_text else f", in {failed_text}"
 
 
-def _argument_meant(name: str, result: Expansion) -> str:
-    given = _nearest(name, set(result.given), "was it meant by")
-    return given or _nearest(name, set(result.arguments))
-
-
-def _nearest(name: str, known: set[str], asking: str = "did you mean") -> str:
+def _near(name: str, known: set[str]) -> str:
+    """Get the known name nearest to a wrong one; empty if none is near."""
     from difflib import get_close_matches
 
     near = get_close_matches(name, known - {name}, 1, 0.7)
-    return f"; {asking} '{near[0]}'?" if near else ""
+    return near[0] if near else ""
+
+
+def _nearest(name: str, known: set[str]) -> str:
+    near = _near(name, known)
+    return f"; did you mean '{near}'?" if near else ""
 
 
 _DEFINED = re.compile(

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from ..rule import ERROR, WARNING, Problem, rule
+import re
+
+from ...finding import Finding
+from ..fix import FixContext, Proposal, Span, safe, write_inside
+from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule
 
 APPLIES_TO = ()
 
@@ -17,6 +21,21 @@ def unused_suppression() -> tuple[Problem, ...]:
     return ()
 
 
+@unused_suppression.fix(SAFE, of_file=True)
+def remove_comment(finding: Finding, context: FixContext) -> Proposal | None:
+    """Remove the comment, with its line where nothing else is on it."""
+    place, data = finding.place, finding.place.file.data
+    start, end = place.start, place.end
+    begin = data.rfind(b"\n", 0, start) + 1
+    rest = re.compile(rb"[ \t]*\r?\n").match(data, end)
+    if not data[begin:start].strip() and rest is not None:
+        start, end = begin, rest.end()
+    else:
+        while data[start - 1 : start] in (b" ", b"\t"):
+            start -= 1
+    return safe("take it away", Span(place.file, start, end, b""))
+
+
 @rule(ERROR)
 def unknown_rule() -> tuple[Problem, ...]:
     """A comment names a rule that does not exist.
@@ -25,3 +44,10 @@ def unknown_rule() -> tuple[Problem, ...]:
     would silence everything.
     """
     return ()
+
+
+@unknown_rule.fix(UNSAFE, of_file=True)
+def write_suggested_rule(finding: Finding, context: FixContext) -> Proposal | None:
+    """Write the suggested rule."""
+    right = finding.data.get("suggestion", "")
+    return write_inside(finding, finding.data["name"], right) if right else None

@@ -6,7 +6,13 @@ pages.
 
 from __future__ import annotations
 
-from ..rule import ERROR, Problem, rule
+import os
+import re
+
+from ...finding import Finding
+from ...source.location import SourceFile
+from ..fix import FixContext, Proposal, Span, safe, unsafe, write_inside
+from ..rule import BOTH, ERROR, SAFE, UNSAFE, Problem, rule
 
 APPLIES_TO = ()
 
@@ -28,6 +34,23 @@ def missing_xmlns() -> tuple[Problem, ...]:
     return _NOTHING
 
 
+_XMLNS = b' xmlns:xacro="http://www.ros.org/wiki/xacro"'
+
+
+@missing_xmlns.fix(SAFE, of_file=True)
+def declare_xmlns(finding: Finding, context: FixContext) -> Proposal | None:
+    """Declare the prefix on the root."""
+    file = finding.place.file
+    match = re.search(rb"<(?![?!])[^\s/>]+", re.sub(rb"<!--.*?-->", _blank, file.data, flags=16))
+    if match is None or b"xmlns:xacro" in file.data or b"<xacro:" not in file.data:
+        return None
+    return safe("declare xmlns:xacro", Span(file, match.end(), match.end(), _XMLNS))
+
+
+def _blank(match: re.Match[bytes]) -> bytes:
+    return b" " * len(match[0])
+
+
 @rule(
     ERROR,
     effects={
@@ -41,6 +64,27 @@ def unknown_macro() -> tuple[Problem, ...]:
     from the top to the bottom. Macros of a file included with ``ns`` have that name before theirs.
     """
     return _NOTHING
+
+
+@unknown_macro.fix(UNSAFE, of_file=True)
+def call_suggested_macro(finding: Finding, context: FixContext) -> Proposal | None:
+    """Call the suggested macro."""
+    right = finding.data.get("suggestion", "")
+    place = finding.place
+    if not right:
+        return None
+    old, new = (f"xacro:{name}".encode() for name in (finding.data["name"], right))
+    data = place.file.data
+    if not data.startswith(b"<" + old, place.start):
+        return None
+    spans = [Span(place.file, place.start + 1, place.start + 1 + len(old), new)]
+    end = place.file.tag_end(place.start)
+    if data[end - 2 : end] != b"/>":
+        close = data.find(b"</" + old, end)
+        if close < 0 or data.find(b"<" + old, end, close) >= 0:
+            return None
+        spans.append(Span(place.file, close + 2, close + 2 + len(old), new))
+    return unsafe(f"call '{right}'", *spans)
 
 
 @rule(
@@ -73,6 +117,27 @@ def undeclared_arg() -> tuple[Problem, ...]:
     return _NOTHING
 
 
+@undeclared_arg.fix(UNSAFE, of_file=True)
+def declare_argument(finding: Finding, context: FixContext) -> Proposal | None:
+    """Write the suggested argument, or declare it with an empty default, first in the robot."""
+    name, place = finding.data["name"], finding.place
+    if not re.fullmatch(r"[\w-]+", name) or place.calls or finding.data["given"]:
+        return None
+    if finding.data["suggestion"]:
+        return write_inside(finding, name, finding.data["suggestion"])
+    file = place.file
+    root = re.search(rb"<robot\b", re.sub(rb"<!--.*?-->", _blank, file.data, flags=16))
+    if root is None:
+        return None
+    at = file.tag_end(root.start())
+    if root.start() <= place.start < at:  # its attributes are expanded before what is in it
+        return None
+    following = re.match(rb"\s*?(\r?\n[ \t]*)(?=\S)", file.data[at:])
+    indent = following[1] if following else b""
+    line = indent + f'<xacro:arg name="{name}" default=""/>'.encode()
+    return unsafe("declare it with an empty default", Span(file, at, at, line))
+
+
 @rule(
     ERROR,
     effects={
@@ -86,6 +151,16 @@ def include_not_found() -> tuple[Problem, ...]:
     the include. With ``optional="true"`` xacro passes over it.
     """
     return _NOTHING
+
+
+@include_not_found.fix(BOTH, of_file=True)
+def write_suggested_file(finding: Finding, context: FixContext) -> Proposal | None:
+    """Write the suggested file; safe where only the case differs."""
+    right = finding.data.get("suggestion", "")
+    wrong = os.path.basename(finding.data.get("file", ""))
+    if not right or not wrong:
+        return None
+    return write_inside(finding, wrong, right, harmless=wrong.casefold() == right.casefold())
 
 
 @rule(
@@ -149,6 +224,41 @@ def non_boolean_conditional() -> tuple[Problem, ...]:
     kind) == arm`` is text.
     """
     return _NOTHING
+
+
+_TRUTHS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
+_COMPARED = re.compile(r"(\$\(arg [\w-]+\))\s*(==|!=)\s*(['\"]?)([\w.-]+)\3")
+
+
+@non_boolean_conditional.fix(UNSAFE, of_file=True)
+def write_boolean(finding: Finding, context: FixContext) -> Proposal | None:
+    """Write ``true`` for ``yes``, ``false`` for ``no``, and a comparison as an expression."""
+    place = finding.place
+    start = _tag(place.file, place.start)
+    span = place.file.attribute_spans(start).get("value")
+    if span is None:
+        return None
+    text = place.file.data[span[0] : span[1]].decode(place.file.encoding, "replace")
+    value = text.partition("=")[2].strip(" \t\r\n\"'")
+    new = _TRUTHS.get(value.strip().lower()) or _comparison(value, text[-1:])
+    if not new:
+        return None
+    begin = span[0] + text.rfind(value)
+    return unsafe(f"write {new}", Span(place.file, begin, begin + len(value), new.encode()))
+
+
+def _comparison(value: str, quote: str) -> str:
+    """A comparison of an argument with a word, as an expression; empty where it is none."""
+    match = _COMPARED.fullmatch(value.strip())
+    if match is None:
+        return ""
+    q = "'" if quote == '"' else '"'
+    return f"${{{q}{match[1]}{q} {match[2]} {q}{match[4]}{q}}}"
+
+
+def _tag(file: SourceFile, at: int) -> int:
+    """Byte of the ``<`` of the tag that a place is in."""
+    return at if file.data[at : at + 1] == b"<" else file.data.rfind(b"<", 0, at)
 
 
 @rule(

@@ -6,10 +6,13 @@ import math
 import re
 from collections.abc import Iterator
 
+from ...model.read import number
 from ...source.description import Description
 from ...source.document import Element
-from ...source.location import Place
-from ..rule import INFO, WARNING, Problem, rule
+from ...source.location import Place, SourceFile
+from ..fix import FixContext, Proposal, Span, remove_element, safe, set_attribute, unsafe
+from ..rule import INFO, SAFE, UNSAFE, WARNING, Problem, rule
+from .definitions import definitions
 
 _ROUNDING = 1e-4
 _GLOBAL = re.compile(r"redefining global symbol: (\w+)")
@@ -56,10 +59,14 @@ def shadowed_builtin(description: Description) -> Iterator[Problem]:
                 f"'{match[1]}' is a name that xacro has itself, with this value; remove it",
                 at=at,
                 severity=INFO,
+                data={"name": match[1]},
             )
         else:
             yield Problem(
-                root, f"'{match[1]}' is a name that xacro has itself; choose another", at=at
+                root,
+                f"'{match[1]}' is a name that xacro has itself; choose another",
+                at=at,
+                data={"name": match[1]},
             )
 
 
@@ -79,8 +86,6 @@ def _is_the_constant(name: str, place: Place) -> bool:
 
 def _parameter(description: Description, name: str, call: Place) -> Place | None:
     """The ``params`` with a name, of the macro that is called at a place; None for a property."""
-    from .definitions import definitions
-
     written = call.file.data[call.start : call.start + 200].decode(call.file.encoding, "replace")
     tag = re.match(r"<xacro:([\w.:-]+)", written)
     if tag is None or tag[1] in ("property", "arg"):
@@ -91,6 +96,44 @@ def _parameter(description: Description, name: str, call: Place) -> Place | None
         if re.search(rf"(?<![\w*]){re.escape(name)}(?!\w)", element.get("params") or ""):
             return element.attribute_place("params")
     return None
+
+
+@shadowed_builtin.fix(UNSAFE)
+def rename_property(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove a property that equals the built-in value; rename another."""
+    name = problem.data["name"]
+    found = definitions(context.description)
+    properties = found.properties.get(name, [])
+    macros = [macro for same in found.macros.values() for macro in same]
+    if len(properties) != 1 or any(
+        re.search(rf"(?<!\w){re.escape(name)}(?!\w)", macro.get("params") or "") for macro in macros
+    ):
+        return None
+    (element,), value = properties, number(properties[0].get("value"))
+    if value is not None and math.isclose(value, _constant(name), rel_tol=1e-3):
+        return unsafe(f"take it away, as xacro has '{name}'", remove_element(element))
+    new = f"{name}_value"
+    if any(new.encode() in file.data for file in context.description.files):
+        return None
+    spans = [
+        span for file in context.description.files for span in _uses_in_expressions(file, name, new)
+    ]
+    return unsafe(f"call it '{new}'", set_attribute(element, "name", new), *spans)
+
+
+def _constant(name: str) -> float:
+    """Get a constant that every expression knows; infinity for other names."""
+    found = getattr(math, name, math.inf)
+    return found if isinstance(found, float) else math.inf
+
+
+def _uses_in_expressions(file: SourceFile, name: str, new: str) -> Iterator[Span]:
+    """Find the uses of a property in expressions of a file, outside comments."""
+    text = re.sub(rb"<!--.*?-->", lambda m: b" " * len(m[0]), file.data, flags=re.DOTALL)
+    word = re.compile(rb"(?<![\w.'\"])" + name.encode() + rb"(?![\w('\"])")
+    for expression in re.finditer(rb"\$\{[^}]*\}", text):
+        for match in word.finditer(text, expression.start(), expression.end()):
+            yield Span(file, match.start(), match.end(), new.encode())
 
 
 @rule(
@@ -121,4 +164,20 @@ def deprecated_global_function(description: Description) -> Iterator[Problem]:
     still work, with a warning.
     """
     for match, root, place in _warned(description, _DEPRECATED):
-        yield Problem(root, f"{match[1]}() is now called {match[2]}(); write that", at=place)
+        message = f"{match[1]}() is now called {match[2]}(); write that"
+        data = {"name": match[1], "write": match[2]}
+        yield Problem(root, message, at=place, data=data)
+
+
+@deprecated_global_function.fix(SAFE)
+def write_new_name(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the new name in the tag of the problem."""
+    place = problem.place
+    old, new = problem.data["name"].encode(), problem.data["write"].encode()
+    data = place.file.data[place.start : place.end]
+    calls = list(re.finditer(rb"(?<![\w.])" + old + rb"(?=\s*\()", data))
+    spans = [
+        Span(place.file, place.start + call.start(), place.start + call.end(), new)
+        for call in calls
+    ]
+    return safe(f"write {new.decode()}()", *spans) if spans else None

@@ -8,7 +8,16 @@ from collections.abc import Iterator
 from ...source.description import Description
 from ...source.document import Element
 from ...source.location import Place
-from ..rule import ERROR, WARNING, Problem, rule
+from ..fix import (
+    FixContext,
+    Proposal,
+    attribute_at,
+    element_at,
+    substitute,
+    substitute_text,
+    unsafe,
+)
+from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from .definitions import definitions
 
@@ -80,6 +89,7 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
                 f"'{_short(text)}' is not expanded: it lacks its '$'; "
                 f"write '${{{braced[1]}}}' for '{braced[0]}'",
                 at=place,
+                data={"name": braced[1]},
                 effects=_readers_of(element),
             )
 
@@ -110,3 +120,34 @@ def _leftovers(element: Element) -> Iterator[tuple[Element, str, Place | None]]:
 
 def _short(text: str) -> str:
     return text if len(text) <= 60 else text[:57] + "…"
+
+
+@unexpanded_expression.fix(UNSAFE)
+def add_dollar(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add the ``$``, where the name is known."""
+    name = problem.data.get("name", "")
+    if not name:
+        return None
+    found = attribute_at(problem)
+    pattern = rf"(?<!\$)\{{{name}\}}"
+    new = rf"${{{name}}}"
+    if found is not None:
+        if not _is_in_scope(name, found[0], context):
+            return None
+        return unsafe(f"write ${{{name}}}", substitute(*found, pattern, new))
+    element = element_at(problem) or problem.element
+    if element.children or not _is_in_scope(name, element, context):
+        return None
+    return unsafe(f"write ${{{name}}}", substitute_text(element, pattern, new))
+
+
+def _is_in_scope(name: str, element: Element, context: FixContext) -> bool:
+    """Whether a name is a parameter of the macro an element is written in, or a property."""
+    known = definitions(context.description)
+    if name in known.properties:
+        return True
+    for macros in known.macros.values():
+        for macro in macros:
+            if macro.file.path == element.file.path and macro.start < element.start < macro.end:
+                return re.search(rf"\b{name}\b", macro.get("params") or "") is not None
+    return False

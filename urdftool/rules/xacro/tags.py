@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from ...source.description import Description
 from ...source.document import Document, Element
-from ..rule import ERROR, INFO, Problem, rule
+from ..fix import FixContext, Proposal, rename_element, safe, set_attribute, unsafe
+from ..rule import ERROR, INFO, SAFE, UNSAFE, Problem, rule
 from ..words import words
 from .definitions import macro_names
 
@@ -49,6 +50,12 @@ def nonstandard_xmlns(document: Document) -> Iterator[Problem]:
         )
 
 
+@nonstandard_xmlns.fix(SAFE)
+def write_xmlns(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the usual spelling."""
+    return safe(f"write {XMLNS}", set_attribute(problem.element, "xmlns:xacro", XMLNS))
+
+
 @rule(
     ERROR,
     effects={
@@ -79,3 +86,10 @@ def _unprefixed(element: Element, macros: frozenset[str]) -> Iterator[Problem]:
         yield Problem(element, f"<{tag}> without its prefix {what}; write <xacro:{tag}>")
     for child in element.children:
         yield from _unprefixed(child, macros)
+
+
+@unprefixed_xacro_tag.fix(UNSAFE)
+def add_prefix(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add the prefix."""
+    tag = f"xacro:{problem.element.tag}"
+    return unsafe(f"write <{tag}>", rename_element(problem.element, tag))

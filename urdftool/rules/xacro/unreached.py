@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from ...source.description import Description
 from ...source.document import Document, Element
 from ...source.location import Place
-from ..rule import ERROR, Problem, rule
+from ..fix import FixContext, Proposal, attribute_at, safe, substitute, substitute_text
+from ..rule import ERROR, SAFE, Problem, rule
 from ..words import did_you_mean
 
 _LATER = {"xacro": "stops as soon as it comes there"}
@@ -60,8 +61,22 @@ def bad_substitution_command(document: Document, description: Description) -> It
     for element, match, at in _matches(document, description, _BAD, quick):
         name = match[1]
         instead = _FOR_LAUNCH.get(name)
+        data = {"command": name, "write": instead or ""}
         right = f"; write $({instead} …)" if instead else did_you_mean(name, _COMMANDS)
-        yield Problem(element, f"xacro has no $({name} …){right}", at=at)
+        yield Problem(element, f"xacro has no $({name} …){right}", at=at, data=data)
+
+
+@bad_substitution_command.fix(SAFE)
+def write_command(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the substitution of xacro that does what the one of launch files does."""
+    old, name = problem.data["command"], problem.data["write"]
+    found = attribute_at(problem)
+    if not name:
+        return None
+    pattern = rf"\$\(\s*{old}(?=\s)"
+    if found is not None:
+        return safe(f"write $({name} …)", substitute(*found, pattern, f"$({name}"))
+    return safe(f"write $({name} …)", substitute_text(problem.element, pattern, f"$({name}"))
 
 
 @rule(

@@ -7,7 +7,9 @@ from collections.abc import Iterator
 
 from ...source.description import Description
 from ...source.document import Element
-from ..rule import INFO, WARNING, Problem, rule
+from ..fix import FixContext, Proposal, remove_element, set_attribute, set_text, unsafe
+from ..renaming import find_joint_references, find_link_references
+from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from .definitions import definitions, names_in
 
 _CONDITIONS = ("xacro:if", "xacro:unless")
@@ -135,6 +137,14 @@ def unused_macro(description: Description) -> Iterator[Problem]:
             )
 
 
+@unused_arg.fix(UNSAFE)
+@unused_property.fix(UNSAFE)
+@unused_macro.fix(UNSAFE)
+def remove_definition(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the definition."""
+    return unsafe("take it out", remove_element(problem.element))
+
+
 @rule(
     WARNING,
     effects={
@@ -213,4 +223,21 @@ def hard_coded_name_in_macro(description: Description) -> Iterator[Problem]:
                         f"<{element.tag} name=\"{name}\"> in macro '{macro.get('name')}' lacks its "
                         f"'{parameters[0]}'; write ${{{parameters[0]}}}{name}",
                         at=element.attribute_place("name"),
+                        data={"write": f"${{{parameters[0]}}}{name}"},
                     )
+
+
+@hard_coded_name_in_macro.fix(UNSAFE)
+def add_macro_prefix(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add the prefix, also where the macro refers to the name."""
+    macro: Element | None = problem.element
+    while macro is not None and macro.tag != "xacro:macro":
+        macro = macro.parent
+    name, new = problem.element.get("name") or "", problem.data["write"]
+    if macro is None:
+        return None
+    named = find_link_references if problem.element.tag == "link" else find_joint_references
+    changes = [
+        set_attribute(e, at, new) if at else set_text(e, new) for e, at in named(macro, name)
+    ]
+    return unsafe(f"write {new}, here and where the macro names it", *changes)

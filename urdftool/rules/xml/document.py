@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
+from ...finding import Finding
 from ...source.description import Description
 from ...source.document import Element
-from ..rule import ERROR, WARNING, Problem, holding, rule
+from ..fix import FixContext, Proposal, Span, safe
+from ..rule import ERROR, SAFE, WARNING, Problem, holding, rule
 
 _READERS = "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake"
 
@@ -28,6 +31,22 @@ def not_well_formed() -> tuple[Problem, ...]:
     tool.
     """
     return ()
+
+
+@not_well_formed.fix(SAFE, of_file=True)
+def separate_hyphens(finding: Finding, context: FixContext) -> Proposal | None:
+    """Write ``- -`` for ``--`` in all comments."""
+    if finding.data.get("case") != "'--' in a comment":
+        return None
+    file = finding.place.file
+    spans = []
+    for match in re.finditer(rb"<!--(.*?)-->", file.data, re.DOTALL):
+        inner = match[1]
+        new = re.sub(rb"-(?=-)", b"- ", inner)
+        new = new + b" " if new.endswith(b"-") else new
+        if new != inner:
+            spans.append(Span(file, match.start(1), match.end(1), new))
+    return safe("write '- -' in comments", *spans) if spans else None
 
 
 @rule(
@@ -57,6 +76,29 @@ _BELONGS = {
     "package": "it is the manifest of a package",
     "gazebo": "put it inside a <robot>",
 }
+
+
+@content_before_declaration.fix(SAFE, of_file=True)
+def move_declaration(finding: Finding, context: FixContext) -> Proposal | None:
+    """Move the declaration to the start of the file."""
+    file = finding.place.file
+    match = re.search(rb"<\?xml[^>]*?\?>", file.data)
+    if match is None or file.data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return None
+    begin = 3 if file.data.startswith(b"\xef\xbb\xbf") else 0
+    before = file.data[begin : match.start()]
+    if not before.strip():
+        return safe("take away what stands before it", Span(file, begin, match.start(), b""))
+    rest = re.match(rb"[ \t]*\r?\n", file.data[match.end() :])
+    end = match.end() + (rest.end() if rest else 0)
+    line_end = b"\r\n" if b"\r\n" in file.data else b"\n"
+    if not file.data[: match.start()].endswith(b"\n"):
+        end = match.end()
+    return safe(
+        "move it to the start of the file",
+        Span(file, begin, begin, match[0] + line_end),
+        Span(file, match.start(), end, b""),
+    )
 
 
 @rule(
