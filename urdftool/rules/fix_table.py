@@ -5,22 +5,6 @@ from __future__ import annotations
 from .rule import BOTH, SAFE, UNSAFE
 
 FIXES: dict[str, dict[str, str]] = {
-    "xml": {
-        "missing-name": UNSAFE,
-        "unknown-element": BOTH,
-        "unknown-attribute": BOTH,
-        "wrong-case-keyword": BOTH,
-        "repeated-element": BOTH,
-        "several-shapes-in-geometry": UNSAFE,
-        "empty-geometry": UNSAFE,
-        "wrong-arity": BOTH,
-        "not-a-number": UNSAFE,
-        "tab-or-newline-in-vector": UNSAFE,
-        "padded-reference": BOTH,
-        "unsupported-urdf-version": UNSAFE,
-        "feature-needs-newer-version": UNSAFE,
-        "rpy-and-quat": UNSAFE,
-    },
     "joint": {
         "unknown-joint-type": UNSAFE,
         "redundant-on-fixed": SAFE,

@@ -12,6 +12,7 @@ from ..collision.displaced import displaced
 from ..collision.shapes import thousandth
 from ..mesh.outlines import reaches
 from ..rule import INFO, Problem
+from ..xml.from_sdf import move_out_of_geometry as moved_up
 from ..xml.vocabulary_table import VOCABULARY
 from .proposal import (
     Around,
@@ -34,7 +35,6 @@ from .proposal import (
     unsafe,
     written,
 )
-from .xml import moved_up
 
 _WRONG_PLACE = re.compile(
     r"^the (visual|collision) of link .*; (?:write xyz=\"([^\"]*)\"|give it the <origin>)"

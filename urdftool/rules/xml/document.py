@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from ...finding import Finding
 from ...source.description import Description
 from ...source.document import Element
-from ..fix import FixContext, Proposal, Span, safe
-from ..rule import ERROR, SAFE, WARNING, Problem, holding, rule
+from ..fix import FixContext, Proposal, Span, safe, set_attribute, unsafe
+from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, holding, rule
 
 _READERS = "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake"
 
@@ -159,3 +159,13 @@ def missing_name(description: Description) -> Iterator[Problem]:
                 severity=severity,
                 effects=holding(_NAMELESS, *case),
             )
+
+
+@missing_name.fix(UNSAFE)
+def name_after_file(problem: Problem, context: FixContext) -> Proposal | None:
+    """Name the robot after its file."""
+    element = problem.element
+    stem = re.sub(r"\W+", "_", context.description.files[0].path.rpartition("/")[2].split(".")[0])
+    if element.tag != "robot" or not stem.strip("_") or element.attributes.get("name", "").strip():
+        return None
+    return unsafe(f'call the robot "{stem}", as its file', set_attribute(element, "name", stem))

@@ -7,10 +7,12 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Robot
+from ...model.read import number
 from ...source.description import Description
 from ...source.document import Element
 from ...source.tags import value_span
-from ..rule import ERROR, Problem, holding, rule
+from ..fix import FixContext, Proposal, attribute_at, safe, set_attribute, substitute, unsafe
+from ..rule import BOTH, ERROR, UNSAFE, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from .owner import owner
 from .vocabulary_table import VOCABULARY, census
@@ -131,6 +133,26 @@ _NOT_A_NUMBER = {
 }
 
 
+@wrong_arity.fix(BOTH)
+def complete_vector(problem: Problem, context: FixContext) -> Proposal | None:
+    """Make a color without opacity opaque; write one scale for all three axes.
+
+    urdfdom drops a mesh with one scale, and has it afterwards.
+    """
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    element, name = found
+    words = (element.get(name) or "").split()
+    if name == "rgba" and len(words) == 3:
+        return safe(
+            "write 1 as the fourth number", set_attribute(element, name, " ".join([*words, "1"]))
+        )
+    if name == "scale" and len(words) == 1:
+        return unsafe("write it three times", set_attribute(element, name, " ".join(words * 3)))
+    return None
+
+
 @rule(
     ERROR,
     effects=_NOT_A_NUMBER,
@@ -237,6 +259,34 @@ _TABBED_VECTOR = {
 }
 
 
+_ONE = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+
+
+@not_a_number.fix(UNSAFE)
+def write_number(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove blanks around it; write a point for a comma.
+
+    urdfdom drops the inertial or the shape with such a number, and has it afterwards.
+    """
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    element, name = found
+    text = element.get(name) or ""
+    if text != text.strip() and number(text.strip()) is not None:
+        return unsafe(f'write "{text.strip()}"', substitute(element, name, r"^\s+|\s+$", ""))
+    words = text.split()
+    count = VOCABULARY[element.tag].numbers.get(name, 1)
+    if len(words) == count and all(re.fullmatch(r"[-+]?\d*[.,]?\d+", word) for word in words):
+        new = " ".join(word.replace(",", ".") for word in words)
+        return unsafe(f'write "{new}"', set_attribute(element, name, new))
+    parts = text.replace(",", " ").split()
+    if count > 1 and len(parts) == count and all(re.fullmatch(_ONE, part) for part in parts):
+        new = " ".join(parts)
+        return unsafe(f'write "{new}"', set_attribute(element, name, new))
+    return None
+
+
 @rule(
     ERROR,
     effects=_TABBED_VECTOR,
@@ -267,3 +317,17 @@ def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator
                         at=element.attribute_place(name),
                         effects=holding(_TABBED_VECTOR, *_where(element), amount),
                     )
+
+
+@tab_or_newline_in_vector.fix(UNSAFE)
+def write_blanks(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write single blanks between the numbers.
+
+    urdfdom and PyBullet split at blanks alone: what they drop or take for zero until then, they
+    read afterwards.
+    """
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    element, name = found
+    return unsafe("write single blanks", substitute(element, name, r"\s+", " "))

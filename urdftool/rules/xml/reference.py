@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.document import Element
-from ..rule import ERROR, Problem, rule
+from ..fix import FixContext, Proposal, attribute_at, safe, substitute, unsafe
+from ..rule import BOTH, ERROR, Problem, rule
 
 
 @rule(
@@ -52,3 +53,22 @@ def _padded(element: Element, attribute: str, text: str) -> Problem:
         f"write '{text.strip()}'",
         at=element.attribute_place(attribute),
     )
+
+
+@padded_reference.fix(BOTH)
+def remove_blank(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the blank.
+
+    Every reader rejects a robot whose joint does not find its parent or child. A mimic joint that
+    does not find its leader, and a block of Gazebo that does not find its link, are ignored, and
+    are there afterwards.
+    """
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    element, name = found
+    ends = {end for joint in context.robot.joints for end in (joint.parent, joint.child)}
+    joins = element.tag in ("parent", "child")
+    joins = joins or (element.tag == "link" and (element.get(name) or "").strip() in ends)
+    make = safe if joins else unsafe
+    return make("take the blank away", substitute(element, name, r"^\s+|\s+$", ""))

@@ -6,7 +6,19 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.document import Element
-from ..rule import ERROR, WARNING, Problem, rule
+from ..fix import (
+    Change,
+    FixContext,
+    Proposal,
+    are_equal_elements,
+    element_at,
+    remove_element,
+    replace_element,
+    safe,
+    unsafe,
+    written_lines,
+)
+from ..rule import BOTH, ERROR, UNSAFE, WARNING, Problem, rule
 from .owner import owner
 from .vocabulary_table import VOCABULARY, census, misspelt_children
 
@@ -54,6 +66,21 @@ def shapes_in(geometry: Element) -> list[Element]:
     ]
 
 
+@repeated_element.fix(BOTH)
+def keep_first(problem: Problem, context: FixContext) -> Proposal | None:
+    """Keep the first, which is the one that is read."""
+    element = problem.element
+    parent = element.parent
+    if parent is None:
+        return None
+    one = parent.child(element.tag)
+    if one is None or one is element:
+        return None
+    if are_equal_elements(one, element) or element.tag == "material":
+        return safe(f"keep the first <{element.tag}>, which is read", remove_element(element))
+    return unsafe(f"keep the first <{element.tag}>, which is read", remove_element(element))
+
+
 @rule(
     ERROR,
     effects={
@@ -85,6 +112,31 @@ def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
             )
 
 
+@several_shapes_in_geometry.fix(UNSAFE)
+def separate_shapes(problem: Problem, context: FixContext) -> Proposal | None:
+    """Give each shape a visual or collision of its own."""
+    shape = problem.element
+    geometry = shape.parent
+    part = geometry.parent if geometry is not None else None
+    if geometry is None or part is None or part.tag not in ("visual", "collision"):
+        return None
+    changes: list[Change] = []
+    for other in shapes_in(geometry)[1:]:
+        inside = [line for c in part.all("origin") for line in written_lines(c)]
+        material = [line for c in part.all("material") for line in written_lines(c)]
+        lines = (
+            f"<{part.tag}>",
+            *(f"\t{line}" for line in inside),
+            "\t<geometry>",
+            *(f"\t\t{line}" for line in written_lines(other)),
+            "\t</geometry>",
+            *(f"\t{line}" for line in material),
+            f"</{part.tag}>",
+        )
+        changes += [remove_element(other), Change("after", part, blocks=(lines,))]
+    return unsafe(f"give each shape a <{part.tag}> of its own", *changes)
+
+
 @rule(
     ERROR,
     effects={
@@ -114,3 +166,30 @@ def empty_geometry(robot: Robot) -> Iterator[Problem]:
             f"a {kind} of link '{link.name}' has {what}; give it a shape or take the {kind} out",
             at=element if element is not None else shape,
         )
+
+
+@empty_geometry.fix(UNSAFE)
+def fill_geometry(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the shape of its one counterpart; without one, remove the visual or collision."""
+    element = element_at(problem)
+    while element is not None and element.tag not in ("visual", "collision"):
+        element = element.parent
+    if element is None or misspelt_children(element):
+        return None
+    geometry = element.child("geometry")
+    if geometry is not None and geometry.children:
+        return None
+    link = element.parent
+    other = "collision" if element.tag == "visual" else "visual"
+    shapes = [g for c in link.all(other) for g in c.all("geometry")] if link is not None else []
+    if len(shapes) == 1 and len(shapes[0].children) == 1:
+        lines = tuple(written_lines(shapes[0]))
+        origin = element.child("origin")
+        if geometry is not None:
+            change = replace_element(geometry, lines)
+        elif origin is not None:
+            change = Change("after", origin, blocks=(lines,))
+        else:
+            change = Change("first", element, blocks=(lines,))
+        return unsafe(f"give it the shape of the {other}", change)
+    return unsafe(f"take the empty <{element.tag}> out", remove_element(element))

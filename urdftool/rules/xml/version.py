@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 
 from ...model.elements import Robot
+from ...model.pose import rotation_of_quaternion, rpy_of_rotation
+from ...model.read import numbers
 from ...source.description import Description
 from ...source.document import Document, Element, parse
 from ...source.location import Place
-from ..fix import FixContext, Proposal, Span, unsafe
+from ..fix import (
+    FixContext,
+    Proposal,
+    Span,
+    attribute_at,
+    element_at,
+    format_numbers,
+    remove_attribute,
+    set_attribute,
+    unsafe,
+)
 from ..rule import ERROR, INFO, UNSAFE, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from .owner import owner
@@ -39,7 +52,8 @@ def unsupported_urdf_version(robot: Robot) -> Iterator[Problem]:
         return
     known = version.strip() in ("1.1", "1.2")
     what = "is read by urdfdom 5.1 or 6 alone" if known else "does not exist"
-    if known and next(_newer(robot, 1.0), None) is not None:
+    uses_newer = known and next(_newer(robot, 1.0), None) is not None
+    if uses_newer:
         remedy = "do without what is new in it, and write 1.0"
     else:
         remedy = "write 1.0, or leave it out"
@@ -47,6 +61,7 @@ def unsupported_urdf_version(robot: Robot) -> Iterator[Problem]:
         robot,
         f"URDF version '{version}' {what}; {remedy}",
         at=robot.element.attribute_place("version"),
+        data={"uses_newer": uses_newer},
     )
 
 
@@ -63,6 +78,14 @@ _OF_LATER = {
     "urdfdom, gz, gazebo-classic (a quaternion)": "ignore it: the rotation is none",
     "urdfdom, gz, gazebo-classic, mujoco, pybullet (a later limit)": "ignore it",
 }
+
+
+@unsupported_urdf_version.fix(UNSAFE)
+def write_version(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write 1.0, where nothing newer is used."""
+    if problem.data["uses_newer"]:
+        return None
+    return unsafe('write version="1.0"', set_attribute(problem.element, "version", "1.0"))
 
 
 @rule(
@@ -120,6 +143,26 @@ def _case_of(capsule: Element) -> str:
     return "a capsule in a visual" if in_visual else "a capsule in a collision"
 
 
+@feature_needs_newer_version.fix(UNSAFE)
+def write_rpy(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write a quaternion as rpy."""
+    element = element_at(problem)
+    if element is None:
+        return None
+    if element.tag == "origin" and "quat_xyzw" in element.attributes:
+        quaternion = numbers(element.get("quat_xyzw"), 4)
+        if quaternion is None or math.hypot(*quaternion) < 1e-9:
+            return None
+        x, y, z, w = quaternion
+        rpy = format_numbers(rpy_of_rotation(rotation_of_quaternion((w, x, y, z))), 12)
+        return unsafe(
+            f'write rpy="{rpy}"',
+            remove_attribute(element, "quat_xyzw"),
+            set_attribute(element, "rpy", rpy),
+        )
+    return None
+
+
 @rule(
     ERROR,
     effects={
@@ -141,6 +184,15 @@ def rpy_and_quat(robot: Robot) -> Iterator[Problem]:
 
 
 _KEY = re.compile(r":(?=\s)")
+
+
+@rpy_and_quat.fix(UNSAFE)
+def keep_rpy(problem: Problem, context: FixContext) -> Proposal | None:
+    """Keep rpy, which readers of URDF 1.0 take."""
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    return unsafe("keep rpy", remove_attribute(found[0], "quat_xyzw"))
 
 
 @rule(

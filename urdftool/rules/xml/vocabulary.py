@@ -5,11 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...finding import Severity
-from ...model.elements import Robot
+from ...model.elements import Joint, Robot
+from ...model.read import number, numbers
 from ...source.description import Description
 from ...source.document import Element
-from ..rule import ERROR, INFO, WARNING, Problem, holding, rule
+from ..fix import (
+    FixContext,
+    Proposal,
+    attribute_at,
+    remove_attribute,
+    rename_attribute,
+    rename_element,
+    safe,
+    set_attribute,
+    unsafe,
+)
+from ..rule import BOTH, ERROR, INFO, WARNING, Problem, holding, rule
 from ..xacro.definitions import macro_names
+from .from_sdf import propose_urdf_spelling
 from .owner import owner
 from .vocabulary_table import DIALECT_ATTRIBUTES, VOCABULARY, attributes_of, census, meant
 
@@ -199,6 +212,24 @@ _OF_ATTRIBUTE = {
 }
 
 
+@unknown_element.fix(BOTH)
+def write_known_element(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the known word that is nearest, or what URDF has for an element of SDF."""
+    element = problem.element
+    parent = element.parent
+    if parent is None:
+        return None
+    proposal = propose_urdf_spelling(element, parent)
+    if proposal is not None:
+        return proposal
+    word = meant(element.tag, VOCABULARY[parent.tag].children)
+    if word is None:
+        return None
+    if parent.child(word) is not None and word not in VOCABULARY[parent.tag].many:
+        return None
+    return unsafe(f"write <{word}>", rename_element(element, word))
+
+
 @rule(
     WARNING,
     effects=_OF_ATTRIBUTE,
@@ -277,9 +308,32 @@ def _misspelt_attributes(element: Element, known: set[str]) -> Iterator[Problem]
                 element,
                 f"{what}; write {word}",
                 at=at,
+                data={"write": word},
                 severity=WARNING if kind in _OTHER_NAMES else ERROR,
                 effects=holding(_OF_ATTRIBUTE, *["one with a default is meant"] * has_default),
             )
+
+
+@unknown_attribute.fix(BOTH)
+def write_known_attribute(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the known attribute that is nearest."""
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    element, name = found
+    if (element.tag, name) == ("axis", "rpy"):
+        return safe("take it away: a direction has no rotation", remove_attribute(element, name))
+    free = [word for word in attributes_of(element.tag) if word not in element.attributes]
+    direct = {"pos", "position", "rot", "rotation", "orientation", "mass", "min", "max", "height"}
+    direct |= {"dimensions", "uri", "file", "url", "name", "value"}
+    word: str | None = problem.data.get("write")
+    if word is None or word not in free or (name not in direct and meant(name, free) != word):
+        return None
+    count = VOCABULARY[element.tag].numbers.get(word)
+    if count is not None and numbers(element.get(name), count) is None:
+        if count != 1 or number(element.get(name)) is None:
+            return None
+    return unsafe(f"write {word}", rename_attribute(element, name, word))
 
 
 @rule(
@@ -336,3 +390,29 @@ def _the(element: Element | None) -> str:
     if element.tag in ("link", "joint"):
         return owner(element)
     return f"<{element.tag}>" if element.tag == "robot" else f"<{element.tag}> of {owner(element)}"
+
+
+@wrong_case_keyword.fix(BOTH)
+def write_lower_case(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the keyword in lower case.
+
+    Every reader rejects a joint type, a parent or a child in another case. Of all other words they
+    ignore what is written, and read it afterwards.
+    """
+    found = attribute_at(problem)
+    if found is not None:
+        element, name = found
+        if name == "type" and element.tag == "joint":
+            lower = (element.get(name) or "").lower()
+            return safe(f"write {lower}", set_attribute(element, name, lower))
+        return unsafe(f"write {name.lower()}", rename_attribute(element, name, name.lower()))
+    element = problem.element
+    if isinstance(problem.subject, Joint) or element.tag == element.tag.lower():
+        return None
+    parent, lower = element.parent, element.tag.lower()
+    if parent is None or (
+        parent.child(lower) is not None and lower not in VOCABULARY[parent.tag].many
+    ):
+        return None
+    make = safe if parent.tag == "joint" and lower in ("parent", "child") else unsafe
+    return make(f"write <{lower}>", rename_element(element, lower))
