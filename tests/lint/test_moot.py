@@ -60,3 +60,23 @@ def test_without_another_defect_all_is_said(write):
 )
 def test_a_verb_in_singular(several, one):
     assert in_singular(several) == one
+
+
+def test_drake_loads_nothing_of_a_file_with_a_comma(write):
+    links = LINK.format("a", 0.01), LINK.format("b", 1)
+    limit = LIMIT.replace('effort="1"', 'effort=",5"')
+    path = write("r.urdf", robot(*links, JOINT.format("j", "a", "b", limit)))
+    assert "drake" in effects(path, "placeholder-inertia")
+    assert not {"drake", "gz", "mujoco"} & effects(path, "placeholder-inertia", "not-a-number")
+    assert "drake" in effects(path, "not-a-number")
+
+
+def test_an_effect_of_another_case_rejects_nothing(write):
+    mass = '<inertial><mass value="0"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+    light = f'<link name="c">{mass}</inertial></link>'
+    links = LINK.format("a", 0.01), LINK.format("b", 1), light
+    fixed = JOINT.format("k", "b", "c", "").replace("revolute", "fixed")
+    path = write("r.urdf", robot(*links, JOINT.format("j", "a", "b", LIMIT), fixed))
+    alone = effects(path, "placeholder-inertia")
+    assert "gz" in alone
+    assert "gz" in effects(path, "placeholder-inertia", "zero-mass")

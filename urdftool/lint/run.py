@@ -276,7 +276,7 @@ def _check_description(
                     continue
                 findings.append(finding)
                 if finding.effects:
-                    rejections.add(rule.name, problem.effects or rule.effects)
+                    rejections.add(rule.name, rule.keys_in(problem.effects))
                 if options.fixes and rule.name in FIXES:
                     origins[id(finding)] = problem, subjects["document"]
     suppressions, wrong = read_suppressions(documents)

@@ -260,14 +260,21 @@ class Rule:
         """The first line of its page."""
         return (self.check.__doc__ or "").partition("\n")[0].strip()
 
+    def keys_in(self, keys: Collection[str] | None) -> list[str]:
+        """Select the keys of its effects that hold.
+
+        Args:
+            keys: Keys of the effects; None for all whose key names no case.
+        """
+        return [key for key in self.effects if (" (" not in key if keys is None else key in keys)]
+
     def effects_in(self, keys: Collection[str] | None) -> dict[str, str]:
         """Select the effects with these keys, and leave the case out of them.
 
         Args:
             keys: Keys of the effects; None for all that hold in every case.
         """
-        held = keys if keys is not None else [key for key in self.effects if " (" not in key]
-        return {k.partition(" (")[0]: says for k, says in self.effects.items() if k in held}
+        return {key.partition(" (")[0]: self.effects[key] for key in self.keys_in(keys)}
 
     def severity_for(self, targets: frozenset[str]) -> Severity:
         """How much it matters for a set of targets."""

@@ -15,6 +15,7 @@ from ..fix import FixContext, Proposal, attribute_at, safe, set_attribute, subst
 from ..rule import BOTH, ERROR, UNSAFE, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from .owner import owner
+from .unread import effects_read
 from .vocabulary_table import VOCABULARY, census
 
 _VECTORS = {
@@ -90,7 +91,9 @@ def wrong_arity(robot: Robot) -> Iterator[Problem]:
                     f"{name} of <{tag}> in {owner(element)} has "
                     f"{_counted(len(words))}; write {count}",
                     at=element.attribute_place(name),
-                    effects=holding(_WRONG_ARITY, *_where(element), amount),
+                    effects=effects_read(
+                        holding(_WRONG_ARITY, *_where(element), amount), element, name
+                    ),
                 )
 
 
@@ -130,6 +133,8 @@ _NOT_A_NUMBER = {
     "mujoco (in a visual, unreadable)": _OF_MUJOCO["mujoco (in a visual)"],
     "pybullet (unreadable)": "reads as far as it can: 0,1 is 0 and -1rad is -1",
     "pybullet (nothing written)": "takes 0",
+    "drake (no use to Drake)": "rejects the file",
+    "drake (begins with a number)": "reads as far as it can: 0,1 is 0 and -1rad is -1",
 }
 
 
@@ -171,7 +176,7 @@ def not_a_number(robot: Robot) -> Iterator[Problem]:
                 text = element.attributes.get(name)
                 if text is not None and (fault := _fault(text)):
                     if not is_unexpanded(text):
-                        yield _unreadable(element, name, fault, _kind(text))
+                        yield _unreadable(element, name, fault, text)
     for tag, vectors in _VECTORS.items():
         for name, _ in vectors:
             for element in known[tag]:
@@ -181,7 +186,7 @@ def not_a_number(robot: Robot) -> Iterator[Problem]:
                 for word in text.split():
                     if fault := _fault(word):
                         if not is_unexpanded(text):
-                            yield _unreadable(element, name, fault, _kind(word))
+                            yield _unreadable(element, name, fault, word)
                         break
 
 
@@ -237,13 +242,39 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _unreadable(element: Element, name: str, fault: str, kind: str) -> Problem:
+def _unreadable(element: Element, name: str, fault: str, word: str) -> Problem:
+    conditions = (*_where(element), _kind(word), *_in_drake(element, name, word))
     return Problem(
         element,
         f"{name} of <{element.tag}> in {owner(element)} has {fault}",
         at=element.attribute_place(name),
-        effects=holding(_NOT_A_NUMBER, *_where(element), kind),
+        effects=effects_read(holding(_NOT_A_NUMBER, *conditions), element, name),
     )
+
+
+_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
+_SHAPES = ("box", "cylinder", "capsule", "sphere")
+
+
+def _in_drake(element: Element, name: str, word: str) -> tuple[str, ...]:
+    """Name what Drake makes of the first unreadable number of an attribute.
+
+    It reads as far as it can. That is too little of a vector whose last number is another one, of
+    text that begins with no number, and for a box, cylinder or capsule where 0 is left.
+    """
+    if _kind(word) == "a blank behind it":
+        return ()
+    begins = _NUMBER.match(word)
+    words = element.attributes[name].split()
+    count = VOCABULARY[element.tag].numbers[name]
+    if begins is None or (count > 1 and (len(words) != count or word != words[-1])):
+        return ("no use to Drake",)
+    if count > 1 and any(map(_fault, words[:-1])):
+        return ("no use to Drake",)
+    value = float(begins[1])
+    if element.tag in _SHAPES and (value < 0 or (value == 0 and element.tag != "sphere")):
+        return ("no use to Drake",)
+    return ("begins with a number",)
 
 
 _TABBED = re.compile(
@@ -315,7 +346,9 @@ def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator
                         f"{name} of <{tag}> in {owner(element)} has a tab or line break between "
                         "its numbers; write single blanks",
                         at=element.attribute_place(name),
-                        effects=holding(_TABBED_VECTOR, *_where(element), amount),
+                        effects=effects_read(
+                            holding(_TABBED_VECTOR, *_where(element), amount), element, name
+                        ),
                     )
 
 
