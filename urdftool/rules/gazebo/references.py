@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from ...model.elements import GazeboExtension, Robot
 from ...source.document import Element
 from ..rule import ERROR, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import did_you_mean, quoted
+from .kept import joints_of_sdf
 from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS
-from .lumping import is_lumped, keeps_joint
+from .lumping import body_of, is_lumped, keeps_joint
+
+_OF_BLOCK = "gz, gazebo-classic"
+_OF_JOINT = "gz, gazebo-classic (a joint of SDF)"
 
 APPLIES_TO = ("gazebo",)
 
@@ -18,7 +22,8 @@ APPLIES_TO = ("gazebo",)
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": "ignore the whole block, without a message (sdformat 12.3)",
+        _OF_BLOCK: "ignore the whole block, without a message (sdformat 12.3)",
+        _OF_JOINT: "reject the model: a link of the joint is not found (sdformat 12.3)",
     },
 )
 def dangling_reference(robot: Robot) -> Iterator[Problem]:
@@ -27,7 +32,8 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
     The block is thrown away without a word: the wheel has no grip, the camera does not exist, the
     joint is lumped. A misspelt name, a prefix that was forgotten, or a link that is no longer
     there. A ``<joint>`` of SDF that closes a loop needs links that are there as well; without them
-    Gazebo loads no robot at all.
+    Gazebo loads no robot at all. sdformat 12.3 does not find one that a fixed joint lumps into
+    another either.
     """
     yield from _loops(robot)
     names = {*robot.link, *robot.joint}
@@ -39,9 +45,19 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
         yield Problem(
             block.element,
             f"'{name}' is neither a link nor a joint, so the block does nothing"
-            + did_you_mean(name, names),
+            + did_you_mean(name, _meant_by(block, robot)),
             at=block.element.attribute_place("reference"),
         )
+
+
+def _meant_by(block: GazeboExtension, robot: Robot) -> Collection[str]:
+    """Name what a block may refer to: joints for settings of joints, links for those of links."""
+    tags = {child.tag for child in block.element.children}
+    of_joint = not tags.isdisjoint(JOINT_KEYWORDS)
+    of_link = not tags.isdisjoint(LINK_KEYWORDS | {"sensor"})
+    if of_joint == of_link:
+        return {*robot.link, *robot.joint}
+    return robot.joint if of_joint else robot.link
 
 
 def _loops(robot: Robot) -> Iterator[Problem]:
@@ -51,20 +67,33 @@ def _loops(robot: Robot) -> Iterator[Problem]:
         for element in block.element.walk()
         if element.tag in ("link", "frame")
     }
-    for block in robot.gazebo:
-        for joint in () if block.reference else block.element.all("joint"):
-            for end in (joint.child("parent"), joint.child("child")):
-                name = end.text.strip() if end is not None else ""
-                if end is None or not name or name in robot.link or name in {"world", *of_sdf}:
-                    continue
-                if "::" in name or is_unexpanded(name):
-                    continue
-                yield Problem(
-                    block.element,
-                    f"<{end.tag}> of joint '{joint.get('name') or ''}' is '{name}', which is no "
-                    f"link{did_you_mean(name, robot.link)}",
-                    at=end,
-                )
+    for joint in joints_of_sdf(robot):
+        for end in (joint.child("parent"), joint.child("child")):
+            name = end.text.strip() if end is not None else ""
+            if end is None or not name or name in {"world", *of_sdf}:
+                continue
+            if "::" in name or is_unexpanded(name):
+                continue
+            lumped = name in robot.link and is_lumped(robot, name)
+            if name in robot.link and not lumped:
+                continue
+            what = f"<{end.tag}> of joint '{joint.get('name') or ''}' is '{name}', which is "
+            if lumped:
+                what += f"lumped into '{body_of(robot, name)}', because its joint is fixed; name "
+                what += "that, or keep the joint by preserveFixedJoint"
+            else:
+                what += f"no link{did_you_mean(name, robot.link)}"
+            yield Problem(
+                _block_of(joint),
+                what,
+                at=end,
+                severity=WARNING if lumped else None,
+                effects=(_OF_JOINT,),
+            )
+
+
+def _block_of(joint: Element) -> Element:
+    return joint if joint.parent is None else joint.parent
 
 
 @rule(

@@ -21,6 +21,7 @@ from ..fix import (
     suggestion_of,
     unsafe,
 )
+from ..gazebo.kept import is_joint_kept, joints_of_sdf, kept_links
 from ..gazebo.lumping import is_lumped
 from ..renaming import rename_part
 from ..rule import BOTH, ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, holding, rule
@@ -112,16 +113,20 @@ def _free_name(name: str, taken: set[str]) -> str:
     return f"{name}_{number}"
 
 
+_OTHERS_ACCEPT = "urdfdom, mujoco, pybullet, pinocchio, drake"
+_CLASH = {
+    "gz, gazebo-classic (both stay)": "reject the model: a name is not unique (sdformat 12.3)",
+    "gz, gazebo-classic (one is lumped)": (
+        "load the model: of a link or joint that is lumped, no name is left (sdformat 12.3)"
+    ),
+    _OTHERS_ACCEPT: "accept it",
+}
+
+
 @rule(
     INFO,
     raised=dict.fromkeys(GAZEBO, ERROR),
-    effects={
-        "gz, gazebo-classic": (
-            "reject the model where the joint moves: a name is not unique (sdformat 12.3); a "
-            "fixed joint is merged, and its name with it"
-        ),
-        "urdfdom, mujoco, pybullet, pinocchio, drake": "accept it",
-    },
+    effects=_CLASH,
     group="robot",
 )
 def link_joint_name_clash(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
@@ -130,18 +135,43 @@ def link_joint_name_clash(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
     In SDF, links and joints are siblings that share one space of names, so Gazebo refuses the model
     that everything else loads. A fixed joint is merged with its link: sdformat 12.3 then writes
     neither name, and versions that write frames for them (from 9.9 and 13 on) write both, so there
-    it is a warning.
+    it is a warning. A ``<joint>`` of SDF in a ``<gazebo>`` block shares the names too.
     """
     in_gazebo = not targets.isdisjoint(GAZEBO)
+    kept = kept_links(robot)
     for name, joint in robot.joint.items():
         if name in robot.link and name.strip():
-            merged = joint.child in robot.link and is_lumped(robot, joint.child)
+            stay = kept is not None and is_joint_kept(robot, joint, kept)
+            stay = stay and kept is not None and (name in kept or name == "world")
+            lumped = is_lumped(robot, name) or is_lumped(robot, joint.child)
+            case = "both stay" if stay else "one is lumped" if kept and lumped else ""
             yield Problem(
                 joint,
                 f"joint '{name}' has the name of a link; call it '{name}_joint'",
                 at=joint.element.attribute_place("name"),
-                severity=WARNING if in_gazebo and merged else None,
+                severity=WARNING if in_gazebo and lumped and not stay else None,
+                effects=holding(_CLASH, case),
             )
+    yield from _clashes_of_sdf(robot, kept or set())
+
+
+def _clashes_of_sdf(robot: Robot, kept: set[str]) -> Iterator[Problem]:
+    """Report joints of SDF with the name of a link or joint that Gazebo has too."""
+    names = dict.fromkeys((*kept, "world"), "a link")
+    for joint in robot.joints:
+        if is_joint_kept(robot, joint, kept):
+            names.setdefault(joint.name, "a joint")
+    for element in joints_of_sdf(robot):
+        name = element.get("name") or ""
+        if name in names:
+            yield Problem(
+                element,
+                f"joint '{name}' in <gazebo> has the name of {names[name]}; give it its own",
+                at=element.attribute_place("name"),
+                effects=[key for key in holding(_CLASH, "both stay") if key != _OTHERS_ACCEPT],
+            )
+        elif name:
+            names[name] = "another joint in <gazebo>"
 
 
 _WITHOUT_PARENT = {
@@ -155,7 +185,9 @@ _WITHOUT_PARENT = {
 
 @link_joint_name_clash.fix(UNSAFE, renames=True)
 def rename_joint(problem: Problem, context: FixContext) -> Proposal | None:
-    """Append ``_joint`` to the name of the joint."""
+    """Append ``_joint`` to the name of a joint of URDF."""
+    if not isinstance(problem.subject, Joint):
+        return None
     joint = context.joint(problem)
     return rename_part(context, joint, f"{joint.name}_joint")
 

@@ -1,0 +1,50 @@
+"""Which links and joints of a URDF are left in the model that Gazebo loads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Joint, Robot
+from ...source.document import Element
+from ..inertia.bodies import bodies, mass_of
+from .lumping import is_lumped
+
+
+def kept_links(robot: Robot) -> set[str] | None:
+    """Name the links that sdformat 12.3 writes: bodies with mass on bodies with mass.
+
+    A body has the name of its topmost link. Below a body without mass nothing is left, and nothing
+    at all where that is the root.
+
+    Returns:
+        The names, or None where the robot is not one tree, of which sdformat reads nothing.
+    """
+    if len(robot.tree.roots) != 1:
+        return None
+    kept: set[str] = set()
+    owner: dict[str, str] = {}
+    for top, links in bodies(robot).items():
+        owner.update((link.name, top) for link in links)
+        joint = robot.tree.parent_joint(top)
+        held = joint is None or joint.parent == "world" or owner.get(joint.parent) in kept
+        if held and top != "world" and mass_of(links) > 0:
+            kept.add(top)
+    return kept
+
+
+def is_joint_kept(robot: Robot, joint: Joint, kept: set[str]) -> bool:
+    """Tell whether a joint is one in Gazebo too.
+
+    Args:
+        robot: The robot.
+        joint: One of its joints.
+        kept: The links that :func:`kept_links` names.
+    """
+    return joint.child in kept and not is_lumped(robot, joint.child)
+
+
+def joints_of_sdf(robot: Robot) -> Iterator[Element]:
+    """List the ``<joint>`` elements of SDF in ``<gazebo>`` blocks without a reference."""
+    for block in robot.gazebo:
+        if not block.reference:
+            yield from block.element.all("joint")
