@@ -5,6 +5,10 @@ import pytest
 from urdftool import check
 from urdftool.rules import get_rule
 
+MASS = (
+    '<inertial><mass value="1"/>'
+    '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+)
 KEPT = '<mujoco><compiler discardvisual="false"/></mujoco>'
 
 
@@ -26,7 +30,7 @@ def readers(path, rule):
     ],
 )
 def test_a_reader_is_named_where_it_does_what_is_said(write, inside, has):
-    path = write("r.urdf", f'<robot name="r"><link name="a">{inside}</link></robot>')
+    path = write("r.urdf", f'<robot name="r"><link name="a">{MASS}{inside}</link></robot>')
     (found,) = readers(path, "non-positive-dimension")
     silent = "urdfdom, gz, gazebo-classic, pybullet, pinocchio"
     assert set(found) == {silent, *has}

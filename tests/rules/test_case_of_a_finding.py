@@ -11,7 +11,11 @@ from urdftool.lint.run import lint_file
 from urdftool.lint.settings import Settings
 from urdftool.report.json_text import json_text
 
-LINK = '<link name="{}"/>'
+MASS = (
+    '<inertial><mass value="1"/>'
+    '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+)
+LINK = f'<link name="{{}}">{MASS}</link>'
 JOINT = '<joint name="{}" type="{}"><parent link="{}"/><child link="{}"/>{}</joint>'
 LIMIT = '<limit lower="{}" upper="{}" effort="1" velocity="1"/>'
 BLUE = (
@@ -54,7 +58,7 @@ def test_a_default_is_taken_for_a_misspelt_attribute_that_has_one(write):
 )
 def test_what_another_reader_alone_reads_is_a_remark_in_its_files(write, root, level):
     capsule = '<collision><geometry><capsule radius="1" length="1"/></geometry></collision>'
-    path = write("r.urdf", robot(f'<link name="a">{capsule}</link>', root=root))
+    path = write("r.urdf", robot(f'<link name="a">{MASS}{capsule}</link>', root=root))
     found = one(path, "feature-needs-newer-version")
     assert found.severity.label == level
     assert found.effects["urdfdom, gz, gazebo-classic, pinocchio"] == (
@@ -120,7 +124,9 @@ def test_a_wrong_vector_of_a_visual_and_of_a_color(write):
     path = write("r.urdf", robot(f'<link name="a">{shape.format("")}</link>'))
     assert one(path, "wrong-arity").effects["mujoco"].startswith("ignores it")
     color = BLUE.replace("0 0 1 1", "0 0 1")
-    effects = one(write("c.urdf", robot(f'<link name="a">{color}</link>')), "wrong-arity").effects
+    effects = one(
+        write("c.urdf", robot(f'<link name="a">{MASS}{color}</link>')), "wrong-arity"
+    ).effects
     assert effects["mujoco"].startswith("rejects")
     assert effects["urdfdom, gz, gazebo-classic, pinocchio"] == "load the robot without the color"
 

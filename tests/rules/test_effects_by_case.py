@@ -53,8 +53,8 @@ def effects_of(tmp_path, rule, text):
     [
         (_robot(VISUAL + COLLISION), "leave out", "mass of water"),
         (_robot(VISUAL), "leave out", "rejects"),
-        (_robot(VISUAL, kind="fixed"), "merge", ""),
-        (_robot(VISUAL + COLLISION, kind="fixed"), "merge", "mass of water"),
+        (_robot(VISUAL, kind="fixed"), "one link", ""),
+        (_robot(VISUAL + COLLISION, kind="fixed"), "one link", "mass of water"),
         (_robot(HEAVY, base=VISUAL + COLLISION), "load nothing", ""),
     ],
     ids=["moves", "moves without collision", "fixed", "fixed with collision", "root"],

@@ -9,6 +9,10 @@ from pathlib import Path
 
 from .. import rules
 from ..finding import Finding
+from ..model.elements import Robot
+from ..rules.gazebo.kept import kept_links
+from ..rules.inertia.presence import has_bare_moved_body
+from ..rules.rule import GAZEBO
 
 _THROUGH_URDFDOM = ("pinocchio", "KDL", "robot_state_publisher", "rviz", "moveit", "check_urdf")
 """Readers that read a robot with urdfdom, and get none where it rejects one."""
@@ -17,13 +21,27 @@ _IRREGULAR = {"have": "has", "do": "does", "are": "is", "go": "goes"}
 
 
 class Rejections:
-    """The readers that reject one robot, each with the rules that say so."""
+    """The readers that reject one robot, each with the rules that say so.
 
-    def __init__(self) -> None:
+    Args:
+        robot: The robot; None where it could not be read.
+    """
+
+    def __init__(self, robot: Robot | None) -> None:
         """Read which effects are rejections: what ``python -m tests.effects`` recorded."""
         path = Path(rules.__file__).with_name("effect_rejections.json")
         self._table: dict[str, dict[str, list[str]]] = json.loads(path.read_text("utf-8"))
         self._by_reader: dict[str, set[str]] = {}
+        if robot is not None:
+            self._add_massless(robot)
+
+    def _add_massless(self, robot: Robot) -> None:
+        """Take what rejects the robot by rules that are off for some targets."""
+        if kept_links(robot) == set():
+            for reader in GAZEBO:
+                self._by_reader[reader] = {"massless-root-body"}
+        if has_bare_moved_body(robot):
+            self._by_reader["mujoco"] = {"massless-moving-body"}
 
     def add(self, rule: str, keys: Iterable[str]) -> None:
         """Take the effects of a finding, by their keys with the case."""

@@ -262,7 +262,7 @@ def _check_description(
     }
     ran: set[str] = set()
     origins: dict[int, Any] = {}
-    rejections = Rejections()
+    rejections = Rejections(robot)
     for rule in rules:
         if "robot" in rule.needs and robot is None:
             continue

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.attached import attached_links, is_fixed_to_world
-from ...model.elements import Link, Robot
+from ...model.elements import MOVING_TYPES, Joint, Link, Robot
+from ..gazebo.kept import kept_links
 from ..rule import ERROR, GAZEBO, INFO, ROS, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_children
 from .bodies import bodies, mass_of
@@ -14,6 +15,8 @@ from .solids import solid_volume
 _SIMULATED = ("gazebo-classic", "gz", "mujoco")
 _MARKER = 1e-3  # [kg]
 _REMOVED = "Gazebo removes it and everything attached to it"
+_HINT = "'urdftool inertia robot --write --mass LINK=KG' computes one from its shapes"
+_IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-classic (part)"}
 
 
 @rule(
@@ -22,7 +25,9 @@ _REMOVED = "Gazebo removes it and everything attached to it"
     effects={
         "gz, gazebo-classic": "leave out the link and all below it, without a message",
         "gz, gazebo-classic (root)": "load nothing: a model must have at least one link",
-        "gz, gazebo-classic (part)": "merge it into the link with mass that it is fixed to",
+        "gz, gazebo-classic (part)": (
+            "make one link of it and the link with mass that it is fixed to, named after the upper"
+        ),
         "pybullet": "assumes 1 kg, and with URDF_USE_INERTIA_FROM_FILE 1 kg·m² about each axis",
         "mujoco (collisions)": "assumes the mass of water in the shape of its collisions",
         "mujoco (no mass)": "rejects the file: mass of moving bodies must be positive",
@@ -42,6 +47,7 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
     """
     in_gazebo = not targets.isdisjoint(GAZEBO)
     tops: dict[str, Link] | None = None
+    kept = kept_links(robot)
     for link in robot.links:
         if link.inertial is not None or link.is_frame or link.name == "world":
             continue
@@ -75,24 +81,34 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             severity, so = WARNING, " and so has no mass"
             several = " and so have no mass"
         has_shapes = bool(link.visuals or link.collisions)
+        warned_by_kdl = link is robot.tree.root and not targets.isdisjoint(ROS)
+        needs_mass = severity is not INFO and has_shapes and not warned_by_kdl
+        if kept is None:
+            case = "not one tree"
+        else:
+            case = "part" if link.name in heavy else "" if kept else "root"
         yield Problem(
             link,
             f"link '{link.name}' has no <inertial>{so}",
-            hint="'urdftool inertia robot' computes one from its shapes" if has_shapes else "",
+            hint=_HINT if needs_mass else "",
             severity=severity,
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
-            effects=_effects_without_inertial(
-                robot, link, "part" if link.name in heavy else "root" if joint is None else ""
-            ),
+            effects=_effects_without_inertial(robot, link, case),
         )
 
 
 def _effects_without_inertial(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
-    """Select what readers do with a link without mass; MuJoCo welds the root to the world."""
+    """Select what readers do with a link without mass; MuJoCo welds the root to the world.
+
+    Args:
+        robot: The robot.
+        link: Its link without an ``<inertial>``.
+        in_gazebo: The case of Gazebo's effect; empty for that without one.
+    """
     body = [one for one, _ in attached_links(robot, link)]
     tops = [robot.tree.parent_joint(one.name) for one in body]
     keys = {"pybullet", "pinocchio, KDL, drake"}
-    keys.add("gz, gazebo-classic" + (f" ({in_gazebo})" if in_gazebo else ""))
+    keys |= {"gz, gazebo-classic" + (f" ({in_gazebo})" if in_gazebo else "")} & _IN_GAZEBO
     if None in tops or is_fixed_to_world(robot, link):
         return keys
     if link.collisions:
@@ -130,10 +146,7 @@ def massless_moving_body(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
     simulator, such a body is reported if it is the only one: its ``<inertial>`` was lost.
     """
     bare, heavy = [], 0
-    for name, links in bodies(robot).items():
-        joint = robot.tree.parent_joint(name)
-        if joint is None or joint.is_fixed:
-            continue
+    for joint, name, links in moved_bodies(robot):
         if _is_bare(links):
             bare.append((joint, name, links[0]))
         heavy += mass_of(links) > 0
@@ -145,6 +158,20 @@ def massless_moving_body(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
             f"joint '{joint.name}' moves link '{name}', which has no mass{_below(robot, name)}; "
             "give it a small <inertial>, or make the joint fixed",
         )
+
+
+def moved_bodies(robot: Robot) -> Iterator[tuple[Joint, str, list[Link]]]:
+    """List the rigid bodies on joints that are not fixed: joint, topmost link and links of each."""
+    for name, links in bodies(robot).items():
+        joint = robot.tree.parent_joint(name)
+        if joint is not None and not joint.is_fixed:
+            yield joint, name, links
+
+
+def has_bare_moved_body(robot: Robot) -> bool:
+    """Tell whether a joint moves a body without mass and shapes, which MuJoCo rejects."""
+    moved = (links for joint, _, links in moved_bodies(robot) if joint.type in MOVING_TYPES)
+    return any(map(_is_bare, moved))
 
 
 def _below(robot: Robot, name: str) -> str:
