@@ -19,13 +19,14 @@ from ...source.packages import own_package, shown_path
 from ..mujoco import keeps_visuals
 from ..rule import ERROR, Problem, rule
 from ..words import nearest
+from .dropped import is_dropped
 from .uris import malformation
 from .uses import MeshUse, actual_case, mesh_uses
 
 APPLIES_TO = ("mesh",)
 
 _MAX_FILES = 5000
-_WITHOUT_FILE = ("rviz", "gz", "urdfdom, gz, gazebo-classic")
+_NOT_OPENED = "urdfdom, gz, gazebo-classic"
 
 
 @rule(
@@ -83,10 +84,14 @@ def mesh_not_found(
 
 
 def _of_missing(keeps: bool, uses: list[MeshUse]) -> list[str]:
-    """The effects of a missing file: MuJoCo opens that of a visual only where it keeps visuals."""
+    """The effects of a missing file: MuJoCo opens that of a visual only where it keeps visuals.
+
+    RViz and gz do not look for that of a shape that urdfdom drops.
+    """
+    shown = () if all(map(is_dropped, uses)) else ("rviz", "gz")
     opened = keeps or any(use.collides for use in uses)
     rejecting = "drake (above)" if all(map(_is_above, uses)) else "pybullet, drake (nowhere)"
-    return [*_WITHOUT_FILE, rejecting, *["mujoco"] * opened]
+    return [*shown, _NOT_OPENED, rejecting, *["mujoco"] * opened]
 
 
 def _is_above(use: MeshUse) -> bool:

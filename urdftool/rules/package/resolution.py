@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from ...model.elements import Robot
 from ...source.description import Description
 from ...source.packages import has_it, own_package, shown_path
+from ..mesh.dropped import is_dropped
 from ..mesh.uses import MeshUse, mesh_uses
 from ..rule import WARNING, Problem, rule
 
@@ -49,7 +50,7 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
             + (has_it(name, near) if near is not None else remedy),
             at=uses[0].mesh.element.attribute_place("filename"),
             hint="; ".join(f"searched {place}" for place in _brief(uses[0].searched)),
-            effects=("rviz", "drake", "pybullet (no such folder)"),
+            effects=(*_in_rviz(uses), "drake", "pybullet (no such folder)"),
         )
     yield from _assumed(robot, description)
 
@@ -71,8 +72,13 @@ def _assumed(robot: Robot, description: Description) -> Iterator[Problem]:
             f"package '{name}' is not found, and {meshes} read from the folder "
             f"'{shown_path(folder)}', as PyBullet does; write '{_right_uri(uses[0], description)}'",
             at=uses[0].mesh.element.attribute_place("filename"),
-            effects=("rviz", "drake", "pybullet (a folder)"),
+            effects=(*_in_rviz(uses), "drake", "pybullet (a folder)"),
         )
+
+
+def _in_rviz(uses: list[MeshUse]) -> tuple[str, ...]:
+    """Select RViz's effect; it does not look for meshes of shapes that urdfdom drops."""
+    return () if all(map(is_dropped, uses)) else ("rviz",)
 
 
 def _right_uri(use: MeshUse, description: Description) -> str:

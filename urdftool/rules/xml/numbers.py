@@ -205,6 +205,18 @@ def _fault(text: str) -> str:
     return ""
 
 
+def has_readable_numbers(element: Element) -> bool:
+    """Tell whether urdfdom can read every number of an element of URDF."""
+    for name, count in VOCABULARY[element.tag].numbers.items():
+        text = element.attributes.get(name)
+        if text is None:
+            continue
+        words = text.split() if count > 1 else [text]
+        if len(words) != count or any(map(_fault, words)):
+            return False
+    return True
+
+
 def _kind(text: str) -> str:
     """Name the condition of effects that holds of a number's text."""
     if not text.strip():

@@ -1,0 +1,45 @@
+"""Which shapes urdfdom drops, because another element of their link cannot be read."""
+
+from __future__ import annotations
+
+from ...model.elements import Link
+from ...source.document import Element
+from ..xml.numbers import has_readable_numbers
+from .uses import MeshUse
+
+_SHAPES = ("box", "sphere", "cylinder", "mesh")
+_SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+def is_dropped(use: MeshUse) -> bool:
+    """Tell whether urdfdom drops the shape of a mesh.
+
+    It reads the inertial, the visuals and then the collisions of a link, and gives up on the link
+    at the first that it cannot read.
+    """
+    if not (_reads_inertial(use.link) and _reads_shapes(use.link, "visual")):
+        return True
+    return use.collides and not _reads_shapes(use.link, "collision")
+
+
+def _reads_inertial(link: Link) -> bool:
+    inertial = link.element.child("inertial")
+    if inertial is None:
+        return True
+    mass, inertia = inertial.child("mass"), inertial.child("inertia")
+    if mass is None or inertia is None or not {"value"} <= mass.attributes.keys():
+        return False
+    if not inertia.attributes.keys() >= set(_SIX):
+        return False
+    return all(map(has_readable_numbers, (*inertial.all("origin"), mass, inertia)))
+
+
+def _reads_shapes(link: Link, tag: str) -> bool:
+    return all(map(_reads_shape, link.element.all(tag)))
+
+
+def _reads_shape(element: Element) -> bool:
+    geometry = element.child("geometry")
+    if geometry is None or not geometry.children or geometry.children[0].tag not in _SHAPES:
+        return False
+    return all(map(has_readable_numbers, (*element.all("origin"), geometry.children[0])))
