@@ -155,12 +155,16 @@ IN_BOTH = "joint 'one' and 1 more: mimic joints hang free in {}; add a constrain
         (
             ("gazebo-classic", "pybullet"),
             ("one", "two"),
-            [IN_BOTH.format("PyBullet, which does not load Gazebo's plugin")],
+            [IN_BOTH.format("PyBullet, which does not read what moves it in Gazebo")],
         ),
         (
             ("mujoco", "pybullet"),
             ("one", "two"),
-            [IN_BOTH.format("MuJoCo before 4.0 and PyBullet, which do not load Gazebo's plugin")],
+            [
+                IN_BOTH.format(
+                    "MuJoCo before 4.0 and PyBullet, which do not read what moves it in Gazebo"
+                )
+            ],
         ),
         (
             ("gazebo-classic",),

@@ -244,11 +244,12 @@ def mimic_not_simulated(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
 
     The follower is then a free joint that hangs where gravity takes it. Gazebo Classic needs a
     plugin for it, MuJoCo before 4.0 an ``<equality>``, PyBullet a gear constraint. Joints that a
-    Gazebo plugin names in ``<mimicJoint>`` are reported for MuJoCo and PyBullet alone.
+    Gazebo plugin names in ``<mimicJoint>``, and those that move a link which a ``<joint>`` of SDF
+    in a ``<gazebo>`` block joins to another, are reported for MuJoCo and PyBullet alone.
     """
     plugged = {
         child.text.strip() for plugin in robot.plugins for child in plugin.element.all("mimicJoint")
-    }
+    } | _in_loops(robot)
     free = [pair for pair in _mimics(robot) if pair[0].name not in plugged]
     if free:
         yield _hanging(free, "where <mimic> is not simulated; add a plugin or a constraint")
@@ -258,8 +259,26 @@ def mimic_not_simulated(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
         read = "do" if len(readers) > 1 else "does"
         yield _hanging(
             moved,
-            f"in {' and '.join(readers)}, which {read} not load Gazebo's plugin; add a constraint",
+            f"in {' and '.join(readers)}, which {read} not read what moves it in Gazebo; add a "
+            "constraint",
         )
+
+
+def _in_loops(robot: Robot) -> set[str]:
+    """Name the mimic joints that move an end of a joint of SDF, which closes a loop."""
+    ends = {
+        end.text.strip()
+        for block in robot.gazebo
+        for joint in block.element.all("joint")
+        for end in (joint.child("parent"), joint.child("child"))
+        if end is not None
+    }
+    found = set()
+    for joint, _ in _mimics(robot) if ends else ():
+        below = {joint.child, *robot.tree.descendants(joint.child)}
+        if not below.isdisjoint(ends):
+            found.add(joint.name)
+    return found
 
 
 _WITHOUT_PLUGINS = {"mujoco": "MuJoCo before 4.0", "pybullet": "PyBullet"}
