@@ -101,11 +101,14 @@ DIALECTS: dict[str, frozenset[str]] = {
             "self_collision_checking",
             "fixed_frame",
             "isaac_sim_config",
+            "deformable",
+            "reduced_deformable",
         )
     ),
     "link": frozenset(("contact", "audio_source", "self_collision_checking", "inertia_scaling")),
     "visual": frozenset(("meta",)),
     "collision": frozenset(("verbose", "contact_coefficients")),
+    "material": frozenset(("specular",)),
     "geometry": frozenset(("plane", "cdf", "ellipsoid", "cone", "torus", "convex")),
     "joint": frozenset(("hardwareInterface",)),
 }
@@ -152,9 +155,14 @@ def census(root: Element) -> Census:
         for child in element.children:
             if child.tag in children:
                 continue
-            if child.tag not in dialect and ":" not in child.tag:
+            if ":" not in child.tag and (child.tag not in dialect or _is_of_sdf(child)):
                 strangers.append(child)
     return Census(known, strangers)
+
+
+def _is_of_sdf(element: Element) -> bool:
+    """Tell whether an element is SDF's one of a name that PyBullet reads in URDF."""
+    return element.tag == "specular" and "rgb" not in element.attributes
 
 
 def is_for_another_reader(root: Element) -> bool:
