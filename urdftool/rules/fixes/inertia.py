@@ -362,14 +362,16 @@ def inertial_not_at_com_suspect(problem: Problem, around: Around) -> Proposal | 
 def root_link_has_inertia(problem: Problem, around: Around) -> Proposal | None:
     """A link without mass above it, on a fixed joint."""
     robot, link = around.robot, around.link(problem)
-    if link.name == "world" or link.element.parent is not robot.element:
+    if link.element.parent is not robot.element:
         return None
+    if link.name == "world":
+        return None  # its <inertial> is to be removed, with what its author meant by it
     name, joint = f"{link.name}_root", f"{link.name}_root_joint"
     taken = {*robot.link, *robot.joint}
     if name in taken or joint in taken or is_computed(link.element):
         return None
-    if around.targets & {"moveit"}:
-        return None  # the virtual joint and the groups of the SRDF name the root
+    if around.targets & {"moveit", "pybullet"}:
+        return None  # the SRDF names the root, and PyBullet gives a new one 1 kg
     check_not_included(around)
     changes: tuple[Change, ...] = (
         Change(
@@ -386,7 +388,8 @@ def root_link_has_inertia(problem: Problem, around: Around) -> Proposal | None:
             ),
         ),
     )
-    return unsafe(f"put a link '{name}' without mass above it, on a fixed joint", *changes)
+    what = f"put a link '{name}' without <inertial> above it, on a fixed joint"
+    return unsafe(f"{what}; PyBullet gives it 1 kg", *changes)
 
 
 def com_not_mirrored(problem: Problem, around: Around) -> Proposal | None:

@@ -242,24 +242,47 @@ _SLIGHT = 1e-3
         "mujoco": "welds the root to the world",
     },
 )
-def root_link_has_inertia(robot: Robot) -> Iterator[Problem]:
+def root_link_has_inertia(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """The root link has an ``<inertial>``.
 
     KDL cannot give its root a mass: it prints a warning at every start of robot_state_publisher and
-    computes dynamics without it. A root without mass, joined by a fixed joint to the link that was
-    the root, cures it.
+    computes dynamics without it. A root without ``<inertial>``, joined by a fixed joint to the link
+    that was the root, avoids the warning. PyBullet gives such a root 1 kg, and with
+    ``URDF_USE_INERTIA_FROM_FILE`` 1 kg·m² about each axis, which a free base carries along; with
+    the target ``pybullet`` this remedy is therefore not given, and neither is the fix.
     """
     root = robot.tree.root
     if root is None or len(robot.tree.roots) > 1 or _is_broken(robot):
         return  # another link may be the root once it is mended
     if root.inertial is not None and root.inertial.mass != 0.0:
-        remedy = "put a link without one above it, on a fixed joint"
-        if root.mass < _SLIGHT and not (root.visuals or root.collisions):
-            remedy = "remove its <inertial>"
+        remedy, hint = "; put a link without one above it, on a fixed joint", _IN_PYBULLET
+        if root.name == "world" or _is_needless(robot, root):
+            remedy = "; remove its <inertial>"
+        if root.name == "world":
+            hint = ""  # PyBullet gives no mass to a root of this name
+        elif "pybullet" in targets:
+            remedy = hint = ""
         yield Problem(
             root,
-            f"root link '{root.name}' has an inertia, which KDL does not support; {remedy}",
+            f"root link '{root.name}' has an inertia, which KDL does not support{remedy}",
+            hint=hint,
         )
+
+
+_IN_PYBULLET = (
+    "PyBullet gives a root without an <inertial> 1 kg, which makes a robot with a free base heavier"
+)
+
+
+def _is_needless(robot: Robot, root: Link) -> bool:
+    """Whether a root is a frame with next to no mass, fixed to links that have one.
+
+    Where nothing with mass is fixed to it, Gazebo leaves out a root without ``<inertial>``, with
+    the whole robot.
+    """
+    if root.mass >= _SLIGHT or root.visuals or root.collisions:
+        return False
+    return any(link.mass > 0 for link, _ in attached_links(robot, root)[1:])
 
 
 @rule(
