@@ -1,7 +1,10 @@
 """What a finding advises fits its case, and so does its fix."""
 
+import shutil
+
 import pytest
 
+from tests.conftest import FIXTURES
 from urdftool import check
 
 MOVING = """<robot name="r">
@@ -55,3 +58,60 @@ def test_it_is_so_in_pybullet(write):
         assert masses == [1, 0]
     finally:
         pybullet.disconnect(client)
+
+
+FOLLOWING = """<robot name="r">
+  <link name="base"/><link name="a"/><link name="b"/>
+  <joint name="lead" type="continuous"><parent link="base"/><child link="a"/></joint>
+  <joint name="follow" type="continuous"><parent link="base"/><child link="b"/>{mimic}</joint>
+  <ros2_control name="c" type="system">
+    <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+    <joint name="lead"><state_interface name="position"/></joint>
+    <joint name="follow">
+      <param name="mimic">lead</param>{param}
+      <state_interface name="position"/>
+    </joint>
+  </ros2_control>
+</robot>
+"""
+TWICE = '<param name="multiplier">2</param>'
+
+
+@pytest.mark.parametrize(
+    ("mimic", "param", "severity", "words", "has_fix"),
+    [
+        ("", "", "warning", "write <mimic joint='lead'/> into", True),
+        ("", TWICE, "warning", "write <mimic joint='lead' multiplier=\"2\"/> into", True),
+        ('<mimic joint="lead"/>', "", "info", "remove the <param>", True),
+        ('<mimic joint="lead" multiplier="2.0"/>', TWICE, "info", "remove both <param>", True),
+        ('<mimic joint="lead"/>', TWICE, "warning", "'lead' with multiplier 1 by its", False),
+        ('<mimic joint="a_joint"/>', "", "warning", "'a_joint' with multiplier 1 by its", False),
+    ],
+)
+def test_what_a_mimic_param_adds_to_the_mimic(write, mimic, param, severity, words, has_fix):
+    path = write("r.urdf", FOLLOWING.format(mimic=mimic, param=param))
+    (found,) = check(path, select=["ros2-control-legacy-mimic-param"], targets=["ros2"], fixes=True)
+    assert (found.severity.label, bool(found.fix)) == (severity, has_fix)
+    assert words in found.message
+
+
+@pytest.mark.parametrize(
+    ("rule", "targets", "count"),
+    [
+        ("visual-mesh-as-collision", [], 1),
+        ("nonconvex-collision-mesh", ["pybullet", "mujoco"], 1),
+        ("nonconvex-collision-mesh", ["pybullet"], 0),
+    ],
+)
+def test_pybullet_keeps_the_triangles_of_a_concave_collision(tmp_path, rule, targets, count):
+    folder = FIXTURES / "rules" / rule
+    shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
+    path = tmp_path / "bad.urdf"
+    (plain,) = check(path, select=[rule], targets=targets)
+    assert "convex hull" in plain.effects["pybullet"]
+    path.write_text(path.read_text().replace("<collision>", '<collision concave="yes">'))
+    found = check(path, select=[rule], targets=targets)
+    assert len(found) == count
+    for finding in found:
+        assert "triangles" in finding.effects["pybullet"]
+        assert "convex hull" in finding.effects["mujoco"]

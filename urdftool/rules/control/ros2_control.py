@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
-from ...model.elements import Robot
+from ...model.elements import ControlComponent, Mimic, Robot
 from ...model.read import number
 from ...source.document import Element
 from ..rule import ERROR, INFO, WARNING, Problem, rule
@@ -116,21 +116,64 @@ def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
     group="robot",
 )
 def ros2_control_legacy_mimic_param(robot: Robot) -> Iterator[Problem]:
-    """Mimicry is written as a parameter.
+    """A ``<param>`` in ``<ros2_control>`` makes a joint a mimic joint.
 
-    ``<param name="mimic">`` was how a joint in ``<ros2_control>`` followed another; since Jazzy it
-    is the ``<mimic>`` of the URDF that counts, and the parameter does nothing.
+    ``<param name="mimic">`` was how a joint in ``<ros2_control>`` followed another; since Jazzy
+    ros2_control takes that from the ``<mimic>`` of the URDF. Where the joint has a ``<mimic>`` of
+    the same joint and multiplier, the parameters do no harm, and only older versions read them: it
+    is an info.
     """
     for control in robot.ros2_controls:
         for joint in control.joints:
             for param in joint.element.all("param"):
                 if param.get("name") == "mimic":
-                    yield Problem(
-                        control.element,
-                        f"joint '{joint.name}' says whom it follows in a <param>; "
-                        "write <mimic> into the joint of the URDF",
-                        at=param,
+                    written = robot.joint.get(joint.name)
+                    message, repeats = _of_mimic_param(
+                        joint, param.text.strip(), written.mimic if written is not None else None
                     )
+                    yield Problem(
+                        control.element, message, at=param, severity=INFO if repeats else None
+                    )
+
+
+def _of_mimic_param(joint: ControlComponent, leader: str, mimic: Mimic | None) -> tuple[str, bool]:
+    """Compare the parameters that make a joint a mimic joint with its ``<mimic>``.
+
+    Args:
+        joint: The joint in ``<ros2_control>``.
+        leader: The joint that its parameter names.
+        mimic: The ``<mimic>`` of the joint in the URDF.
+
+    Returns:
+        The message, and whether the parameters repeat the ``<mimic>``.
+    """
+    factor = joint.params.get("multiplier")
+    if mimic is None:
+        by = f' multiplier="{factor}"' if factor is not None else ""
+        return (
+            f"joint '{joint.name}' follows '{leader}' by a <param>; "
+            f"write <mimic joint='{leader}'{by}/> into the joint of the URDF",
+            False,
+        )
+    if repeats_mimic(joint.params, mimic):
+        return (
+            f"joint '{joint.name}' follows '{leader}' by a <param> and by its <mimic>; "
+            f"remove {'the <param>' if factor is None else 'both <param>, mimic and multiplier'}",
+            True,
+        )
+    return (
+        f"joint '{joint.name}' follows '{leader}' with multiplier {factor or 1} by its <param>, "
+        f"but '{mimic.joint}' with multiplier {mimic.multiplier:g} by its <mimic>; "
+        "remove the <param> that are wrong, or correct the <mimic>",
+        False,
+    )
+
+
+def repeats_mimic(params: Mapping[str, str], mimic: Mimic) -> bool:
+    """Whether the parameters of a joint in ``<ros2_control>`` repeat its ``<mimic>``."""
+    return params.get("mimic") == mimic.joint and (
+        number(params.get("multiplier", "1")) == mimic.multiplier
+    )
 
 
 @rule(

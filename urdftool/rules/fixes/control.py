@@ -7,6 +7,7 @@ import re
 from ...source.document import Element
 from ..control.controller_files import package_of
 from ..control.parameter_types import wrong_types
+from ..control.ros2_control import repeats_mimic
 from ..rule import Problem
 from .proposal import (
     Around,
@@ -177,9 +178,10 @@ def ros2_control_legacy_mimic_param(problem: Problem, around: Around) -> Proposa
         by = f' multiplier="{quote(factors[0].text.strip())}"' if factors else ""
         changes.append(insert(joint.element, f'<mimic joint="{quote(leader)}"{by}/>'))
         return unsafe("write <mimic> into the joint", *changes)
-    if joint.mimic.joint != leader:
+    params = {p.get("name") or "": p.text.strip() for p in part.all("param")}
+    if not repeats_mimic(params, joint.mimic):
         return None
-    return unsafe("take it out: the joint has its <mimic>", *changes)
+    return unsafe("remove it: the joint has its <mimic>", *changes)
 
 
 def ros2_control_duplicate_interface(problem: Problem, around: Around) -> Proposal | None:
