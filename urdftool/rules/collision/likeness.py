@@ -12,7 +12,7 @@ from ...model.elements import Cylinder, Link, Robot, Sphere
 from ...model.gltf_axes import is_gltf
 from ...source.description import Description
 from ..mesh.outlines import Reaches, reaches
-from ..mesh.uses import Stamp, mesh_uses, stamp
+from ..mesh.uses import MeshUse, Stamp, is_concave, mesh_uses, stamp
 from ..rule import ERROR, INFO, WARNING, Problem, rule
 from .apart import compare_places, measured, with_attached
 from .displaced import displaced
@@ -66,6 +66,7 @@ def _is_small(path: Path | None, least: float) -> bool:
         "moveit": "builds the collision shape from all triangles of the mesh",
         "mujoco": "takes the convex hull",
         "pybullet": "takes the convex hull; of an OBJ of several objects, a hull of each",
+        "pybullet (concave)": "collides with its triangles, because the collision is concave",
     },
 )
 def visual_mesh_as_collision(
@@ -77,7 +78,8 @@ def visual_mesh_as_collision(
     times faster with simpler shapes. Where the mesh is known to have more than ``dense`` triangles
     it is a warning; one of an STL or OBJ of fewer than ``least`` is as simple as a shape made for
     contact, and is not reported. One finding for the robot names the links with such meshes, and
-    one counts the others.
+    one counts the others; a ``<collision>`` with the attribute ``concave``, of which PyBullet keeps
+    the triangles, is reported apart.
     """
     seen: dict[str, set[str]] = {}
     plain, heavy = [], []
@@ -92,6 +94,18 @@ def visual_mesh_as_collision(
             heavy.append((use, faces))
         elif faces > dense / 10 or (faces == 0 and not (use.exists and _is_small(use.path, least))):
             plain.append(use)
+    for concave in (False, True):
+        yield from _as_collision(
+            [one for one in heavy if is_concave(one[0]) is concave],
+            [one for one in plain if is_concave(one) is concave],
+            ("moveit", "mujoco", "pybullet (concave)" if concave else "pybullet"),
+        )
+
+
+def _as_collision(
+    heavy: list[tuple[MeshUse, int]], plain: list[MeshUse], effects: tuple[str, ...]
+) -> Iterator[Problem]:
+    """Report visual meshes that are collision meshes: those of many triangles, and the others."""
     if heavy:
         names = list(dict.fromkeys(use.link.name for use, _ in heavy))
         most = max(faces for _, faces in heavy)
@@ -104,6 +118,7 @@ def visual_mesh_as_collision(
             at=heavy[0][0].mesh.element.attribute_place("filename"),
             hint=_SIMPLER,
             severity=WARNING,
+            effects=effects,
         )
     if plain:
         more = f" (and {len(plain) - 1} more links theirs)" if len(plain) > 1 else ""
@@ -112,6 +127,7 @@ def visual_mesh_as_collision(
             f"link '{plain[0].link.name}' collides with its visual mesh{more}; "
             "primitives or simpler meshes are faster",
             at=plain[0].mesh.element.attribute_place("filename"),
+            effects=effects,
         )
 
 

@@ -10,7 +10,7 @@ from ...inputs import Remembered
 from ...model.elements import Robot
 from ...source.description import Description
 from ..rule import ERROR, INFO, WARNING, Problem, rule
-from .uses import MeshUse, Stamp, mesh_uses, stamp
+from .uses import MeshUse, Stamp, is_concave, mesh_uses, stamp
 
 APPLIES_TO = ("mesh",)
 
@@ -176,21 +176,29 @@ def with_slivers(
     INFO,
     on=("mujoco", "pybullet"),
     effects={
-        "mujoco, pybullet": "collide with its convex hull: a ball between two prongs touches them",
+        "mujoco": "collides with its convex hull: a ball between two prongs touches them",
+        "pybullet": (
+            "collides with its convex hull; of an OBJ of several objects, with a hull of each"
+        ),
+        "pybullet (concave)": "collides with its triangles, because the collision is concave",
     },
     group="robot",
 )
 def nonconvex_collision_mesh(
-    robot: Robot, description: Description, *, ratio: float = 1.5
+    robot: Robot, description: Description, targets: frozenset[str], *, ratio: float = 1.5
 ) -> Iterator[Problem]:
     """A collision mesh is far from convex.
 
     MuJoCo and PyBullet fill a mesh up to its convex hull: a bowl becomes a plug, and a gripper
-    closes on air. It is told where the hull has more than ``ratio`` times the volume.
-    ``urdftool collision`` cuts it into convex pieces.
+    closes on air. It is reported where the hull has more than ``ratio`` times the volume.
+    ``urdftool collision`` cuts it into convex pieces. PyBullet keeps the triangles of a
+    ``<collision>`` with the attribute ``concave``, which is reported for MuJoCo only.
     """
     for use, key, surface in _surfaces(robot, description):
         if surface.open_edges or not surface.consistent or surface.volume == 0:
+            continue
+        concave = is_concave(use)
+        if concave and "mujoco" not in targets:
             continue
         hull = _hull_volume(key)
         if hull is None or hull <= ratio * abs(surface.volume):
@@ -201,6 +209,9 @@ def nonconvex_collision_mesh(
             f"{hull / abs(surface.volume):.2g} times its volume",
             at=use.mesh.element.attribute_place("filename"),
             hint="'urdftool collision' cuts it into convex pieces",
-            group="{count} collision meshes are far from convex, and engines fill them up to their "
+            group=""
+            if concave
+            else "{count} collision meshes are far from convex, and engines fill them up to their "
             "hulls, in the links {names}",
+            effects=("mujoco", "pybullet (concave)" if concave else "pybullet"),
         )

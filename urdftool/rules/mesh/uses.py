@@ -69,6 +69,11 @@ class MeshUse:
         return data.decode(place.file.encoding, "replace").partition("=")[2].strip(" \t\r\n\"'")
 
 
+def is_concave(use: MeshUse) -> bool:
+    """Whether PyBullet collides with the triangles of a mesh: by ``concave``, of any value."""
+    return use.collides and use.shape.element.get("concave") is not None
+
+
 _last: tuple[Robot, list[MeshUse]] | None = None
 
 
