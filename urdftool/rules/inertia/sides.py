@@ -79,17 +79,30 @@ def left_right_asymmetry(
                 effects=[*_readers_of(link, other), "pybullet"],
             )
             continue
-        one, two = _spread(link), _spread(other)
         if not (_has_moments(link) and _has_moments(other)):
             continue  # zero-inertia and others say what is wrong with it
-        if _differ(one, two, inertia_difference):
+        if _differ(_spread(link), _spread(other), inertia_difference):
             yield Problem(
                 other,
-                f"moments of inertia of link '{other.name}' are {two / one:.2g} times those of "
-                f"'{link.name}', which is its mirror image",
+                f"principal moments of inertia of link '{other.name}', in ascending order, are "
+                f"{_factors(other, link)} times those of '{link.name}', which is its mirror image",
                 at=other.inertial.inertia or other.inertial,
                 effects=_readers_of(link, other),
             )
+
+
+def _factors(link: Link, other: Link) -> str:
+    """Divide the principal moments of a link by those of another: ``2``, or ``0.5 to 3``."""
+    mine, its = (_moments_of_link(one) for one in (link, other))
+    factors = sorted(one / two for one, two in zip(mine, its, strict=True))
+    least, most = (f"{factor:.2g}" for factor in (factors[0], factors[-1]))
+    return least if least == most else f"{least} to {most}"
+
+
+def _moments_of_link(link: Link) -> Vector:
+    assert link.inertial is not None
+    assert link.inertial.inertia is not None
+    return moments_of(six_of(link.inertial.inertia))
 
 
 def _readers_of(link: Link, other: Link) -> list[str]:
