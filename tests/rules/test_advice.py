@@ -115,3 +115,78 @@ def test_pybullet_keeps_the_triangles_of_a_concave_collision(tmp_path, rule, tar
     for finding in found:
         assert "triangles" in finding.effects["pybullet"]
         assert "convex hull" in finding.effects["mujoco"]
+
+
+LONE = '<robot name="r"><link name="base"/>{link}{more}{joint}</robot>'
+TURN = """<joint name="turn" type="continuous"><parent link="base"/><child link="arm"/>
+  <axis xyz="0 1 0"/></joint>"""
+ARM = """<link name="arm"><inertial><origin xyz="{xyz}"/><mass value="{mass}"/>
+  <inertia ixx="{0}" ixy="0" ixz="0" iyy="{1}" iyz="0" izz="{2}"/></inertial>{shapes}</link>"""
+SHAPE = '<{0}><origin xyz="{2}"/><geometry>{1}</geometry></{0}>'
+BOX = '<box size="0.1 0.1 0.4"/>'
+TIP = f"""<link name="tip">{SHAPE.format("collision", '<sphere radius="0.05"/>', "0 0 0")}</link>
+<joint name="weld" type="fixed"><parent link="arm"/><child link="tip"/>
+  <origin xyz="0 0 0.2"/></joint>"""
+
+
+def _arm(*moments, xyz="0 0 0", mass=1, shapes="", more=""):
+    link = ARM.format(*moments, xyz=xyz, mass=mass, shapes=shapes)
+    return LONE.format(link=link, more=more, joint=TURN)
+
+
+def _fixed(path, rule):
+    (found,) = check(path, select=[rule], fixes=True)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("moment", "radius", "in_mm", "has_fix"),
+    [(13400, "1.2e+02", True, True), (40, "6.3", False, False), (4e12, "2e+06", False, False)],
+)
+def test_a_radius_of_gyration_is_called_so(write, moment, radius, in_mm, has_fix):
+    found = _fixed(write("r.urdf", _arm(moment, moment, moment / 50)), "radius-of-gyration")
+    assert f"radius of gyration of link 'arm' is {radius} m" in found.message
+    assert ("kg·mm²" in found.message, found.fix is not None) == (in_mm, has_fix)
+
+
+def test_the_radius_of_gyration_of_a_placeholder(write):
+    found = one(write("r.urdf", _arm(1, 1, 1, mass=0.1)), "placeholder-inertia")
+    assert "its 0.1 kg has a radius of gyration of 3.2 m" in found.message
+
+
+@pytest.mark.parametrize(
+    ("shapes", "more", "severity", "compared", "proposes"),
+    [
+        (SHAPE.format("collision", BOX, "0 0 0"), "", "warning", "its shapes were", True),
+        (SHAPE.format("visual", BOX, "0 0 0"), "", "info", "its shapes were", False),
+        (SHAPE.format("collision", BOX, "0 0 0"), TIP, "warning", "and those of 'tip' were", False),
+    ],
+    ids=["collision", "visual only", "with an attached link"],
+)
+def test_an_inertia_is_compared_with_the_shapes_that_are_named(
+    write, shapes, more, severity, compared, proposes
+):
+    text = _arm(0.11, 0.12, 0.04, shapes=shapes, more=more)
+    found = _fixed(write("r.urdf", text), "inertia-exceeds-geometry")
+    assert found.severity.label == severity
+    assert compared in found.message
+    assert ("; " in found.message, found.fix is not None) == (proposes, proposes)
+
+
+def test_visuals_alone_that_are_far_too_small_are_a_warning(write):
+    text = _arm(2, 2, 0.4, shapes=SHAPE.format("visual", BOX, "0 0 0"))
+    found = one(write("r.urdf", text), "inertia-exceeds-geometry")
+    assert found.severity.label == "warning"
+
+
+def test_each_moment_of_a_mirror_image_is_compared(write):
+    sides = (
+        ARM.format(*moments, xyz="0 0 0", mass=1, shapes="").replace('"arm"', f'"{side}_arm"')
+        for side, moments in (("left", (0.01, 0.02, 0.02)), ("right", (0.04, 0.02, 0.03)))
+    )
+    joints = (
+        TURN.replace("arm", f"{side}_arm").replace("turn", side) for side in ("left", "right")
+    )
+    path = write("r.urdf", LONE.format(link="".join(sides), more="", joint="".join(joints)))
+    found = one(path, "left-right-asymmetry")
+    assert "in ascending order, are 1.5 to 2 times those of 'left_arm'" in found.message

@@ -14,7 +14,7 @@ from ..model.attached import attached_links, is_fixed_to_world
 from ..model.body_inertia import combined_inertia
 from ..model.bounds import Bounds, bounds_at
 from ..model.elements import Inertia, Inertial, Link, Mesh, Robot
-from ..model.mass_fit import Misfit, misfit_of_com, misfit_of_spread
+from ..model.mass_fit import Misfit, misfit_of_com, misfit_of_spread, shapes_in_words
 from ..model.pose import IDENTITY, Pose, pose_of
 from ..model.read import number
 from ..model.tensor3 import SMALLEST_RADIUS, turned
@@ -199,9 +199,12 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
     pose = pose_of(inertial.origin)
     com, six = pose.translation, turned(tensor.six, pose.rotation)
 
-    def misfits(box: Bounds, has_mesh: bool) -> list[Misfit]:
-        spread = None if only_com else misfit_of_spread(box, mass, com, six, has_mesh)
-        found = misfit_of_com(box, com, has_mesh), spread
+    def misfits(box: Bounds, has_mesh: bool, attached: Sequence[str] = ()) -> list[Misfit]:
+        shapes, rough = shapes_in_words(attached), has_mesh or not link.collisions
+        spread = None
+        if not only_com:
+            spread = misfit_of_spread(box, mass, com, six, rough, shapes=shapes)
+        found = misfit_of_com(box, com, has_mesh, shapes=shapes), spread
         return [misfit for misfit in found if misfit is not None]
 
     if item.body is not None:
@@ -227,14 +230,16 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
     has_mesh = any(isinstance(shape.geometry, Mesh) for shape in shapes)
     if not misfits(whole, has_mesh):
         return
+    attached: list[str] = []
     for other, at in attached_links(context.robot, link)[1:]:
         more: list[Shape] = [*other.visuals, *other.collisions]
         if more and other.mass <= 0.1 * mass:
+            attached.append(other.name)
             box = _box_of_shapes(more, at, context)
             if box is None:
                 return
             whole = whole.joined(box)
-    for misfit in misfits(whole, has_mesh):
+    for misfit in misfits(whole, has_mesh, attached):
         of_tensor = "times as long" in misfit.sentence
         message = f"the {'inertia' if of_tensor else 'center of mass'} {misfit.sentence}"
         if not misfit.certain:

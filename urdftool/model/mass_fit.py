@@ -11,6 +11,7 @@ be.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from .bounds import Bounds
@@ -47,6 +48,15 @@ class Misfit(NamedTuple):
     axis: int
     amount: float
     certain: bool
+
+
+def shapes_in_words(attached: Iterable[str], shown: int = 2) -> str:
+    """Name the shapes in the box around a link: its own, and those of the attached links."""
+    names = [f"'{name}'" for name in attached]
+    if not names:
+        return "its shapes"
+    more = f" and {len(names) - shown} more" if len(names) > shown else ""
+    return f"its shapes and those of {', '.join(names[:shown])}{more}"
 
 
 def spread_ratio(
@@ -94,11 +104,12 @@ def misfit_of_spread(
     mass: float,
     com: Vector,
     tensor: Six,
-    has_mesh: bool,
+    rough: bool,
     *,
     allowed: float = ALLOWED,
     certain: float = CERTAIN,
     rounding: float = ROUNDING,
+    shapes: str = "its shapes",
 ) -> Misfit | None:
     """Judge how far the mass of a body is spread; None where its shapes allow it.
 
@@ -107,27 +118,33 @@ def misfit_of_spread(
         mass: Mass [kg].
         com: Center of mass [m].
         tensor: Inertia about the center of mass, along the axes of the box [kg·m²].
-        has_mesh: Whether a shape of it is a mesh.
-        allowed: By how much the variance may exceed what the box allows; twice that of a mesh,
-            which may leave out what sticks out.
-        certain: By how much it has to exceed the box of a mesh to be wrong.
+        rough: Whether the shapes may differ from the body: a mesh may leave out what sticks out,
+            and visuals without a collision may be markers.
+        allowed: By how much the variance may exceed what the box allows; twice that of rough ones.
+        certain: By how much it has to exceed the box of rough shapes to be wrong.
         rounding: As for :func:`spread_ratio`.
+        shapes: The shapes in the box, in words.
     """
     ratio, axis = spread_ratio(box, mass, com, tensor, rounding)
-    if ratio <= allowed * (2 if has_mesh else 1):
+    if ratio <= allowed * (2 if rough else 1):
         return None
     low, high = box[0][axis], box[1][axis]
     moments = tensor[0], tensor[3], tensor[5]
     times = math.sqrt((sum(moments) / 2 - moments[axis]) / (_room(box, com, axis) * mass))
     sentence = (
-        f"is only possible if its shapes were {times:.3g} times as long along {'xyz'[axis]}, where "
+        f"is only possible if {shapes} were {times:.3g} times as long along {'xyz'[axis]}, where "
         f"they span {low:.4g} to {high:.4g} m"
     )
-    return Misfit(sentence, axis, times, not has_mesh or ratio > certain)
+    return Misfit(sentence, axis, times, not rough or ratio > certain)
 
 
 def misfit_of_com(
-    box: Bounds, com: Vector, has_mesh: bool, *, margin: float = MARGIN
+    box: Bounds,
+    com: Vector,
+    has_mesh: bool,
+    *,
+    margin: float = MARGIN,
+    shapes: str = "its shapes",
 ) -> Misfit | None:
     """Judge where the center of mass of a body is; None where it is inside the box.
 
@@ -137,6 +154,7 @@ def misfit_of_com(
         has_mesh: Whether a shape of it is a mesh, which often shows the cover and not the motor;
             then it is wrong only beyond half a diagonal.
         margin: Part of the box's diagonal that is allowed outside; of a mesh twice that.
+        shapes: The shapes in the box, in words.
     """
     diagonal = math.dist(*box)
     slack = margin * diagonal * (2 if has_mesh else 1)
@@ -149,7 +167,7 @@ def misfit_of_com(
         return None
     distance, axis = max(outside)
     sentence = (
-        f"is {distance:.3g} m outside its shapes along {'xyz'[axis]}, where they span "
+        f"is {distance:.3g} m outside {shapes} along {'xyz'[axis]}, where they span "
         f"{box.low[axis]:.4g} to {box.high[axis]:.4g} m"
     )
     return Misfit(sentence, axis, distance, not has_mesh or distance >= diagonal / 2)

@@ -12,6 +12,7 @@ from ...model.tensor3 import Six, eigenvalues, turned
 from ..cross_file_references import check_not_included
 from ..inertia.frame import about_com
 from ..inertia.proposals import proposal_of
+from ..inertia.size import has_own_size, may_be_kg_mm2
 from ..inertia.slips import slip_of
 from ..inertia.solids import _only_shape, box_of, is_dummy, solid_tensor, solid_volume
 from ..inertia.tensors import SIX, is_zero, six_of
@@ -256,7 +257,10 @@ def inertia_triangle_inequality(problem: Problem, around: Around) -> Proposal | 
 
 
 def inertia_exceeds_geometry(problem: Problem, around: Around) -> Proposal | None:
-    """What was meant, or what its shapes have."""
+    """What was meant, or what its shapes have, where these are certain to be the body."""
+    certain = problem.severity is not INFO
+    if not has_own_size(around.robot, around.link(problem), certain):
+        return None
     return _meant(problem, around)
 
 
@@ -335,9 +339,11 @@ def radius_of_gyration(problem: Problem, around: Around) -> Proposal | None:
     """In kg·m², where it is in kg·mm²."""
     link = around.link(problem)
     inertial = link.inertial
-    if "kg·mm²" not in problem.message or inertial is None or inertial.inertia is None:
+    if inertial is None or inertial.inertia is None or link.mass <= 0:
         return None
     six = six_of(inertial.inertia)
+    if not may_be_kg_mm2(math.sqrt(max(eigenvalues(six)[2], 0.0) / link.mass)):
+        return None
     x, y, z, a, b, c = (value * 1e-6 for value in six)
     if is_zero((x, y, z, a, b, c), link.mass):
         return None

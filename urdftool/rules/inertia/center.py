@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ...model.bounds import Bounds
 from ...model.elements import Link, Robot
 from ...model.gltf_axes import is_gltf
-from ...model.mass_fit import MARGIN, misfit_of_com
+from ...model.mass_fit import MARGIN, misfit_of_com, shapes_in_words
 from ...model.pose import pose_of
 from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
@@ -54,7 +54,10 @@ def com_outside_geometry(
         if misfit_of_com(box, com, of_mesh, margin=margin) is None:
             continue
         box = reach.meant(link, box)
-        found = misfit_of_com(box, com, of_mesh, margin=margin) if box is not None else None
+        if box is None:
+            continue
+        shapes = shapes_in_words(other.name for other, _ in reach.counted(link))
+        found = misfit_of_com(box, com, of_mesh, margin=margin, shapes=shapes)
         if found is None:
             continue
         problem = Problem(

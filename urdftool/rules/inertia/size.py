@@ -13,6 +13,7 @@ from ...model.mass_fit import (
     CERTAIN,
     ROUNDING,
     misfit_of_spread,
+    shapes_in_words,
 )
 from ...model.pose import pose_of
 from ...model.tensor3 import Six, turned
@@ -42,7 +43,7 @@ _CENTER = ("com-outside-geometry", "inertial-not-at-com-suspect")
 def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
     """An inertia is the same power of ten about every axis, such as 1 or 1e-3.
 
-    Nobody measured that. 1 kg·m² on a link of 100 g puts its mass 3 m from its centre: the arm
+    Nobody measured that. 1 kg·m² on a link of 100 g is a radius of gyration of 3 m: the arm
     turns like a flywheel and its motors look too weak. A link of a few millimeters is a dummy whose
     inertia is made up to keep a simulation stable; only one that turns like a flywheel is reported.
     """
@@ -58,7 +59,7 @@ def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
         dummy, has_shapes = is_dummy(link), bool(link.visuals or link.collisions)
         if dummy and not large:
             continue
-        far = f", as if its {link.mass:g} kg were {radius:.2g} m from the centre" if large else ""
+        far = f": its {link.mass:g} kg has a radius of gyration of {radius:.2g} m" if large else ""
         yield Problem(
             link,
             f"inertia of link '{link.name}' is a placeholder, {moment:g} about every axis{far}"
@@ -107,7 +108,9 @@ def inertia_exceeds_geometry(
     how many times as long the shapes would have to be; ``allowed`` and ``certain`` are squares of
     that. Of a mesh the box around it counts; up to ``certain`` it is then no more than a remark, as
     the mesh may leave out what is heavy. Shapes of attached links without a mass of their own
-    count, too. ``urdftool inertia robot`` judges in the same way.
+    count, too, and are named. Visuals without a collision may be markers: of such a link it is an
+    info up to ``certain``, too, and then proposes no values. ``urdftool inertia robot`` judges in
+    the same way.
     """
     reach = reaches(robot)
     slight = slight_parts(robot)
@@ -124,7 +127,7 @@ def inertia_exceeds_geometry(
             misfit_of_spread,
             mass=link.mass,
             tensor=turned(six, pose.rotation),
-            has_mesh=has_mesh(link),
+            rough=has_mesh(link) or not link.collisions,
             allowed=allowed,
             certain=certain,
             rounding=rounding,
@@ -135,12 +138,17 @@ def inertia_exceeds_geometry(
         if about_com(link, inertial, six, box) is not None:
             continue
         box = reach.meant(link, box)
-        found = judge(box, com=pose.translation) if box is not None else None
-        if found is not None and box is not None:
+        if box is None:
+            continue
+        shapes = shapes_in_words(other.name for other, _ in reach.counted(link))
+        found = judge(box, com=pose.translation, shapes=shapes)
+        if found is not None:
             fits = judge(box, com=box.centre) is None
+            is_own = has_own_size(robot, link, found.certain)
+            remedy = remedy_text(link, inertial, six) if is_own else ""
             yield Problem(
                 link,
-                f"inertia of link '{link.name}' {found.sentence}{remedy_text(link, inertial, six)}",
+                f"inertia of link '{link.name}' {found.sentence}{remedy}",
                 at=inertial.inertia,
                 severity=None if found.certain else INFO,
                 caused_by=(*SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits else ())),
@@ -151,6 +159,21 @@ def inertia_exceeds_geometry(
 def _readers_of(six: Six) -> list[str]:
     """The readers that take a tensor as written, as keys of effects."""
     return [*[_CHECKING] * is_accepted(six), "pinocchio"]
+
+
+def has_own_size(robot: Robot, link: Link, certain: bool) -> bool:
+    """Whether an inertia can be proposed for a link whose inertia exceeds its geometry.
+
+    Args:
+        robot: The robot.
+        link: A link of it.
+        certain: Whether the inertia is wrong for sure.
+
+    Returns:
+        False where the size comes from attached links too, or from visuals alone that may differ
+        from the body.
+    """
+    return not reaches(robot).counted(link) and (certain or bool(link.collisions))
 
 
 def has_mesh(link: Link) -> bool:
@@ -225,8 +248,9 @@ def radius_of_gyration(
 ) -> Iterator[Problem]:
     """A link's inertia does not go with its mass.
 
-    The root of the one over the other is how far from its centre the mass sits on average. A metre
-    is more than most robots are long, a millimetre is a pinhead. Square millimetres for square
+    The root of the largest moment over the mass is the radius of gyration: a thin ring of that
+    radius has the same moment about its axis. A meter is more than most robots are long, a
+    millimeter is a pinhead. Square millimetres for square
     metres are the usual cause. Links whose size is known are left to ``inertia-exceeds-geometry``;
     a tensor that is zero or negative about an axis has a finding of its own.
     """
@@ -248,15 +272,24 @@ def radius_of_gyration(
         if around is not None and radius <= math.dist(*around):
             continue  # it is that of the body
         if radius > largest:
-            remedy = "; if it is in kg·mm², divide it by 1e6" if radius > 10 else ""
+            remedy = "; if it is in kg·mm², divide it by 1e6" if may_be_kg_mm2(radius) else ""
         elif radius < smallest and mass > heavy:
             remedy = "; are the units kg·m²?"
         else:
             continue
         yield Problem(
             link,
-            f"inertia of link '{link.name}' puts its {mass:g} kg {radius:.2g} m from its centre"
-            f"{remedy}",
+            f"radius of gyration of link '{link.name}' is {radius:.2g} m: its largest moment of "
+            f"inertia is {high:.4g} kg·m² and its mass {mass:g} kg{remedy}",
             at=inertial.inertia,
             effects=_readers_of(six),
         )
+
+
+def may_be_kg_mm2(radius: float) -> bool:
+    """Whether a radius of gyration [m] is that of a link if its inertia is in kg·mm²."""
+    return _OF_A_LINK[0] < radius / 1000 <= _OF_A_LINK[1]
+
+
+_OF_A_LINK = (0.01, 1.0)
+"""Radii of gyration [m] of links."""

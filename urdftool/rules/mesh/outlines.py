@@ -113,6 +113,14 @@ class Reaches:
             self._attached[id(link)] = attached_links(self.robot, link)
         return self._attached[id(link)]
 
+    def counted(self, link: Link) -> Attached:
+        """List the attached links with shapes that hardly have a mass of their own."""
+        return [
+            (other, at)
+            for other, at in self.attached(link)[1:]
+            if other.mass <= 0.1 * link.mass and (other.visuals or other.collisions)
+        ]
+
     def meant(self, link: Link, box: Bounds) -> Bounds | None:
         """Return the box around the shapes that a link's inertial may be written for.
 
@@ -125,9 +133,7 @@ class Reaches:
         Returns:
             The box [m]; None where that of an attached link is not known.
         """
-        for other, at in self.attached(link)[1:]:
-            if other.mass > 0.1 * link.mass or not (other.visuals or other.collisions):
-                continue
+        for other, at in self.counted(link):
             more = self.body(link, "all", [(other, at)])
             if more is None:
                 return None
