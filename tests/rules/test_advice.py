@@ -190,3 +190,39 @@ def test_each_moment_of_a_mirror_image_is_compared(write):
     path = write("r.urdf", LONE.format(link="".join(sides), more="", joint="".join(joints)))
     found = one(path, "left-right-asymmetry")
     assert "in ascending order, are 1.5 to 2 times those of 'left_arm'" in found.message
+
+
+ROD = SHAPE.format("collision", '<cylinder radius="0.02" length="0.4"/>', "0 0 0.2")
+ABOUT_COM, ABOUT_FRAME = (0.01343, 0.01343, 0.0002), (0.05343, 0.05343, 0.0002)
+
+
+@pytest.mark.parametrize(
+    ("moments", "shapes", "words", "changes"),
+    [
+        (ABOUT_COM, ROD, "as the <origin> of its <inertial>", ["0 0 0.2"]),
+        (ABOUT_FRAME, ROD, 'about it: ixx="0.01343"', ["0 0 0.2", "0.01343", "0.01343"]),
+        ((0.03, 0.03, 0.0002), ROD, "and the inertia about it", None),
+        (
+            ABOUT_FRAME,
+            ROD + SHAPE.format("collision", '<sphere radius="0.03"/>', "0 0 0.37"),
+            "only about the frame",
+            ["0 0 0.2", "0.01343", "0.01343"],
+        ),
+    ],
+    ids=["about the center", "about the frame", "neither", "several shapes"],
+)
+def test_a_center_of_mass_and_the_inertia_about_it_are_written_together(
+    write, moments, shapes, words, changes
+):
+    path = write("r.urdf", _arm(*moments, shapes=shapes))
+    found = _fixed(path, "inertial-not-at-com-suspect")
+    assert words in found.message
+    assert found.message.endswith("<inertial>") is (moments == ABOUT_COM)
+    if changes is None:
+        assert found.fix is None
+        return
+    assert found.fix is not None
+    written = [one.text for one in found.fix.replacements]
+    assert len(written) == len(changes)
+    for text, part in zip(written, changes, strict=True):
+        assert part in text

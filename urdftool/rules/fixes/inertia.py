@@ -10,7 +10,7 @@ from ...model.inertia_slips import is_possible
 from ...model.pose import pose_of, transpose
 from ...model.tensor3 import Six, eigenvalues, turned
 from ..cross_file_references import check_not_included
-from ..inertia.frame import about_com
+from ..inertia.frame import about_center, about_com
 from ..inertia.proposals import proposal_of
 from ..inertia.size import has_own_size, may_be_kg_mm2
 from ..inertia.slips import slip_of
@@ -351,18 +351,25 @@ def radius_of_gyration(problem: Problem, around: Around) -> Proposal | None:
 
 
 def inertial_not_at_com_suspect(problem: Problem, around: Around) -> Proposal | None:
-    """At the centre of its shapes."""
+    """Write the center of its shapes, and the inertia about it where it is about the frame."""
     link = around.link(problem)
-    box = box_of(link)
-    if box is None or link.inertial is None or depends_on_a_call(link.element):
+    box, inertial = box_of(link), link.inertial
+    if box is None or inertial is None or inertial.inertia is None:
+        return None
+    if depends_on_a_call(link.element):
+        return None
+    right = about_center(link, inertial, box.centre, box)
+    if right is None:
         return None
     centre = figures(box.centre, 6)
-    origin = link.inertial.origin
-    if origin is None:
-        change = first(link.inertial.element, f'<origin xyz="{centre}"/>')
+    if right != inertial.inertia.six:
+        why = f"write {_six_text(right)}"
+        return _rewritten(link, right, why, box.centre)
+    if inertial.origin is None:
+        change = first(inertial.element, f'<origin xyz="{centre}"/>')
     else:
-        change = put(origin.element, "xyz", centre)
-    return unsafe(f"put it at the centre of its shapes, {centre}", change)
+        change = put(inertial.origin.element, "xyz", centre)
+    return unsafe(f"put it at the center of its shapes, {centre}", change)
 
 
 def root_link_has_inertia(problem: Problem, around: Around) -> Proposal | None:

@@ -6,16 +6,18 @@ import math
 from collections.abc import Iterator
 
 from ...model.bounds import Bounds
-from ...model.elements import Link, Robot
+from ...model.elements import Inertial, Link, Robot
 from ...model.gltf_axes import is_gltf
 from ...model.mass_fit import MARGIN, misfit_of_com, shapes_in_words
 from ...model.pose import pose_of
 from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
 from .bodies import LIGHT, negligible
+from .frame import about_center
+from .proposals import attributes_text
 from .size import SIZE_IN_DOUBT, has_mesh, is_placeholder
 from .solids import centre_of_solids
-from .tensors import six_of
+from .tensors import is_zero, six_of
 
 
 @rule(
@@ -93,9 +95,11 @@ def inertial_not_at_com_suspect(
     """An ``<inertial>`` has no origin though the link's shapes lie to one side.
 
     The mass then sits at the frame of the link, for most on the axis of a joint, and gravity turns
-    nothing. Mostly the ``<origin>`` was forgotten. A link with less than the part ``light`` of the
-    robot's mass is left out, and one with less than ten times that part of the links that are fixed
-    together.
+    nothing. Mostly the ``<origin>`` was forgotten. Where the inertia fits the shapes only about the
+    frame of the link, it was computed about the frame, too: then the ``<origin>`` has to be written
+    together with the inertia about the center of mass, because with the ``<origin>`` alone a joint
+    moves mass × distance² twice. A link with less than the part ``light`` of the robot's mass is
+    left out, and one with less than ten times that part of the links that are fixed together.
     """
     reach = reaches(robot)
     skipped = negligible(robot, light)
@@ -120,9 +124,25 @@ def inertial_not_at_com_suspect(
         yield Problem(
             link,
             f"mass of link '{link.name}' is at its frame, while its shapes are centred at "
-            f"{shown} m; write its center of mass as the <origin> of its <inertial>",
+            f"{shown} m; {_remedy(link, inertial, box)}",
             at=inertial.origin if inertial.origin is not None else inertial,
         )
+
+
+def _remedy(link: Link, inertial: Inertial, box: Bounds) -> str:
+    """Say what to write besides the center of mass, by the point that the inertia is about."""
+    remedy = "write its center of mass as the <origin> of its <inertial>"
+    if inertial.inertia is None or is_zero(inertial.inertia.six, link.mass):
+        return remedy
+    right = about_center(link, inertial, box.centre, box)
+    if right is None:
+        return f"{remedy}, and the inertia about it"
+    if right == inertial.inertia.six:
+        return remedy
+    return (
+        f"{remedy}, and the inertia, which fits the shapes only about the frame, about it: "
+        f"{attributes_text(right)}"
+    )
 
 
 def _is_turned(link: Link) -> bool:

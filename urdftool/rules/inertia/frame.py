@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from ...model.bounds import Bounds
-from ...model.elements import Collision, Inertial, Link, Mesh, Robot, Visual
+from ...model.elements import Collision, Inertial, Link, Mesh, Robot, Vector, Visual
 from ...model.inertia_slips import is_possible, shifted_to_com
 from ...model.mass_fit import spread_ratio
 from ...model.pose import pose_of, transpose
@@ -102,6 +102,42 @@ def about_com(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> S
     ratio, _ = spread_ratio(box, mass, pose.translation, tensor)
     if ratio > BEYOND or _explains_products(tensor, shifted):
         return right
+    return None
+
+
+def about_center(link: Link, inertial: Inertial, center: Vector, box: Bounds) -> Six | None:
+    """Compute the tensor about a center of mass that is not written, but known by the geometry.
+
+    Args:
+        link: A link with mass, whose inertial is at its frame.
+        inertial: Its inertial.
+        center: Where its center of mass is by its geometry, in its frame [m].
+        box: The box around its geometry in its frame [m].
+
+    Returns:
+        The tensor [kg·m²] along the axes of the inertial: as written, where that fits the geometry
+        as it is, or shifted, where it fits the geometry about the frame of the link; None where
+        neither is clear.
+    """
+    if inertial.inertia is None:
+        return None
+    six, rotation, mass = inertial.inertia.six, pose_of(inertial.origin).rotation, link.mass
+    shifted = shifted_to_com(turned(six, rotation), mass, center)
+    right = turned(shifted, transpose(rotation))
+    solid = solid_tensor(link)
+    if solid is not None and not _has_mesh(link):
+        for one in (six, right):
+            if _distance(one, solid) <= UNIFORM * _norm(solid):
+                return one
+    whole = mass / 12 * sum(length * length for length in box.size)
+    if whole <= 0:
+        return None
+    written, meant = (sum(one[i] for i in (0, 3, 5)) / 2 / whole for one in (six, shifted))
+    fits = [PLAUSIBLE[0] <= value <= PLAUSIBLE[1] for value in (written, meant)]
+    if fits[1] and not fits[0] and is_possible(shifted):
+        return right
+    if fits[0] and not (fits[1] and is_possible(shifted)):
+        return six
     return None
 
 
