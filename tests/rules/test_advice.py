@@ -226,3 +226,63 @@ def test_a_center_of_mass_and_the_inertia_about_it_are_written_together(
     assert len(written) == len(changes)
     for text, part in zip(written, changes, strict=True):
         assert part in text
+
+
+DRIVEN = """<robot name="r">
+  <link name="a"/><link name="b"/><link name="c"/>
+  <joint name="one" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="{0}" velocity="{1}"/></joint>
+  <joint name="two" type="revolute"><parent link="b"/><child link="c"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="{0}" velocity="{1}"/></joint>{more}
+</robot>
+"""
+TRANSMISSION = """<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+  <joint name="two"/><actuator name="m"/></transmission>"""
+ROS2_CONTROL = """<ros2_control name="c" type="system">
+  <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+  <joint name="one"><state_interface name="position"/></joint>
+  <joint name="two"><command_interface name="effort"/></joint></ros2_control>"""
+PLUGIN = '<gazebo><plugin name="p" filename="libdrive.so"><joint>two</joint></plugin></gazebo>'
+PUBLISHER = PLUGIN.replace("libdrive", "libgazebo_ros_joint_state_publisher")
+
+
+@pytest.mark.parametrize(
+    ("rule", "limits"),
+    [
+        ("zero-effort-limit", ("0", "1")),
+        ("implausible-velocity", ("1", "1e5")),
+        ("implausible-effort", ("1e5", "1")),
+    ],
+)
+@pytest.mark.parametrize(
+    ("more", "names"),
+    [
+        ("", ["one", "two"]),
+        (PUBLISHER, ["one", "two"]),
+        (TRANSMISSION, ["two"]),
+        (ROS2_CONTROL, ["two"]),
+        (PLUGIN, ["two"]),
+        (TRANSMISSION.replace('"two"', '"typo"'), ["one", "two"]),
+    ],
+    ids=["none", "publisher", "transmission", "ros2_control", "plugin", "typo"],
+)
+def test_a_joint_that_is_not_driven_where_others_are_needs_no_effort(
+    write, rule, limits, more, names
+):
+    path = write("r.urdf", DRIVEN.format(*limits, more=more))
+    found = check(path, select=[rule])
+    assert [finding.name for finding in found] == names
+
+
+@pytest.mark.parametrize(
+    ("velocity", "words"),
+    [
+        ("1000", "is 1000 rad/s, in effect no limit"),
+        ("1e10", "is 1e+10 rad/s, in effect no limit"),
+        ("3.4e38", "is 3.4e+38 rad/s, in effect no limit"),
+        ("180", "is 180 rad/s, above 100"),
+    ],
+)
+def test_a_velocity_that_means_no_limit_is_called_so(write, velocity, words):
+    path = write("r.urdf", DRIVEN.format(1, velocity, more=TRANSMISSION))
+    assert words in one(path, "implausible-velocity").message

@@ -11,6 +11,7 @@ import numpy as np
 from ..formats.mjcf.gazebo import joint_spring, link_is_weightless
 from ..inertia.lump import placed as moved
 from ..inertia.tensor import MassProperties, combine, tensor_from_six
+from ..model.actuation import actuated_joints
 from ..model.elements import Joint, Link, Robot
 from ..model.kinematics import limits_of, link_poses, movable_joints
 from ..model.pose import IDENTITY, Pose, pose_of
@@ -292,18 +293,6 @@ def joint_of(joint: Joint, robot: Robot) -> JointOf:
         stiffness,
         spring_rest,
     )
-
-
-def actuated_joints(robot: Robot) -> set[str]:
-    """Joints that the file drives: by a transmission, ros2_control, or a plugin that names them."""
-    named = {joint.name for part in robot.transmissions for joint in part.joints}
-    for control in robot.ros2_controls:
-        named |= {joint.name for joint in control.joints if joint.command_interfaces}
-    for plugin in robot.plugins:
-        if "state_publisher" in plugin.filename or "state_publisher" in plugin.name:
-            continue
-        named |= {element.text.strip() for element in plugin.element.walk()}
-    return named & set(robot.joint)
 
 
 def held_joints(robot: Robot, bodies: list[Body], settings: Settings) -> tuple[str, ...]:

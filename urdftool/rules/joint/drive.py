@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterator
 
+from ...model.actuation import actuated_joints, is_passive
 from ...model.elements import Joint, Limit, Robot
 from ..gazebo.contact import is_wheel
 from ..rule import ERROR, INFO, WARNING, Problem, rule
@@ -29,11 +31,14 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
 
     It says that the motor has no force at all. Gazebo's physics believes it and the joint never
     moves by itself; MuJoCo takes it for "no limit". Write what the drive can do, from its data
-    sheet. In a file with elements of Drake's, where it makes a joint passive, it is a remark.
+    sheet. In a file with elements of Drake's, where it makes a joint passive, it is a remark. Where
+    a transmission, ros2_control or a plugin drives other joints and not this one, the joint is
+    passive and its effort of 0 is right.
     """
     passive = "gz" not in targets and is_for_another_reader(robot.element)
+    actuated = actuated_joints(robot)
     for joint, limit in _driven(robot):
-        if limit.effort == 0.0:
+        if limit.effort == 0.0 and not is_passive(joint, actuated):
             yield Problem(
                 joint,
                 f"effort limit of joint '{joint.name}' is 0, so Gazebo's physics cannot drive it; "
@@ -121,19 +126,22 @@ def implausible_velocity(
 ) -> Iterator[Problem]:
     """A joint's velocity limit is faster than arms and slides are.
 
-    In most cases it is in degrees or turns per minute, or a large number that means "none".
-    Planners time trajectories by it. One number at more than ``together`` joints is one finding. A
-    joint whose two limits are equal does not move, and is not reported.
+    In most cases it is in degrees or turns per minute, or a large number that means "none", such as
+    1000 or 1e6. Planners time trajectories by it. One number at more than ``together`` joints is
+    one finding. A joint whose two limits are equal does not move, and one that nothing drives,
+    though other joints are driven, has no drive; neither is reported.
     """
     found = []
+    actuated = actuated_joints(robot)
     for joint, limit in _driven(robot):
         if joint.type == "continuous" or limit.velocity is None or is_locked(joint):
             continue
+        if is_passive(joint, actuated):
+            continue
         fastest = fastest_slide if joint.type == "prismatic" else fastest_turn
         if limit.velocity > fastest:
-            found.append(
-                (joint, limit, f"{limit.velocity:g} {_units(joint)[1]}, above {fastest:g}")
-            )
+            what = f"{limit.velocity:g} {_units(joint)[1]}, {_judged(limit.velocity, fastest)}"
+            found.append((joint, limit, what))
     for joint, limit, what, more in _alike(found, together):
         yield Problem(
             joint,
@@ -157,12 +165,13 @@ def implausible_effort(
 
     A large number that means "none" lets every command through, and a simulated motor tears the
     robot apart where the real one would have stalled. One number at more than ``together`` joints
-    is one finding.
+    is one finding. A joint that nothing drives, though other joints are driven, is not reported.
     """
+    actuated = actuated_joints(robot)
     found = [
-        (joint, limit, f"{limit.effort:g} {_units(joint)[0]}, above {largest:g}")
+        (joint, limit, f"{limit.effort:g} {_units(joint)[0]}, {_judged(limit.effort, largest)}")
         for joint, limit in _driven(robot)
-        if limit.effort is not None and limit.effort > largest
+        if limit.effort is not None and limit.effort > largest and not is_passive(joint, actuated)
     ]
     for joint, limit, what, more in _alike(found, together):
         yield Problem(
@@ -170,6 +179,17 @@ def implausible_effort(
             f"effort limit of joint '{joint.name}'{more} is {what}; write what the drive has",
             at=limit.element.attribute_place("effort"),
         )
+
+
+def _judged(value: float, most: float) -> str:
+    """Compare a limit with the largest plausible one: a power of ten above it means no limit."""
+    power = math.log10(value)
+    is_none = value >= _ENDLESS or abs(power - round(power)) < 1e-9
+    return "in effect no limit" if is_none else f"above {most:g}"
+
+
+_ENDLESS = 1e6
+"""Velocity [rad/s, m/s] or effort [N·m, N] from which a limit is a number for "none"."""
 
 
 def _alike(

@@ -1,0 +1,26 @@
+"""Which joints the file drives."""
+
+from __future__ import annotations
+
+from .elements import Joint, Robot
+
+
+def actuated_joints(robot: Robot) -> set[str]:
+    """List the joints that a transmission, ros2_control or a plugin of Gazebo drives.
+
+    Joints of ros2_control without a command interface are not driven, nor those that only a plugin
+    that publishes joint states names.
+    """
+    named = {joint.name for part in robot.transmissions for joint in part.joints}
+    for control in robot.ros2_controls:
+        named |= {joint.name for joint in control.joints if joint.command_interfaces}
+    for plugin in robot.plugins:
+        if "state_publisher" in plugin.filename or "state_publisher" in plugin.name:
+            continue
+        named |= {element.text.strip() for element in plugin.element.walk()}
+    return named & set(robot.joint)
+
+
+def is_passive(joint: Joint, actuated: set[str]) -> bool:
+    """Whether other joints of the robot are driven, and this one is not."""
+    return bool(actuated) and joint.name not in actuated
