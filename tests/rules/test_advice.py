@@ -6,6 +6,9 @@ import pytest
 
 from tests.conftest import FIXTURES
 from urdftool import check
+from urdftool.lint.outcome import Options
+from urdftool.lint.run import lint_file
+from urdftool.lint.settings import Settings
 
 MOVING = """<robot name="r">
   <link name="{root}">{inertial}</link>
@@ -286,3 +289,52 @@ def test_a_joint_that_is_not_driven_where_others_are_needs_no_effort(
 def test_a_velocity_that_means_no_limit_is_called_so(write, velocity, words):
     path = write("r.urdf", DRIVEN.format(1, velocity, more=TRANSMISSION))
     assert words in one(path, "implausible-velocity").message
+
+
+@pytest.mark.parametrize(
+    ("attributes", "remedy", "fixed", "has_effects"),
+    [
+        ('ixy="0" iyx="0.0"', "take it out", True, True),
+        ('ixy="0" iyx="0.001"', "it differs from ixy, which is read; write one", False, True),
+        ('iyx="0"', "rename it to ixy, which is missing", False, False),
+    ],
+)
+def test_what_the_lower_half_of_an_inertia_repeats(write, attributes, remedy, fixed, has_effects):
+    text = _arm(0.01, 0.01, 0.01).replace('ixy="0"', attributes)
+    found = _fixed(write("r.urdf", text), "redundant-inertia-attributes")
+    assert found.message.endswith(f"is not read; {remedy}")
+    assert (found.fix is not None, bool(found.effects)) == (fixed, has_effects)
+
+
+@pytest.mark.parametrize(
+    ("root", "kind", "fix"),
+    [
+        ("base", "fixed", "remove its <inertial>"),
+        ("base", "continuous", "put a link 'base_root' without <inertial> above it"),
+        ("world", "continuous", "remove its <inertial>"),
+    ],
+)
+def test_the_fix_of_a_root_with_inertial_is_what_is_advised(write, root, kind, fix):
+    inertial = INERTIAL.format(mass=1e-4, i=1e-6)
+    path = write("r.urdf", MOVING.format(root=root, inertial=inertial, kind=kind))
+    found = _fixed(path, "root-link-has-inertia")
+    assert found.fix is not None
+    assert found.fix.message.startswith(fix)
+
+
+@pytest.mark.parametrize(
+    ("moment", "severity", "has_fix"), [(0.02, "info", False), (0.77, "warning", True)]
+)
+def test_an_inertia_that_a_mesh_makes_doubtful_is_not_recomputed(
+    tmp_path, moment, severity, has_fix
+):
+    shutil.copy(FIXTURES / "meshes" / "cube.stl", tmp_path)
+    mesh = SHAPE.format("collision", '<mesh filename="cube.stl" scale="0.1 0.1 0.1"/>', "0 0 0")
+    path = tmp_path / "r.urdf"
+    path.write_text(_arm(moment, moment * 1.05, moment * 1.1, shapes=mesh))
+    box = {"arm": (1.0, (0.0, 0.0, 0.0), (0.0017, 0.0, 0.0, 0.0017, 0.0, 0.0017))}
+    settings = Settings(select=("inertia-exceeds-geometry",))
+    options = Options(settings, fixes=True, weigh=lambda robot, names: box)
+    (found,) = lint_file(path, options).findings
+    assert found.severity.label == severity
+    assert (found.fix is not None) is has_fix

@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 import re
 
-from ...model.elements import Inertial, Link, Vector
+from ...model.elements import Inertia, Inertial, Link, Vector
 from ...model.inertia_slips import is_possible
 from ...model.pose import pose_of, transpose
 from ...model.tensor3 import Six, eigenvalues, turned
 from ..cross_file_references import check_not_included
 from ..inertia.frame import about_center, about_com
+from ..inertia.presence import is_needless
 from ..inertia.proposals import proposal_of
 from ..inertia.size import has_own_size, may_be_kg_mm2
-from ..inertia.slips import slip_of
+from ..inertia.slips import repeats_twin, slip_of
 from ..inertia.solids import _only_shape, box_of, is_dummy, solid_tensor, solid_volume
 from ..inertia.tensors import SIX, is_zero, six_of
 from ..mesh.outlines import reaches
@@ -30,6 +31,7 @@ from .proposal import (
     is_computed,
     put,
     quote,
+    remove,
     safe,
     unsafe,
 )
@@ -208,12 +210,15 @@ def _meant(problem: Problem, around: Around) -> Proposal | None:
     inertial = link.inertial
     if inertial is None or inertial.inertia is None:
         return None
-    proposal = proposal_of(link, inertial, six_of(inertial.inertia))
-    if proposal is not None:
-        made = _rewritten(link, proposal.tensor, f"write {_six_text(proposal.tensor)}")
-        if made is not None:
-            return made
-    return _recomputed(problem, around)
+    return _of_proposal(link, inertial, inertial.inertia) or _recomputed(problem, around)
+
+
+def _of_proposal(link: Link, inertial: Inertial, inertia: Inertia) -> Proposal | None:
+    """Write the tensor that one slip explains."""
+    proposal = proposal_of(link, inertial, inertia.six)
+    if proposal is None:
+        return None
+    return _rewritten(link, proposal.tensor, f"write {_six_text(proposal.tensor)}")
 
 
 def _recomputed(problem: Problem, around: Around) -> Proposal | None:
@@ -258,9 +263,12 @@ def inertia_triangle_inequality(problem: Problem, around: Around) -> Proposal | 
 
 def inertia_exceeds_geometry(problem: Problem, around: Around) -> Proposal | None:
     """What was meant, or what its shapes have, where these are certain to be the body."""
-    certain = problem.severity is not INFO
-    if not has_own_size(around.robot, around.link(problem), certain):
+    link, certain = around.link(problem), problem.severity is not INFO
+    inertial = link.inertial
+    if not has_own_size(around.robot, link, certain):
         return None
+    if not certain and inertial is not None and inertial.inertia is not None:
+        return _of_proposal(link, inertial, inertial.inertia)
     return _meant(problem, around)
 
 
@@ -330,7 +338,7 @@ def _of_slip(problem: Problem, around: Around) -> Proposal | None:
 def redundant_inertia_attributes(problem: Problem, around: Around) -> Proposal | None:
     """Without what is not read and says the same."""
     found = attribute_at(problem)
-    if found is None or "take it out" not in problem.message:
+    if found is None or not repeats_twin(*found):
         return None
     return safe(f"take {found[1]} out", drop(*found))
 
@@ -373,12 +381,12 @@ def inertial_not_at_com_suspect(problem: Problem, around: Around) -> Proposal | 
 
 
 def root_link_has_inertia(problem: Problem, around: Around) -> Proposal | None:
-    """A link without mass above it, on a fixed joint."""
+    """A link without <inertial> above it, on a fixed joint; or remove what is not needed."""
     robot, link = around.robot, around.link(problem)
-    if link.element.parent is not robot.element:
+    if link.element.parent is not robot.element or link.inertial is None:
         return None
-    if link.name == "world":
-        return None  # its <inertial> is to be removed, with what its author meant by it
+    if link.name == "world" or (is_needless(robot, link) and "pybullet" not in around.targets):
+        return unsafe("remove its <inertial>", remove(link.inertial.element))
     name, joint = f"{link.name}_root", f"{link.name}_root_joint"
     taken = {*robot.link, *robot.joint}
     if name in taken or joint in taken or is_computed(link.element):

@@ -256,7 +256,7 @@ def root_link_has_inertia(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
         return  # another link may be the root once it is mended
     if root.inertial is not None and root.inertial.mass != 0.0:
         remedy, hint = "; put a link without one above it, on a fixed joint", _IN_PYBULLET
-        if root.name == "world" or _is_needless(robot, root):
+        if root.name == "world" or is_needless(robot, root):
             remedy = "; remove its <inertial>"
         if root.name == "world":
             hint = ""  # PyBullet gives no mass to a root of this name
@@ -274,7 +274,7 @@ _IN_PYBULLET = (
 )
 
 
-def _is_needless(robot: Robot, root: Link) -> bool:
+def is_needless(robot: Robot, root: Link) -> bool:
     """Whether a root is a frame with next to no mass, fixed to links that have one.
 
     Where nothing with mass is fixed to it, Gazebo leaves out a root without ``<inertial>``, with

@@ -8,7 +8,9 @@ from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
 from ...model.inertia_slips import Proposal, is_possible, propose_moment
 from ...model.pose import pose_of
+from ...model.read import number
 from ...model.tensor3 import Six
+from ...source.document import Element
 from ..mesh.outlines import reaches
 from ..rule import ERROR, WARNING, Problem, rule
 from .proposals import attributes_text, proposal_of
@@ -125,21 +127,34 @@ def redundant_inertia_attributes(robot: Robot) -> Iterator[Problem]:
     """An ``<inertia>`` has ``iyx``, ``izx`` or ``izy``.
 
     The tensor is symmetric and readers take the upper half. Where the lower half says something
-    else, another matrix was meant.
+    else, another matrix was meant. Where the upper half lacks the number, the attribute has the
+    wrong name.
     """
     for link in robot.links:
         if link.inertial is None or link.inertial.inertia is None:
             continue
         element = link.inertial.inertia.element
-        if len(element.attributes) <= len(SIX):
-            continue
-        for name, twin in (("iyx", "ixy"), ("izx", "ixz"), ("izy", "iyz")):
+        for name, twin in _TWINS.items():
             if name not in element.attributes:
                 continue
-            same = element.attributes[name] == element.attributes.get(twin)
-            remedy = "take it out" if same else f"it differs from {twin}, which is read; write one"
+            if repeats_twin(element, name):
+                remedy = "take it out"
+            elif twin in element.attributes:
+                remedy = f"it differs from {twin}, which is read; write one"
+            else:
+                remedy = f"rename it to {twin}, which is missing"
             yield Problem(
                 link,
                 f"{name} in the inertia of link '{link.name}' is not read; {remedy}",
                 at=element.attribute_place(name),
+                effects=None if twin in element.attributes else (),
             )
+
+
+_TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
+
+
+def repeats_twin(element: Element, name: str) -> bool:
+    """Whether ``iyx``, ``izx`` or ``izy`` of an ``<inertia>`` is the number in the upper half."""
+    mine, its = (number(element.attributes.get(one)) for one in (name, _TWINS[name]))
+    return mine is not None and mine == its
