@@ -19,7 +19,7 @@ from ...model.pose import pose_of
 from ...model.tensor3 import Six, turned
 from ..mesh.outlines import reaches
 from ..rule import INFO, WARNING, Problem, rule
-from .bodies import slight_parts
+from .bodies import bodies, slight_parts
 from .density import outlier
 from .frame import about_com
 from .proposals import remedy_text
@@ -40,14 +40,17 @@ _CENTER = ("com-outside-geometry", "inertial-not-at-com-suspect")
     group="robot",
     of_motion=True,
 )
-def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
+def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem]:
     """An inertia is the same power of ten about every axis, such as 1 or 1e-3.
 
     Nobody measured that. 1 kg·m² on a link of 100 g is a radius of gyration of 3 m: the arm
     turns like a flywheel and its motors look too weak. A link of a few millimeters is a dummy whose
     inertia is made up to keep a simulation stable; only one that turns like a flywheel is reported.
+    The same is true of a frame: a link without shapes, or one of up to ``tiny`` [m] that is fixed
+    to a heavier link.
     """
     slight = slight_parts(robot)
+    whole: dict[str, list[Link]] | None = None
     for link, inertial, six in tensors(robot):
         if not is_placeholder(link, six):
             continue
@@ -57,8 +60,11 @@ def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
         radius = math.sqrt(moment / inertial.mass) if inertial.mass and inertial.mass > 0 else 0.0
         large = moment == 1.0 or radius > 1.0
         dummy, has_shapes = is_dummy(link), bool(link.visuals or link.collisions)
-        if dummy and not large:
-            continue
+        if not large:
+            if whole is None:
+                whole = {one.name: links for links in bodies(robot).values() for one in links}
+            if dummy or _is_frame(robot, link, whole.get(link.name, [link]), tiny):
+                continue
         far = f": its {link.mass:g} kg has a radius of gyration of {radius:.2g} m" if large else ""
         yield Problem(
             link,
@@ -70,6 +76,23 @@ def placeholder_inertia(robot: Robot) -> Iterator[Problem]:
             group="inertia of {count} links is a placeholder, the same power of ten about every "
             "axis: {names}",
         )
+
+
+def _is_frame(robot: Robot, link: Link, body: list[Link], tiny: float) -> bool:
+    """Whether a link stands for a frame: without shapes, or tiny and part of a heavier body.
+
+    Args:
+        robot: The robot.
+        link: One of its links.
+        body: The links of its rigid body.
+        tiny: The largest length of such a part [m].
+    """
+    if not link.visuals and not link.collisions:
+        return True
+    if not any(other.mass > link.mass for other in body):
+        return False
+    box = reaches(robot).link(link)
+    return box is not None and max(box.size) <= tiny
 
 
 def is_placeholder(link: Link, six: Six) -> bool:
