@@ -35,7 +35,7 @@ def test_of_two_soft_limits_the_one_beyond_is_named(tmp_path):
         limit = '<limit lower="-1.5" upper="1.5" effort="2" velocity="3"/>'
         soft = f'soft_lower_limit="{low}" soft_upper_limit="{high}" k_velocity="10"'
         more = f"{limit}<safety_controller {soft}/>"
-        return _messages(tmp_path, _joint(more=more), "soft-limits-outside-hard")
+        return _messages(tmp_path, _joint(more=more), "soft-limits-outside-hard", "moveit")
 
     assert said(-1.6, 1.4) == [
         "soft lower limit -1.6 of joint 'swing' is beyond its lower limit -1.5, so it does nothing"
@@ -45,6 +45,33 @@ def test_of_two_soft_limits_the_one_beyond_is_named(tmp_path):
     ]
     (both,) = said(-1.6, 1.7)
     assert both.endswith("are beyond its limits -1.5 to 1.5, so they do nothing")
+
+
+@pytest.mark.parametrize(("soft", "count"), [("-1.64", 0), ("-1.65", 0), ("-1.66", 1)])
+def test_soft_limits_beyond_the_hard_ones_may_still_slow_the_joint(tmp_path, soft, count):
+    limit = '<limit lower="-1.5" upper="1.5" effort="2" velocity="3"/>'
+    gains = 'k_position="20" k_velocity="10"'
+    safety = f'<safety_controller soft_lower_limit="{soft}" soft_upper_limit="1.4" {gains}/>'
+    robot = _joint(more=limit + safety)
+    assert len(_messages(tmp_path, robot, "soft-limits-outside-hard", "moveit")) == count
+
+
+@pytest.mark.parametrize(
+    ("rule", "soft"),
+    [
+        ("soft-limits-outside-hard", 'soft_lower_limit="-2" soft_upper_limit="2"'),
+        ("soft-limits-far-inside", 'soft_lower_limit="-0.1" soft_upper_limit="0.1"'),
+        ("soft-limits-lock-joint", ""),
+    ],
+)
+def test_soft_limits_matter_where_something_reads_them(tmp_path, rule, soft):
+    limit = '<limit lower="-1.5" upper="1.5" effort="2" velocity="3"/>'
+    robot = _joint(more=f'{limit}<safety_controller {soft} k_velocity="10"/>')
+    driven = robot + '<transmission name="t"><joint name="swing"/></transmission>'
+    assert not _messages(tmp_path, robot, rule, "mujoco")
+    assert len(_messages(tmp_path, robot, rule, "moveit")) == 1
+    assert len(_messages(tmp_path, driven, rule, "mujoco")) == 1
+    assert len(_messages(tmp_path, robot, rule, "ros2")) == (rule == "soft-limits-lock-joint")
 
 
 @pytest.mark.parametrize(

@@ -64,6 +64,7 @@ def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]
 
 @rule(
     INFO,
+    default=False,
     effects={
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take 1 0 0",
     },
@@ -72,7 +73,9 @@ def axis_omitted(robot: Robot) -> Iterator[Problem]:
     """A moving joint has no ``<axis>``.
 
     The default is x (1 0 0). Many expect z; whoever means x helps the next reader by writing it.
-    Planar joints are left out: Pinocchio ignores their axis, and sdformat rejects them.
+    As every reader takes the default, the rule is off unless it is selected. A wheel that does not
+    turn about x is a case of ``wheel-cylinder-axis``. Planar joints are left out: Pinocchio ignores
+    their axis, and sdformat rejects them.
     """
     for joint in robot.joints:
         if joint.has_axis and joint.axis is None and joint.type != "planar":

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.elements import Robot
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ...model.elements import Limit, Robot, SafetyController
+from ..rule import ERROR, INFO, ROS, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_attributes
 
 APPLIES_TO = ("safety_controller",)
@@ -43,12 +43,15 @@ def incomplete_safety_controller(robot: Robot) -> Iterator[Problem]:
         "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "ignore them",
     },
 )
-def soft_limits_lock_joint(robot: Robot) -> Iterator[Problem]:
+def soft_limits_lock_joint(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A joint's soft limits leave it no range.
 
     Both are 0 where they are not written. MoveIt takes them for the range of the joint, so a
-    ``<safety_controller k_velocity="10"/>`` alone locks it at 0.
+    ``<safety_controller k_velocity="10"/>`` alone locks it at 0. Of a robot that is neither for ROS
+    nor for MoveIt nothing is reported, as no other reader uses soft limits.
     """
+    if targets.isdisjoint(ROS) and not _are_used(robot, targets):
+        return
     for joint in robot.joints:
         safety, limit = joint.safety_controller, joint.limit
         if safety is None or not joint.is_limited or "k_velocity" not in safety.element.attributes:
@@ -74,11 +77,19 @@ def soft_limits_lock_joint(robot: Robot) -> Iterator[Problem]:
         "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "ignore the soft limits",
     },
 )
-def soft_limits_outside_hard(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Problem]:
+def soft_limits_outside_hard(
+    robot: Robot, targets: frozenset[str], *, tolerance: float = 1e-6
+) -> Iterator[Problem]:
     """A joint's soft limits lie beyond its hard ones.
 
-    They should slow the joint before the stop; out there they never do.
+    They should slow the joint before the stop; out there they never do. A controller allows
+    ``k_position`` times the distance to the soft limit as velocity, so one that is beyond by no
+    more than the velocity limit divided by ``k_position`` still slows the joint, and is not
+    reported. Nor are those of a robot without transmissions and ros2_control that is not for
+    MoveIt, as nothing uses them.
     """
+    if not _are_used(robot, targets):
+        return
     for joint in robot.joints:
         safety, limit = joint.safety_controller, joint.limit
         if safety is None or limit is None or not joint.is_limited:
@@ -88,7 +99,8 @@ def soft_limits_outside_hard(robot: Robot, *, tolerance: float = 1e-6) -> Iterat
             continue
         if low >= limit.upper or high <= limit.lower:
             continue
-        below, above = low < limit.lower - tolerance, high > limit.upper + tolerance
+        least = max(tolerance, (1 + tolerance) * _still_acting(safety, limit))
+        below, above = low < limit.lower - least, high > limit.upper + least
         if below and above:
             what = (
                 f"soft limits {low:g} to {high:g} of joint '{joint.name}' are beyond its limits "
@@ -115,14 +127,19 @@ def soft_limits_outside_hard(robot: Robot, *, tolerance: float = 1e-6) -> Iterat
         "mujoco, pybullet, pinocchio, drake": "ignore them",
     },
 )
-def soft_limits_far_inside(robot: Robot, *, part: float = 0.5) -> Iterator[Problem]:
+def soft_limits_far_inside(
+    robot: Robot, targets: frozenset[str], *, part: float = 0.5
+) -> Iterator[Problem]:
     """A joint's soft limits leave less than half of its range.
 
     They should begin shortly before the hard limits: those of 395 joints in 40 public descriptions
     leave at least 78 % of the range. Otherwise a sign, a decimal point or a unit is wrong, or only
     the hard limits were changed. Planners then refuse positions that the robot can take. ``part``
-    is the part of the range that the soft limits must leave.
+    is the part of the range that the soft limits must leave. Of a robot without transmissions and
+    ros2_control that is not for MoveIt nothing is reported, as nothing uses soft limits.
     """
+    if not _are_used(robot, targets):
+        return
     for joint in robot.joints:
         safety, limit = joint.safety_controller, joint.limit
         if safety is None or limit is None or not joint.is_limited:
@@ -139,3 +156,19 @@ def soft_limits_far_inside(robot: Robot, *, part: float = 0.5) -> Iterator[Probl
                 f"range {limit.lower:g} to {limit.upper:g}; MoveIt plans within them alone",
                 at=safety,
             )
+
+
+def _are_used(robot: Robot, targets: frozenset[str]) -> bool:
+    """Whether something reads soft limits: controllers of ROS, or MoveIt."""
+    return bool(robot.transmissions or robot.ros2_controls) or "moveit" in targets
+
+
+def _still_acting(safety: SafetyController, limit: Limit) -> float:
+    """How far beyond a hard limit a soft one still slows the joint [rad, m].
+
+    ros_control allows ``k_position`` times the distance to the soft limit as velocity, and no more
+    than the velocity limit (joint_limits_interface.h).
+    """
+    if safety.k_position <= 0 or not limit.velocity:
+        return 0.0
+    return max(limit.velocity, 0.0) / safety.k_position
