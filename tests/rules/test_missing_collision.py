@@ -34,7 +34,7 @@ def test_link_without_collision_is_found_at_its_line(tmp_path):
 def test_a_link_that_an_attached_one_covers_needs_none(tmp_path):
     assert _lines(tmp_path, HEAD.format(comment="", height=0.05)) == []
     assert _lines(tmp_path, HEAD.format(comment="", height=0.11)) == [("missing-collision", 7)]
-    moved = HEAD.replace('type="fixed"', 'type="continuous"')
+    moved = HEAD.replace('type="fixed"', 'type="prismatic"')
     assert _lines(tmp_path, moved.format(comment="", height=0)) == [("missing-collision", 7)]
 
 
@@ -84,3 +84,69 @@ def test_each_link_is_named_where_none_collides(tmp_path):
 def test_a_misspelt_collision_is_not_also_missing(tmp_path):
     text = HEAD.format(comment="<colision/>", height=0.2)
     assert _lines(tmp_path, text) == []
+
+
+CARRIER = """<robot name="cart">
+  <link name="base">
+    <visual><geometry><box size="0.4 0.4 0.4"/></geometry></visual>
+    <collision><geometry><box size="0.4 0.4 0.4"/></geometry></collision>
+  </link>
+  <link name="steering">
+    <visual><geometry><box size="0.1 0.02 0.02"/></geometry></visual>
+  </link>
+  <link name="wheel">
+    <visual><geometry><sphere radius="0.1"/></geometry></visual>
+    <collision><geometry><sphere radius="0.1"/></geometry></collision>
+  </link>
+  <joint name="turn" type="{kind}">
+    <parent link="base"/>
+    <child link="steering"/>
+    <origin xyz="{x} 0 0"/>
+  </joint>
+  <joint name="roll" type="continuous">
+    <parent link="steering"/>
+    <child link="wheel"/>
+    <origin xyz="0 0 -0.3"/>
+  </joint>
+</robot>
+"""
+
+
+def test_what_turns_inside_the_body_it_is_mounted_on_needs_none(tmp_path):
+    for kind, x, count in (
+        ("continuous", 0.1, 0),
+        ("revolute", 0.1, 0),
+        ("continuous", 0.19, 1),
+        ("prismatic", 0.1, 1),
+    ):
+        assert len(_lines(tmp_path, CARRIER.format(kind=kind, x=x))) == count, (kind, x)
+
+
+def test_a_link_in_the_midst_of_its_body_is_no_more_than_info(tmp_path):
+    above = (
+        HEAD.replace("</robot>", "")
+        + """
+  <link name="hat">
+    <visual><geometry><sphere radius="0.1"/></geometry></visual>
+    <collision><geometry><sphere radius="0.1"/></geometry></collision>
+  </link>
+  <joint name="stand" type="fixed">
+    <parent link="base"/>
+    <child link="hat"/>
+    <origin xyz="0 0 0.4"/>
+  </joint>
+</robot>
+"""
+    )
+    file = tmp_path / "head.urdf"
+    for text, severity in ((HEAD + "", "warning"), (above, "info")):
+        file.write_text(text.format(comment="", height=0.2))
+        (finding,) = check(file, select=["missing-collision"], targets=["gz"])
+        assert finding.severity.label == severity
+
+
+def test_a_marker_of_a_centimeter_needs_none(tmp_path):
+    marker = HEAD.format(comment="", height=0.2).replace(
+        '<cylinder radius="0.02" length="0.04"/>', '<box size="0.01 0.01 0.01"/>'
+    )
+    assert _lines(tmp_path, marker) == []

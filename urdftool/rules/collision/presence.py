@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from statistics import median
 
 from ...model.attached import attached_links
-from ...model.bounds import size_of
+from ...model.bounds import Bounds, size_of
 from ...model.elements import Link, Mesh, Robot
+from ...model.pose import pose_of
 from ..gazebo.contact import axis_up
 from ..inertia.bodies import bodies, mass_of
 from ..mesh.outlines import reaches
@@ -45,12 +47,13 @@ def missing_collision(
     best; a copy of the visual mesh is better than nothing. A link that is meant to be so (a
     sticker, a cable) says it with a comment,
     ``urdftool-ignore[missing-collision]``. One that the collision of a link fixed to it covers is
-    not reported.
+    not reported, nor one that turns inside the collision of the body it is mounted on.
 
-    Links smaller than ``smallest`` [m] and markers of frames are left out, and those smaller than
-    ``small`` [m] are no more than info.
+    Links of at most ``smallest`` [m] and markers of frames are left out. Those smaller than
+    ``small`` [m], and those within the box around the collisions of their rigid body, are no more
+    than info.
     """
-    seen = [link for link in robot.links if _seen_size(link) >= smallest]
+    seen = [link for link in robot.links if _seen_size(link) > smallest]
     ghosts = [link for link in seen if not link.collisions]
     sizes = _sizes(robot, ghosts)
     odd = {link.name for link, _ in _odd_links(robot)}
@@ -58,16 +61,17 @@ def missing_collision(
     for link in ghosts:
         if link.name in odd:
             continue
-        if sizes[link.name] < smallest or _has_misspelt_collision(link):
+        if sizes[link.name] <= smallest or _has_misspelt_collision(link):
             continue
-        if _is_covered(robot, link):
+        if _is_covered(robot, link) or _turns_inside(robot, link):
             continue
+        is_minor = sizes[link.name] < small or _is_enveloped(robot, link)
         yield Problem(
             link,
             f"link '{link.name}' has a visual and no collision; "
             "add a <collision>, best with a primitive shape",
             effects=[_LOAD, "moveit", *["mujoco"] * discarded],
-            severity=INFO if sizes[link.name] < small else None,
+            severity=INFO if is_minor else None,
             group="{count} links have a visual and no collision: {names}; "
             "add a <collision> to each, best with a primitive shape",
         )
@@ -199,12 +203,52 @@ def _is_covered(robot: Robot, link: Link) -> bool:
         return False
     for other, at in attached:
         box = reach.body(link, "collisions", [(other, at)]) if other.collisions else None
-        if box is not None and all(
-            min(c, d) - max(a, b) >= 0.8 * (c - a)
-            for a, b, c, d in zip(seen.low, box.low, seen.high, box.high, strict=True)
-        ):
+        if box is not None and _holds(box, seen):
             return True
     return False
+
+
+def _is_enveloped(robot: Robot, link: Link) -> bool:
+    """Whether a link's visual is within the box around all collisions of its rigid body."""
+    reach = reaches(robot)
+    seen = reach.shapes(link.visuals)
+    solid = [(other, at) for other, at in reach.attached(link) if other.collisions]
+    box = reach.body(link, "collisions", solid) if seen is not None and solid else None
+    return box is not None and seen is not None and _holds(box, seen)
+
+
+def _turns_inside(robot: Robot, link: Link) -> bool:
+    """Whether a body without a collision turns within one of the body it is mounted on.
+
+    However far it turns, its visuals stay in a sphere about the origin of the joint.
+    """
+    reach = reaches(robot)
+    members = reach.attached(link)
+    joint = robot.tree.parent_joint(link.name)
+    above = robot.link.get(joint.parent) if joint is not None else None
+    if joint is None or above is None or joint.type not in ("revolute", "continuous"):
+        return False
+    if any(one.collisions for one, _ in members):
+        return False
+    seen = reach.shapes(link.visuals)
+    if seen is None:
+        return False
+    radius = math.hypot(*(max(abs(a), abs(b)) for a, b in zip(seen.low, seen.high, strict=True)))
+    x, y, z = pose_of(joint.origin).translation
+    ball = Bounds((x - radius, y - radius, z - radius), (x + radius, y + radius, z + radius))
+    for other, at in reach.attached(above):
+        box = reach.body(above, "collisions", [(other, at)]) if other.collisions else None
+        if box is not None and _holds(box, ball):
+            return True
+    return False
+
+
+def _holds(box: Bounds, other: Bounds) -> bool:
+    """Whether a box holds another but for a fifth of each of its sides."""
+    return all(
+        min(c, d) - max(a, b) >= 0.8 * (c - a)
+        for a, b, c, d in zip(other.low, box.low, other.high, box.high, strict=True)
+    )
 
 
 def _seen_size(link: Link) -> float:
