@@ -29,6 +29,9 @@ TRIES = 6000
 PAIRS = 150_000
 """Pairs of bodies, a joint apart, whose distance is looked at; beyond, joints are passed over."""
 
+_Pair = tuple[Link, Link, float]
+"""Two links that overlap, and how deep [m]."""
+
 
 @rule(
     INFO,
@@ -43,9 +46,7 @@ PAIRS = 150_000
         ),
     },
 )
-def self_collision_at_zero(
-    robot: Robot, *, deeper: float = 0.001, together: float = 4
-) -> Iterator[Problem]:
+def self_collision_at_zero(robot: Robot, *, deeper: float = 0.001) -> Iterator[Problem]:
     """Two links that no joint joins overlap where all joints are at rest.
 
     A planner finds the robot in collision before it has moved, and a simulator that lets links
@@ -53,7 +54,8 @@ def self_collision_at_zero(
     at their joint, and pairs that an SRDF disables are let be. A mesh counts as its convex hull,
     as in MuJoCo, which may overlap by a centimetre; the meshes themselves, which MoveIt compares,
     may be apart. A joint that cannot be at zero rests in the middle of its range. ``deeper`` [m] is
-    the overlap that is let pass; more than ``together`` pairs are one finding.
+    the overlap that is let pass. One finding counts the pairs, the deepest first, and a second
+    those of which a hull of a mesh is one.
     """
     loaded = ("mujoco (loaded)",) if reads_collisions(robot) else ()
     found = list(resting(robot, deeper))
@@ -63,34 +65,30 @@ def self_collision_at_zero(
         (exact, "links", ("moveit", *loaded)),
         (hulls if loaded else [], "the convex hulls of links", loaded),
     ):
-        shown = pairs if len(pairs) <= together else pairs[:1]
-        more = "" if shown is pairs else f"; so do {_pairs(pairs[1:])}"
-        for one, other, depth in shown:
-            yield _overlap(one, other, depth, more, keys, what)
+        if pairs:
+            pairs.sort(key=lambda pair: -pair[2])
+            yield _overlap(pairs, keys, what)
 
 
 def _has_mesh(link: Link) -> bool:
     return any(isinstance(collision.geometry, Mesh) for collision in link.collisions)
 
 
-def _overlap(
-    one: Link,
-    other: Link,
-    depth: float,
-    more: str,
-    effects: tuple[str, ...] | None = None,
-    what: str = "links",
-) -> Problem:
-    return Problem(
-        other,
-        f"{what} '{one.name}' and '{other.name}' overlap by up to {depth * 1000:.3g} mm where "
-        f"all joints are at rest{more}",
-        at=other.collisions[0],
-        effects=effects,
-    )
+def _overlap(pairs: list[_Pair], effects: tuple[str, ...], what: str) -> Problem:
+    """Report the pairs of a robot that overlap, the deepest at the place of the second link."""
+    _, other, depth = pairs[0]
+    at_rest = "where all joints are at rest"
+    if len(pairs) == 1:
+        message = f"{what} {_pairs(pairs)} overlap by up to {depth * 1000:.3g} mm {at_rest}"
+    else:
+        message = (
+            f"{len(pairs)} pairs of {what.removeprefix('the ')} overlap {at_rest}, by up to "
+            f"{depth * 1000:.3g} mm: {_pairs(pairs)}"
+        )
+    return Problem(other, message, at=other.collisions[0], effects=effects)
 
 
-def _pairs(found: list[tuple[Link, Link, float]]) -> str:
+def _pairs(found: list[_Pair]) -> str:
     return some_of([f"'{one.name}' and '{other.name}'" for one, other, _ in found], "pairs")
 
 
