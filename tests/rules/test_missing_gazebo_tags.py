@@ -3,6 +3,8 @@
 import re
 from pathlib import Path
 
+import pytest
+
 from urdftool.lint.run import check
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "rules"
@@ -51,3 +53,45 @@ def test_dependency_of_the_package_is_a_sign(tmp_path):
 def test_arm_that_rolls_on_nothing_needs_none():
     arm = FIXTURES / "zero-axis" / "good.urdf"
     assert _found(arm, targets=["gz"]) == []
+
+
+LUMPED = """<robot name="arm">
+  <link name="base"/>
+  <link name="arm">
+    <visual><geometry><box size="0.1 0.1 0.1"/></geometry>
+      <material name="red"><color rgba="1 0 0 1"/></material></visual>
+  </link>
+  <link name="{name}">
+    <visual><geometry><box size="{size} {size} {size}"/></geometry>
+      <material name="blue"><color rgba="0 0 1 1"/></material></visual>
+  </link>
+  <joint name="swing" type="continuous"><parent link="base"/><child link="arm"/></joint>
+  <joint name="mount" type="{kind}"><parent link="arm"/><child link="{name}"/></joint>
+  <gazebo reference="arm"><material>Gazebo/Red</material></gazebo>
+  {block}
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "size", "kind", "count"),
+    [
+        ("camera", 0.1, "fixed", 1),
+        ("camera", 0.01, "fixed", 0),
+        ("arm_camera", 0.1, "fixed", 0),
+        ("armcamera", 0.1, "fixed", 0),
+        ("left_arm_camera", 0.1, "fixed", 1),
+        ("arm_camera", 0.1, "continuous", 1),
+    ],
+)
+@pytest.mark.parametrize("rule", ["missing-gazebo-tags", "missing-gazebo-material"])
+def test_a_link_that_shows_its_color_is_not_counted(tmp_path, rule, name, size, kind, count):
+    block = f'<gazebo reference="{name}"><selfCollide>true</selfCollide></gazebo>'
+    file = tmp_path / "arm.urdf"
+    file.write_text(
+        LUMPED.format(
+            name=name, size=size, kind=kind, block=block if rule.endswith("material") else ""
+        )
+    )
+    found = check(file, select=[rule], targets=["gazebo-classic"])
+    assert [finding.name for finding in found] == [name] * count

@@ -10,7 +10,7 @@ from ..gazebo.contact import contact_role
 from ..gazebo.keywords import JOINT_KEYWORDS, LINK_KEYWORDS, NOT_IN_GZ, SURFACE
 from ..gazebo.lumping import is_lumped, keeps_joint
 from ..gazebo.sensors import Frameless, without_frame
-from ..gazebo.tags import _colours, _shows_colour
+from ..gazebo.tags import _colours, _lacks_material
 from ..gazebo.wheel_pair import wheel_pair
 from ..rule import Problem
 from .proposal import (
@@ -232,7 +232,7 @@ def missing_gazebo_tags(problem: Problem, around: Around) -> Proposal | None:
     if role:
         mu = _FRICTION.get(role, "1.0")
         inside += [f"<mu1>{mu}</mu1>", f"<mu2>{mu}</mu2>"]
-    if "gazebo-classic" in around.targets and _shows_colour(link, _colours(robot)):
+    if "gazebo-classic" in around.targets and _lacks_material(robot, link, _colours(robot)):
         lines = _material(link, robot)
         if lines is not None:
             inside += ["<visual>", *(f"\t{line}" for line in lines), "</visual>"]

@@ -12,6 +12,8 @@ _WHEEL = re.compile(r"wheel|(^|_)tire(_|\d|$)", re.IGNORECASE)
 _CASTER = re.compile(r"caster|castor", re.IGNORECASE)
 _FOOT = re.compile(r"(^|[_\d])(foot|feet|toe)([_\d]|$)", re.IGNORECASE)
 _FINGER = re.compile(r"finger|(^|_)(gripper_)?pad(_|\d|$)|(^|_)jaw(_|\d|$)", re.IGNORECASE)
+_GRIPS = re.compile(r"finger|thumb|jaw|knuckle|claw|pad(_|\d|$)", re.IGNORECASE)
+_GRIPPER_JOINT = re.compile(_GRIPS.pattern + "|grip", re.IGNORECASE)
 _NOT_WHEEL = re.compile(
     r"lidar|laser|scan|radar|rotor|prop|fan|thrust|impeller|camera|head|yaw|steer", re.IGNORECASE
 )
@@ -32,9 +34,27 @@ def contact_role(robot: Robot, link: Link) -> str:
     leaf = not any(not below.is_fixed for below in robot.tree.child_joints(link.name))
     if leaf and _FOOT.search(link.name) and _moves(robot, link):
         return "foot"
-    if leaf and _FINGER.search(link.name) and _moves(robot, link):
+    if leaf and _FINGER.search(link.name) and _grips(robot, link):
         return "finger"
     return ""
+
+
+def _grips(robot: Robot, link: Link) -> bool:
+    """Whether a finger moves, or another one toward it.
+
+    One whose gripper has no joint that moves is a part of the wrist: the joint that moves it has
+    another name, and no finger is mounted on it with a joint that moves.
+    """
+    members = [one for one, _ in attached_links(robot, link)]
+    for member in members:
+        joint = robot.tree.parent_joint(member.name)
+        if joint is not None and not joint.is_fixed:
+            if _GRIPPER_JOINT.search(joint.name) or _GRIPS.search(member.name):
+                return True
+        for below in robot.tree.child_joints(member.name):
+            if not below.is_fixed and _GRIPS.search(f"{below.name} {below.child}"):
+                return True
+    return False
 
 
 def is_wheel(robot: Robot, link: Link) -> bool:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
+from ...model.bounds import size_of
 from ...model.elements import GazeboExtension, Link, Material, Mesh, Robot
 from ..rule import GAZEBO, INFO, WARNING, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from ..words import nearest
 from .contact import contact_role, has_friction
-from .lumping import body_of, is_lumped
+from .lumping import body_of
 
 _FRICTION = {
     "wheel": "<mu1> and <mu2> for its grip",
@@ -18,6 +19,7 @@ _FRICTION = {
     "finger": "<mu1> and <mu2> for its grip",
 }
 _PLURAL = {"wheel": "wheels", "caster": "casters", "foot": "feet", "finger": "fingers"}
+_MARKER = 0.01  # [m] the largest visual that only marks the place of a link
 _GREY = 0.06  # colours whose parts differ less than this look like Gazebo Classic's own
 
 
@@ -39,9 +41,9 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
     URDF says nothing of friction, and Gazebo Classic does not take its colours: both are said in
     ``<gazebo reference="the link">``. A link needs the block if it rolls, stands or grips (a
     wheel, a caster, a foot, a finger), for its friction; and in Gazebo Classic if a visual has a
-    color, which alone is a remark. Other links need none and are not named; a block that lacks
-    something is a case of ``missing-friction`` or ``missing-gazebo-material``. A robot that is not
-    for Gazebo needs none.
+    color, which alone is a remark; a marker of at most 1 cm is none. Other links need none and are
+    not named; a block that lacks something is a case of ``missing-friction`` or
+    ``missing-gazebo-material``. A robot that is not for Gazebo needs none.
     """
     if targets.isdisjoint(GAZEBO) or _is_unclear(robot):
         return
@@ -51,10 +53,10 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
     for link in robot.links:
         if robot.extensions.get(link.name) or link.name in meant:
             continue
-        role = None if _has_friction_by_name(robot, link) else contact_role(robot, link)
+        role = None if _has_by_name(robot, link, has_friction) else contact_role(robot, link)
         needs = [_FRICTION[role]] if role else []
         cases = ["without friction"] if role else []
-        if "gazebo-classic" in targets and _shows_colour(link, colours):
+        if "gazebo-classic" in targets and _lacks_material(robot, link, colours):
             needs.append("<material>, for Gazebo Classic does not show the colors of a URDF")
             cases.append("without a color")
         if needs:
@@ -88,14 +90,14 @@ def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
     Gazebo Classic does not convert the colours of a URDF: the link is grey whatever it is in RViz.
     It wants ``<material>Gazebo/Red</material>``, or the colour itself in ``<visual><material>``.
     New Gazebo takes URDF's colours. A link that has no block at all is a case of
-    ``missing-gazebo-tags``; greys are let pass.
+    ``missing-gazebo-tags``; greys and markers of at most 1 cm are let pass.
     """
     if _is_unclear(robot):
         return
     colours = _colours(robot)
     for link in robot.links:
         blocks = robot.extensions.get(link.name, [])
-        if blocks and not _has_material(blocks) and _shows_colour(link, colours):
+        if blocks and not _has_material(blocks) and _lacks_material(robot, link, colours):
             yield Problem(
                 link,
                 f"link '{link.name}' has a colour that Gazebo Classic does not show; write "
@@ -106,12 +108,19 @@ def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
             )
 
 
-def _has_friction_by_name(robot: Robot, link: Link) -> bool:
-    """Whether sdformat gives a lumped link the friction of a link whose name begins its own."""
-    return is_lumped(robot, link.name) and any(
-        link.name.startswith(f"{name}_") and has_friction(blocks)
-        for name, blocks in robot.extensions.items()
-        if name and body_of(robot, name) == body_of(robot, link.name)
+def _has_by_name(
+    robot: Robot, link: Link, is_there: Callable[[list[GazeboExtension]], bool]
+) -> bool:
+    """Whether sdformat gives a lumped link what the blocks of another link have.
+
+    It applies the blocks of the link that a body is named after to each part whose name begins
+    with its name (run: sdformat 12.3, friction and material).
+    """
+    body = body_of(robot, link.name)
+    return (
+        body != link.name
+        and link.name.startswith(body)
+        and is_there(robot.extensions.get(body, []))
     )
 
 
@@ -127,14 +136,15 @@ def missing_friction(robot: Robot) -> Iterator[Problem]:
     """A wheel, caster, foot or finger has a ``<gazebo>`` block without friction.
 
     Without ``mu1`` and ``mu2`` the coefficients are 1: enough for a rubber wheel, too much for a
-    caster that should slide, too little for a finger that should hold. A link that has no block at
-    all is a case of ``missing-gazebo-tags``.
+    caster that should slide, too little for a finger that should hold. A finger of a gripper whose
+    joints are all fixed grips nothing, and is not reported. A link that has no block at all is a
+    case of ``missing-gazebo-tags``.
     """
     if _is_unclear(robot):
         return
     for link in robot.links:
         blocks = robot.extensions.get(link.name, [])
-        if blocks and not has_friction(blocks) and not _has_friction_by_name(robot, link):
+        if blocks and not has_friction(blocks) and not _has_by_name(robot, link, has_friction):
             role = contact_role(robot, link)
             if role:
                 yield Problem(
@@ -142,7 +152,7 @@ def missing_friction(robot: Robot) -> Iterator[Problem]:
                     f"{role} '{link.name}' has no friction of its own; write {_FRICTION[role]}",
                     at=blocks[0],
                     group=f"{{count}} {_PLURAL[role]} have no friction of their own: {{names}}; "
-                    f"write {_FRICTION[role]}",
+                    f"write {_FRICTION[role].replace(' its ', ' their ')}",
                 )
 
 
@@ -157,19 +167,22 @@ def _colours(robot: Robot) -> dict[str, Material]:
     return found
 
 
-def _colours_of(robot: Robot) -> bool:
-    colours = _colours(robot)
-    return any(_shows_colour(link, colours) for link in robot.links)
+def _lacks_material(robot: Robot, link: Link, colours: dict[str, Material]) -> bool:
+    """Whether Gazebo Classic shows a link without its color, for want of a block of another."""
+    return _shows_colour(link, colours) and not _has_by_name(robot, link, _has_material)
 
 
 def _shows_colour(link: Link, colours: dict[str, Material]) -> bool:
-    """Whether a visual is given a colour in the URDF that is not simply a grey."""
+    """Whether a visual is given a color in the URDF that is not a grey, and is no marker."""
     for visual in link.visuals:
         material, shape = visual.material, visual.geometry
         if material is None or shape is None:
             continue
         if isinstance(shape, Mesh) and not shape.filename.lower().endswith(".stl"):
             continue  # such meshes bring their own
+        size = size_of(shape)
+        if size is not None and max(size) <= _MARKER:
+            continue
         if material.color is None and material.texture is None:
             material = colours.get(material.name, material)
         if material.color is not None and max(material.color[:3]) - min(material.color[:3]) > _GREY:
