@@ -182,7 +182,8 @@ def collision_much_larger_than_visual(
     Often a unit is wrong, or the diameter was written for the radius. The robot touches things that
     look far away. It is reported where the box around the collisions is more than ``ratio`` times
     as long as that around the visuals, and by more than ``least`` [m]; visuals of links that are
-    fixed to this one count as well. The disc that the blades of a rotor sweep is not reported.
+    fixed to this one count as well. The disc that the blades of a rotor sweep is not reported, nor
+    a sphere of the same radius as a wheel, which touches the ground in one point on purpose.
     """
     reach = reaches(robot)
     for link in robot.links:
@@ -195,7 +196,7 @@ def collision_much_larger_than_visual(
         if around is None or (axis := _larger(touches, around, ratio, least)) is None:
             continue
         a, b = touches.size[axis], around.size[axis]
-        if _is_swept(robot, link, touches, around):
+        if _is_swept(robot, link, touches, around) or _is_ball_of_wheel(link, around):
             continue
         yield Problem(
             link,
@@ -224,6 +225,15 @@ def _is_swept(robot: Robot, link: Link, touches: Bounds, around: Bounds) -> bool
     if not isinstance(disc, Cylinder) or disc.length > disc.radius:
         return False
     return max(touches.size) <= 1.1 * max(around.size)
+
+
+def _is_ball_of_wheel(link: Link, around: Bounds) -> bool:
+    """Whether the one collision is a sphere as wide as the visual along two axes."""
+    shapes = [collision.geometry for collision in link.collisions]
+    if len(shapes) != 1 or not isinstance(shapes[0], Sphere):
+        return False
+    width = 2 * shapes[0].radius
+    return sum(abs(size - width) <= 0.1 * width for size in around.size) >= 2
 
 
 def _is_doubled(link: Link, touches: Bounds, seen: Bounds) -> bool:
