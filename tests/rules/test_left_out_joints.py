@@ -3,7 +3,7 @@
 import pytest
 
 from urdftool.lint.outcome import Options
-from urdftool.lint.run import lint_file
+from urdftool.lint.run import check, lint_file
 from urdftool.lint.settings import Settings
 
 ARM = '<link name="base"/><link name="arm"/>'
@@ -173,3 +173,42 @@ def test_a_slide_on_a_beam_of_its_length_is_in_meters(tmp_path, link):
 
     assert not said(42)
     assert len(said(0.1)) == 1
+
+
+@pytest.mark.parametrize(("damping", "severity"), [('damping="1" ', "info"), ("", "warning")])
+def test_further_parameters_of_dynamics_are_a_remark(tmp_path, damping, severity):
+    file = tmp_path / "robot.urdf"
+    more = f'<dynamics {damping}friction="0.1" mu_coulomb="0" K="7000"/>'
+    file.write_text(f'<robot name="r">{_joint("continuous", more=more)}</robot>')
+    (finding,) = check(file, select=["unknown-attribute"])
+    assert finding.severity.label == severity
+
+
+@pytest.mark.parametrize(
+    ("driven", "effort", "rules"),
+    [
+        ("", 1, ["implausible-velocity"]),
+        ("", 0, ["zero-effort-limit"]),
+        ("swing", 1, ["implausible-velocity"]),
+        ("swing", 0, ["zero-effort-limit"]),
+        ("other", 1, ["implausible-velocity"]),
+        ("other", 0, []),
+        ("measured", 1, []),
+    ],
+)
+def test_nothing_is_asked_of_a_joint_that_is_left_passive(tmp_path, driven, effort, rules):
+    limit = f'<limit lower="-1" upper="1" effort="{effort}" velocity="3000"/>'
+    other = '<link name="tip"/><joint name="other" type="continuous"><parent link="arm"/>'
+    robot = f'{_joint(more=limit)}{other}<child link="tip"/></joint>'
+    if driven == "measured":
+        state = '<state_interface name="position"/>'
+        robot += f'<ros2_control name="c" type="system"><joint name="swing">{state}</joint>'
+        robot += "</ros2_control>"
+    elif driven:
+        robot += f'<transmission name="t"><joint name="{driven}"/></transmission>'
+    found = [
+        rule
+        for rule in ("implausible-velocity", "zero-effort-limit")
+        if _messages(tmp_path, robot, rule, "gz")
+    ]
+    assert found == rules

@@ -24,3 +24,9 @@ def actuated_joints(robot: Robot) -> set[str]:
 def is_passive(joint: Joint, actuated: set[str]) -> bool:
     """Whether other joints of the robot are driven, and this one is not."""
     return bool(actuated) and joint.name not in actuated
+
+
+def measured_joints(robot: Robot) -> set[str]:
+    """List the joints that ros2_control measures and nothing drives."""
+    named = {joint.name for control in robot.ros2_controls for joint in control.joints}
+    return (named & set(robot.joint)) - actuated_joints(robot)

@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator
 
-from ...model.actuation import actuated_joints, is_passive
+from ...model.actuation import actuated_joints, is_passive, measured_joints
 from ...model.elements import Joint, Limit, Robot
 from ..gazebo.contact import is_wheel
 from ..rule import ERROR, INFO, WARNING, Problem, rule
@@ -127,16 +127,16 @@ def implausible_velocity(
     """A joint's velocity limit is faster than arms and slides are.
 
     In most cases it is in degrees or turns per minute, or a large number that means "none", such as
-    1000 or 1e6. Planners time trajectories by it. One number at more than ``together`` joints is
-    one finding. A joint whose two limits are equal does not move, and one that nothing drives,
-    though other joints are driven, has no drive; neither is reported.
+    1000 or 1e6. Planners time trajectories by it. One number at more than ``together`` joints is one finding. A
+    joint whose two limits are equal does not move, and is not reported. Nor is a passive one: with
+    an effort limit of 0, or one that ros2_control measures and nothing drives.
     """
     found = []
-    actuated = actuated_joints(robot)
+    measured = measured_joints(robot)
     for joint, limit in _driven(robot):
         if joint.type == "continuous" or limit.velocity is None or is_locked(joint):
             continue
-        if is_passive(joint, actuated):
+        if limit.effort == 0.0 or joint.name in measured:
             continue
         fastest = fastest_slide if joint.type == "prismatic" else fastest_turn
         if limit.velocity > fastest:

@@ -240,7 +240,8 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
 
     Readers ignore it without a message and take the default of the attribute that was meant. A
     misspelt ``uper`` makes the upper limit 0, a ``height`` on a cylinder leaves it without a
-    length. The rotation of an ``<axis>`` by 0 is not reported: nothing is lost with it.
+    length. The rotation of an ``<axis>`` by 0 is not reported: nothing is lost with it. Further
+    parameters of a ``<dynamics>`` with damping and friction are a remark: none of URDF is meant.
     """
     nothing: frozenset[str] = frozenset()
     mere: dict[tuple[str, tuple[str, ...], Severity], list[Element]] = {}
@@ -252,7 +253,8 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
             yield from _misspelt_attributes(element, known)
             strange = [n for n in _strange_attributes(element, known) if _is_mere(element, n)]
             for severity in (WARNING, INFO):
-                names = tuple(n for n in strange if (n in _REMARKS) == (severity is INFO))
+                is_info = severity is INFO
+                names = tuple(n for n in strange if _is_remark(element, n) == is_info)
                 if names:
                     mere.setdefault((tag, names, severity), []).append(element)
     for (_, names, severity), elements in mere.items():
@@ -267,6 +269,13 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
             severity=severity,
             effects=holding(_OF_ATTRIBUTE),
         )
+
+
+def _is_remark(element: Element, name: str) -> bool:
+    """Whether nothing is lost with an attribute that URDF does not know."""
+    if name in _REMARKS:
+        return True
+    return element.tag == "dynamics" and set(attributes_of("dynamics")) <= set(element.attributes)
 
 
 def _strange_attributes(element: Element, known: set[str]) -> Iterator[str]:
