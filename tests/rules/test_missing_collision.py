@@ -1,5 +1,7 @@
 """Links that are without collision: which are named, and which are there on purpose."""
 
+import pytest
+
 from urdftool.lint.run import check
 
 HEAD = """<?xml version="1.0"?>
@@ -150,3 +152,14 @@ def test_a_marker_of_a_centimeter_needs_none(tmp_path):
         '<cylinder radius="0.02" length="0.04"/>', '<box size="0.01 0.01 0.01"/>'
     )
     assert _lines(tmp_path, marker) == []
+
+
+@pytest.mark.parametrize(("opacity", "count"), [("0", 0), ("0.1", 1)])
+def test_what_cannot_be_seen_needs_none(tmp_path, opacity, count):
+    color = f'<material name="glass"><color rgba="1 1 1 {opacity}"/></material>'
+    motor = '<cylinder radius="0.02" length="0.04"/></geometry>'
+    text = HEAD.format(comment="", height=0.2)
+    assert len(_lines(tmp_path, text.replace(motor, motor + color))) == count
+    named = text.replace(motor, motor + '<material name="glass"/>')
+    assert len(_lines(tmp_path, named.replace("</robot>", color + "</robot>"))) == count
+    assert _lines(tmp_path, text.replace('"motor"', '"virtual_motor"')) == []

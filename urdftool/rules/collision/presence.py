@@ -21,6 +21,7 @@ from ..words import some_of
 from ..xml.vocabulary_table import misspelt_children
 
 _FRAME = re.compile(r"optical|(^|_)frame$")
+_VIRTUAL = re.compile(r"(^|_)(virtual|dummy)(_|\d|$)", re.IGNORECASE)
 _CONTACT = re.compile(r"wheel|caster|(^|_)(foot|feet)(_|\d|$)", re.IGNORECASE)
 _LOAD = "gz, gazebo-classic, pybullet, pinocchio, drake"
 _PASS = "gz, gazebo-classic, pybullet"
@@ -49,12 +50,12 @@ def missing_collision(
     ``urdftool-ignore[missing-collision]``. One that the collision of a link fixed to it covers is
     not reported, nor one that turns inside the collision of the body it is mounted on.
 
-    Links of at most ``smallest`` [m] and markers of frames are left out. Those smaller than
-    ``small`` [m], and those within the box around the collisions of their rigid body, are no more
-    than info.
+    Links of at most ``smallest`` [m], markers of frames, links that are called virtual or dummy,
+    and those all of whose visuals are fully transparent are left out. Those smaller than ``small``
+    [m], and those within the box around the collisions of their rigid body, are no more than info.
     """
     seen = [link for link in robot.links if _seen_size(link) > smallest]
-    ghosts = [link for link in seen if not link.collisions]
+    ghosts = [link for link in seen if not link.collisions and not _is_invisible(robot, link)]
     sizes = _sizes(robot, ghosts)
     odd = {link.name for link, _ in _odd_links(robot)}
     discarded = not keeps_visuals(robot)
@@ -206,6 +207,16 @@ def _is_covered(robot: Robot, link: Link) -> bool:
         if box is not None and _holds(box, seen):
             return True
     return False
+
+
+def _is_invisible(robot: Robot, link: Link) -> bool:
+    """Whether a link is a virtual one, or every visual of it has a color whose opacity is 0."""
+    if _VIRTUAL.search(link.name):
+        return True
+    colors = {one.name: one.color for one in robot.materials if one.color is not None}
+    materials = [visual.material for visual in link.visuals]
+    shown = [one and (one.color or colors.get(one.name)) for one in materials]
+    return bool(shown) and all(color and color[3] == 0 for color in shown)
 
 
 def _is_enveloped(robot: Robot, link: Link) -> bool:
