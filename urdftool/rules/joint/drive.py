@@ -127,9 +127,9 @@ def implausible_velocity(
     """A joint's velocity limit is faster than arms and slides are.
 
     In most cases it is in degrees or turns per minute, or a large number that means "none", such as
-    1000 or 1e6. Planners time trajectories by it. One number at more than ``together`` joints is one finding. A
-    joint whose two limits are equal does not move, and is not reported. Nor is a passive one: with
-    an effort limit of 0, or one that ros2_control measures and nothing drives.
+    1000 or 1e6. Planners time trajectories by it. One number at more than ``together`` joints is
+    one finding. A joint whose two limits are equal does not move, and is not reported; neither is a
+    passive one, with an effort limit of 0, or one that ros2_control measures and nothing drives.
     """
     found = []
     measured = measured_joints(robot)
