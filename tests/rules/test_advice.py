@@ -273,6 +273,8 @@ def test_a_joint_that_is_not_driven_where_others_are_needs_no_effort(
     write, rule, limits, more, names
 ):
     path = write("r.urdf", DRIVEN.format(*limits, more=more))
+    if rule == "implausible-velocity" and more != ROS2_CONTROL:
+        names = ["one", "two"]  # planners read it of joints that another file drives
     found = check(path, select=[rule])
     assert [finding.name for finding in found] == names
 
@@ -288,7 +290,9 @@ def test_a_joint_that_is_not_driven_where_others_are_needs_no_effort(
 )
 def test_a_velocity_that_means_no_limit_is_called_so(write, velocity, words):
     path = write("r.urdf", DRIVEN.format(1, velocity, more=TRANSMISSION))
-    assert words in one(path, "implausible-velocity").message
+    found = check(path, select=["implausible-velocity"])
+    assert all(words in finding.message for finding in found)
+    assert [finding.name for finding in found] == ["one", "two"]
 
 
 @pytest.mark.parametrize(
