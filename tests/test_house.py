@@ -12,7 +12,8 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 BELOW = {
     "errors": (),
     "extras": ("errors",),
-    "workers": (),
+    "parallel": ("errors",),
+    "isolated": ("parallel", "errors"),
     "inputs": (),
     "store": (),
     "source": ("inputs", "errors"),
@@ -28,7 +29,7 @@ BELOW = {
         "errors",
     ),
     "drawing": ("meshes", "model", "source", "errors"),
-    "inertia": ("meshes", "model", "source", "workers", "errors"),
+    "inertia": ("meshes", "model", "source", "parallel", "errors"),
     "collision": (
         *(
             "store",
@@ -37,7 +38,8 @@ BELOW = {
             "inertia",
             "model",
             "source",
-            "workers",
+            "parallel",
+            "isolated",
             "extras",
             "errors",
         ),
@@ -55,7 +57,7 @@ BELOW = {
     ),
     "rules": ("finding", "model", "source", "meshes", "inputs", "errors"),
     "lint": (
-        *("rules", "finding", "model", "source", "configuration", "workers"),
+        *("rules", "finding", "model", "source", "configuration", "parallel"),
         *("inputs", "store", "extras", "errors"),
     ),
     "formats": (
@@ -65,15 +67,16 @@ BELOW = {
         "meshes",
         "inertia",
         "output",
+        "parallel",
         "store",
         "extras",
         "extras",
         "errors",
     ),
-    "graph": ("finding", "model", "source", "extras", "extras", "errors"),
+    "graph": ("isolated", "finding", "model", "source", "extras", "errors"),
     "simulation": (
         *("drawing", "formats", "finding", "lint", "meshes", "inertia", "model", "rules", "source"),
-        *("workers", "store", "extras", "errors"),
+        *("parallel", "isolated", "store", "extras", "errors"),
     ),
     "report": (
         *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),

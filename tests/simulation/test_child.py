@@ -118,7 +118,7 @@ def test_a_lower_limit_of_the_system_stays():
 
 
 def test_a_system_without_threads_is_one_message():
-    with Child("json") as child, mock.patch("urdftool.simulation.child.Thread.start") as start:
+    with Child("json") as child, mock.patch("urdftool.isolated.Thread.start") as start:
         start.side_effect = RuntimeError("can't start new thread")
         with pytest.raises(EngineDied, match="can't start new thread"):
             child.call("child_deeds", "double", 21, time_limit=20)

@@ -15,8 +15,8 @@ import pytest
 from tests.conftest import FIXTURES, ROOT
 from urdftool.errors import UrdftoolError
 from urdftool.formats.defects import Refused
+from urdftool.parallel import terminate_gracefully
 from urdftool.simulation.fleet import Row, in_parallel
-from urdftool.workers import leaving_when_told
 
 ROBOTS = FIXTURES / "robots"
 MIRA = ROBOTS / "mira_description" / "urdf"
@@ -72,7 +72,7 @@ def test_what_the_system_does_not_give_is_said():
 def test_who_is_ended_as_soon_as_it_starts_ends_quietly(capfd):
     for _ in range(20):
         rows = in_parallel(["a", "hangs", "hangs"], _work, jobs=3)
-        with leaving_when_told():
+        with terminate_gracefully():
             next(rows)
             rows.close()
     assert capfd.readouterr().err == ""

@@ -14,15 +14,14 @@ from ..meshes.load import FARTHEST
 from ..meshes.mesh import Points
 from ..model.elements import Box, Capsule, Cylinder, Link, Mesh, Robot, Sphere
 from ..model.pose import Pose, pose_of
+from ..parallel import Loss, cores, map_tasks
 from ..source.description import GltfUp
-from ..workers import cores
 from .convex import hull, planes, signed_distance
 from .hollow import filled_hollow
 from .links import Shape
 from .measure import Target, measure
 from .parallel import Progress
 from .piece import Piece, mesh_piece
-from .pool import run_all
 from .surface import Prepared, prepare, read_surface
 from .tessellate import primitive
 
@@ -116,14 +115,14 @@ def check_all(
 
     found: list[Checked | None] = [None] * len(looks)
     workers = jobs or cores()
-    for index, checked in run_all(
-        check_link, looks, workers=workers, lost=_lost, under_way=under_way
+    for index, checked in map_tasks(
+        check_link, looks, workers=workers, on_lost=_lost, on_progress=under_way
     ):
         found[index] = checked
     return [checked for checked in found if checked is not None]
 
 
-def _lost(look: Look) -> Checked:
+def _lost(look: Look, _: Loss) -> Checked:
     return Checked(look.link, None, "the process that measured it was killed twice")
 
 

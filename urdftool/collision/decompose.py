@@ -8,19 +8,14 @@ surface is made first (``remesh``), and simplified like any other.
 
 from __future__ import annotations
 
-import io
-import json
-import os
 import signal
-import subprocess
-import sys
 from time import monotonic
 from typing import Any
 
 import numpy as np
 
 from ..errors import MeshError, UrdftoolError
-from ..extras import missing
+from ..isolated import IsolatedProcess, ProcessDied, ProcessTimeout
 from ..meshes.mesh import Faces, Points
 from ..meshes.solid import body_labels, edges_of
 from .convex import capped_hull
@@ -204,48 +199,37 @@ def threads_of(cores: int) -> int:
 def run_child(
     vertices: Points, faces: Faces, options: dict[str, Any], threads: int = 1
 ) -> list[Points]:
-    """The points of each piece, as the child process found them."""
-    stream = io.BytesIO()
-    text = np.frombuffer(json.dumps(options).encode(), dtype=np.uint8)
-    np.savez(stream, vertices=vertices, faces=faces, options=text)
-    limit = options["time_limit"]
+    """Run CoACD in an isolated process; return the points of each piece.
+
+    Raises:
+        DecompositionError: It died or took too long.
+        MissingDependency: coacd is not installed.
+    """
+    options = dict(options)
+    limit = options.pop("time_limit")
     begin = _children_time()
-    environment = {**os.environ, "OMP_NUM_THREADS": str(threads), "PYTHONDONTWRITEBYTECODE": "1"}
-    child = subprocess.Popen(
-        [sys.executable, "-m", "urdftool.collision.coacd_child"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        env=environment,
-    )
     try:
-        out, err = child.communicate(stream.getvalue(), timeout=limit * _SLOWEST + 10)
-    except subprocess.TimeoutExpired:
+        with IsolatedProcess("numpy", environment={"OMP_NUM_THREADS": str(threads)}) as process:
+            found: list[Points] = process.call(
+                f"{__package__}.coacd_child", "decompose", vertices, faces, options,
+                time_limit=limit * _SLOWEST + 10, processor_limit=limit + 1,
+            )  # fmt: skip
+    except ProcessTimeout:
         raise DecompositionError(_TOO_LONG) from None
-    finally:
-        if child.poll() is None:
-            child.kill()
-            child.communicate()
-    if child.returncode:
+    except ProcessDied as error:
         in_time = _children_time() - begin < limit
-        raise _death(child.returncode, err.decode("utf-8", "replace"), in_time=in_time)
-    try:
-        with np.load(io.BytesIO(out)) as found:
-            return [found[f"v{index}"] for index in range(len(found.files) // 2)]
-    except (OSError, ValueError, KeyError) as error:
-        raise DecompositionError("CoACD ended without a result") from error
+        raise _death(error, in_time=in_time) from None
+    return found
 
 
-def _death(code: int, err: str, *, in_time: bool) -> UrdftoolError:
+def _death(error: ProcessDied, *, in_time: bool) -> DecompositionError:
+    code = error.exit_code
     if code == -getattr(signal, "SIGKILL", 9) and in_time:
         return DecompositionError(KILLED)
-    if code < 0 and -code in (getattr(signal, "SIGXCPU", 0), signal.SIGKILL):
+    if code < 0 and -code in (getattr(signal, "SIGXCPU", 0), getattr(signal, "SIGKILL", 9)):
         return DecompositionError(_TOO_LONG)
-    lines = [line for line in err.strip().splitlines() if line.strip()]
-    last = lines[-1].strip() if lines else ""
-    if "No module named 'coacd'" in last:
-        return missing("coacd", "convex decomposition")
-    how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
-    if "Assertion" in err:
+    last = error.output[-1].strip() if error.output else ""
+    if any("Assertion" in line for line in error.output):
         last = "an assertion of its own failed"
-    return DecompositionError(f"CoACD died ({how}{': ' + last[:120] if last else ''})")
+    details = f": {last[:120]}" if last else ""
+    return DecompositionError(f"CoACD died ({error.message}{details})")

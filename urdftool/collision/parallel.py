@@ -7,10 +7,9 @@ from functools import partial
 from pathlib import Path
 
 from ..errors import MeshError, UrdftoolError
-from ..workers import cores
+from ..parallel import Loss, cores, map_tasks
 from .cache import Cache, key_of
 from .compute import Result, Task, attempt, result_of
-from .pool import run_all
 
 Progress = Callable[[int, int, Sequence[str]], None]
 """Called with how many meshes are done, of how many, and which are worked on."""
@@ -65,7 +64,7 @@ def compute_all(
         workers = jobs or cores()
         # cores that no mesh of its own is left for help with the others
         each = partial(attempt, cores=max(1, workers // max(1, len(work))))
-        outcomes = run_all(each, work, workers=workers, lost=_lost, under_way=under_way)
+        outcomes = map_tasks(each, work, workers=workers, on_lost=_lost, on_progress=under_way)
     for index, outcome in outcomes:
         key = ordered[index]
         result: Result | UrdftoolError
@@ -90,7 +89,7 @@ def _counted(
         yield index, outcome
 
 
-def _lost(task: Task) -> Outcome:
+def _lost(task: Task, _: Loss) -> Outcome:
     return MeshError(
         "the process that simplified the mesh was killed twice, perhaps for want of "
         "memory; try --method hull for its link",

@@ -64,8 +64,8 @@ def command(
     from ..collision.cache import key_of
     from ..collision.compute import Task, attempt, result_of
     from ..errors import UrdftoolError
+    from ..parallel import cores
     from ..report import collision as report
-    from ..workers import cores
 
     task = Task(Path(file), scale, settings_of(values), gltf_up_for(console, file))
     cache = cache_of(values)

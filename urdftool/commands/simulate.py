@@ -51,10 +51,10 @@ def command(
     not be tried, else 1 if one does not stand.
     """  # noqa: D301 -- click reads the escape
     from ..extras import require
+    from ..parallel import terminate_gracefully
     from ..simulation.child import Child
     from ..simulation.engines import ENGINES, LIBRARIES, check_engines, default_engine
     from ..simulation.kept import keeping_in
-    from ..workers import leaving_when_told
     from .cache_options import cache_place
     from .read_lax import read_lax
     from .simulate_control import controlled
@@ -81,10 +81,10 @@ def command(
             console, arguments, package, package_path, settings, engines, controllers, strict,
             frozenset(paths), cache,
         )  # fmt: skip
-        with leaving_when_told():
+        with terminate_gracefully():
             return simulate_fleet(fleet, paths, style=style, junit=junit, jobs=values["jobs"])
     with (
-        leaving_when_told(),
+        terminate_gracefully(),
         keeping_in(cache),
         Child(LIBRARIES[engines[0]]) as child,  # which starts meanwhile
     ):

@@ -7,8 +7,8 @@ from functools import partial
 from pathlib import Path
 
 from ..errors import UrdftoolError
+from ..parallel import Loss, cores, map_tasks
 from ..source.description import Description, GltfUp
-from ..workers import cores, ignore_interrupts
 from .bodies import MeshBody, mesh_body
 
 WORTH_IT = 4_000_000
@@ -54,22 +54,18 @@ def read_meshes(
 def _bodies(
     paths: list[Path], jobs: int | None, gltf_up: GltfUp
 ) -> Iterator[tuple[Path, MeshBody | UrdftoolError]]:
-    workers = min(jobs or _worthwhile(paths), len(paths))
-    if workers <= 1:
-        yield from (_named_body(path, gltf_up) for path in paths)
-        return
-    import multiprocessing
-
-    methods = multiprocessing.get_all_start_methods()
-    context = multiprocessing.get_context("fork" if "fork" in methods else None)
-    # the slowest first, so that none is left alone at the end
-    ordered = sorted(paths, key=_size, reverse=True)
-    with context.Pool(workers, ignore_interrupts) as pool:
-        yield from pool.imap_unordered(partial(_named_body, gltf_up=gltf_up), ordered)
+    workers = jobs or _worthwhile(paths)
+    if workers > 1:  # the slowest first, so that none is left alone at the end
+        paths = sorted(paths, key=_size, reverse=True)
+    read = partial(_body, gltf_up=gltf_up)
+    for index, body in map_tasks(read, paths, workers=workers, on_lost=_lost):
+        yield paths[index], body
 
 
-def _named_body(path: Path, gltf_up: GltfUp) -> tuple[Path, MeshBody | UrdftoolError]:
-    return path, _body(path, gltf_up)
+def _lost(path: Path, _: Loss) -> UrdftoolError:
+    return UrdftoolError(
+        "the process that read the mesh was killed twice, perhaps because memory ran out", path=path
+    )
 
 
 def _body(path: Path, gltf_up: GltfUp) -> MeshBody | UrdftoolError:

@@ -2,25 +2,14 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
-from multiprocessing import connection, get_all_start_methods, get_context, parent_process
-from threading import Thread
+from functools import partial
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..errors import UrdftoolError
-from ..workers import (
-    cores,
-    ignore_interrupts,
-    leaving_when_told,
-    signals_later,
-    take_signals,
-)
+from ..parallel import Loss, cores, map_tasks, plain_error
 from .fault import Fault
 
 if TYPE_CHECKING:
@@ -28,8 +17,6 @@ if TYPE_CHECKING:
 
 PATIENCE = 120.0
 """What reading and judging a robot may take beside its simulation [s]."""
-
-_LEAVING = 3.0  # s: what a process may take to remove what is temporary
 
 
 @dataclass
@@ -108,95 +95,31 @@ def in_parallel(
         jobs: How many at once; None is one for each core.
         limit: The longest that one may take [s].
     """
-    methods = get_all_start_methods()
-    context = get_context("fork" if "fork" in methods and sys.platform == "linux" else "spawn")
-    waiting = list(reversed(paths))
-    running: dict[Any, tuple[str, Any, float]] = {}
-    try:
-        while waiting or running:
-            while waiting and len(running) < (jobs or cores()):
-                path = waiting.pop()
-                receiver, sender = context.Pipe(duplex=False)
-                process = context.Process(  # type: ignore[attr-defined]
-                    target=_work, args=(work, path, sender), daemon=False
-                )
-                with signals_later():
-                    process.start()
-                sender.close()
-                running[receiver] = (path, process, perf_counter())
-            for ready in connection.wait(list(running), 0.5):
-                path, process, began = running.pop(ready)
-                row = _received(ready, process, path)
-                row.seconds = perf_counter() - began
-                yield row
-            for receiver, (path, process, began) in list(running.items()):
-                if perf_counter() - began > limit:
-                    running.pop(receiver)
-                    _end([process])
-                    receiver.close()
-                    message = f"was not done after {limit:.0f} s and was ended"
-                    yield Row(path, error=UrdftoolError(message, path=path), seconds=limit)
-    finally:
-        _end([process for _, process, _ in running.values()])
 
+    def lost(path: str, loss: Loss) -> Row:
+        message = f"the process that worked on it died (exit code {loss.exit_code})"
+        if loss.timed_out:
+            message = f"was not done after {limit:.0f} s and was ended"
+        return Row(path, error=UrdftoolError(message, path=path))
 
-def _end(processes: Sequence[Any]) -> None:
-    """End processes: they are asked to, and killed where they do not hear it."""
-    for process in processes:
-        process.terminate()
-    until = perf_counter() + _LEAVING
-    for process in processes:
-        process.join(max(0.0, until - perf_counter()))
-        if process.is_alive():
-            process.kill()
-            process.join()
+    began: dict[str, float] = {}
 
+    def note_begin(_: int, running: Sequence[str]) -> None:
+        for path in running:
+            began.setdefault(path, perf_counter())
 
-def _received(receiver: Any, process: Any, path: str) -> Row:
-    try:
-        row: Row = receiver.recv()
-    except (EOFError, OSError):
-        process.join()
-        message = f"the process that worked on it died (exit code {process.exitcode})"
-        row = Row(path, error=UrdftoolError(message, path=path))
-    finally:
-        receiver.close()
-    process.join()
-    return row
-
-
-def _plain(error: UrdftoolError) -> UrdftoolError:
-    """The same in a form that can be sent: its kind may not be made from its message."""
-    return UrdftoolError(
-        error.message,
-        path=error.path,
-        line=error.line,
-        column=error.column,
-        calls=error.calls,
-        notes=error.notes,
-        rule=error.rule,
-    )
-
-
-def _leave_with_parent() -> None:
-    """Wait until the parent has ended, however it did, and ask this process to leave."""
-    parent = parent_process()
-    if parent is not None:
-        parent.join()
-        os.kill(os.getpid(), signal.SIGTERM)
-
-
-def _work(work: Callable[[str], Row], path: str, sender: Any) -> None:
-    """Make one row and send it."""
-    ignore_interrupts()
-    with suppress(RuntimeError):  # there may be no more threads
-        Thread(target=_leave_with_parent, daemon=True).start()
-    with leaving_when_told():
-        take_signals()
-        row = _row(work, path)
-        with suppress(BrokenPipeError):  # nobody waits for it any more
-            sender.send(row)
-        sender.close()
+    for index, row in map_tasks(
+        partial(_row, work),
+        paths,
+        workers=jobs or cores(),
+        on_lost=lost,
+        on_progress=note_begin,
+        time_limit=limit,
+        tries=1,
+        isolate=True,
+    ):
+        row.seconds = perf_counter() - began[paths[index]]
+        yield row
 
 
 def _row(work: Callable[[str], Row], path: str) -> Row:
@@ -204,7 +127,7 @@ def _row(work: Callable[[str], Row], path: str) -> Row:
     try:
         return work(path)
     except UrdftoolError as error:
-        return Row(path, error=_plain(error))
+        return Row(path, error=plain_error(error))
     except (OSError, MemoryError) as error:
         what = getattr(error, "strerror", None) or str(error) or "there is not enough memory"
         return Row(path, error=UrdftoolError(what, path=path))

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from hashlib import sha256
 from pathlib import Path
 
+from ...parallel import cores, in_order, map_tasks
 from ...source.description import GltfUp
 from .convert import Converted, Piece, conversion
 
@@ -35,14 +36,13 @@ def convert_all(jobs: Sequence[Job]) -> list[Converted | str]:
 
 
 def _run(jobs: Sequence[Job]) -> list[Converted | str]:
-    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1
     size = sum(path.stat().st_size for path, *_ in jobs if os.path.isfile(path))
-    if len(jobs) < 2 or processors < 2 or size < _BIG:
-        return [conversion(*job) for job in jobs]
-    from concurrent.futures import ProcessPoolExecutor
+    workers = 1 if size < _BIG else cores()
+    return list(in_order(map_tasks(_convert, jobs, workers=workers)))
 
-    with ProcessPoolExecutor(min(processors, len(jobs))) as pool:
-        return list(pool.map(conversion, *zip(*jobs, strict=True)))
+
+def _convert(job: Job) -> Converted | str:
+    return conversion(*job)
 
 
 def _key(path: Path, collides: bool, gltf_up: GltfUp) -> str | None:

@@ -1,0 +1,225 @@
+"""A process of its own for one call of a library that may crash or hang."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from importlib import import_module
+from queue import Empty, SimpleQueue
+from threading import TIMEOUT_MAX, Thread
+from time import monotonic
+from typing import Any, TypeVar
+
+from .errors import UrdftoolError
+from .parallel import ignore_interrupts, limit_resources
+
+T = TypeVar("T")
+
+_DYING = 2.0  # s: for a process whose output ended to end as well
+_LONGEST = 1e9  # s: a limit of processor time must fit an integer
+_PARENT_ENDED = 1  # PR_SET_PDEATHSIG of prctl(2)
+
+
+class ProcessDied(UrdftoolError):  # noqa: N818 -- reads as what happened
+    """An isolated process ended without an answer.
+
+    Attributes:
+        exit_code: Negative for a signal.
+        output: The last lines of its standard error.
+    """
+
+    def __init__(self, message: str, exit_code: int = 1, output: Sequence[str] = ()) -> None:
+        """Take the exit code and what it printed."""
+        super().__init__(message, notes=output)
+        self.exit_code = exit_code
+        self.output = tuple(output)
+
+
+class ProcessTimeout(UrdftoolError):  # noqa: N818
+    """An isolated process was not done in time, and was ended."""
+
+
+_START = f"import sys; sys.path[:] = sys.argv[2:]; from {__name__} import serve; serve()"
+"""Python looks for modules where the parent does, and not in the folder where it is started."""
+
+_READY = b"\0urdftool listens\n"
+"""Sent before anything else; what comes before it was printed while Python started."""
+
+_MESSAGE, _ANSWER, _DIED = "message", "answer", "died"
+
+
+class IsolatedProcess:
+    """A new Python that calls one function, in a ``with``: however that ends, so has the process.
+
+    Made early, it imports what it needs while the parent prepares the call. The call and its answer
+    are pickled and go through standard input and output; what a library prints is only reported if
+    the process dies.
+    """
+
+    def __init__(self, *preload: str, environment: Mapping[str, str] | None = None) -> None:
+        """Start the process.
+
+        Args:
+            preload: Modules that it imports while it waits; one that is missing is ignored.
+            environment: Variables in addition to those of this process.
+        """
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115 -- closed in __exit__
+        try:
+            self._process = subprocess.Popen(
+                [sys.executable, "-c", _START, ",".join(preload), *sys.path],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=self._errors,
+                env={**os.environ, **(environment or {})},
+            )
+        except BaseException:
+            self._errors.close()
+            raise
+        self._listener: Thread | None = None
+
+    def __enter__(self: T) -> T:
+        """Return itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End the process; once it has ended, this does nothing."""
+        if self._errors.closed:
+            return
+        if self._process.poll() is None:
+            self._process.kill()
+        self._process.wait()
+        if self._listener is not None:
+            self._listener.join()
+        for pipe in (self._process.stdin, self._process.stdout):
+            with suppress(OSError):  # what it did not read is lost
+                pipe.close()  # type: ignore[union-attr]
+        self._errors.close()
+
+    def call(
+        self,
+        module: str,
+        function: str,
+        *arguments: Any,
+        time_limit: float,
+        processor_limit: float | None = None,
+        on_message: Callable[[Any], None] | None = None,
+    ) -> Any:
+        """Call a function in the process, once, and return its result.
+
+        Args:
+            module: Its full name.
+            function: In it.
+            arguments: Anything that pickles.
+            time_limit: Of the call [s].
+            processor_limit: Of the processor time [s]; None allows a little more than the time.
+            on_message: Is called with what the function passes to its last argument, a function
+                that it is then given in addition.
+
+        Raises:
+            ProcessTimeout: It took longer.
+            ProcessDied: The process ended.
+            UrdftoolError: As the function.
+        """
+        most = min(time_limit, _LONGEST) + 5 if processor_limit is None else processor_limit
+        job = pickle.dumps((module, function, arguments, most, on_message is not None))
+        received: SimpleQueue[tuple[str, Any]] = SimpleQueue()
+        listener = Thread(target=self._listen, args=(job, received), daemon=True)
+        try:
+            listener.start()
+        except RuntimeError as error:  # the system gives no more threads
+            raise ProcessDied(f"the process cannot be used: {error}") from None
+        self._listener = listener
+        ends = monotonic() + min(time_limit, TIMEOUT_MAX)
+        while True:
+            try:
+                kind, value = received.get(timeout=max(0.0, ends - monotonic()))
+            except Empty:
+                raise ProcessTimeout(f"was not done after {time_limit:g} s and was ended") from None
+            if kind == _DIED or (kind == _ANSWER and self._process.wait()):
+                raise self._death()
+            if kind == _ANSWER:
+                break
+            if on_message is not None:
+                on_message(value)
+        if isinstance(value, BaseException):
+            raise value
+        return value
+
+    def _listen(self, job: bytes, received: SimpleQueue[tuple[str, Any]]) -> None:
+        """Send the call to the process, and pass on what it answers."""
+        stdin, stdout = self._process.stdin, self._process.stdout
+        assert stdin is not None
+        assert stdout is not None
+        try:
+            stdin.write(job)
+            stdin.flush()  # and left open: that it closes tells the process that the parent ended
+            for line in stdout:
+                if line.endswith(_READY):
+                    break
+            kind = ""
+            while kind != _ANSWER:
+                kind, value = pickle.load(stdout)
+                received.put((kind, value))
+        except Exception:  # what is not whole comes from a process that died
+            received.put((_DIED, None))
+
+    def _death(self) -> ProcessDied:
+
+        try:
+            self._process.wait(timeout=_DYING)
+        except subprocess.TimeoutExpired:  # its answer cannot be read
+            self._process.kill()
+            self._process.wait()
+        self._errors.seek(0)
+        lines = self._errors.read().decode("utf-8", "replace").strip().splitlines()
+        code = self._process.returncode
+        how = f"exit code {code}"
+        if code < 0:
+            with suppress(ValueError):
+                how = signal.Signals(-code).name
+        return ProcessDied(how, code, [line[:200] for line in lines[-3:]])
+
+
+def serve() -> None:
+    """Answer one call; the main function of an isolated process."""
+    if sys.platform == "linux":  # end with the parent, however it ends
+        import ctypes
+
+        ctypes.CDLL(None).prctl(_PARENT_ENDED, signal.SIGKILL)
+    ignore_interrupts()
+    answer = os.dup(1)
+    os.dup2(2, 1)
+    os.write(answer, _READY)
+    for library in filter(None, sys.argv[1].split(",")):
+        with suppress(ImportError):
+            import_module(library)
+    module, function, arguments, processor_limit, talks = pickle.load(sys.stdin.buffer)
+    with suppress(RuntimeError):  # the system may give no more threads
+        Thread(target=_end_with_input, daemon=True).start()
+    limit_resources(processor=processor_limit)
+    with os.fdopen(answer, "wb") as out:
+
+        def emit(value: Any, kind: str = _MESSAGE) -> None:
+            pickle.dump((kind, value), out)
+            out.flush()
+
+        try:
+            more = (emit,) if talks else ()
+            result = getattr(import_module(module), function)(*arguments, *more)
+        except UrdftoolError as error:
+            result = error
+        emit(result, _ANSWER)
+    os._exit(0)  # a library may crash while it is unloaded
+
+
+def _end_with_input() -> None:
+    """Wait until no process holds the other end of standard input, and end."""
+    with suppress(OSError):
+        os.read(0, 1)  # not of sys.stdin, whose lock Python needs when it ends
+    os._exit(1)
