@@ -15,11 +15,11 @@ BELOW = {
     "parallel": ("errors",),
     "isolated": ("parallel", "errors"),
     "inputs": (),
-    "store": (),
+    "storage": ("errors",),
     "source": ("inputs", "errors"),
     "model": ("source", "errors"),
     "finding": ("source",),
-    "output": ("errors",),
+    "output": ("storage", "errors"),
     "terminal": (),
     "console": ("terminal", "errors"),
     "configuration": ("errors",),
@@ -32,7 +32,7 @@ BELOW = {
     "inertia": ("meshes", "model", "source", "parallel", "errors"),
     "collision": (
         *(
-            "store",
+            "storage",
             "drawing",
             "meshes",
             "inertia",
@@ -58,7 +58,7 @@ BELOW = {
     "rules": ("finding", "model", "source", "meshes", "inputs", "errors"),
     "lint": (
         *("rules", "finding", "model", "source", "configuration", "parallel"),
-        *("inputs", "store", "extras", "errors"),
+        *("inputs", "storage", "extras", "errors"),
     ),
     "formats": (
         "finding",
@@ -68,7 +68,7 @@ BELOW = {
         "inertia",
         "output",
         "parallel",
-        "store",
+        "storage",
         "extras",
         "extras",
         "errors",
@@ -76,7 +76,7 @@ BELOW = {
     "graph": ("isolated", "finding", "model", "source", "extras", "errors"),
     "simulation": (
         *("drawing", "formats", "finding", "lint", "meshes", "inertia", "model", "rules", "source"),
-        *("parallel", "isolated", "store", "extras", "errors"),
+        *("parallel", "isolated", "storage", "extras", "errors"),
     ),
     "report": (
         *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),
@@ -86,7 +86,7 @@ BELOW = {
     "compare": ("model", "source", "errors"),
     "api": (
         *("formats", "simulation", "collision", "inertia", "lint", "rules", "model", "source"),
-        *("finding", "output", "extras", "errors"),
+        *("finding", "output", "storage", "extras", "errors"),
     ),
 }
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable, Mapping
-from contextlib import suppress
 from pathlib import Path
 
 from .errors import OutputError
+from .storage import write_files
 
 
 def write_result(text: str, target: str | None, *, inputs: Iterable[str | Path] = ()) -> None:
@@ -98,37 +98,6 @@ def check_folder(folder: Path, target: str | Path) -> None:
         raise OutputError(f"the folder {folder} cannot be made: {above} is read-only", path=target)
 
 
-def make_folders(folder: Path) -> list[Path]:
-    """Make a folder and the missing folders above it.
-
-    Returns:
-        The folders that were made, outermost first, for ``remove_empty`` after a failure.
-
-    Raises:
-        OSError: One of them cannot be made; those made before are removed.
-    """
-    missing: list[Path] = []
-    while not folder.exists():
-        missing.insert(0, folder)
-        folder = folder.parent
-    made: list[Path] = []
-    try:
-        for place in missing:
-            place.mkdir(exist_ok=True)
-            made.append(place)
-    except OSError:
-        remove_empty(made)
-        raise
-    return made
-
-
-def remove_empty(folders: Iterable[Path]) -> None:
-    """Remove the folders that are empty, innermost first."""
-    for folder in reversed(list(folders)):
-        with suppress(OSError):
-            folder.rmdir()
-
-
 def check_targets(
     targets: Iterable[str | Path | None], *, inputs: Iterable[str | Path] = ()
 ) -> None:
@@ -153,7 +122,7 @@ def check_targets(
 
 
 def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] = ()) -> None:
-    """Write a file whole: to a neighbour first, which then takes its place.
+    """Write a file, whole or not at all.
 
     A link is followed, and the mode of a file that is there is kept.
 
@@ -173,30 +142,7 @@ def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] 
         except OSError as error:
             raise OutputError(f"cannot be written: {error.strerror}", path=target) from None
         return
-    neighbour = path.parent / f".{path.name}.{os.getpid()}.tmp"
-    made: list[Path] = []
-    done = False
-    try:
-        made = make_folders(path.parent)
-        try:
-            mode = path.stat().st_mode & 0o777
-        except FileNotFoundError:
-            mode = None
-        with open(neighbour, "wb") as stream:
-            stream.write(data)
-            stream.flush()
-            os.fsync(stream.fileno())
-        if mode is not None:
-            os.chmod(neighbour, mode)
-        os.replace(neighbour, path)
-        done = True
-    except OSError as error:
-        raise OutputError(f"cannot be written: {error.strerror or error}", path=target) from None
-    finally:
-        with suppress(OSError):
-            neighbour.unlink(missing_ok=True)
-        if not done:
-            remove_empty(made)
+    write_files({Path(target): data})
 
 
 def rewrite(before: Mapping[str, bytes | None], after: Mapping[str, bytes]) -> None:
@@ -214,19 +160,7 @@ def rewrite(before: Mapping[str, bytes | None], after: Mapping[str, bytes]) -> N
         _check_unchanged(path, before[path])
         if before[path] is not None and not os.access(path, os.W_OK):
             raise OutputError("is not fixed: it is read-only", path=path)
-    written: list[str] = []
-    try:
-        for path in after:
-            written.append(path)
-            write_file(path, after[path])
-    except BaseException:
-        for path in written:
-            data = before[path]
-            if data is not None:
-                write_file(path, data)
-            else:
-                Path(path).unlink(missing_ok=True)
-        raise
+    write_files({Path(path): data for path, data in after.items()})
 
 
 def _check_unchanged(path: str, data: bytes | None) -> None:

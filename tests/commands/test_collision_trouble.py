@@ -12,12 +12,12 @@ import pytest
 
 from tests.collision.shapes import l_profile, noisy, stl, turned
 from tests.commands.test_collision import robot
-from urdftool.collision.cache import Cache
 from urdftool.collision.compute import Task, attempt
 from urdftool.collision.parallel import compute_all
 from urdftool.collision.settings import Settings
 from urdftool.collision.tessellate import primitive
 from urdftool.errors import UrdftoolError
+from urdftool.storage import DiskCache
 
 HULL = Settings(method="hull")
 
@@ -35,7 +35,7 @@ def test_a_worker_that_is_killed_is_said_and_the_others_are_done(tmp_path, monke
         (tmp_path / f"{name}.stl").write_bytes(stl(*l_profile()) + name.encode())
     monkeypatch.setattr(parallel, "attempt", dies)
     tasks = [Task(tmp_path / f"{name}.stl", settings=HULL) for name in ("bad", "good", "fine")]
-    found = compute_all(tasks, Cache(None), jobs=2)
+    found = compute_all(tasks, DiskCache(None), jobs=2)
     assert isinstance(found[tasks[0]], UrdftoolError)
     assert "killed" in found[tasks[0]].message
     assert [found[task].method for task in tasks[1:]] == ["hull", "hull"]

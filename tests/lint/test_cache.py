@@ -24,7 +24,7 @@ from urdftool.rules import get_rule
 from urdftool.rules.collision import likeness
 from urdftool.rules.mesh import formats, scale
 from urdftool.rules.package import manifest
-from urdftool.store import Store, cache_folder
+from urdftool.storage import DiskCache, cache_folder
 
 ARM = FIXTURES / "robots" / "demo_arm" / "urdf" / "arm.urdf.xacro"
 
@@ -306,7 +306,7 @@ def test_a_forged_entry_runs_nothing(lint, write, what):
     path = write("r.urdf", "<robot><link name='a'/></robot>")
     first = lint(path, "--cache-dir", "kept")
     (entry,) = entries("kept")
-    Store("kept").put(entry.name, pickle.dumps(what))
+    DiskCache("kept").put(entry.name, pickle.dumps(what))
     assert lint(path, "--cache-dir", "kept") == first
     assert not os.path.exists("evil")
 
@@ -349,12 +349,12 @@ def test_a_file_that_changes_while_it_is_checked_is_not_kept(write, tmp_path, mo
         write("r.urdf", '<robot nome="other"><link name="a"/></robot>')
         return report
 
-    options = Options(cache=Cache(Store(tmp_path / "kept")))
+    options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
     with monkeypatch.context() as patch:
         patch.setattr(run, "_lint_once", slow)
         found = {finding.rule for finding in run.lint_file(path, options).findings}
     assert "missing-name" not in found
-    options.cache = Cache(Store(tmp_path / "kept"))
+    options.cache = Cache(DiskCache(tmp_path / "kept"))
     assert run.known_report(path, options) is None
 
 
@@ -390,23 +390,23 @@ def test_what_is_asked_once_for_all_is_kept_once(write, tmp_path):
         for i in range(3)
     ]
     write("ws/.git/HEAD", "")
-    options = Options(cache=Cache(Store(tmp_path / "kept")))
+    options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
     for report in lint_files(paths, options, 1):
         assert "mesh-not-found" in [finding.rule for finding in report.findings]
     sizes = sorted(path.stat().st_size for path in entries(tmp_path / "kept"))
     assert len(sizes) == 4
     assert sizes[-1] > 2 * sizes[0]
-    options.cache = Cache(Store(tmp_path / "kept"))
+    options.cache = Cache(DiskCache(tmp_path / "kept"))
     as_new_process()
     assert all(run.known_report(path, options) for path in paths)
     write("ws/p59/package.xml", "<package><name>gone</name></package>")
-    options.cache = Cache(Store(tmp_path / "kept"))
+    options.cache = Cache(DiskCache(tmp_path / "kept"))
     as_new_process()
     assert not any(run.known_report(path, options) for path in paths)
 
 
 def test_old_entries_go(tmp_path):
-    store = Store(tmp_path)
+    store = DiskCache(tmp_path)
     for number in range(6):
         store.put(f"{number}0", b"x" * 1000)
     for number, days in ((0, 40), (1, 31)):
@@ -419,7 +419,7 @@ def test_old_entries_go(tmp_path):
 
 
 def test_what_is_not_ours_is_no_report(tmp_path):
-    cache = Cache(Store(tmp_path))
+    cache = Cache(DiskCache(tmp_path))
     cache.store.put("a", pickle.dumps(([], pickle.dumps(Report("a")))))
     assert cache.read("a") == Report("a")
     cache.store.put("a", pickle.dumps(([], pickle.dumps(["a"]))))

@@ -13,7 +13,7 @@ from urdftool.model.load import load
 from urdftool.simulation.kept import keeping_in, kept
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
-from urdftool.store import cache_folder
+from urdftool.storage import cache_folder
 
 POINTS = np.random.default_rng(0).normal(size=(5, 3))
 FACES = np.array([[0, 1, 2], [2, 3, 4]])
@@ -85,13 +85,13 @@ def test_a_damaged_entry_is_made_anew(mesh, harm):
 
 
 def test_what_is_whole_and_not_ours_is_made_anew(mesh):
-    from urdftool.store import Store
+    from urdftool.storage import DiskCache
 
     make = Maker()
     kept(mesh, [], make)
     (entry,) = entries()
     for data in (b"[[5, 2]]\n", b"nothing", b"[5]\n", b'{"a": 1}\n', b"[[1, 0]]\n" + bytes(25)):
-        Store(cache_folder("simulate")).put(entry.name, data)
+        DiskCache(cache_folder("simulate")).put(entry.name, data)
         assert len(kept(mesh, [], make)) == 2
     assert make.times == 6
 

@@ -53,13 +53,13 @@ def simplify_collisions(
         MissingDependency: A library of the extra 'mesh' is not installed.
         OutputError: A file cannot be written; what was there is as it was.
     """
-    from ..collision.cache import Cache, default_folder
     from ..collision.links import Wishes, plan
     from ..collision.parallel import compute_all
     from ..collision.robot import Place, check_place, tasks_of, write_robot
     from ..collision.settings import Settings
     from ..errors import ModelError, UrdftoolError
     from ..extras import require
+    from ..storage import DiskCache, cache_folder
 
     require("simplify_collisions", "scipy", "manifold3d")
     if robot.source is None:
@@ -73,7 +73,7 @@ def simplify_collisions(
     plans, problems = plan(robot, wishes)
     for problem in problems:
         raise problem
-    kept = Cache(default_folder() if cache else None)
+    kept = DiskCache(cache_folder("collision") if cache else None)
     results = {}
     for task, result in compute_all(tasks_of(plans), kept, jobs=jobs).items():
         if isinstance(result, UrdftoolError):

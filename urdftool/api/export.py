@@ -292,16 +292,16 @@ def cut_meshes(paths: Sequence[Path], gltf_up: GltfUp = "y") -> dict[Path, Cut |
     Raises:
         MissingDependency: A library that it needs is not installed.
     """
-    from ..collision.cache import Cache, default_folder
     from ..collision.compute import Result, Task
     from ..collision.parallel import compute_all
     from ..collision.settings import FEW_HULLS, Settings
     from ..errors import MissingDependency
     from ..formats.mjcf.cut import Cut
+    from ..storage import DiskCache, cache_folder
 
     settings = Settings(method="coacd", max_hulls=FEW_HULLS)
     tasks = {path: Task(path, settings=settings, gltf_up=gltf_up) for path in paths}
-    found = compute_all(list(tasks.values()), Cache(default_folder()))
+    found = compute_all(list(tasks.values()), DiskCache(cache_folder("collision")))
     cuts: dict[Path, Cut | str] = {}
     for path, task in tasks.items():
         result = found[task]

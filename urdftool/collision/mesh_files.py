@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import OutputError
+from ..storage import write_files
 from .piece import Piece
 
 MARK = b"collision geometry by urdftool"
@@ -51,46 +52,22 @@ def _obj(pieces: Sequence[Piece]) -> bytes:
 def write_all(
     files: Mapping[Path, bytes], *, overwrite: bool = False, inputs: Iterable[str | Path] = ()
 ) -> None:
-    """Write files together: all beside their places first, then each moved there, in order.
+    """Write the files of a collision geometry: all of them, or none.
 
     Args:
         files: Content by path; the last is the one that refers to the others.
-        overwrite: Replace also mesh files that are not ours.
+        overwrite: Replace also mesh files that urdftool did not write.
         inputs: Files that were read, which must not be replaced.
 
     Raises:
         OutputError: One cannot be written; what was there is as it was.
     """
     read = {os.path.realpath(name) for name in inputs}
-    staged: list[tuple[Path, Path]] = []
-    folders: list[Path] = []
-    done = False
-    try:
-        for path, data in files.items():
-            if os.path.realpath(path) in read:
-                raise OutputError("is read as an input; write elsewhere", path=path)
-            _check(path, overwrite)
-            _make_folder(path.parent, folders)
-            real = Path(os.path.realpath(path))
-            neighbour = real.with_name(f".{real.name}.{os.getpid()}.tmp")
-            staged.append((neighbour, real))
-            with open(neighbour, "wb") as stream:
-                stream.write(data)
-            if real.exists():
-                os.chmod(neighbour, real.stat().st_mode & 0o777)
-        for neighbour, real in staged:
-            os.replace(neighbour, real)
-        done = True
-    except OSError as error:
-        raise OutputError(
-            f"cannot be written: {error.strerror or error}", path=error.filename or path
-        ) from None
-    finally:
-        for neighbour, _ in staged:
-            neighbour.unlink(missing_ok=True)
-        if not done:
-            for folder in reversed(folders):
-                _remove_if_empty(folder)
+    for path in files:
+        if os.path.realpath(path) in read:
+            raise OutputError("is read as an input; write elsewhere", path=path)
+        _check(path, overwrite)
+    write_files(files)
 
 
 def _check(path: Path, overwrite: bool) -> None:
@@ -107,20 +84,3 @@ def _check(path: Path, overwrite: bool) -> None:
                 "replace it with --overwrite",
                 path=path,
             )
-
-
-def _make_folder(folder: Path, made: list[Path]) -> None:
-    missing = []
-    while not folder.exists():
-        missing.append(folder)
-        folder = folder.parent
-    for place in reversed(missing):
-        place.mkdir()
-        made.append(place)
-
-
-def _remove_if_empty(folder: Path) -> None:
-    try:
-        folder.rmdir()
-    except OSError:  # someone else put something into it
-        return

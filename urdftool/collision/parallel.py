@@ -8,7 +8,8 @@ from pathlib import Path
 
 from ..errors import MeshError, UrdftoolError
 from ..parallel import Loss, cores, map_tasks
-from .cache import Cache, key_of
+from ..storage import DiskCache
+from .cache import key_of, known_result
 from .compute import Result, Task, attempt, result_of
 
 Progress = Callable[[int, int, Sequence[str]], None]
@@ -19,7 +20,7 @@ Outcome = bytes | UrdftoolError
 
 def compute_all(
     tasks: Sequence[Task],
-    cache: Cache,
+    cache: DiskCache,
     *,
     jobs: int | None = None,
     scheduler: str | None = None,
@@ -40,7 +41,7 @@ def compute_all(
         groups.setdefault(key_of(task) or str(task), []).append(task)
     todo: dict[str, Task] = {}
     for key, same in groups.items():
-        known = cache.read(key)
+        known = known_result(cache, key)
         if known is None:
             todo[key] = same[0]
         else:
@@ -71,10 +72,12 @@ def compute_all(
         if isinstance(outcome, bytes):
             result = result_of(outcome)
             if result.lasting:
-                cache.write(key, outcome)
+                cache.put(key, outcome)
         else:
             result = outcome
         found.update(dict.fromkeys(groups[key], result))
+    if work and not cache.trouble:
+        cache.trim()
     return {task: found[task] for task in tasks}
 
 

@@ -33,7 +33,7 @@ def cache_place(room: str, cache_dir: str | None, no_cache: bool) -> str | None:
     Raises:
         click.UsageError: They contradict each other.
     """
-    from ..store import cache_folder
+    from ..storage import cache_folder
 
     if no_cache:
         if cache_dir:

@@ -61,7 +61,7 @@ def command(
         raise click.UsageError(f"OUT wants to end in .stl or .obj; '{output}' does not")
     require_libraries(values["method"])
     one_thread_each()
-    from ..collision.cache import key_of
+    from ..collision.cache import key_of, known_result
     from ..collision.compute import Task, attempt, result_of
     from ..errors import UrdftoolError
     from ..parallel import cores
@@ -70,14 +70,14 @@ def command(
     task = Task(Path(file), scale, settings_of(values), gltf_up_for(console, file))
     cache = cache_of(values)
     key = key_of(task)
-    result = cache.read(key) if key is not None else None
+    result = known_result(cache, key) if key is not None else None
     if result is None:
         outcome = attempt(task, cores())
         if isinstance(outcome, UrdftoolError):
             raise outcome
         result = result_of(outcome)
         if key is not None and result.lasting:
-            cache.write(key, outcome)
+            cache.put(key, outcome)
     files = _write(file, result, output, values["overwrite"])
     settings = task.settings
     row = report.Row(

@@ -14,8 +14,8 @@ from ..console import Console
 from .cache_options import CACHE_OPTIONS, cache_place
 
 if TYPE_CHECKING:
-    from ..collision.cache import Cache
     from ..collision.settings import Settings
+    from ..storage import DiskCache
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -129,15 +129,15 @@ def given_names(ctx: click.Context) -> tuple[str, ...]:
     return tuple(name for name in _NAMES if ctx.get_parameter_source(name) == source)
 
 
-def cache_of(values: dict[str, Any]) -> Cache:
+def cache_of(values: dict[str, Any]) -> DiskCache:
     """The cache that the options say.
 
     Raises:
         click.UsageError: Two options contradict each other.
     """
-    from ..collision.cache import Cache
+    from ..storage import DiskCache
 
-    return Cache(cache_place("collision", values["cache_dir"], values["no_cache"]))
+    return DiskCache(cache_place("collision", values["cache_dir"], values["no_cache"]))
 
 
 def require_libraries(method: str, *, check: bool = False) -> None:

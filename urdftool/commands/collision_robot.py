@@ -25,9 +25,9 @@ from .read_lax import take_world
 from .read_strict import read_strict
 
 if TYPE_CHECKING:
-    from ..collision.cache import Cache
     from ..collision.compute import Result, Task
     from ..model.elements import Robot
+    from ..storage import DiskCache
 
 Values = dict[str, Any]
 
@@ -216,7 +216,7 @@ def _refuse(console: Console, problems: Sequence[UrdftoolError], links: Sequence
 
 
 def _compute(
-    console: Console, tasks: Sequence[Task], cache: Cache, values: Values
+    console: Console, tasks: Sequence[Task], cache: DiskCache, values: Values
 ) -> dict[Task, Result | UrdftoolError]:
     with Progress(console) as progress:
         return compute_all(

@@ -148,9 +148,9 @@ def command(
     options.gltf_up = console.gltf_up
     if kept is not None:
         from ..lint.cache import Cache
-        from ..store import Store
+        from ..storage import DiskCache
 
-        options.cache = Cache(Store(kept))
+        options.cache = Cache(DiskCache(kept))
     options.fixes = style is None or style in _WITH_FIXES
     wanted = Wanted(style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline)
     wanted.paths, wanted.whole = paths, whole

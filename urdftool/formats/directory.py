@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 from collections.abc import Iterable, Mapping
 from hashlib import sha256
 from pathlib import Path
 
 from .. import __version__
 from ..errors import OutputError
-from ..output import check_folder, make_folders, remove_empty
+from ..output import check_folder
+from ..storage import write_files, write_folder
 from .written import Written
 
 _MARK = re.compile(rb"<!-- Exported by urdftool [^;]*; ([0-9a-f]{12}) -->\n?")
@@ -76,19 +76,7 @@ def write_directory(
             path=target,
         )
     _check_files(folder, files, overwrite, inputs)
-    staged = folder.parent / f".{folder.name}.{os.getpid()}.tmp"
-    made: list[Path] = []
-    try:
-        made = make_folders(folder.parent)
-        _stage(staged, files)
-        if folder.is_dir():
-            _keep_others(folder, staged)
-        _take_place(staged, folder)
-    except (OSError, shutil.Error) as error:
-        raise OutputError(f"cannot be written: {_reason(error)}", path=target) from None
-    finally:
-        shutil.rmtree(staged, ignore_errors=True)
-        remove_empty(made)
+    write_folder(target, files)
 
 
 def write_beside(
@@ -117,20 +105,8 @@ def write_beside(
     _check_place(path, target)
     named = {path.name if name == main else name: content for name, content in files.items()}
     _check_files(path.parent, named, overwrite, inputs)
-    staged = path.parent / f".{path.name}.{os.getpid()}.tmp"
-    made: list[Path] = []
-    try:
-        made = make_folders(path.parent)
-        _stage(staged, named)
-        for name in sorted(named, key=lambda name: (name == path.name, name)):
-            place = path.parent / name
-            place.parent.mkdir(parents=True, exist_ok=True)
-            os.replace(staged / name, place)
-    except (OSError, shutil.Error) as error:
-        raise OutputError(f"cannot be written: {_reason(error)}", path=target) from None
-    finally:
-        shutil.rmtree(staged, ignore_errors=True)
-        remove_empty(made)
+    ordered = sorted(named, key=lambda name: (name == path.name, name))
+    write_files({path.parent / name: named[name] for name in ordered}, follow_links=False)
 
 
 def write_export(
@@ -188,48 +164,6 @@ def _check_files(
         edited = _MARK.search(data, 0, _HEAD)
         why = "was edited since it was exported" if edited else "was not written by urdftool"
         raise OutputError(f"{why}; keep it, or overwrite it with --overwrite", path=place)
-
-
-def _stage(staged: Path, files: Mapping[str, bytes | Path]) -> None:
-    shutil.rmtree(staged, ignore_errors=True)
-    staged.mkdir()
-    for name, content in files.items():
-        place = staged / name
-        place.parent.mkdir(parents=True, exist_ok=True)
-        if isinstance(content, Path):
-            shutil.copyfile(content, place)
-        else:
-            place.write_bytes(content)
-
-
-def _keep_others(folder: Path, staged: Path) -> None:
-    """Carry over what the export does not write itself."""
-    for place in sorted(folder.rglob("*")):
-        copy = staged / place.relative_to(folder)
-        if place.is_symlink() or not place.is_dir():
-            if not os.path.lexists(copy):
-                copy.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(place, copy, follow_symlinks=False)
-        else:
-            copy.mkdir(parents=True, exist_ok=True)
-
-
-def _take_place(staged: Path, folder: Path) -> None:
-    if not folder.exists():
-        os.rename(staged, folder)
-        return
-    old = folder.parent / f".{folder.name}.{os.getpid()}.old"
-    os.rename(folder, old)
-    try:
-        os.rename(staged, folder)
-    except OSError:
-        os.rename(old, folder)
-        raise
-    shutil.rmtree(old, ignore_errors=True)
-
-
-def _reason(error: OSError | shutil.Error) -> str:
-    return getattr(error, "strerror", None) or str(error)
 
 
 def _digest(data: bytes) -> str:

@@ -22,7 +22,7 @@ from ..configuration import Configuration
 from ..extras import EXTRA_OF, is_installed
 from ..inputs import ABSENT, Asked, Question, Stamp, answer, is_settled, stamp_of, together
 from ..source.location import SourceFile
-from ..store import Store
+from ..storage import DiskCache
 from .outcome import Options, Report
 from .settings import Settings
 
@@ -41,7 +41,7 @@ class Cache:
         store: Where they are.
     """
 
-    def __init__(self, store: Store) -> None:
+    def __init__(self, store: DiskCache) -> None:
         """Take the folder."""
         self.store = store
         self._code = _code()

@@ -9,13 +9,12 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
 
 from ..meshes.mesh import Faces, Points
-from ..store import Store, cache_folder
+from ..storage import DiskCache, cache_folder, cache_key
 
 Cloud = tuple[Points, Faces]
 """Points (n, 3) and triangles (m, 3) of them, which may be none."""
@@ -23,16 +22,13 @@ Cloud = tuple[Points, Faces]
 _VERSION = 1
 """To be raised whenever the same file gives something else."""
 
-_DAYS, _MOST = 30.0, 200_000_000  # how long and how many bytes
-
-
-_elsewhere: list[Store] = []
+_elsewhere: list[DiskCache] = []
 
 
 @contextmanager
 def keeping_in(folder: str | Path | None) -> Iterator[None]:
     """Keep it in a folder, and not in the user's cache; None keeps nothing."""
-    _elsewhere.append(Store(folder))
+    _elsewhere.append(DiskCache(folder))
     try:
         yield
     finally:
@@ -47,7 +43,7 @@ def kept(path: Path, facts: Sequence[object], make: Callable[[], list[Cloud]]) -
         facts: What else the result hangs on.
         make: Reads the file.
     """
-    store = _elsewhere[-1] if _elsewhere else Store(cache_folder("simulate"))
+    store = _elsewhere[-1] if _elsewhere else DiskCache(cache_folder("simulate"))
     key = None if store.folder is None else _key(path, facts)
     if key is None:
         return make()
@@ -56,7 +52,7 @@ def kept(path: Path, facts: Sequence[object], make: Callable[[], list[Cloud]]) -
     if clouds is None:
         clouds = make()
         store.put(key, _encoded(clouds))
-        store.trim(days=_DAYS, most=_MOST)
+        store.trim()
     return clouds
 
 
@@ -65,11 +61,9 @@ def _key(path: Path, facts: Sequence[object]) -> str | None:
     if suffix == ".gltf" or not path.is_file():
         return None  # the buffers of glTF are other files, and a pipe never ends
     try:
-        digest = sha256(json.dumps([_VERSION, suffix, *facts]).encode())
-        digest.update(path.read_bytes())
+        return cache_key(_VERSION, [suffix, *facts], [path.read_bytes()])
     except OSError:
         return None
-    return digest.hexdigest()
 
 
 def _encoded(clouds: list[Cloud]) -> bytes:

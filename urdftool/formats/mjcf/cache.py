@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Sequence
-from hashlib import sha256
+from io import BytesIO
 from pathlib import Path
 
 from ...parallel import cores, in_order, map_tasks
 from ...source.description import GltfUp
+from ...storage import DiskCache, cache_folder, cache_key
 from .convert import Converted, Piece, conversion
 
 _VERSION = 7
@@ -23,15 +24,19 @@ Job = tuple[Path, bool, GltfUp]
 def convert_all(jobs: Sequence[Job]) -> list[Converted | str]:
     """``conversion`` of each, from the cache or side by side."""
     keys = [_key(*job) for job in jobs]
+    cache = DiskCache(cache_folder("mjcf-meshes"))
     found: list[Converted | str | None] = [
-        None if key is None else _read(key, job[0]) for key, job in zip(keys, jobs, strict=True)
+        None if key is None else _decoded(cache.get(key), job[0])
+        for key, job in zip(keys, jobs, strict=True)
     ]
     todo = [index for index, known in enumerate(found) if known is None]
     for index, made in zip(todo, _run([jobs[index] for index in todo]), strict=True):
         found[index] = made
         key = keys[index]
         if key is not None and isinstance(made, Converted):
-            _write(key, made, jobs[index][0])
+            cache.put(key, _encoded(made, jobs[index][0]))
+    if todo:
+        cache.trim()
     return [made for made in found if made is not None]
 
 
@@ -46,18 +51,17 @@ def _convert(job: Job) -> Converted | str:
 
 
 def _key(path: Path, collides: bool, gltf_up: GltfUp) -> str | None:
-    """What the conversion depends on; None where that is more than can be told cheaply."""
-    if path.suffix.lower() == ".gltf":
+    """Return the key of a conversion; None if it depends on more than can be read cheaply."""
+    suffix = path.suffix.lower()
+    if suffix == ".gltf":
         return None  # its buffers are other files
     try:
-        data = path.read_bytes()
-        up = gltf_up if path.suffix.lower() == ".glb" else ""
-        digest = sha256(f"{_VERSION} {collides} {path.suffix.lower()} {up}".encode() + data)
-        for library in _libraries(data) if path.suffix.lower() == ".obj" else ():
-            digest.update((path.parent / library).read_bytes())
+        inputs = [path.read_bytes()]
+        if suffix == ".obj":
+            inputs += [(path.parent / name).read_bytes() for name in _libraries(inputs[0])]
     except (OSError, ValueError):
         return None
-    return digest.hexdigest()
+    return cache_key(_VERSION, [collides, suffix, gltf_up if suffix == ".glb" else ""], inputs)
 
 
 def _libraries(data: bytes) -> Iterable[str]:
@@ -66,35 +70,30 @@ def _libraries(data: bytes) -> Iterable[str]:
             yield line[7:].strip().decode("utf-8", "replace")
 
 
-def _folder() -> Path:
-    base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    return Path(base) / "urdftool" / "mjcf-meshes"
-
-
-def _read(key: str, path: Path) -> Converted | None:
+def _decoded(entry: bytes | None, path: Path) -> Converted | None:
+    """Return the conversion of a file that an entry of the cache holds; None if it holds none."""
+    if entry is None:
+        return None
+    stream = BytesIO(entry)
     try:
-        with open(_folder() / key, "rb") as stream:
-            head = json.loads(stream.readline())
-            pieces = []
-            for facts in head["pieces"]:
-                data = None if facts["bytes"] is None else stream.read(facts["bytes"])
-                if data is not None and len(data) != facts["bytes"]:
-                    return None
-                rgba = None if facts["rgba"] is None else tuple(facts["rgba"])
-                texture: Path | bytes | None = None
-                if facts["texture"] is not None:
-                    texture = path.parent / facts["texture"]
-                if facts["image"] is not None:
-                    texture = stream.read(facts["image"])
-                    if len(texture) != facts["image"]:
-                        return None
-                pieces.append(Piece(data, rgba, texture, facts["shell"]))
-            return Converted(pieces, head["hull"], head["notes"], head["thick"])
-    except (OSError, ValueError, KeyError, TypeError):
+        head = json.loads(stream.readline())
+        pieces = []
+        for facts in head["pieces"]:
+            data = None if facts["bytes"] is None else stream.read(facts["bytes"])
+            rgba = None if facts["rgba"] is None else tuple(facts["rgba"])
+            texture: Path | bytes | None = None
+            if facts["texture"] is not None:
+                texture = path.parent / facts["texture"]
+            if facts["image"] is not None:
+                texture = stream.read(facts["image"])
+            pieces.append(Piece(data, rgba, texture, facts["shell"]))
+        return Converted(pieces, head["hull"], head["notes"], head["thick"])
+    except (ValueError, KeyError, TypeError):
         return None
 
 
-def _write(key: str, made: Converted, path: Path) -> None:
+def _encoded(made: Converted, path: Path) -> bytes:
+    """Return a conversion as an entry of the cache."""
     head = {
         "hull": made.hull,
         "notes": made.notes,
@@ -112,15 +111,7 @@ def _write(key: str, made: Converted, path: Path) -> None:
             for piece in made.pieces
         ],
     }
-    folder = _folder()
-    neighbour = folder / f".{key}.{os.getpid()}"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with open(neighbour, "wb") as stream:
-            stream.write(json.dumps(head).encode() + b"\n")
-            for piece in made.pieces:
-                stream.write(piece.data or b"")
-                stream.write(piece.texture if isinstance(piece.texture, bytes) else b"")
-        os.replace(neighbour, folder / key)
-    except OSError:
-        neighbour.unlink(missing_ok=True)
+    parts = [json.dumps(head).encode() + b"\n"]
+    for piece in made.pieces:
+        parts += [piece.data or b"", piece.texture if isinstance(piece.texture, bytes) else b""]
+    return b"".join(parts)
