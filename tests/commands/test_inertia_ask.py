@@ -95,17 +95,19 @@ def test_an_end_of_input_stops():
 
 
 def test_progress_at_a_terminal_only(monkeypatch, capfd):
-    from urdftool.commands import inertia_robot
+    from urdftool.commands.progress import Progress
     from urdftool.console import Console
 
-    monkeypatch.setattr(inertia_robot, "_PATIENCE", 0.0)
+    def report(console, **options):
+        with Progress(console, "meshes", **options) as progress:
+            progress(1, 3, ["a.stl", "link.stl"])
+            time.sleep(0.05)
+        return capfd.readouterr().err
+
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
-    with inertia_robot._Progress(Console()) as progress:
-        progress(1, 3, "link.stl")
-    assert "meshes 1/3  link.stl" in capfd.readouterr().err
-    with inertia_robot._Progress(Console(verbosity=-1)) as progress:
-        progress(1, 3, "link.stl")
+    line = "\r\033[Kmeshes [########................] 1/3  "
+    assert report(Console(), patience=0) == f"{line}a.stl, link.stl\r\033[K"
+    assert f"{line}0 s  a.stl, link.stl" in report(Console(), patience=0.01, timed=True)
+    assert report(Console(verbosity=-1), patience=0) == ""
     monkeypatch.setattr("sys.stderr.isatty", lambda: False, raising=False)
-    with inertia_robot._Progress(Console()) as progress:
-        progress(1, 3, "link.stl")
-    assert capfd.readouterr().err == ""
+    assert report(Console(), patience=0) == ""

@@ -13,7 +13,7 @@ from ..collision.links import check_names
 from ..console import Console
 from ..report import collision_check as report
 from ..report.counted import counted
-from .collision_options import Progress
+from .progress import Progress
 from .read_strict import say_gltf
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def check(console: Console, robots: Sequence[tuple[Robot, Wishes]], values: dict
             if look is not None:
                 looks.append(look)
                 owners.append(number)
-    with Progress(console) as progress:
+    with Progress(console, "links", patience=0) as progress:
         found = check_all(looks, jobs=values["jobs"], progress=progress)
     results, code = [], 0
     for number, (robot, wishes) in enumerate(robots):

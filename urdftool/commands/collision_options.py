@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import os
-import sys
-from collections.abc import Callable, Sequence
-from time import monotonic
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ..console import Console
 from .cache_options import CACHE_OPTIONS, cache_place
 
 if TYPE_CHECKING:
@@ -157,31 +154,3 @@ def one_thread_each() -> None:
     """Keep the numerical libraries from starting threads of their own beside our processes."""
     for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(name, "1")
-
-
-class Progress:
-    """A line on stderr while meshes are simplified, once that takes a while and at a terminal."""
-
-    def __init__(self, console: Console) -> None:
-        """Begin to count the time."""
-        self.begin = monotonic()
-        self.wanted = sys.stderr.isatty() and not console.quiet
-        self.shown = False
-
-    def __enter__(self) -> Progress:
-        """Nothing is shown yet."""
-        return self
-
-    def __call__(self, done: int, count: int, names: Sequence[str]) -> None:
-        """Show how far it is, and what is worked on."""
-        if self.wanted and (done == 0 or monotonic() - self.begin > _PATIENCE):
-            self.shown = True
-            filled = 24 * done // max(count, 1)
-            bar = "#" * filled + "." * (24 - filled)
-            running = ", ".join(names)[:60]
-            click.echo(f"\r\033[K[{bar}] {done}/{count}  {running}", err=True, nl=False)
-
-    def __exit__(self, *_: object) -> None:
-        """Wipe the line."""
-        if self.shown:
-            click.echo("\r\033[K", err=True, nl=False)

@@ -19,8 +19,9 @@ from ..console import Console
 from ..errors import UrdftoolError
 from ..model.load import require_links, robot_of
 from ..report import collision as report
-from .collision_options import Progress, cache_of, given_names, settings_of
+from .collision_options import cache_of, given_names, settings_of
 from .picture_file import check_picture, write_picture
+from .progress import Progress
 from .read_lax import take_world
 from .read_strict import read_strict
 
@@ -218,7 +219,7 @@ def _refuse(console: Console, problems: Sequence[UrdftoolError], links: Sequence
 def _compute(
     console: Console, tasks: Sequence[Task], cache: DiskCache, values: Values
 ) -> dict[Task, Result | UrdftoolError]:
-    with Progress(console) as progress:
+    with Progress(console, "meshes", patience=0) as progress:
         return compute_all(
             tasks,
             cache,

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
-from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..console import Console
 from .options import gltf_option, package_options, robot_argument
+from .progress import Progress
 from .read_strict import read_strict
 
 if TYPE_CHECKING:
@@ -142,7 +141,7 @@ def command(
     names = [link.name for link in model.links]
     check_masses(Masses(dict.fromkeys(only, 1.0)), names)
     wanted = Masses(by_link, density, total, anew)
-    with _Progress(console) as progress:
+    with Progress(console, "meshes") as progress:
         found = review(
             model, _reader(description, jobs, progress), masses=wanted, source=source, only=only
         )
@@ -175,28 +174,7 @@ def _check_options(
         raise click.UsageError(f"{output} would be a table; to write the robot there, add --write")
 
 
-class _Progress:
-    """A line on stderr while meshes are read, once that takes a while and at a terminal."""
-
-    def __init__(self, console: Console) -> None:
-        self.begin = monotonic()
-        self.wanted = sys.stderr.isatty() and not console.quiet
-        self.shown = False
-
-    def __enter__(self) -> _Progress:
-        return self
-
-    def __call__(self, done: int, count: int, name: str) -> None:
-        if self.wanted and monotonic() - self.begin > _PATIENCE:
-            self.shown = True
-            click.echo(f"\r\033[Kmeshes {done}/{count}  {name[:50]}", err=True, nl=False)
-
-    def __exit__(self, *_: object) -> None:
-        if self.shown:
-            click.echo("\r\033[K", err=True, nl=False)
-
-
-def _reader(description: Any, jobs: int | None, progress: _Progress) -> Any:
+def _reader(description: Any, jobs: int | None, progress: Progress) -> Any:
     from ..inertia.mesh_files import read_meshes
 
     return lambda names: read_meshes(description, names, jobs=jobs, progress=progress)

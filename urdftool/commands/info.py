@@ -7,8 +7,8 @@ from pathlib import Path
 import click
 
 from ..console import Console
-from .mesh_progress import MeshProgress
 from .options import gltf_option, output_option, package_options, robot_argument
+from .progress import Progress
 
 
 @click.command("info")
@@ -52,7 +52,7 @@ def command(
     model = read_lax(console, path, arguments, package, package_path)
     if wrong := without_links(model):
         console.note(f"{model.place}: {wrong}")
-    with MeshProgress(console) as progress:
+    with Progress(console, "meshes") as progress:
         measured = measure(model, progress)
     counts = count(model)
     if style == "json":

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
-from .mesh_progress import MeshProgress
+from .progress import Progress
 
 if TYPE_CHECKING:
     from ..simulation.fleet import Row
@@ -102,7 +102,7 @@ def simulate_fleet(
         raise click.UsageError(nothing_below(paths))
     limit = len(fleet.engines) * fleet.settings.time_limit + PATIENCE
     rows = {}
-    with MeshProgress(console, "robots") as progress:
+    with Progress(console, "robots") as progress:
         for row in in_parallel(found, fleet, jobs=jobs, limit=limit):
             rows[row.path] = row
             progress(len(rows), len(found), row.path)

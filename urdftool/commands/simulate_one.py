@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
-from .simulate_options import Progress
+from .progress import Progress
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
@@ -85,7 +85,7 @@ def simulate_one(
     files = (junit, outputs.plot, outputs.picture, outputs.video)
     check_targets(files, inputs=sorted(sources(robot)))
     outputs.read(console, robot)
-    with Progress(console) as progress:
+    with Progress(console, "trials", timed=True) as progress:
         verdicts, differ = judged(robot, settings, engines, progress, child)
     everything = [verdict for some in verdicts for verdict in some]
     path = robot.source.path if robot.source is not None else ""

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable
-from threading import Event, Thread
-from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ..console import Console
 from .options import name_numbers
 
 if TYPE_CHECKING:
@@ -164,48 +160,3 @@ def settings_of(values: dict[str, Any]) -> Settings:
         sweep=values["sweep"],
         time_limit=values["time_limit"],
     )
-
-
-_PATIENCE = 1.0  # seconds
-_TICK = 0.5  # seconds
-
-
-class Progress:
-    """A line on stderr while trials run, once that takes a while and at a terminal."""
-
-    def __init__(self, console: Console) -> None:
-        """Begin to wait."""
-        self.begin = monotonic()
-        self.wanted = sys.stderr.isatty() and not console.quiet
-        self.trial = (1, 1)
-        self._done = Event()
-        self._thread = Thread(target=self._show, daemon=True)
-
-    def __call__(self, number: int, count: int) -> None:
-        """The trial that begins, of how many."""
-        self.trial = (number, count)
-
-    def _show(self) -> None:
-        if self._done.wait(_PATIENCE):
-            return
-        while True:
-            number, count = self.trial
-            bar = "#" * round(20 * (number - 1) / count)
-            of = f"trial {number}/{count}  [{bar:<20}]  " if count > 1 else ""
-            said = f"{of}simulating for {monotonic() - self.begin:.0f} s"
-            click.echo(f"\r\033[K{said}", err=True, nl=False)
-            if self._done.wait(_TICK):
-                click.echo("\r\033[K", err=True, nl=False)
-                return
-
-    def __enter__(self) -> Progress:
-        """Itself."""
-        if self.wanted:
-            self._thread.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """Clear the line."""
-        self._done.set()
-        if self.wanted:
-            self._thread.join()

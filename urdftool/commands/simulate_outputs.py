@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
-from .mesh_progress import MeshProgress
 from .picture_file import write_picture
+from .progress import Progress
 
 if TYPE_CHECKING:
     from ..drawing.shapes import Shapes
@@ -70,7 +70,7 @@ class Outputs:
         from ..errors import ModelError
 
         for show in ("visual", "collision"):
-            with MeshProgress(console) as progress:
+            with Progress(console, "meshes") as progress:
                 self.shapes = robot_shapes(robot, show=show, progress=progress)
             for problem in self.shapes.problems:
                 console.error(problem)
@@ -99,7 +99,7 @@ class Outputs:
             write_picture(png(settled_picture(runs[0], self.shapes)), self.picture, robot)
             console.note(f"wrote {self.picture}")
         if self.video and self.shapes is not None:
-            with MeshProgress(console, "pictures") as progress:
+            with Progress(console, "pictures") as progress:
                 data = film(
                     runs[0], self.shapes, progress=lambda n, count: progress(n, count, robot.name)
                 )

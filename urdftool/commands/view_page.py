@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..console import Console
 from ..output import write_result
-from .mesh_progress import MeshProgress
+from .progress import Progress
 
 if TYPE_CHECKING:
     from ..drawing.shapes import Shapes
@@ -70,7 +70,7 @@ def serve_page(
 def _load(console: Console, robot: Robot, kind: str) -> Shapes:
     from ..drawing.shapes import robot_shapes
 
-    with MeshProgress(console) as progress:
+    with Progress(console, "meshes") as progress:
         return robot_shapes(robot, show=kind, progress=progress)
 
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ..console import Console
-from .mesh_progress import MeshProgress
 from .picture_file import checked_picture, write_picture
+from .progress import Progress
 from .read_strict import say_gltf
 
 if TYPE_CHECKING:
@@ -176,7 +176,7 @@ def write_pictures(
     check_targets((picture, contact_sheet), inputs=sorted(sources(robot)))
     positions = dict(pose or {})
     check_positions(robot, positions)
-    with MeshProgress(console) as progress:
+    with Progress(console, "meshes") as progress:
         shapes = robot_shapes(robot, show=show, progress=progress)
     for problem in shapes.problems:
         console.error(problem)
@@ -232,7 +232,7 @@ def _write_sheet(
             f"the contact sheet of {len(sweeps)} joints would have {layout.width} × "
             f"{layout.height} pixels; choose a smaller --size"
         )
-    with MeshProgress(console, "joints") as progress:
+    with Progress(console, "joints") as progress:
         image = contact_sheet(
             robot, shapes, positions=positions, camera=camera, cell=cell, progress=progress
         )

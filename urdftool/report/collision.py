@@ -11,7 +11,7 @@ from typing import Any
 from ..collision.compute import Result, Task, shown_scale
 from ..collision.rewrite import geometry_tag
 from ..collision.robot import Written
-from .findings_words import clean
+from .tables import render_table
 
 _HEAD = (
     "method",
@@ -138,7 +138,7 @@ def table(rows: Sequence[Row]) -> str:
         return ""
     lines: list[Sequence[str]] = [("", *_HEAD)]
     lines += [(_label(row), *_cells(row)) for row in rows]
-    return aligned(with_hollows(lines, [row.result.hollow for row in rows]))
+    return render_table(with_hollows(lines, [row.result.hollow for row in rows]), left=(0, 1))
 
 
 def with_hollows(
@@ -149,20 +149,6 @@ def with_hollows(
         return lines
     cells = [f"{hollow['error']:.2%}" if hollow else "" for hollow in hollows]
     return [(*line, cell) for line, cell in zip(lines, ("beside hollow", *cells), strict=True)]
-
-
-def aligned(lines: Sequence[Sequence[str]]) -> str:
-    """Columns as wide as they have to be: the first to the left, the others to the right."""
-    lines = [[clean(cell) for cell in line] for line in lines]
-    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
-    return "".join(
-        "  ".join(
-            cell.ljust(width) if k < 2 else cell.rjust(width)
-            for k, (cell, width) in enumerate(zip(line, widths, strict=True))
-        ).rstrip()
-        + "\n"
-        for line in lines
-    )
 
 
 def millimetres(length: float) -> str:

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..collision.check import Checked
-from .collision import aligned, explained, millimetres, with_hollows
+from .collision import explained, millimetres, with_hollows
+from .tables import render_table
 
 
 def is_good(item: Checked, limit: float) -> bool:
@@ -60,7 +61,7 @@ def table(found: Sequence[Checked], limit: float) -> str:
                 f"{m['outside']:.1%}",
             )
         )
-    return aligned(with_hollows(lines, [item.hollow for item in found]))
+    return render_table(with_hollows(lines, [item.hollow for item in found]), left=(0, 1))
 
 
 def remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:

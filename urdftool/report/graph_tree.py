@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator
 
-from rich.console import Console
 from rich.text import Text
 from rich.tree import Tree
 
@@ -13,10 +12,10 @@ from ..finding import Severity
 from ..graph.figure import Figure, Node
 from ..graph.words import shown
 from ..model.elements import Robot
+from .tables import WIDEST, text_console
 
 _STYLES = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "blue"}
 _DEEPEST = 40
-_WIDEST = 100_000
 
 
 def tree_text(robot: Robot, figure: Figure, *, colors: bool = False, width: int = 80) -> str:
@@ -29,15 +28,7 @@ def tree_text(robot: Robot, figure: Figure, *, colors: bool = False, width: int 
         width: Columns of the terminal; longer lines run on into the next.
     """
     stream = io.StringIO()
-    console = Console(
-        file=stream,
-        force_terminal=colors,
-        color_system="standard" if colors else None,
-        width=max(width, 40) if colors else _WIDEST,
-        highlight=False,
-        emoji=False,
-        markup=False,
-    )
+    console = text_console(stream, colors=colors, width=max(width, 40) if colors else WIDEST)
     title = Text(shown(robot.name) or "no name", style="bold")
     for finding in figure.findings:
         title.append(f"  {finding.severity.label}: {finding.rule}", _STYLES[finding.severity])

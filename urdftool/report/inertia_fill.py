@@ -12,6 +12,7 @@ from .counted import counted
 from .findings import clean
 from .inertia_robot import place_dict
 from .json_text import json_text
+from .tables import render_table
 
 
 def text(filling: Filling) -> str:
@@ -30,15 +31,7 @@ def text(filling: Filling) -> str:
         )
     if len(rows) == 1:
         return ""
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    return "".join(
-        "  ".join(
-            cell.ljust(width) if i in (0, 5) else cell.rjust(width)
-            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        + "\n"
-        for row in rows
-    )
+    return render_table(rows, left=(0, 5))
 
 
 def remarks(filling: Filling) -> Iterator[str]:

@@ -11,6 +11,7 @@ from ..model.elements import Robot
 from .findings import clean
 from .inertia import SIX, numbers
 from .json_text import json_text
+from .tables import render_table
 
 _HEADS = ("body", "links", "mass [kg]", "com x", "y", "z [m]", *SIX[:5], "izz [kg m²]")
 
@@ -24,15 +25,7 @@ def table(lumped: Lumped) -> str:
     ]
     count = str(sum(len(body.members) for body in lumped.lumps))
     rows.append((f"whole, in {clean(lumped.root)}", count, *_cells(lumped.whole)))
-    widths = [max(len(row[i]) for row in rows) for i in range(len(_HEADS))]
-    return "".join(
-        "  ".join(
-            cell.rjust(width) if i else cell.ljust(width)
-            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        + "\n"
-        for row in rows
-    )
+    return render_table(rows)
 
 
 def _cells(properties: MassProperties | None) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from .counted import counted
 from .findings import Painter, clean
 from .inertia import numbers
 from .json_text import json_text
+from .tables import Cell, render_table
 
 HEADS = (
     "link",
@@ -33,21 +34,9 @@ _LONGEST_NAME = 40
 
 def table(reviews: Sequence[LinkReview], *, colors: bool = False) -> str:
     """A row for each link, to four digits."""
-    paint = Painter(colors)
-    rows = [(*_cells(item), _verdict(item)) for item in reviews]
-    lines = [(*HEADS, ""), (*UNITS, ""), *rows]
-    widths = [max(len(line[i]) for line in lines) for i in range(len(HEADS))]
-    text = []
-    for number, line in enumerate(lines):
-        cells = [
-            cell.ljust(width) if i in (0, 7) else cell.rjust(width)
-            for i, (cell, width) in enumerate(zip(line, widths, strict=False))
-        ]
-        verdict = line[-1]
-        if number >= 2:
-            verdict = paint(verdict, _COLORS.get(reviews[number - 2].status))
-        text.append(f"{'  '.join(cells)}  {verdict}".rstrip())
-    return "".join(f"{line}\n" for line in text)
+    rows: list[Sequence[Cell]] = [(*HEADS, ""), (*UNITS, "")]
+    rows += [(*_cells(item), (_verdict(item), _COLORS.get(item.status))) for item in reviews]
+    return render_table(rows, left=(0, 7, 8), colors=colors)
 
 
 def _cells(item: LinkReview) -> tuple[str, ...]:

@@ -6,9 +6,10 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from .findings import Painter, clean
+from .findings import clean
 from .json_text import json_text
 from .simulate import _fault
+from .tables import Cell, render_table
 
 if TYPE_CHECKING:
     from ..simulation.fault import Fault
@@ -23,17 +24,12 @@ def table(rows: Sequence[Row], *, colors: bool = False, skipped: bool = False) -
         colors: Whether words are coloured.
         skipped: Whether those that were passed over have a line, too.
     """
-    paint = Painter(colors)
-    shown = [row for row in rows if skipped or not row.skipped]
-    paths = [clean(row.path) for row in shown]
-    width = max((len(path) for path in paths), default=0)
-    lines = []
-    for path, row in zip(paths, shown, strict=True):
-        word, color = _word(row)
-        rest = "" if row.settled is None else f"{row.settled:.2f} s"
-        lines.append(f"{path:<{width}}  {paint(f'{word:<14}', color)}  {rest:>7}  {_what(row)}")
-    lines.append(summary(rows))
-    return "".join(f"{line.rstrip()}\n" for line in lines)
+    lines: list[Sequence[Cell]] = []
+    for row in rows:
+        if skipped or not row.skipped:
+            rest = "" if row.settled is None else f"{row.settled:.2f} s"
+            lines.append((row.path, _word(row), rest, _what(row)))
+    return f"{render_table(lines, left=(0, 1, 3), colors=colors)}{summary(rows)}\n"
 
 
 def summary(rows: Sequence[Row]) -> str:

@@ -1,0 +1,93 @@
+"""A line on stderr that shows how far a long work is."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from threading import Event, Thread
+from time import monotonic
+
+import click
+
+from ..console import Console
+
+PATIENCE = 1.0
+"""How long a work takes before its progress is shown [s]."""
+
+_TICK = 0.5  # s between two lines of a work that is timed
+_BAR, _LONGEST = 24, 60  # characters
+
+
+class Progress:
+    """Shows a work that takes a while, at a terminal; used in a ``with``, which clears the line.
+
+    The line is not one of rich's live displays: these move and hide the cursor, which
+    :mod:`urdftool.terminal` lets nobody do.
+    """
+
+    def __init__(
+        self, console: Console, what: str, *, patience: float = PATIENCE, timed: bool = False
+    ) -> None:
+        """Begin to wait.
+
+        Args:
+            console: One that is quiet shows nothing.
+            what: What is counted, as ``meshes``.
+            patience: How long nothing is shown [s].
+            timed: Show the time that passes, also while nothing is reported.
+        """
+        self.what = what
+        self.patience = patience
+        self.timed = timed
+        self.wanted = sys.stderr.isatty() and not console.quiet
+        self._begin = monotonic()
+        self._shown = False
+        self._state: tuple[int, int, str] = 0, 1, ""
+        self._over = Event()
+        self._thread: Thread | None = None
+
+    def __enter__(self) -> Progress:
+        """Return itself."""
+        if self.wanted and self.timed:
+            self._thread = Thread(target=self._tick, daemon=True)
+            self._thread.start()
+        return self
+
+    def __call__(self, done: int, count: int, running: str | Sequence[str] = "") -> None:
+        """Take the state of the work.
+
+        Args:
+            done: How many are finished.
+            count: Of how many.
+            running: The names of those that are worked on.
+        """
+        names = running if isinstance(running, str) else ", ".join(running)
+        self._state = done, count, names
+        if self.wanted and not self.timed and monotonic() - self._begin >= self.patience:
+            self._show()
+
+    def __exit__(self, *_: object) -> None:
+        """Clear the line."""
+        self._over.set()
+        if self._thread is not None:
+            self._thread.join()
+        if self._shown:
+            click.echo("\r\033[K", err=True, nl=False)
+
+    def _tick(self) -> None:
+        wait = self.patience
+        while not self._over.wait(wait):
+            self._show()
+            wait = _TICK
+
+    def _show(self) -> None:
+        done, count, names = self._state
+        parts = []
+        if count > 1 or not self.timed:
+            filled = _BAR * done // max(count, 1)
+            parts += [f"{self.what} [{'#' * filled:.<{_BAR}}] {done}/{count}"]
+        if self.timed:
+            parts.append(f"{monotonic() - self._begin:.0f} s")
+        parts.append(names if len(names) <= _LONGEST else f"…{names[1 - _LONGEST :]}")
+        self._shown = True
+        click.echo(f"\r\033[K{'  '.join(filter(None, parts))}", err=True, nl=False)

@@ -1,0 +1,57 @@
+"""Tables of text, by rich; the only module that makes columns."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Collection, Sequence
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from .findings_words import clean
+
+Cell = str | tuple[str, str | None]
+"""A text, or a text and its color."""
+
+WIDEST = 100_000
+"""Columns of a text of which nothing is wrapped."""
+
+
+def text_console(stream: io.StringIO, *, colors: bool, width: int = WIDEST) -> Console:
+    """Return a console of rich that writes plain text, or text with the 8 colors of terminals."""
+    return Console(
+        file=stream,
+        force_terminal=colors,
+        color_system="standard" if colors else None,
+        width=width,
+        highlight=False,
+        emoji=False,
+        markup=False,
+        legacy_windows=False,
+        no_color=not colors,
+        _environ={},
+    )
+
+
+def render_table(
+    rows: Sequence[Sequence[Cell]], *, left: Collection[int] = (0,), colors: bool = False
+) -> str:
+    """Align rows in columns that are as wide as their cells.
+
+    Args:
+        rows: All of the same length; the heads are a row like others.
+        left: The columns that are aligned to the left; others are aligned to the right.
+        colors: Whether cells have their colors.
+    """
+    if not rows:
+        return ""
+    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
+    for column in range(len(rows[0])):
+        table.add_column(justify="left" if column in left else "right", no_wrap=True)
+    for row in rows:
+        cells = [cell if isinstance(cell, tuple) else (cell, None) for cell in row]
+        table.add_row(*(Text(clean(text), style=color or "") for text, color in cells))
+    stream = io.StringIO()
+    text_console(stream, colors=colors).print(table)
+    return "".join(f"{line.rstrip()}\n" for line in stream.getvalue().split("\n")[:-1])
