@@ -11,25 +11,39 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 # A room may import from the rooms below it, never from one above or beside.
 BELOW = {
     "errors": (),
-    "extras": ("errors",),
-    "parallel": ("errors",),
-    "isolated": ("parallel", "errors"),
+    "suggestions": (),
+    "extras": (
+        "errors",
+        "suggestions",
+    ),
+    "parallel": (
+        "errors",
+        "suggestions",
+    ),
+    "isolated": ("parallel", "errors", "suggestions"),
     "inputs": (),
-    "storage": ("errors",),
-    "source": ("inputs", "errors"),
-    "model": ("source", "errors"),
+    "storage": (
+        "errors",
+        "suggestions",
+    ),
+    "source": ("inputs", "errors", "suggestions"),
+    "model": ("source", "errors", "suggestions"),
     "finding": ("source",),
-    "output": ("storage", "errors"),
+    "output": ("storage", "errors", "suggestions"),
     "terminal": (),
-    "console": ("terminal", "errors"),
-    "configuration": ("errors",),
+    "console": ("terminal", "errors", "suggestions"),
+    "configuration": (
+        "errors",
+        "suggestions",
+    ),
     "meshes": (
         "extras",
         "extras",
         "errors",
+        "suggestions",
     ),
-    "drawing": ("meshes", "model", "source", "errors"),
-    "inertia": ("meshes", "model", "source", "parallel", "errors"),
+    "drawing": ("meshes", "model", "source", "errors", "suggestions"),
+    "inertia": ("meshes", "model", "source", "parallel", "errors", "suggestions"),
     "collision": (
         *(
             "storage",
@@ -42,6 +56,7 @@ BELOW = {
             "isolated",
             "extras",
             "errors",
+            "suggestions",
         ),
     ),
     "viewer": (
@@ -54,11 +69,12 @@ BELOW = {
         "extras",
         "extras",
         "errors",
+        "suggestions",
     ),
-    "rules": ("finding", "model", "source", "meshes", "inputs", "errors"),
+    "rules": ("finding", "model", "source", "meshes", "inputs", "errors", "suggestions"),
     "lint": (
         *("rules", "finding", "model", "source", "configuration", "parallel"),
-        *("inputs", "storage", "extras", "errors"),
+        *("inputs", "storage", "extras", "errors", "suggestions"),
     ),
     "formats": (
         "finding",
@@ -72,21 +88,22 @@ BELOW = {
         "extras",
         "extras",
         "errors",
+        "suggestions",
     ),
-    "graph": ("isolated", "finding", "model", "source", "extras", "errors"),
+    "graph": ("isolated", "finding", "model", "source", "extras", "errors", "suggestions"),
     "simulation": (
         *("drawing", "formats", "finding", "lint", "meshes", "inertia", "model", "rules", "source"),
-        *("parallel", "isolated", "storage", "extras", "errors"),
+        *("parallel", "isolated", "storage", "extras", "errors", "suggestions"),
     ),
     "report": (
         *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),
-        *("collision", "simulation", "inertia", "extras", "errors"),
+        *("collision", "simulation", "inertia", "extras", "errors", "suggestions"),
     ),
-    "info": ("model", "source", "meshes", "errors"),
-    "compare": ("model", "source", "errors"),
+    "info": ("model", "source", "meshes", "errors", "suggestions"),
+    "compare": ("model", "source", "errors", "suggestions"),
     "api": (
         *("formats", "simulation", "collision", "inertia", "lint", "rules", "model", "source"),
-        *("finding", "output", "storage", "extras", "errors"),
+        *("finding", "output", "storage", "extras", "errors", "suggestions"),
     ),
 }
 

@@ -61,11 +61,10 @@ class Commands(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """As click does it, with the nearest name for a mistyped one."""
         if args and args[0] not in COMMANDS and not args[0].startswith("-"):
-            from difflib import get_close_matches
+            from .suggestions import did_you_mean
 
-            near = get_close_matches(args[0], COMMANDS, 1)
-            hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(COMMANDS)}"
-            ctx.fail(f"no command '{args[0]}'; {hint}")
+            hint = did_you_mean(args[0], COMMANDS, 0.6) or f"; there are {', '.join(COMMANDS)}"
+            ctx.fail(f"no command '{args[0]}'{hint}")
         return super().resolve_command(ctx, args)
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .errors import ConfigError
+from .suggestions import did_you_mean
 
 if TYPE_CHECKING:
     from .source.description import GltfUp
@@ -94,7 +95,7 @@ def _parse(path: Path, *, required: bool) -> Configuration | None:
     for name in table:
         if name not in (*TABLES, GLTF_UP):
             raise ConfigError(
-                f"no table is called '{name}'{_nearest(name)}",
+                f"no table is called '{name}'{_hint(name)}",
                 path=path,
             )
     packages = table.get("packages", {})
@@ -118,8 +119,5 @@ def _parse(path: Path, *, required: bool) -> Configuration | None:
     )
 
 
-def _nearest(name: str) -> str:
-    from difflib import get_close_matches
-
-    near = get_close_matches(name, (*TABLES, GLTF_UP), 1, 0.5)
-    return f"; did you mean '{near[0]}'?" if near else f"; there are {', '.join(TABLES)}"
+def _hint(name: str) -> str:
+    return did_you_mean(name, (*TABLES, GLTF_UP), 0.5) or f"; there are {', '.join(TABLES)}"

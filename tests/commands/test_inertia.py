@@ -226,7 +226,7 @@ print("LOADED", *(n for n in ("trimesh", "scipy", "collada", "numpy", "rich", "l
         (["inertia", "robot", "--help"], []),
         (["inertia", "sphere", "--mass", "1", "--radius", "1"], ["numpy"]),
         (["inertia", "macros"], ["numpy"]),
-        (["inertia", "robot", str(FIXTURES / "robots" / "ten_links.urdf")], ["numpy"]),
+        (["inertia", "robot", str(FIXTURES / "robots" / "ten_links.urdf")], ["numpy", "rich"]),
     ],
 )
 def test_light_forms_stay_light(words, loaded):

@@ -11,6 +11,7 @@ from typing import Any
 
 from ..errors import ConfigError, MeshError, UrdftoolError
 from ..model.elements import Collision, Link, Mesh, Robot, UnknownShape, Visual
+from ..suggestions import did_you_mean
 from .compute import Task
 from .settings import METHODS, Settings
 
@@ -152,10 +153,7 @@ def check_names(robot: Robot, names: Iterable[str]) -> None:
     """Refuse names of links that there are none of."""
     for name in names:
         if name not in robot.link:
-            from difflib import get_close_matches
-
-            near = get_close_matches(name, list(robot.link), 1)
-            hint = f"; did you mean '{near[0]}'?" if near else ""
+            hint = did_you_mean(name, robot.link, 0.6)
             raise ConfigError(f"the robot has no link '{name}'{hint}")
 
 

@@ -38,14 +38,12 @@ class Kinds(click.Group):
         """As click does it, with the nearest name for a mistyped one."""
         names = self.list_commands(ctx)
         if args and args[0] not in names and not args[0].startswith("-"):
-            from difflib import get_close_matches
+            from ..suggestions import did_you_mean
 
-            near = get_close_matches(args[0], names, 1)
+            hint = did_you_mean(args[0], names, 0.6) or f"; there are {', '.join(names)}"
             if args[0].lower().endswith((".urdf", ".xacro")):
-                hint = f"for a robot write 'urdftool inertia robot {args[0]}'"
-            else:
-                hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(names)}"
-            ctx.fail(f"'{args[0]}' is no shape; {hint}")
+                hint = f"; for a robot write 'urdftool inertia robot {args[0]}'"
+            ctx.fail(f"'{args[0]}' is no shape{hint}")
         return super().resolve_command(ctx, args)
 
 

@@ -19,12 +19,12 @@ import math
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
-from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
 from ..errors import ConfigError
+from ..suggestions import did_you_mean
 
 KEYS = ("kp", "kd", "armature", "damping", "friction", "force-range", "type")
 TYPES = ("position", "velocity", "motor")
@@ -99,9 +99,8 @@ class ActuatorConfig:
 
     def _unknown(self, pattern: str, names: list[str]) -> str:
         what = "pattern" if set(pattern) & set("*?[") else "name"
-        near = get_close_matches(pattern, names, 1, 0.5)
-        hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(names) or 'none'}"
-        return f'[{_TABLE}."{pattern}"]: no joint that moves has this {what}; {hint}'
+        hint = did_you_mean(pattern, names, 0.5) or f"; there are {', '.join(names) or 'none'}"
+        return f'[{_TABLE}."{pattern}"]: no joint that moves has this {what}{hint}'
 
 
 def read_actuator_config(path: Path) -> ActuatorConfig:
@@ -141,9 +140,8 @@ def _settings(name: str, table: Any, path: Path) -> JointSettings:
     values: dict[str, Any] = {}
     for key, value in table.items():
         if key not in KEYS:
-            near = get_close_matches(key, KEYS, 1, 0.5)
-            hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(KEYS)}"
-            raise ConfigError(f"{where}: unknown key '{key}'; {hint}", path=path)
+            hint = did_you_mean(key, KEYS, 0.5) or f"; there are {', '.join(KEYS)}"
+            raise ConfigError(f"{where}: unknown key '{key}'{hint}", path=path)
         if key == "force-range":
             values["force_range"] = _range(where, value, path)
         elif key == "type":

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 
+from ..suggestions import did_you_mean
 from .inertia_error import InertiaError
 
 
@@ -35,9 +35,8 @@ def check_masses(masses: Masses, names: Sequence[str]) -> None:
     """
     for name, mass in masses.by_link.items():
         if name not in names:
-            near = get_close_matches(name, names, 1, 0.5)
-            hint = f"did you mean '{near[0]}'?" if near else f"there are {_listed(names)}"
-            raise InertiaError(f"the robot has no link '{name}'; {hint}")
+            hint = did_you_mean(name, names, 0.5) or f"; there are {_listed(names)}"
+            raise InertiaError(f"the robot has no link '{name}'{hint}")
         _check(f"the mass of link '{name}'", mass, "kg")
     if masses.density is not None:
         _check("the density", masses.density, "kg/m³")

@@ -14,6 +14,8 @@ from ..errors import ConfigError
 from ..finding import Severity
 from ..rules import FAMILIES, FAMILY_OF, applies_to, get_rule
 from ..rules.rule import TARGETS, Rule
+from ..suggestions import did_you_mean
+from ..suggestions import nearest as nearest_name
 
 _LISTS = ("select", "ignore", "extend-select", "targets")
 _KEYS = (*_LISTS, "severity", "per-file-ignores", "variants", "exclude")
@@ -99,7 +101,7 @@ def check_selectors(selectors: Iterable[str], path: str | None = None) -> tuple[
         raise ConfigError(
             f"no rule is called '{word}'{nearest_rule(word)}",
             path=path,
-            data={"name": word, "suggestion": _near(word, (*FAMILY_OF, *FAMILIES))},
+            data={"name": word, "suggestion": nearest_name(word, (*FAMILY_OF, *FAMILIES), 0.5)},
         )
     return tuple(words)
 
@@ -110,16 +112,8 @@ def nearest_rule(word: str) -> str:
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """``; did you mean '…'?``, or nothing where no word is near."""
-    near = _near(word, known)
-    return f"; did you mean '{near}'?" if near else ""
-
-
-def _near(word: str, known: Iterable[str]) -> str:
-    from difflib import get_close_matches
-
-    near = get_close_matches(word, list(known), 1, 0.5)
-    return near[0] if near else ""
+    """Return a hint at the word that was perhaps meant; empty if none is near."""
+    return did_you_mean(word, known, 0.5)
 
 
 def check_targets(targets: Iterable[str], path: str | None = None) -> frozenset[str] | None:

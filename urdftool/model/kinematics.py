@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from difflib import get_close_matches
 
 from ..errors import ModelError
+from ..suggestions import did_you_mean
 from .elements import Joint, Robot
 from .pose import IDENTITY, Pose, pose_of
 
@@ -94,11 +94,10 @@ def check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
             if name in robot.joint:
                 kind = robot.joint[name].type
                 raise ModelError(f"joint '{name}' is {kind} and has no single position")
-            near = get_close_matches(name, list(movable), 1, 0.5)
-            hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(movable)}"
+            hint = did_you_mean(name, movable, 0.5) or f"; there are {', '.join(movable)}"
             if not movable:
-                hint = "no joint of it moves"
-            raise ModelError(f"the robot has no joint '{name}' that moves; {hint}")
+                hint = "; no joint of it moves"
+            raise ModelError(f"the robot has no joint '{name}' that moves{hint}")
         if not math.isfinite(value):
             raise ModelError(f"the position of joint '{name}' is {value:g}, not a finite number")
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..source.document import Element, parse, read_file
 from ..source.location import Call
+from ..suggestions import did_you_mean
 from .json_text import json_text
 
 if TYPE_CHECKING:
@@ -42,14 +43,9 @@ def unknown_arguments(
     for name in given:
         used = expansion is not None and f"$(arg {name})" in _sources(expansion)
         if name not in known and not used:
-            from difflib import get_close_matches
-
-            near = get_close_matches(name, known, 1)
-            hint = (
-                f"did you mean '{near[0]}'?" if near else f"declared: {', '.join(known) or 'none'}"
-            )
+            hint = did_you_mean(name, known, 0.6) or f"; declared: {', '.join(known) or 'none'}"
             lines.append(
-                f"{path}: warning: no <xacro:arg> declares '{name}', so {name}:=… has no effect; "
+                f"{path}: warning: no <xacro:arg> declares '{name}', so {name}:=… has no effect"
                 f"{hint}"
             )
     return lines

@@ -1,54 +1,12 @@
-"""Words: lists of them for messages and tables, and the one that was perhaps meant."""
+"""Lists of words for messages and tables."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
-from functools import lru_cache
 
-_NUMBER = re.compile(r"([0-9]+)")
-
-
-def nearest(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
-    """The known name nearest to a wrong one; empty if none is near.
-
-    Names that differ only in case, ``_`` and ``-`` are nearest. Names that differ only by a number
-    are not near: ``joint_1`` is not a slip of ``joint_2``.
-    """
-    return _nearest(name, tuple(dict.fromkeys(known)), cutoff)
-
-
-@lru_cache(4096)  # robots of one family have the same slips
-def _nearest(name: str, known: tuple[str, ...], cutoff: float) -> str:
-    from difflib import get_close_matches
-
-    names = [other for other in known if other and other != name]
-    folded = fold(name)
-    for other in names:
-        if fold(other) == folded:
-            return other
-    names = [other for other in names if not _differ_by_number(folded, fold(other))]
-    near = get_close_matches(name, names, 1, cutoff)
-    return near[0] if near else ""
-
-
-def _differ_by_number(name: str, other: str) -> bool:
-    """Tell whether two names have the same text around numbers that are not the same."""
-    texts, others = _NUMBER.split(name), _NUMBER.split(other)
-    if texts[::2] != others[::2]:
-        return False
-    return [int(text) for text in texts[1::2]] != [int(text) for text in others[1::2]]
-
-
-def did_you_mean(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
-    """``; did you mean 'x'?`` with the nearest known name; empty if none is near."""
-    near = nearest(name, known, cutoff)
-    return f"; did you mean '{near}'?" if near else ""
-
-
-def fold(name: str) -> str:
-    """A name without case, ``_`` and ``-``."""
-    return name.replace("_", "").replace("-", "").lower()
+from ..suggestions import did_you_mean as did_you_mean
+from ..suggestions import fold as fold
+from ..suggestions import nearest as nearest
 
 
 def quoted(names: Iterable[str], most: int = 4) -> str:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from difflib import get_close_matches
 
 from ..errors import ConfigError
 from ..model.controllers import DRIVES, Controller, controllers_in
 from ..model.elements import Robot
 from ..source.yaml_tree import Node, read_yaml
+from ..suggestions import did_you_mean
 from .control import NONE, POSITION, SERVO, VELOCITY, Control, Pid
 
 _SILENT = ("Broadcaster", "StateController", "SensorController")
@@ -107,8 +107,7 @@ def _unknown_type(controller: Controller) -> str:
     kind = controller.kind
     if kind.endswith(_SILENT) or kind in KNOWN:
         return ""
-    near = get_close_matches(kind, KNOWN, 1, 0.8)
-    hint = f"; did you mean '{near[0]}'?" if near else ""
+    hint = did_you_mean(kind, KNOWN, 0.8)
     return (
         f"controller '{controller.name}' is of type '{controller.type.text}', which is not a "
         f"controller of ros_controllers or ros2_controllers that drives joints{hint}"
@@ -207,11 +206,10 @@ def _in_robot(node: Node, joint: str, robot: Robot) -> None:
         if robot.joint[joint].is_fixed:
             raise node.wrong(f"joint '{joint}' is fixed; no controller can move it")
         return
-    near = get_close_matches(joint, list(robot.joint), 1, 0.5)
-    hint = f"did you mean '{near[0]}'?" if near else "see 'urdftool graph'"
+    hint = did_you_mean(joint, robot.joint, 0.5) or "; see 'urdftool graph'"
     if "$(" in joint:
-        hint = "a launch file would put something in its place: write the name"
-    raise node.wrong(f"the robot has no joint '{joint}'; {hint}")
+        hint = "; a launch file would put something in its place: write the name"
+    raise node.wrong(f"the robot has no joint '{joint}'{hint}")
 
 
 def _has_interface(

@@ -9,6 +9,7 @@ from ..finding import Finding
 from ..formats.defects import BALL_TYPES, FATAL, defect, defects, refuse
 from ..model.elements import Robot
 from ..model.kinematics import check_positions
+from ..suggestions import did_you_mean
 from .bodies import Bodies, bodies_of
 from .settings import Settings
 
@@ -44,11 +45,8 @@ def check_settings(robot: Robot, settings: Settings) -> None:
     check_positions(robot, settings.pose)
     for name in settings.payloads:
         if name not in robot.link:
-            from difflib import get_close_matches
-
-            near = get_close_matches(name, list(robot.link), 1, 0.5)
-            hint = f"did you mean '{near[0]}'?" if near else "see 'urdftool graph'"
-            raise ModelError(f"--payload: the robot has no link '{name}'; {hint}")
+            hint = did_you_mean(name, robot.link, 0.5) or "; see 'urdftool graph'"
+            raise ModelError(f"--payload: the robot has no link '{name}'{hint}")
 
 
 def _unable(robot: Robot) -> Iterator[Finding]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import UrdftoolError, XacroError
+from ..suggestions import nearest
 from .location import Place
 from .xacro_sentences import Failure, causes_of, odd_parameter, sentence_of
 
@@ -65,8 +66,6 @@ def _argument_of(include: XacroElement | None, result: Expansion) -> str:
 
 def _missing(path: str, reason: str, at: Place, argument: str) -> XacroError:
     """A file that is wanted and cannot be read, with the nearest name that can."""
-    from difflib import get_close_matches
-
     folder, name = os.path.split(path)
     try:
         there = os.listdir(folder or ".")
@@ -74,8 +73,7 @@ def _missing(path: str, reason: str, at: Place, argument: str) -> XacroError:
         there = []
         missing = next((p for p in reversed(Path(path).parents) if not p.exists()), None)
         reason = f"there is no folder {missing}" if missing else reason
-    near = get_close_matches(name, there, 1, 0.75)
-    right = near[0] if near and near[0] != name else ""
+    right = nearest(name, there, 0.75)
     hint = f"; did you mean '{right}'?" if right else ""
     return XacroError(
         f"{path}: {reason}{hint}{argument}",

@@ -6,6 +6,7 @@ import re
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ..suggestions import did_you_mean, nearest
 from .packages import shown_path
 from .xacro_tree import XacroElement
 
@@ -112,7 +113,7 @@ def _of_names(failure: Failure) -> Explanation | None:
     """Names that mean nothing where they stand."""
     text, result, failed_text = failure.text, failure.result, failure.failed_text
     if match := _UNKNOWN_MACRO.search(text):
-        near = _near(match[1], {*_TAGS, *(name for name, _ in _macros(result))})
+        near = nearest(match[1], sorted({*_TAGS, *(name for name, _ in _macros(result))}))
         hint = f"; did you mean '{near}'?" if near else ""
         data = {"name": match[1], "suggestion": near}
         return Explanation("unknown-macro", f"unknown macro '{match[1]}'{hint}", data)
@@ -122,7 +123,7 @@ def _of_names(failure: Failure) -> Explanation | None:
     if match := _NO_ARGUMENT.search(text):
         name = match[1]
         known = ", ".join(result.arguments) or "none"
-        given, near = _near(name, set(result.given)), _near(name, set(result.arguments))
+        given, near = nearest(name, sorted(result.given)), nearest(name, sorted(result.arguments))
         hint = f"; was it meant by '{given}'?" if given else ""
         hint = hint or (f"; did you mean '{near}'?" if near else "")
         data = {"name": name, "suggestion": near, "given": given}
@@ -326,17 +327,8 @@ def _in_expression(failed_text: str | None) -> str:
     return f", in ${{{failed_text}}}" if "$" not in failed_text else f", in {failed_text}"
 
 
-def _near(name: str, known: set[str]) -> str:
-    """Get the known name nearest to a wrong one; empty if none is near."""
-    from difflib import get_close_matches
-
-    near = get_close_matches(name, known - {name}, 1, 0.7)
-    return near[0] if near else ""
-
-
 def _nearest(name: str, known: set[str]) -> str:
-    near = _near(name, known)
-    return f"; did you mean '{near}'?" if near else ""
+    return did_you_mean(name, sorted(known))
 
 
 _DEFINED = re.compile(
