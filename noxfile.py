@@ -27,7 +27,7 @@ ROOT = Path(__file__).parent
 URDF = ROOT / "fixtures/robots/demo_arm/urdf"
 ARM = "fixtures/robots/demo_arm/urdf/arm_sound.urdf.xacro"
 LIGHT = (
-    "tests/test_house.py",
+    "tests/test_architecture.py",
     "tests/test_startup.py",
     "tests/source",
     "tests/model",

@@ -1,0 +1,396 @@
+"""The architecture: who may import whom, one place for each library, no hidden state."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parents[1] / "urdftool"
+MODULES = sorted(PACKAGE.rglob("*.py"))
+TREES = {path: ast.parse(path.read_text("utf-8")) for path in MODULES}
+
+BASE = ("errors", "extras", "suggestions", "parallel", "isolated", "storage")
+"""Modules that know nothing of robots, each of which may import those before it."""
+
+# A package may import from the packages below it, never from one above or beside.
+BELOW = {
+    **{name: BASE[:index] for index, name in enumerate(BASE)},
+    "inputs": (),
+    "source": ("inputs", *BASE),
+    "model": ("source", *BASE),
+    "finding": ("source",),
+    "output": BASE,
+    "terminal": (),
+    "console": ("terminal", *BASE),
+    "configuration": BASE,
+    "meshes": BASE,
+    "drawing": ("meshes", "model", "source", *BASE),
+    "inertia": ("meshes", "model", "source", *BASE),
+    "collision": ("drawing", "meshes", "inertia", "model", "source", *BASE),
+    "viewer": ("drawing", "inertia", "meshes", "finding", "model", "source", *BASE),
+    "rules": ("finding", "model", "source", "meshes", "inputs", *BASE),
+    "lint": ("rules", "finding", "model", "source", "configuration", "inputs", *BASE),
+    "formats": ("finding", "model", "source", "meshes", "inertia", "output", *BASE),
+    "graph": ("finding", "model", "source", *BASE),
+    "simulation": (
+        *("drawing", "formats", "finding", "lint", "meshes", "inertia", "model", "rules", "source"),
+        *BASE,
+    ),
+    "report": (
+        *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),
+        *("collision", "simulation", "inertia", *BASE),
+    ),
+    "info": ("model", "source", "meshes", *BASE),
+    "compare": ("model", "source", *BASE),
+    "api": (
+        *("formats", "simulation", "collision", "inertia", "lint", "rules", "model", "source"),
+        *("finding", "output", *BASE),
+    ),
+}
+
+
+# The only files that may import a library.
+PLACES = {
+    "multiprocessing": ("parallel.py",),
+    "concurrent": (),
+    "subprocess": (
+        "isolated.py",
+        "compare/revision.py",  # git
+        "formats/sdf/verify/loader.py",  # gz sdf
+    ),
+    "xacro": ("source/xacro_hooks.py",),
+    "lxml": ("formats/",),
+    "trimesh": ("meshes/",),
+    "collada": ("meshes/",),
+    "scipy": ("meshes/", "inertia/", "collision/"),
+    "manifold3d": ("meshes/hull.py", "simulation/solid.py"),
+    "click": ("cli.py", "console.py", "commands/", "report/findings.py"),
+    "rich": ("report/", "viewer/server.py"),
+    "numpy": (
+        *("meshes/", "drawing/", "viewer/", "inertia/", "formats/", "collision/", "simulation/"),
+    ),
+    "coacd": ("collision/coacd_child.py",),
+    "distributed": ("collision/cluster.py",),
+    "mujoco": ("formats/mjcf/", "simulation/mj.py"),
+    "PIL": (
+        *("drawing/", "viewer/glb.py", "formats/mjcf/texture.py"),
+        "formats/mjcf/verify_looks.py",
+    ),
+    "pybullet": ("simulation/bullet",),
+    "viser": ("viewer/server.py",),
+    "websockets": ("viewer/server.py",),
+    "pygraphviz": ("graph/draw.py",),
+}
+
+
+def imports(path):
+    """Yield what a module imports: packages of urdftool, and libraries."""
+    relative = path.relative_to(PACKAGE)
+    tree = TREES[path]
+    for_annotations = {
+        inner
+        for node in ast.walk(tree)
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+        for inner in ast.walk(node)
+    }
+    for node in ast.walk(tree):
+        if node in for_annotations:
+            continue
+        if isinstance(node, ast.ImportFrom) and node.level:
+            above = relative.parts[: len(relative.parts) - node.level]
+            target = (*above, *(node.module or "").split(".")) if node.module else above
+            names = [target[0]] if target and target[0] else [alias.name for alias in node.names]
+            yield from (("own", name) for name in names)
+        elif isinstance(node, ast.ImportFrom):
+            yield "library", (node.module or "").split(".")[0]
+        elif isinstance(node, ast.Import):
+            yield from (("library", alias.name.split(".")[0]) for alias in node.names)
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_imports_go_down(path):
+    relative = path.relative_to(PACKAGE)
+    package = relative.parts[0].removesuffix(".py")
+    if package in ("commands", "cli", "__init__", "__main__"):
+        return
+    allowed = {package, *BELOW[package]}
+    used = {name for kind, name in imports(path) if kind == "own"} - {"__version__"}
+    assert used <= allowed, f"{relative} imports {sorted(used - allowed)}"
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_each_library_has_its_place(path):
+    relative = str(path.relative_to(PACKAGE))
+    for kind, name in imports(path):
+        if kind == "library" and name in PLACES:
+            assert relative.startswith(PLACES[name]), f"{relative} imports {name}"
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_only_commands_print_and_exit(path):
+    relative = path.relative_to(PACKAGE)
+    if relative.parts[0] in ("commands", "cli.py", "console.py", "output.py"):
+        return
+    for node in ast.walk(TREES[path]):
+        if isinstance(node, ast.Call):
+            assert ast.unparse(node.func) not in ("print", "sys.exit", "exit", "click.echo"), (
+                relative
+            )
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_a_file_is_one_idea(path):
+    assert path.stem not in ("utils", "util", "common", "helpers", "misc", "core")
+    text = path.read_text("utf-8")
+    assert len(text.splitlines()) <= 500 or "Written by ``python -m" in text
+
+
+# What may be called in one place only.
+CALLS = {
+    "os.replace": ("storage.py",),
+    "os.rename": ("storage.py",),
+    "os.link": ("storage.py",),
+    "os.fork": (),
+    "get_close_matches": ("suggestions.py",),
+}
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_each_deed_has_its_place(path):
+    relative = str(path.relative_to(PACKAGE))
+    for node in ast.walk(TREES[path]):
+        if isinstance(node, ast.Call):
+            called = ast.unparse(node.func)
+            assert relative in CALLS.get(called, (relative,)), f"{relative} calls {called}"
+
+
+TO_GO = "to go: a Workspace will hold what a run remembers"
+LIBRARY = "the only way to change what a library does"
+KNOWN_STATE = {
+    **dict.fromkeys(
+        (
+            *("configuration.py: _found", "inputs.py: _heard", "inputs.py: _hooked"),
+            *("inputs.py: _remembered", "inputs.py: together", "run.py: _chosen"),
+            *("positions.py: _patience", "likeness.py: _faces", "overlap.py: _resting"),
+            *("overlap.py: _passed", "pieces.py: _last", "controller_files.py: _last"),
+            *("elsewhere.py: _words", "formats.py: _facts", "outlines.py: _last"),
+            *("scale.py: _extents", "uses.py: _last", "semantic.py: _last"),
+            *("manifest.py: _texts", "sides.py: _last", "definitions.py: _last"),
+            *("definitions.py: _names", "vocabulary_table.py: census", "kept.py: _elsewhere"),
+            *("remembered.py: _last", "nearby.py: _folder", "group.py: repository"),
+            *("targets.py: _read_manifest", "elsewhere.py: _included", "files.py: _files_below"),
+            *("outlines.py: _outline", "parts.py: _missing", "surface.py: _surface"),
+            *("surface.py: _change_by_closing", "surface.py: _hull_volume"),
+            *("packages.py: _names", "packages.py: _owners", "packages.py: _below"),
+        ),
+        TO_GO,
+    ),
+    "expressions.py: _codes": "compiled expressions by their text, as re keeps patterns",
+    "xacro_hooks.py: _pieces": "pieces of a text by the text, as re keeps patterns",
+}
+"""Module-level state, by file and name, with the reason why it is there."""
+
+KNOWN_PATCHES = {
+    "inputs.py: os.stat": TO_GO,
+    "inputs.py: os.lstat": TO_GO,
+    "inputs.py: os.readlink": TO_GO,
+    "inputs.py: os.path": TO_GO,
+    "xacro_hooks.py: xacro": LIBRARY,
+    "xacro_hooks.py: substitution": LIBRARY,
+    "xacro_hooks.py: sys.modules['yaml'].safe_load": LIBRARY,
+    "server.py: library.serve": "to go",
+    "completion.py: click.STRING.shell_complete": LIBRARY,
+    "terminal.py: sys": "streams of this process: a terminal obeys nothing that a file holds",
+    "terminal.py: sys.stdin": "a standard stream that is closed leads nowhere",
+}
+"""Attributes of other modules that are set, with the reason."""
+
+MUTATORS = {
+    *("append", "appendleft", "add", "update", "pop", "popitem", "clear", "setdefault", "extend"),
+    *("insert", "remove", "discard", "move_to_end"),
+}
+PLAIN = {"int", "float", "str", "bool", "bytes", "Vector", "Six", "tuple[str, ...]"}
+"""Types of arguments that a function may remember its results by."""
+
+
+def module_names(tree):
+    """Return the names that a module assigns, outside of its functions and classes."""
+    targets = []
+    for node in tree.body:
+        if isinstance(node, ast.Assign):
+            targets += node.targets
+        elif isinstance(node, ast.AnnAssign) and node.value is not None:
+            targets.append(node.target)
+    return {target.id for target in targets if isinstance(target, ast.Name)}
+
+
+def local_names(function):
+    arguments = function.args
+    names = {a.arg for a in (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs)}
+    names |= {
+        node.id
+        for node in ast.walk(function)
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+    }
+    return names - {
+        name for node in ast.walk(function) if isinstance(node, ast.Global) for name in node.names
+    }
+
+
+def state(tree):
+    """Yield the module-level names that functions change, and functions that remember objects."""
+    names = module_names(tree)
+    for function in ast.walk(tree):
+        if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
+            continue
+        shared = names - local_names(function)
+        for node in ast.walk(function):
+            owner = getattr(node, "value", None)
+            if isinstance(node, ast.Global):
+                yield from node.names
+            elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+                owner = node.func.value
+                if node.func.attr in MUTATORS and getattr(owner, "id", None) in shared:
+                    yield owner.id
+            elif isinstance(node, ast.Subscript | ast.Attribute) and not isinstance(
+                node.ctx, ast.Load
+            ):
+                if getattr(owner, "id", None) in shared:
+                    yield owner.id
+        for decorator in function.decorator_list:
+            words = ast.unparse(decorator).partition("(")[0].rpartition(".")[2]
+            types = {ast.unparse(a.annotation) for a in function.args.args if a.annotation}
+            if words == "Remembered" or (words in ("cache", "lru_cache") and types - PLAIN):
+                yield function.name
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_no_module_keeps_state(path):
+    found = {f"{path.name}: {name}" for name in state(TREES[path])}
+    assert not found - set(KNOWN_STATE)
+
+
+def patches(tree):
+    """Yield the attributes of imported modules that a module sets."""
+    imported = {
+        alias.asname or alias.name.partition(".")[0]
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Import)
+        for alias in node.names
+    }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+            if ast.unparse(node).partition(".")[0] in imported:
+                yield ast.unparse(node)
+        elif isinstance(node, ast.Call) and ast.unparse(node.func) == "setattr":
+            target = ast.unparse(node.args[0])
+            if target.partition(".")[0] in imported:
+                yield target
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_no_function_of_another_module_is_replaced(path):
+    found = {f"{path.name}: {name}" for name in patches(TREES[path])}
+    assert not found - set(KNOWN_PATCHES)
+
+
+KNOWN_CYCLES = (
+    {"document", "edit", "location", "well_formed"},
+    {"piece", "tessellate"},
+    {"extremes", "outline"},
+    {"solid", "surface", "surface_arrays"},
+    {"controller_drives", "drive_wheels"},
+)
+"""Modules that import each other inside of functions; to go."""
+
+
+def dotted(path):
+    parts = path.relative_to(PACKAGE).with_suffix("").parts
+    return parts[:-1] if parts[-1] == "__init__" else parts
+
+
+NAMES = {dotted(path): path for path in MODULES}
+
+
+def own_imports(path, *, in_functions):
+    """Yield the modules of urdftool that a module imports when it runs."""
+    package = dotted(path) if path.name == "__init__.py" else dotted(path)[:-1]
+    nodes = [(TREES[path], False)]
+    while nodes:
+        node, inside = nodes.pop()
+        for child in ast.iter_child_nodes(node):
+            if isinstance(child, ast.If) and ast.unparse(child.test) == "TYPE_CHECKING":
+                continue
+            function = inside or isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef)
+            nodes.append((child, function))
+            if not isinstance(child, ast.ImportFrom) or not child.level:
+                continue
+            if inside and not in_functions:
+                continue
+            base = package[: len(package) - child.level + 1]
+            base += tuple(child.module.split(".")) if child.module else ()
+            for alias in child.names:
+                target = NAMES.get((*base, alias.name)) or NAMES.get(base)
+                if target not in (None, path):
+                    yield target
+
+
+def cycles(graph):
+    """Return the sets of modules that reach each other."""
+    reached = {}
+    for start in graph:
+        seen, waiting = set(), list(graph[start])
+        while waiting:
+            path = waiting.pop()
+            if path not in seen:
+                seen.add(path)
+                waiting += graph[path]
+        reached[start] = seen
+    return {
+        frozenset(other.stem for other in reached[path] if path in reached[other])
+        for path in graph
+        if path in reached[path]
+    }
+
+
+@pytest.mark.parametrize("in_functions", [False, True])
+def test_imports_have_no_cycle(in_functions):
+    graph = {path: set(own_imports(path, in_functions=in_functions)) for path in MODULES}
+    found = cycles(graph)
+    known = [cycle for cycle in KNOWN_CYCLES if in_functions]
+    assert not [cycle for cycle in found if not any(cycle <= one for one in known)]
+
+
+SAMPLE = """
+import os
+from functools import lru_cache
+TABLE = {}
+LAST = []
+COUNT = 0
+
+def read(robot: Robot):
+    global COUNT
+    TABLE[robot] = 1
+    LAST.append(robot)
+    os.stat = None
+
+def fine(robot):
+    LAST = []
+    LAST.append(robot)
+    return TABLE[robot]
+
+@lru_cache(1)
+def volume(robot: Robot): ...
+
+@lru_cache(1)
+def square(number: float): ...
+"""
+
+
+def test_the_laws_see_what_they_forbid():
+    tree = ast.parse(SAMPLE)
+    assert set(state(tree)) == {"COUNT", "TABLE", "LAST", "volume"}
+    assert set(patches(tree)) == {"os.stat"}
+    assert cycles({Path("a"): {Path("b")}, Path("b"): {Path("a")}, Path("c"): {Path("a")}}) == {
+        frozenset("ab")
+    }
