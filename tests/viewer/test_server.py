@@ -31,7 +31,6 @@ def test_the_page_has_our_title_and_may_fetch_nothing(page):
     status, headers, text = get(page)
     assert status == 200
     assert "<title>&lt;/title&gt;&lt;b&gt;robot&lt;/b&gt;</title>" in text
-    assert "wait === 50 ? 16 : wait" in text
     policy = headers["Content-Security-Policy"]
     assert policy.startswith("default-src 'self' data: blob:")
     assert f"ws://127.0.0.1:{page}" in policy
@@ -117,6 +116,14 @@ def test_it_opens_no_tunnel(page, monkeypatch):
         assert running.request_share_url() is None
     finally:
         running.stop()
+
+
+def test_a_page_that_cannot_be_guarded_is_not_served(monkeypatch):
+    monkeypatch.setattr(server, "_answer", lambda host, title, answer, *request: answer(*request))
+    port = free_port()
+    with pytest.raises(AddressError, match="cannot be kept from other sites"):
+        server.start("127.0.0.1", port, lambda: "t")
+    assert server.is_free("127.0.0.1", port)
 
 
 @pytest.fixture

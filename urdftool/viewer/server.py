@@ -13,9 +13,12 @@ import html
 import ipaddress
 import logging
 import socket
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import partial
+from http import HTTPStatus
+from http.client import HTTPConnection
+from queue import Empty, SimpleQueue
+from threading import Event
 from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote, urlsplit
 
@@ -32,14 +35,9 @@ PORT = 8733
 TRIED = 20
 """How many ports are tried from there."""
 
-_ORIGINAL_TITLE = b"<title>Viser</title>"
+_SECONDS = 10.0  # for the first request to a server of this computer
 
-# The page of viser says 20 times a second where a slider is: it waits 50 ms after each time. A
-# screen shows 60 pictures a second.
-_SWIFTER = b"""<script>{
-const plain = window.setTimeout;
-window.setTimeout = (what, wait, ...rest) => plain(what, wait === 50 ? 16 : wait, ...rest);
-}</script>"""
+_ORIGINAL_TITLE = b"<title>Viser</title>"
 
 
 def is_loopback(host: str) -> bool:
@@ -132,30 +130,68 @@ def start(host: str, port: int, title: Callable[[], str]) -> viser.ViserServer:
 
     rich.reconfigure(quiet=True)  # viser prints its address and more on standard output
     logging.getLogger("websockets").setLevel(logging.CRITICAL)
-    with _guarded(host, title):
-        server = Server(host=host, port=port, verbose=False)
-    if server.get_port() != port:
+    server = Server(host=host, port=port, verbose=False)
+    try:
+        if server.get_port() != port:
+            raise AddressError(f"port {port} of {host} was taken just now; try again")
+        _guard(server, host, title)
+    except BaseException:
         server.stop()
-        raise AddressError(f"port {port} of {host} was taken just now; try again")
+        raise
     return server
 
 
-@contextmanager
-def _guarded(host: str, title: Callable[[], str]) -> Iterator[None]:
-    """While viser starts, what it listens with looks at requests first."""
-    import websockets.asyncio.server as library
+def _guard(server: Any, host: str, title: Callable[[], str]) -> None:
+    """Let a server that has just started answer by :func:`_answer`.
 
-    original: Any = library.serve
+    viser takes no handler of requests. The server of websockets has one as an attribute, and each
+    connection knows its server, so the first connection is made here. Whoever connected before the
+    handler is set has seen an empty page, and is disconnected.
 
-    def serve(*arguments: Any, process_request: Any = None, **options: Any) -> Any:
-        check = partial(_answer, host, title, process_request)
-        return original(*arguments, process_request=check, **options)
+    Raises:
+        AddressError: The server does not answer as it should.
+    """
+    import viser
+    from websockets.exceptions import WebSocketException
+    from websockets.sync.client import connect
+    from websockets.typing import Subprotocol
 
-    library.serve = serve  # type: ignore[assignment,misc]
+    inner = server._websock_server
+    servers: SimpleQueue[Any] = SimpleQueue()
+
+    def note_server(client: Any) -> None:
+        if not guarded.is_set():
+            servers.put(inner._live_connections[client.client_id].server)
+
+    guarded = Event()
+    inner.on_client_connect(note_server)
+    port = server.get_port()
+    here = {"0.0.0.0": LOOPBACK, "": LOOPBACK, "::": "::1"}.get(host, host)
+    version = f"viser-v{viser.__version__}"
     try:
-        yield
+        with connect(
+            f"{address(here, port).replace('http', 'ws', 1)}",
+            sock=socket.create_connection((here.strip("[]"), port), _SECONDS),
+            subprotocols=[Subprotocol(version)],
+        ):
+            library = servers.get(timeout=_SECONDS)
+        library.process_request = partial(_answer, host, title, library.process_request)
+        guarded.set()
+        inner.disconnect_all_clients()
+        if not _refuses_others(here, port):
+            raise AddressError("the page cannot be kept from other sites by this version of viser")
+    except (AttributeError, Empty, OSError, WebSocketException) as error:
+        raise AddressError(f"the page cannot be served by this version of viser: {error}") from None
+
+
+def _refuses_others(host: str, port: int) -> bool:
+    """Tell whether a request from another site is refused."""
+    link = HTTPConnection(host.strip("[]"), port, timeout=_SECONDS)
+    try:
+        link.request("GET", "/", headers={"Origin": "http://another-site.invalid"})
+        return link.getresponse().status == HTTPStatus.FORBIDDEN
     finally:
-        library.serve = original  # type: ignore[misc]
+        link.close()
 
 
 def _answer(host: str, title: Callable[[], str], answer: Any, connection: Any, request: Any) -> Any:
@@ -175,7 +211,7 @@ def _answer(host: str, title: Callable[[], str], answer: Any, connection: Any, r
         del request.headers["Accept-Encoding"]
     response = answer(connection, request)
     if response is not None:
-        ours = f"<title>{html.escape(title())}</title>".encode() + _SWIFTER
+        ours = f"<title>{html.escape(title())}</title>".encode()
         response.body = (response.body or b"").replace(_ORIGINAL_TITLE, ours, 1)
         response.headers["Content-Security-Policy"] = policy(asked)
         response.headers["Referrer-Policy"] = "no-referrer"
