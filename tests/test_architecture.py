@@ -73,7 +73,7 @@ PLACES = {
     "distributed": ("collision/cluster.py",),
     "mujoco": ("formats/mjcf/", "simulation/mj.py"),
     "PIL": (
-        *("drawing/", "viewer/glb.py", "formats/mjcf/texture.py"),
+        *("drawing/", "formats/mjcf/texture.py"),
         "formats/mjcf/verify_looks.py",
     ),
     "pybullet": ("simulation/bullet",),
@@ -198,7 +198,6 @@ KNOWN_PATCHES = {
     "xacro_hooks.py: xacro": LIBRARY,
     "xacro_hooks.py: substitution": LIBRARY,
     "xacro_hooks.py: sys.modules['yaml'].safe_load": LIBRARY,
-    "server.py: library.serve": "to go",
     "completion.py: click.STRING.shell_complete": LIBRARY,
     "terminal.py: sys": "streams of this process: a terminal obeys nothing that a file holds",
     "terminal.py: sys.stdin": "a standard stream that is closed leads nowhere",

@@ -17,8 +17,10 @@ def checked_picture(picture: str | None, option: str = "--picture") -> None:
         return
     if not picture.lower().endswith(".png"):
         raise click.UsageError(f"{option} wants a name that ends in .png, not {picture}")
+    from ..extras import require
     from ..output import check_folder
 
+    require(option, "PIL")
     check_folder(Path(picture).resolve().parent, picture)
 
 

@@ -121,8 +121,11 @@ def check_output(option: str, path: str, ending: str) -> None:
     """
     if ending and not path.lower().endswith(ending):
         raise click.UsageError(f"{option} wants a name that ends in {ending}, not {path}")
+    from ..extras import require
     from ..output import check_folder
 
+    if ending:
+        require(option, "PIL")
     file = Path(path)
     check_folder(file.resolve().parent, path)
     if file.is_dir():

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import struct
-from io import BytesIO
 from typing import Any
 
 import numpy as np
@@ -102,12 +101,3 @@ def glb(
     chunks = struct.pack("<I4s", len(text), b"JSON") + text
     chunks += struct.pack("<I4s", len(blob), b"BIN\0") + blob
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
-
-
-def png(texels: npt.NDArray[np.uint8]) -> bytes:
-    """An image as a PNG file; its lowest row is the first, shape (height, width, 4)."""
-    from PIL import Image
-
-    out = BytesIO()
-    Image.fromarray(np.ascontiguousarray(texels[::-1])).save(out, "PNG", compress_level=1)
-    return out.getvalue()

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from .glb import glb, png
+from ..drawing.png_file import png
+from .glb import glb
 
 if TYPE_CHECKING:
     from ..drawing.shapes import Shapes
@@ -86,7 +87,7 @@ def _look(
     if image >= 0:
         number = int(image)
         if number not in images:
-            images[number] = png(shapes.images[number])
+            images[number] = png(shapes.images[number][::-1], level=1)  # lowest row first
         clear = opacity < 1.0 or bool((shapes.images[number][..., 3] < 255).any())
         rgba = (red / 255, green / 255, blue / 255, opacity)
         packed = glb(vertices, faces, normals[first], uv[first], images[number], rgba, clear=clear)
