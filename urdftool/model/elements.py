@@ -1,9 +1,10 @@
 """Robot, Link, Joint and what is in them, on one page.
 
-Lengths are in metres, angles in radians, masses in kilograms. Every part keeps its ``element``, the
-XML it was read from, which knows its file, line and column. Values that are not written have the
-default of the specification; numbers that cannot be read have it too (the rules of the ``xml``
-family say so). Nothing here is changed after reading.
+Lengths are in meters, angles in radians, masses in kilograms. A part knows where it was written
+(``provenance``): for URDF that is its XML element, for another format a place in its file; a part
+that a program made has none. Values that are not written have the default of the specification;
+numbers that cannot be read have it too (the rules of the ``xml`` family report these). Nothing here
+is changed after reading.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING, Union
 
 from ..source.document import Element
 from ..source.location import Place
+from .provenance import NOWHERE, Provenance
 
 if TYPE_CHECKING:
     from ..source.description import Description
@@ -26,14 +28,30 @@ ZERO: Vector = (0.0, 0.0, 0.0)
 
 @dataclass(slots=True)
 class Part:
-    """Anything that was read from an element."""
+    """A part of a robot.
 
-    element: Element
+    Attributes:
+        provenance: Where it was written; None for a part that a program made.
+    """
+
+    provenance: Provenance | None = None
+
+    @property
+    def element(self) -> Element:
+        """Get the URDF element that the part was read from.
+
+        Raises:
+            TypeError: It was not read from URDF.
+        """
+        element = self.provenance
+        if isinstance(element, Element):
+            return element
+        raise TypeError(f"this {type(self).__name__} was not read from URDF")
 
     @property
     def place(self) -> Place:
-        """The span of its start tag in the source."""
-        return self.element.place
+        """Get the span of its start tag in the source; ``NOWHERE`` for a part without one."""
+        return NOWHERE if self.provenance is None else self.provenance.place
 
 
 @dataclass(slots=True)
@@ -246,8 +264,8 @@ class Joint(Part):
         type: As written; ``JOINT_TYPES`` are those that URDF knows.
         parent: Name of the parent link; empty where it is not written.
         child: Name of the child link; empty where it is not written.
-        parent_element: The ``<parent>`` element, if there is one.
-        child_element: The ``<child>`` element, if there is one.
+        parent_element: The ``<parent>`` element of URDF, if there is one.
+        child_element: The ``<child>`` element of URDF, if there is one.
         axis: None where it is not written; it is x then.
     """
 
