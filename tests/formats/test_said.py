@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from urdftool.formats.check import Check, check_table
+from urdftool.formats.check import Check
+from urdftool.report.exports import check_table
 from urdftool.rules import FAMILY_OF
 
 FORMATS = Path(__file__).parents[2] / "urdftool" / "formats"

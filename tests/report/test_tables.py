@@ -25,3 +25,9 @@ def test_colors_only_where_they_are_wanted(monkeypatch):
     rows = [("a", ("wrong", "red"))]
     assert render_table(rows, left=(0, 1)) == "a  wrong\n"
     assert render_table(rows, left=(0, 1), colors=True) == "a  \x1b[31mwrong\x1b[0m\n"
+
+
+def test_a_rule_below_the_heads():
+    assert render_table([("a", "worst"), ("long", "1")], left=(0, 1), rule=True) == (
+        "a     worst\n----  -----\nlong  1\n"
+    )

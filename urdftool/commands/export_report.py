@@ -83,7 +83,7 @@ def say_written(
     """
     from ..finding import Severity
     from ..formats import said
-    from ..formats.check import check_table, is_faithful
+    from ..formats.check import is_faithful
 
     shown = [f for f in written.losses if f.severity > Severity.INFO or console.verbosity > 0]
     hidden = len(said.merged(written.losses)) - len(said.merged(shown))
@@ -95,6 +95,8 @@ def say_written(
         for line in said.lines(shown):
             console.note(line)
         if checks:
+            from ..report.exports import check_table
+
             click.echo(visible(check_table(checks, not_compared)), nl=False, err=output == "-")
     if output != "-":
         more = f", {counted(hidden, 'note')} (-v shows them)" if hidden else ""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 
@@ -66,28 +66,3 @@ class Check:
 def is_faithful(checks: Iterable[Check]) -> bool:
     """Whether nothing differs that was not announced."""
     return all(check.verdict != "differs" for check in checks)
-
-
-def check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> str:
-    """The comparisons as a table of text, with what differs below, and what is not compared."""
-    rows = [("check", "compared", "worst", "tolerance", "verdict")]
-    for check in checks:
-        worst = "-" if check.tolerance == 0 and check.worst == 0 else f"{check.worst:.1e}"
-        bound = "exact" if check.tolerance == 0 else f"{check.tolerance:.0e}"
-        rows.append((check.name, check.what, worst, bound, check.verdict))
-    widths = [max(len(row[column]) for row in rows) for column in range(5)]
-    lines = ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
-    lines.insert(1, "  ".join("-" * width for width in widths))
-    for check in checks:
-        lines += [f"{check.name}: differs: {item}" for item in check.differing]
-        if check.announced:
-            lines.append(f"{check.name}: announced: {_some(check.announced)}")
-    if not_compared:
-        lines.append(f"not compared: {', '.join(not_compared)}")
-    return "\n".join(lines) + "\n"
-
-
-def _some(items: Sequence[str], shown: int = 3) -> str:
-    """The first of several things that are no news; the JSON form has them all."""
-    more = f" and {len(items) - shown} more" if len(items) > shown else ""
-    return ", ".join(items[:shown]) + more

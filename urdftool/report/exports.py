@@ -9,6 +9,7 @@ from ..formats.check import Check, is_faithful
 from ..formats.said import merged
 from .findings_json import finding_record
 from .json_text import json_text
+from .tables import render_table
 
 
 def to_json(
@@ -37,3 +38,26 @@ def to_json(
         "faithful": is_faithful(checks) if checks else None,
     }
     return json_text(report, 1) + "\n"
+
+
+def check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> str:
+    """Write comparisons as a table, with what differs below, and what is not compared."""
+    rows = [("check", "compared", "worst", "tolerance", "verdict")]
+    lines = []
+    for check in checks:
+        worst = "-" if check.tolerance == 0 and check.worst == 0 else f"{check.worst:.1e}"
+        bound = "exact" if check.tolerance == 0 else f"{check.tolerance:.0e}"
+        rows.append((check.name, check.what, worst, bound, check.verdict))
+        lines += [f"{check.name}: differs: {item}" for item in check.differing]
+        if check.announced:
+            lines.append(f"{check.name}: announced: {_some(check.announced)}")
+    if not_compared:
+        lines.append(f"not compared: {', '.join(not_compared)}")
+    table = render_table(rows, left=range(5), rule=True)
+    return table + "".join(f"{line}\n" for line in lines)
+
+
+def _some(items: Sequence[str], shown: int = 3) -> str:
+    """Name the first of several known differences; the JSON form has them all."""
+    more = f" and {len(items) - shown} more" if len(items) > shown else ""
+    return ", ".join(items[:shown]) + more

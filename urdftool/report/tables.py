@@ -35,13 +35,18 @@ def text_console(stream: io.StringIO, *, colors: bool, width: int = WIDEST) -> C
 
 
 def render_table(
-    rows: Sequence[Sequence[Cell]], *, left: Collection[int] = (0,), colors: bool = False
+    rows: Sequence[Sequence[Cell]],
+    *,
+    left: Collection[int] = (0,),
+    rule: bool = False,
+    colors: bool = False,
 ) -> str:
     """Align rows in columns that are as wide as their cells.
 
     Args:
         rows: All of the same length; the heads are a row like others.
         left: The columns that are aligned to the left; others are aligned to the right.
+        rule: Draw a line below the first row.
         colors: Whether cells have their colors.
     """
     if not rows:
@@ -49,9 +54,17 @@ def render_table(
     table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
     for column in range(len(rows[0])):
         table.add_column(justify="left" if column in left else "right", no_wrap=True)
-    for row in rows:
-        cells = [cell if isinstance(cell, tuple) else (cell, None) for cell in row]
-        table.add_row(*(Text(clean(text), style=color or "") for text, color in cells))
+    texts = [[_text(cell) for cell in row] for row in rows]
+    if rule:
+        widths = [max(text.cell_len for text in column) for column in zip(*texts, strict=True)]
+        texts.insert(1, [Text("-" * width) for width in widths])
+    for line in texts:
+        table.add_row(*line)
     stream = io.StringIO()
     text_console(stream, colors=colors).print(table)
     return "".join(f"{line.rstrip()}\n" for line in stream.getvalue().split("\n")[:-1])
+
+
+def _text(cell: Cell) -> Text:
+    text, color = cell if isinstance(cell, tuple) else (cell, None)
+    return Text(clean(text), style=color or "")

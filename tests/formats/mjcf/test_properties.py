@@ -5,10 +5,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from urdftool.formats.check import check_table, is_faithful
+from urdftool.formats.check import is_faithful
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load
+from urdftool.report.exports import check_table
 
 from .robots import joint, robot
 

@@ -4,11 +4,12 @@ import re
 
 import pytest
 
-from urdftool.formats.check import Check, check_table
+from urdftool.formats.check import Check
 from urdftool.formats.directory import write_directory
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load
+from urdftool.report.exports import check_table
 
 from .goldens import FOLDER, GOLDENS
 from .robots import joint, link, robot
