@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..storage import DiskCache, cache_key
 from .compute import Result, Task, result_of
 
-_VERSION = 9
+_VERSION = 10
 """To be raised whenever the same settings give another result."""
 
 

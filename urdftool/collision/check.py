@@ -17,7 +17,6 @@ from ..model.pose import Pose, pose_of
 from ..parallel import Loss, cores, map_tasks
 from ..source.description import GltfUp
 from .convex import hull, planes, signed_distance
-from .hollow import filled_hollow
 from .links import Shape
 from .measure import Target, measure
 from .parallel import Progress
@@ -41,9 +40,6 @@ class Checked:
         concave: Collision meshes that are not convex.
         hull_error: The error where engines take the hull of those, as PyBullet and MuJoCo do for
             bodies that move; None where there are none.
-        hollow: What a filled hollow explains of an error that is beyond the limit: ``depth`` [m],
-            and the ``error`` beside it; None where none does.
-        hull_hollow: The same for ``hull_error``.
     """
 
     link: str
@@ -51,8 +47,6 @@ class Checked:
     trouble: str = ""
     concave: int = 0
     hull_error: float | None = None
-    hollow: dict[str, float] | None = None
-    hull_hollow: dict[str, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -136,26 +130,16 @@ def check_link(look: Look) -> Checked:
             return Checked(look.link, None, "its visuals have no area")
         target = Target(visual)
         pieces = [_piece(part) for part in look.collisions]
-        found, hollow = _measured(target, pieces, look.max_error)
+        found = measure(target, pieces).as_dict()
         concave = sum(piece.kind == "mesh" for piece in pieces)
         if not concave:
-            return Checked(look.link, found, hollow=hollow)
+            return Checked(look.link, found)
         hulls = [mesh_piece(*hull(p.vertices)) if p.kind == "mesh" else p for p in pieces]
-        felt, filled = _measured(target, hulls, look.max_error)
-        return Checked(look.link, found, "", concave, felt["error"], hollow, filled)
+        return Checked(look.link, found, "", concave, measure(target, hulls).error)
     except UrdftoolError as error:
         return Checked(look.link, None, str(error))
     except (MemoryError, RecursionError) as error:
         return Checked(look.link, None, f"it is too large to be measured ({type(error).__name__})")
-
-
-def _measured(
-    target: Target, pieces: Sequence[Piece], limit: float
-) -> tuple[dict[str, Any], dict[str, float] | None]:
-    """How good pieces are, and what a filled hollow explains of it."""
-    found = measure(target, pieces)
-    hollow = filled_hollow(target, pieces, limit) if found.error > limit else None
-    return found.as_dict(), None if hollow is None else hollow.as_dict()
 
 
 def _visual(parts: Sequence[Part]) -> Prepared | None:

@@ -18,7 +18,6 @@ from .convex import capped_hull, thickened
 from .cut import Cutter
 from .decimate import decimate
 from .decompose import DecompositionError
-from .hollow import Hollow, filled_hollow
 from .measure import Measures, Target, hull_error, measure
 from .piece import PRIMITIVES, Piece, mesh_piece
 from .primitives import fit_primitives, signed_distance
@@ -37,7 +36,6 @@ _SHARE = 0.3  # part of the error that leaving out vertices of a hull may take
 _COARSER = 3.0
 _SIMPLER = 0.05  # part of the mean distance by which a dearer primitive has to be better
 _ALIKE = 0.02  # part of the error by which it has to be, too
-_AS_FAR = 1.1  # times the smallest error up to which others fill the same hollow
 
 
 @dataclass(frozen=True)
@@ -49,19 +47,12 @@ class Choice:
         pieces: The pieces, in the mesh's frame.
         measures: What was measured.
         notes: What did not work on the way; complete sentences.
-        hollow: What a filled hollow explains, where the error is larger than was asked for.
     """
 
     method: str
     pieces: list[Piece]
     measures: Measures
     notes: tuple[str, ...] = ()
-    hollow: Hollow | None = None
-
-    @property
-    def beside(self) -> float:
-        """The error beside the hollow that is filled."""
-        return self.measures.error if self.hollow is None else self.hollow.error
 
 
 def choose(surface: Prepared, settings: Settings, cores: int = 1) -> Choice:
@@ -78,8 +69,6 @@ def choose(surface: Prepared, settings: Settings, cores: int = 1) -> Choice:
     if settings.method != "auto":
         found = _METHODS[settings.method](target, settings, notes)
         best = min(found, key=lambda choice: (choice.measures.error, choice.measures.mean))
-        if best.measures.error > settings.max_error:
-            best = _explained(target, best, settings)
         return replace(best, notes=tuple(notes))
     tried: list[Choice] = []
     for step in (_primitives, _hulls, _bodies, _sheets, _ladder):
@@ -94,32 +83,8 @@ def choose(surface: Prepared, settings: Settings, cores: int = 1) -> Choice:
             wanted = settings.max_error * target.size
             best = min(fits, key=lambda choice: _dearness(choice, wanted))
             return replace(best, notes=tuple(notes))
-    return replace(_nearest(target, tried, settings), notes=tuple(notes))
-
-
-def _nearest(target: Target, tried: list[Choice], settings: Settings) -> Choice:
-    """Where none is near enough, the nearest.
-
-    Of those that fill the same hollow it is the first that is near enough beside it, or the one
-    that is nearest there: what is left in the hollow hangs on chance.
-    """
     best = min(tried, key=lambda choice: choice.measures.error)
-    explained = _explained(target, best, settings)
-    if explained.hollow is None:
-        return best
-    most = _AS_FAR * best.measures.error
-    alike = [
-        explained if choice is best else _explained(target, choice, settings)
-        for choice in tried
-        if choice.measures.error <= most
-    ]
-    near = [choice for choice in alike if choice.beside <= settings.max_error]
-    return near[0] if near else min(alike, key=lambda choice: choice.beside)
-
-
-def _explained(target: Target, choice: Choice, settings: Settings) -> Choice:
-    """A choice with the hollow that explains its error, if one does."""
-    return replace(choice, hollow=filled_hollow(target, choice.pieces, settings.max_error))
+    return replace(best, notes=tuple(notes))
 
 
 def _dearness(choice: Choice, wanted: float) -> float:

@@ -44,8 +44,6 @@ class Result:
         measures: What was measured, as :meth:`Measures.as_dict`.
         before: ``triangles`` and ``vertices`` of the mesh.
         notes: What should be known of it; complete sentences.
-        hollow: What a filled hollow explains of an error that is larger than was asked for:
-            ``depth`` [m], and the ``error`` beside it; None where none does.
         seconds: How long it took [s], when it was computed.
         cached: Whether it was computed before.
     """
@@ -57,7 +55,6 @@ class Result:
     notes: tuple[str, ...]
     seconds: float
     cached: bool = False
-    hollow: dict[str, float] | None = None
 
     @property
     def error(self) -> float:
@@ -78,7 +75,6 @@ class Result:
             "before": self.before,
             "notes": list(self.notes),
             "seconds": self.seconds,
-            "hollow": self.hollow,
         }
         return json.dumps(table, separators=(",", ":")).encode()
 
@@ -99,7 +95,6 @@ def result_of(data: bytes, *, cached: bool = False) -> Result:
             tuple(table["notes"]),
             float(table["seconds"]),
             cached,
-            table["hollow"],
         )
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"a result that cannot be read: {error}") from error
@@ -127,7 +122,6 @@ def compute(task: Task, cores: int = 1) -> Result:
         {"triangles": surface.triangles, "vertices": surface.points},
         (*surface.notes, *choice.notes),
         perf_counter() - begin,
-        hollow=None if choice.hollow is None else choice.hollow.as_dict(),
     )
 
 

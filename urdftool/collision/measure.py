@@ -82,7 +82,6 @@ class Target:
         """
         self.surface = surface
         self.cores = cores
-        self.last: tuple[tuple[Piece, ...], Compared] | None = None
         self.size = surface.size
         self.longest = float(np.ptp(surface.vertices, axis=0).max())
 
@@ -147,58 +146,33 @@ class Target:
         return by_cells
 
 
-@dataclass(frozen=True, eq=False)
-class Compared:
-    """Distances of two surfaces, point by point.
+def _distances(target: Target, pieces: Sequence[Piece]) -> tuple[Points, Points]:
+    """Measure how far a visual and some pieces are apart everywhere.
 
-    Attributes:
-        points: Points [m] of the collision that can be touched.
-        areas: The area [m²] each of them stands for.
-        back: How far [m] each is from the visual.
-        forth: How far [m] each of the visual's touchable points is from the collision.
+    Returns:
+        How far [m] each touchable point of the visual is from the pieces, and how far each of
+        their touchable points is from the visual.
     """
-
-    points: Points
-    areas: Points
-    back: Points
-    forth: Points
-
-    @property
-    def hausdorff(self) -> float:
-        """The largest of all [m]."""
-        return float(max(self.forth.max(), self.back.max()))
-
-
-def compare(target: Target, pieces: Sequence[Piece]) -> Compared:
-    """How far a visual and some pieces are apart everywhere; what was asked last is remembered."""
-    if target.last is not None and target.last[0] == tuple(pieces):
-        return target.last[1]
     outer = _outer_samples(pieces, target)
     points = np.concatenate([samples.points for samples in outer])
-    each = [
-        float(areas_of(piece.corners).sum()) / max(SAMPLES // len(pieces), 400) for piece in pieces
-    ]
-    areas = np.repeat(each, [len(samples) for samples in outer])
     collision = _surface_of(pieces, outer, target.cores)
     back = target.nearest.distance(points)
     if len(pieces) == 1 and pieces[0].is_primitive:
         forth = np.abs(primitives.signed_distance(pieces[0], target.touchable))
     else:
         forth = collision.distance(target.touchable)
-    target.last = tuple(pieces), Compared(points, areas, back, forth)
-    return target.last[1]
+    return forth, back
 
 
 def measure(target: Target, pieces: Sequence[Piece]) -> Measures:
     """How good some pieces are for a visual."""
-    compared = compare(target, pieces)
-    forth, back = compared.forth, compared.back
+    forth, back = _distances(target, pieces)
     mean = (float(forth[: len(target.even)].mean()) + float(back.mean())) / 2
     depth = depths(target.even, pieces, near=MARGIN * target.size)
     volume = volume_of(pieces)
     return Measures(
         size=target.size,
-        hausdorff=compared.hausdorff,
+        hausdorff=float(max(forth.max(), back.max())),
         mean=mean,
         visual_to_collision=float(forth.max()),
         collision_to_visual=float(back.max()),

@@ -34,18 +34,12 @@ class Flood:
         side: Edge of a cell [m].
         reached: Cells within two of one that the flood reached.
         volume: What the flood did not reach [m³]; cells of the surface count half.
-        outside: Cells that the flood reached itself; beside the surface it keeps one away.
     """
 
     low: Points
     side: float
     reached: npt.NDArray[np.bool_]
     volume: float
-    outside: npt.NDArray[np.bool_]
-
-    def cells(self, points: Points) -> npt.NDArray[np.int64]:
-        """The cell that each point is in, or the nearest to it."""
-        return np.stack(self._places(points), axis=1)
 
     def _places(self, points: Points) -> tuple[npt.NDArray[np.int64], ...]:
         found = _cells(points, self.low, self.side)
@@ -78,7 +72,7 @@ def flood(corners: Points) -> Flood:
     grown = _grown(outside) & ~wall
     inner = ~(grown | wall)
     volume = (float(np.count_nonzero(inner)) + 0.5 * float(np.count_nonzero(wall))) * side**3
-    return Flood(low, side, widened(outside, 2), volume, outside)
+    return Flood(low, side, widened(outside, 2), volume)
 
 
 def _cells(points: Points, low: Points, side: float) -> tuple[npt.NDArray[np.int64], ...]:

@@ -68,7 +68,6 @@ class Row:
             "within": self.within,
             "before": result.before,
             "measures": result.measures,
-            "hollow": result.hollow,
             "pieces": [
                 _piece(result, index, self.files[index] if self.files else "")
                 for index in range(len(result.pieces))
@@ -138,17 +137,7 @@ def table(rows: Sequence[Row]) -> str:
         return ""
     lines: list[Sequence[str]] = [("", *_HEAD)]
     lines += [(_label(row), *_cells(row)) for row in rows]
-    return render_table(with_hollows(lines, [row.result.hollow for row in rows]), left=(0, 1))
-
-
-def with_hollows(
-    lines: Sequence[Sequence[str]], hollows: Sequence[Mapping[str, float] | None]
-) -> Sequence[Sequence[str]]:
-    """A table with a column more where a hollow explains an error: what is left beside it."""
-    if not any(hollows):
-        return lines
-    cells = [f"{hollow['error']:.2%}" if hollow else "" for hollow in hollows]
-    return [(*line, cell) for line, cell in zip(lines, ("beside hollow", *cells), strict=True)]
+    return render_table(lines, left=(0, 1))
 
 
 def millimetres(length: float) -> str:
@@ -163,26 +152,12 @@ def remarks(rows: Iterable[Row]) -> Iterable[str]:
         if not row.within:
             yield (
                 f"{_label(row)}: error {row.result.error:.2%} of its size, not within "
-                f"{row.max_error:.2%}{explained(row.result.hollow)}; {_advice(row)}"
+                f"{row.max_error:.2%}; {_advice(row)}"
             )
-
-
-def explained(hollow: Mapping[str, float] | None) -> str:
-    """Why an error is large, where a filled hollow is the reason."""
-    if hollow is None:
-        return ""
-    return (
-        ", since it fills a hollow that is open to the outside "
-        f"(up to {millimetres(hollow['depth'])} mm deep); beside that the error is "
-        f"{hollow['error']:.2%}"
-    )
 
 
 def _advice(row: Row) -> str:
     """What helps where the error is missed."""
-    hollow = row.result.hollow
-    if hollow is not None and (hollow["error"] <= row.max_error or row.wanted == "auto"):
-        return "take --method simplify if it has to stay open, else allow a larger --max-error"
     if row.result.method == "simplify":
         return "try more --max-triangles"
     if row.wanted == "coacd":

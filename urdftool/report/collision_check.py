@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..collision.check import Checked
-from .collision import explained, millimetres, with_hollows
+from .collision import millimetres
 from .tables import render_table
 
 
@@ -25,10 +25,8 @@ def as_dict(path: str, found: Sequence[Checked], limit: float) -> dict[str, Any]
                 "link": item.link,
                 "within": is_good(item, limit),
                 "measures": item.measures,
-                "hollow": item.hollow,
                 "concave_meshes": item.concave,
                 "hull_error": item.hull_error,
-                "hull_hollow": item.hull_hollow,
                 "trouble": item.trouble,
             }
             for item in found
@@ -61,7 +59,7 @@ def table(found: Sequence[Checked], limit: float) -> str:
                 f"{m['outside']:.1%}",
             )
         )
-    return render_table(with_hollows(lines, [item.hollow for item in found]), left=(0, 1))
+    return render_table(lines, left=(0, 1))
 
 
 def remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
@@ -72,11 +70,10 @@ def remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
         elif item.measures is not None and item.measures["error"] > limit:
             yield (
                 f"link '{item.link}': error {item.measures['error']:.2%} of its size, "
-                f"not within {limit:.2%}{explained(item.hollow)}"
+                f"not within {limit:.2%}"
             )
         if item.hull_error is not None:
             yield (
                 f"link '{item.link}': {item.concave} collision mesh{'es' * (item.concave > 1)} not "
                 f"convex; PyBullet and MuJoCo touch the hull, whose error is {item.hull_error:.2%}"
-                f"{explained(item.hull_hollow)}"
             )
