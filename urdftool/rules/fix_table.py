@@ -71,15 +71,6 @@ FIXES: dict[str, dict[str, str]] = {
         "mesh-scaled-twice": UNSAFE,
         "optical-frame-orientation": UNSAFE,
     },
-    "mesh": {
-        "mesh-case-mismatch": SAFE,
-        "malformed-uri": SAFE,
-        "absolute-path": UNSAFE,
-        "relative-uri-in-ros": UNSAFE,
-        "wrong-package-in-uri": UNSAFE,
-        "package-uri-unresolvable": UNSAFE,
-        "mujoco-missing-compiler": UNSAFE,
-    },
     "mesh_files": {
         "ascii-stl": BOTH,
         "binary-stl-starts-with-solid": SAFE,

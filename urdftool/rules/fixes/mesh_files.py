@@ -20,7 +20,6 @@ from ...source.packages import shown_path
 from ..cross_file_references import check_alone
 from ..mesh.uses import MeshUse, mesh_uses
 from ..rule import Problem
-from .mesh import uses_of
 from .proposal import (
     Around,
     Change,
@@ -32,6 +31,12 @@ from .proposal import (
     unsafe,
 )
 from .remakes import BINARY, COPIED, HEADED, MIRRORED, TURNED, WITHOUT_FLAT, pointed, remade
+
+
+def uses_of(around: Around, uri: str | None) -> list[MeshUse]:
+    """List the uses of a mesh by what names it; of all meshes where that is None."""
+    found = mesh_uses(around.robot, around.description)
+    return [use for use in found if uri is None or use.uri == uri]
 
 
 def _named(problem: Problem, around: Around) -> list[MeshUse]:

@@ -1,4 +1,4 @@
 """Mesh files and how they are named."""
 
-FILES = ("files", "uris", "formats", "scale", "parts", "surface")
+FILES = ("files", "uris", "file_names", "formats", "scale", "parts", "surface")
 """Files with rules, in reading order."""

@@ -16,9 +16,11 @@ from ...model.elements import Robot
 from ...source.description import Description
 from ...source.nearby import stand_in
 from ...source.packages import own_package, shown_path
+from ..fix import Change, FixContext, Proposal, safe, substitute
 from ..mujoco import keeps_visuals
-from ..rule import ERROR, Problem, rule
+from ..rule import ERROR, SAFE, Problem, rule
 from ..words import nearest
+from .changes import change_uses
 from .dropped import is_dropped
 from .uris import malformation
 from .uses import MeshUse, actual_case, mesh_uses
@@ -179,7 +181,37 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
                 use.link,
                 f"mesh '{use.uri}' is called '{shown}' on disk; capitals must agree",
                 at=use.mesh.element.attribute_place("filename"),
+                data={"uri": use.uri, "name": shown},
             )
+
+
+@mesh_case_mismatch.fix(SAFE)
+def write_name_on_disk(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the name with the capitals that the file and its folders have on disk."""
+
+    def change(use: MeshUse) -> Change | None:
+        actual = actual_case(use.path) if use.path is not None else None
+        if actual is None or use.path is None:
+            return None
+        new = use.uri
+        for wanted, there in zip(use.path.parts, actual.parts, strict=True):
+            if wanted != there:
+                head, found, tail = new.rpartition(wanted)
+                if not found:
+                    return None
+                new = head + there + tail
+        pattern, text = _tail(use.uri, new)
+        return substitute(use.mesh.element, "filename", pattern, text)
+
+    changes = change_uses(problem, context, change)
+    return safe("write it as the file is called", *changes) if changes else None
+
+
+def _tail(old: str, new: str) -> tuple[str, str]:
+    """Return where two names of one length differ: a pattern for the end of one, and the other."""
+    differs = next((i for i, (a, b) in enumerate(zip(old, new, strict=False)) if a != b), 0)
+    same = old.rfind("/", 0, differs) + 1
+    return re.escape(old[same:]) + "$", new[same:].replace("\\", r"\\")
 
 
 @rule(

@@ -5,14 +5,18 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
 
 from ...model.elements import Collision, Mesh, Robot
 from ...source.description import Description
 from ...source.document import Element
 from ...source.packages import own_package
+from ..fix import Change, FixContext, Proposal, safe, set_attribute, substitute, unsafe
 from ..mujoco import keeps_visuals
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_attributes
+from .changes import change_uses
 from .uses import MeshUse, mesh_uses
 
 APPLIES_TO = ("mesh",)
@@ -35,34 +39,76 @@ def absolute_path(
     folder are one.
     """
     told: set[str] = set()
-    lost: dict[str, list[Problem]] = {}
+    lost: dict[str, list[MeshUse]] = {}
     for use in mesh_uses(robot, description):
         if not use.is_absolute or use.uri in told or "$" in use.written:
             continue
         told.add(use.uri)
-        folder = folder_of(use)
-        name = use.uri.replace("\\", "/").rstrip("/").rpartition("/")[2]
-        problem = Problem(
-            use.link,
-            f"mesh '{use.uri}' is a path of one machine{'' if use.exists else ', and not there'}; "
-            f"write package://PACKAGE/meshes/{name}",
-            at=use.mesh.element.attribute_place("filename"),
-            severity=None if use.exists else ERROR,
-        )
         if use.exists:
-            yield problem
+            yield _absolute_problem(use)
         else:
-            lost.setdefault(folder, []).append(problem)
-    for folder, problems in lost.items():
-        if len(problems) > together:
-            problems[0].message += f"; {len(problems) - 1} more are wanted from {folder}"
-            del problems[1:]
-        yield from problems
+            lost.setdefault(_folder_of(use), []).append(use)
+    for folder, uses in lost.items():
+        if len(uses) > together:
+            yield _absolute_problem(uses[0], len(uses) - 1, folder)
+        else:
+            yield from map(_absolute_problem, uses)
 
 
-def folder_of(use: MeshUse) -> str:
-    """The folder of a mesh as it is named."""
+def _absolute_problem(use: MeshUse, others: int = 0, folder: str | None = None) -> Problem:
+    """Report a mesh, and how many others of the same folder are not there either."""
+    name = use.uri.replace("\\", "/").rstrip("/").rpartition("/")[2]
+    more = "" if folder is None else f"; {others} more are wanted from {folder}"
+    data = {"uri": use.uri} if folder is None else {"uri": use.uri, "folder": folder}
+    return Problem(
+        use.link,
+        f"mesh '{use.uri}' is a path of one machine{'' if use.exists else ', and not there'}; "
+        f"write package://PACKAGE/meshes/{name}{more}",
+        at=use.mesh.element.attribute_place("filename"),
+        severity=None if use.exists else ERROR,
+        data=data,
+    )
+
+
+def _folder_of(use: MeshUse) -> str:
+    """Return the folder of a mesh as it is named."""
     return use.uri.replace("\\", "/").rstrip("/").rpartition("/")[0]
+
+
+@absolute_path.fix(UNSAFE)
+def write_package_uri(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write a URI of the own package, if it has the file or one of that name.
+
+    The meshes of one folder that is not there are changed as far as the package has them.
+    """
+    own = own_package(context.description.packages.file)
+
+    def change(use: MeshUse) -> Change | None:
+        uri = _uri_in_package(use.path, own)
+        if uri is None and own is not None:
+            parts = use.uri.replace("\\", "/").split("/")
+            if own[0] in parts[:-1]:
+                rest = parts[len(parts) - parts[::-1].index(own[0]) :]
+                if os.path.isfile(own[1].joinpath(*rest)):
+                    uri = f"package://{own[0]}/{'/'.join(rest)}"
+        return None if uri is None else set_attribute(use.mesh.element, "filename", uri)
+
+    folder = problem.data.get("folder")
+    if folder is None:
+        changes = change_uses(problem, context, change)
+    else:
+        uses = mesh_uses(context.robot, context.description)
+        lost = [use for use in uses if use.is_absolute and not use.exists]
+        changes = list(filter(None, [change(use) for use in lost if _folder_of(use) == folder]))
+    return unsafe("write it as a package:// URI", *changes) if changes else None
+
+
+def _uri_in_package(path: Path | None, own: tuple[str, Path] | None) -> str | None:
+    """Return the URI of a file by a package; None where the file is not in it."""
+    if path is None or own is None or not os.path.isfile(path):
+        return None
+    inside = os.path.relpath(os.path.realpath(path), os.path.realpath(own[1])).replace(os.sep, "/")
+    return None if inside.startswith("..") else f"package://{own[0]}/{inside}"
 
 
 _URDFDOM = "urdfdom, gz, gazebo-classic, pinocchio"
@@ -139,35 +185,74 @@ def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
             passes = use.exists and "\\" not in use.uri
             yield Problem(
                 use.link,
-                wrong,
+                wrong.message,
                 at=element.attribute_place("filename"),
                 severity=WARNING if passes else ERROR,
+                data={"uri": use.uri, "defect": wrong.defect},
             )
 
 
-def malformation(use: MeshUse) -> str:
-    """What is wrong with how a mesh is named, with what would be right; empty if nothing is."""
+class Malformation(NamedTuple):
+    """What is wrong with the URI of a mesh.
+
+    Attributes:
+        defect: ``empty``, ``lacks slash``, ``no file``, ``backslash``, ``outer blank``,
+            ``double slash`` or ``blank``.
+        message: The sentence that reports it.
+    """
+
+    defect: str
+    message: str
+
+
+def malformation(use: MeshUse) -> Malformation | None:
+    """Look for what is wrong with how a mesh is named; None if nothing is."""
     uri = use.uri
     scheme, separator, rest = uri.partition("://")
     if "filename" not in use.mesh.element.attributes or "${" in uri or "$(" in uri:
-        return ""
+        return None
+    defect, what = "", ""
     if not uri.strip():
-        return f"a mesh of link '{use.link.name}' has an empty filename; name the file"
+        what = f"a mesh of link '{use.link.name}' has an empty filename; name the file"
+        return Malformation("empty", what)
     if re.match(r"(package|model|file):(?!//)", uri):
         name, _, path = uri.partition(":")
-        return f"mesh '{uri}' lacks a slash; write '{name}://{path.lstrip('/')}'"
-    if separator and scheme in ("package", "model") and not rest.strip("/").partition("/")[2]:
-        return f"mesh '{uri}' names no file; write {scheme}://PACKAGE/meshes/FILE"
-    if "\\" in uri and not use.is_absolute:
-        return f"mesh '{uri}' has backslashes; write '{uri.replace(chr(92), '/')}'"
-    if uri != uri.strip():
-        return f"mesh '{uri}' begins or ends with a blank; take it away"
-    if separator and scheme in ("package", "model") and "//" in rest:
+        defect, what = "lacks slash", f"lacks a slash; write '{name}://{path.lstrip('/')}'"
+    elif separator and scheme in ("package", "model") and not rest.strip("/").partition("/")[2]:
+        defect, what = "no file", f"names no file; write {scheme}://PACKAGE/meshes/FILE"
+    elif "\\" in uri and not use.is_absolute:
+        defect, what = "backslash", f"has backslashes; write '{uri.replace(chr(92), '/')}'"
+    elif uri != uri.strip():
+        defect, what = "outer blank", "begins or ends with a blank; take it away"
+    elif separator and scheme in ("package", "model") and "//" in rest:
         right = re.sub("/{2,}", "/", rest)
-        return f"mesh '{uri}' has a doubled slash; write '{scheme}://{right}'"
-    if separator and (" " in uri or "%20" in uri):
-        return f"mesh '{uri}' has a blank in it, which no URI may have; take it out of the name"
-    return ""
+        defect, what = "double slash", f"has a doubled slash; write '{scheme}://{right}'"
+    elif separator and (" " in uri or "%20" in uri):
+        defect, what = "blank", "has a blank in it, which no URI may have; take it out of the name"
+    return Malformation(defect, f"mesh '{uri}' {what}") if defect else None
+
+
+_REPAIRS = {
+    "lacks slash": (r"^(package|model|file):/*", r"\1://"),
+    "backslash": (r"\\+", "/"),
+    "double slash": (r"(?<!:)/{2,}", "/"),
+    "outer blank": (r"^\s+|\s+$", ""),
+}
+"""Pattern in the URI as written, and what replaces it, by the defect."""
+
+
+@malformed_uri.fix(SAFE)
+def correct_uri(problem: Problem, context: FixContext) -> Proposal | None:
+    """Correct slashes, and remove blanks at the ends; a name that is lacking is not invented."""
+    if problem.data["defect"] not in _REPAIRS:
+        return None
+    pattern, new = _REPAIRS[problem.data["defect"]]
+
+    def change(use: MeshUse) -> Change:
+        return substitute(use.mesh.element, "filename", pattern, new)
+
+    changes = change_uses(problem, context, change)
+    return safe("write it as a URI is written", *changes) if changes else None
 
 
 @rule(
@@ -238,14 +323,7 @@ def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Prob
     own = own_package(description.packages.file)
     if own is None:
         return
-    relative = [
-        use
-        for use in mesh_uses(robot, description)
-        if use.uri.strip()
-        and "://" not in use.uri
-        and not use.is_absolute
-        and not malformation(use)
-    ]
+    relative = _relative(mesh_uses(robot, description))
     if relative:
         first = relative[0]
         count = len({use.uri for use in relative})
@@ -261,90 +339,26 @@ def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Prob
         )
 
 
-@rule(
-    WARNING,
-    effects={
-        "mujoco, pybullet, pinocchio": "open a file with a blank in its name",
-    },
-)
-def unsafe_file_name(robot: Robot, description: Description) -> Iterator[Problem]:
-    """The name of a mesh file has a character that is special somewhere.
-
-    ``#``, ``?`` and ``%`` mean something in a URI, letters beyond ASCII are encoded in several
-    ways, and a blank ends a word.
-    """
-    told: set[str] = set()
-    for use in mesh_uses(robot, description):
-        if use.uri in told or malformation(use) or "${" in use.uri or "$(" in use.uri:
-            continue
-        told.add(use.uri)
-        odd = sorted({c for c in use.uri if c in '#?%<>|*"' or c == " " or not c.isascii()})
-        if odd:
-            what = "a blank" if odd == [" "] else " ".join(f"'{c}'" for c in odd)
-            yield Problem(
-                use.link,
-                f"mesh '{use.uri}' has {what} in its name; use letters, digits, _ and -",
-                at=use.mesh.element.attribute_place("filename"),
-            )
+@relative_uri_in_ros.fix(UNSAFE)
+def write_package_uris(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write all of them as URIs of the own package; None where one is not in it."""
+    own = own_package(context.description.packages.file)
+    changes = []
+    for use in _relative(mesh_uses(context.robot, context.description)):
+        uri = _uri_in_package(use.path, own)
+        if uri is None:
+            return None
+        changes.append(set_attribute(use.mesh.element, "filename", uri))
+    return unsafe(f"write package://{own[0] if own else ''}/…", *changes) if changes else None
 
 
-@rule(
-    INFO,
-    on=("mujoco",),
-    effects={"mujoco": "cannot open package:// paths"},
-)
-def package_uri_unresolvable(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A robot for MuJoCo names meshes by package.
-
-    MuJoCo does not know ROS packages. Its ``<mujoco><compiler meshdir="…" strippath="true"/>`` in
-    the URDF drops the folders and looks for the files in one place; before 3.7 it drops them
-    anyway.
-    """
-    for mujoco in robot.element.all("mujoco"):
-        compiler = mujoco.child("compiler")
-        if compiler is not None and {"meshdir", "strippath"} & compiler.attributes.keys():
-            return
-    for use in mesh_uses(robot, description):
-        if use.uri.startswith("package://") and use.collides:
-            yield Problem(
-                use.link,
-                f"MuJoCo cannot open '{use.uri}'; "
-                'write <mujoco><compiler meshdir="…" strippath="true"/> into the robot',
-                at=use.mesh.element.attribute_place("filename"),
-            )
-            return
-
-
-@rule(
-    WARNING,
-    raised={"mujoco": ERROR},
-    on=("mujoco",),
-    effects={
-        "mujoco": "3.3 takes one file for both; 4.0 loads the two",
-    },
-)
-def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Problem]:
-    """Two mesh files have one name, but for their folders or endings.
-
-    MuJoCo before 4.0 calls a mesh by the name of its file alone: ``visual/arm.stl`` and
-    ``collision/arm.stl`` are both ``arm``. Visuals count where the robot's ``<compiler>`` keeps
-    them.
-    """
-    all_of_them = keeps_visuals(robot)
-    first: dict[str, str] = {}
-    found: dict[str, MeshUse] = {}
-    for use in mesh_uses(robot, description):
-        if not (use.collides or all_of_them):
-            continue  # MuJoCo drops visuals
-        stem = use.uri.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
-        other = first.setdefault(stem, use.uri)
-        if stem and other != use.uri:
-            found.setdefault(stem, use)
-    if found:
-        stem, use = next(iter(found.items()))
-        more = f" (and {len(found) - 1} more pairs)" if len(found) > 1 else ""
-        yield Problem(
-            use.link,
-            f"meshes '{first[stem]}' and '{use.uri}' are both '{stem}' to MuJoCo{more}; rename one",
-            at=use.mesh.element.attribute_place("filename"),
-        )
+def _relative(uses: list[MeshUse]) -> list[MeshUse]:
+    """Select the meshes that are named by a relative path."""
+    return [
+        use
+        for use in uses
+        if use.uri.strip()
+        and "://" not in use.uri
+        and not use.is_absolute
+        and not malformation(use)
+    ]

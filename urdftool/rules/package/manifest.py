@@ -23,6 +23,7 @@ from ..fix import (
     insert_after,
     prepend_child,
     safe,
+    substitute,
     unsafe,
 )
 from ..mesh.uses import MeshUse, Stamp, mesh_uses, stamp
@@ -408,4 +409,21 @@ def wrong_package_in_uri(robot: Robot, description: Description) -> Iterator[Pro
             f"package '{name}' does not have {files}, and this one does; "
             f"write package://{own[0]}/…",
             at=uses[0].mesh.element.attribute_place("filename"),
+            data={"package": name, "write": own[0]},
         )
+
+
+@wrong_package_in_uri.fix(UNSAFE)
+def write_own_package(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the own package in all URIs of the other; None where it lacks one of the files."""
+    own = own_package(context.description.packages.file)
+    if own is None:
+        return None
+    changes = []
+    for use in mesh_uses(context.robot, context.description):
+        if use.uri.startswith(f"package://{problem.data['package']}/"):
+            if not os.path.isfile(own[1] / use.uri.partition("://")[2].partition("/")[2]):
+                return None
+            right = f"package://{own[0]}/"
+            changes.append(substitute(use.mesh.element, "filename", "^package://[^/]*/", right))
+    return unsafe(f"write package://{own[0]}/…", *changes) if changes else None

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Mesh, Robot
+from ..fix import FixContext, Proposal
 from ..gazebo.contact import contact_role
-from ..rule import INFO, Problem, rule
+from ..rule import INFO, UNSAFE, Problem, rule
 
 
 @rule(
@@ -77,7 +78,16 @@ def mujoco_missing_compiler(robot: Robot) -> Iterator[Problem]:
             robot,
             f"no <mujoco><compiler> says what MuJoCo should do with {meshes} meshes; "
             "its own way is to drop visuals",
+            data={"meshes": meshes},
         )
+
+
+@mujoco_missing_compiler.fix(UNSAFE)
+def write_compiler(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write MuJoCo's settings with the folder of the meshes."""
+    from ..mesh.changes import propose_compiler
+
+    return propose_compiler(context)
 
 
 @rule(INFO, default=False)
