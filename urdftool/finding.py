@@ -76,13 +76,13 @@ class Replacement(NamedTuple):
         return self.data.decode(self.place.file.encoding, "replace")
 
 
-class Remake(NamedTuple):
-    """A file that is made anew, such as a mesh.
+class FileRewrite(NamedTuple):
+    """A file, such as a mesh, that a fix writes whole.
 
     Attributes:
-        path: The file that is written, which may be there already.
-        origin: The file it is made of, which may be the same.
-        how: What is made of it, in words: ``binary STL``.
+        path: File to write, which may be there already.
+        origin: File it is computed from, which may be the same.
+        how: Description of what is written: ``binary STL``.
     """
 
     path: str
@@ -97,13 +97,13 @@ class Fix(NamedTuple):
         safe: Whether the robot is the same afterwards to whatever read it before.
         message: What is done, in words: ``write 0 0 1``.
         replacements: The bytes that change, in the order of the source.
-        remakes: The files that are made anew.
+        rewrites: Files that are written whole.
     """
 
     safe: bool
     message: str
     replacements: tuple[Replacement, ...]
-    remakes: tuple[Remake, ...] = ()
+    rewrites: tuple[FileRewrite, ...] = ()
 
     @property
     def applicability(self) -> str:
@@ -114,12 +114,12 @@ class Fix(NamedTuple):
     def paths(self) -> set[str]:
         """The files that it changes."""
         changed = {replacement.place.path for replacement in self.replacements}
-        return changed.union(remake.path for remake in self.remakes)
+        return changed.union(rewrite.path for rewrite in self.rewrites)
 
     @property
     def option(self) -> str:
         """What applies it on the command line."""
-        meshes = " --fix-meshes" if self.remakes else ""
+        meshes = " --fix-meshes" if self.rewrites else ""
         return ("--fix" if self.safe else "--fix --unsafe-fixes") + meshes
 
 

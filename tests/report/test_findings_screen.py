@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from urdftool.finding import Finding, Fix, Remake, Severity
+from urdftool.finding import FileRewrite, Finding, Fix, Severity
 from urdftool.report.findings_screen import MANY, SCREEN, advice, by_weight, screen
 from urdftool.source.location import Place, SourceFile
 
@@ -141,8 +141,8 @@ def test_the_summary_names_three_rules_and_what_to_do():
         "--fix --unsafe-fixes --diff shows 3 unsafe fixes as well",
     ]
     assert list(advice(facts[:MANY])) == []
-    remake = fix._replace(remakes=(Remake("a.stl", "a.stl", "binary STL"),))
-    meshes = [fact("ascii-stl", INFO, line, fix=remake) for line in range(MANY + 1)]
+    rewrite = fix._replace(rewrites=(FileRewrite("a.stl", "a.stl", "binary STL"),))
+    meshes = [fact("ascii-stl", INFO, line, fix=rewrite) for line in range(MANY + 1)]
     assert list(advice(meshes)) == [
         "rules with the most findings:",
         "     9  ascii-stl  --fix --fix-meshes, or --ignore ascii-stl",

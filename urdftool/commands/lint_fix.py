@@ -144,7 +144,7 @@ def _say_what_is_left(console: Console, reports: Sequence[Report], kinds: Kinds)
         needed = []
         if not finding.fix.safe and not kinds.unsafe:
             needed.append("--unsafe-fixes")
-        if finding.fix.remakes and not kinds.meshes:
+        if finding.fix.rewrites and not kinds.meshes:
             needed.append("--fix-meshes")
         if needed:
             key = finding.rule, finding.place.path, finding.place.start

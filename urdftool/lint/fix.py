@@ -71,7 +71,7 @@ def add_fixes(
             whole = [proposal for proposal in proposals if proposal is not None]
             if len(whole) < len(proposals) or not whole:
                 continue
-            replacements, remakes = settler.settle(whole), settler.remakes(whole)
+            replacements, rewrites = settler.settle(whole), settler.rewrites(whole)
         except RefusedError as error:
             report.unmended.append((group[0], str(error)))
             continue
@@ -82,9 +82,9 @@ def add_fixes(
                 continue
             report.failed_rules[name] = f"its fix: {type(error).__name__}: {error}"
             continue
-        if replacements or remakes:
+        if replacements or rewrites:
             safe = all(proposal.safe for proposal in whole) and not _lost_comments(replacements)
-            group[0].fix = Fix(safe, whole[0].message, replacements, remakes)
+            group[0].fix = Fix(safe, whole[0].message, replacements, rewrites)
 
 
 _COMMENT = re.compile(rb"<!--(?!\s*urdftool-).*?-->", re.DOTALL)

@@ -18,8 +18,8 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from ..errors import UrdftoolError
-from ..finding import Finding, Remake
-from ..rules.fixes.remakes import remade
+from ..finding import FileRewrite, Finding
+from ..rules.file_rewrites import rewritten_bytes
 from ..rules.table import FIXES
 from ..source.document import reading_instead
 from ..source.nearby import bytes_of
@@ -147,12 +147,12 @@ def _choose(
     for number, report in enumerate(reports):
         for finding in report.findings:
             fix = finding.fix
-            if fix is None or not (fix.safe or unsafe) or (fix.remakes and not meshes):
+            if fix is None or not (fix.safe or unsafe) or (fix.rewrites and not meshes):
                 continue
             if key_of(finding) in banned:
                 continue
             spans = [(r.place.path, r.place.start, r.place.end, r.data) for r in fix.replacements]
-            spans += [(r.path, 0, _ALL, r.how.encode()) for r in fix.remakes]
+            spans += [(r.path, 0, _ALL, r.how.encode()) for r in fix.rewrites]
             if any(_meets(taken.get(path, []), a, b, data) for path, a, b, data in spans):
                 continue
             for path, start, end, data in spans:
@@ -325,14 +325,14 @@ class _Round:
         edited = {path: _spliced(files[path], spans) for path, spans in replaced.items()}
         before: dict[str, bytes | None] = dict(files)
         with reading_instead(self.start):
-            for remake in _remakes(one.finding for one in chosen):
+            for rewrite in _rewrites(one.finding for one in chosen):
                 try:
-                    now, made = _now(remake.path), remade(remake)
+                    now, made = _now(rewrite.path), rewritten_bytes(rewrite)
                 except (UrdftoolError, OSError) as error:
-                    text = f"{remake.origin} cannot be made {remake.how}: {error}"
+                    text = f"{rewrite.origin} cannot be made {rewrite.how}: {error}"
                     raise _UnmadeError(text) from error
                 if now != made:
-                    before[remake.path], edited[remake.path] = now, made
+                    before[rewrite.path], edited[rewrite.path] = now, made
         return before, edited
 
     def _bytes_of(self, number: int, path: str, data: bytes) -> bytes:
@@ -372,9 +372,9 @@ def _groups(result: FixResult) -> list[set[str]]:
     return list({id(one): one for one in group.values()}.values())
 
 
-def _remakes(chosen: Iterable[Finding]) -> Iterator[Remake]:
+def _rewrites(chosen: Iterable[Finding]) -> Iterator[FileRewrite]:
     for finding in chosen:
-        yield from finding.fix.remakes if finding.fix is not None else ()
+        yield from finding.fix.rewrites if finding.fix is not None else ()
 
 
 def _now(path: str) -> bytes | None:

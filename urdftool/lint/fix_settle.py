@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from ..errors import SourceError
-from ..finding import Remake, Replacement
+from ..finding import FileRewrite, Replacement
 from ..rules.fix import Change, Proposal, RefusedError, Span
 from ..source import edit
 from ..source.description import Description
@@ -75,15 +75,15 @@ class Settler:
                 raise RefusedError("its parts overlap")
         return tuple(found)
 
-    def remakes(self, proposals: Sequence[Proposal]) -> tuple[Remake, ...]:
-        """The files that are made anew for the proposals of one finding.
+    def rewrites(self, proposals: Sequence[Proposal]) -> tuple[FileRewrite, ...]:
+        """List the files that the proposals of one finding write whole.
 
         Raises:
             RefusedError: One of them is not the user's to write.
         """
-        found = [c for p in proposals for c in p.changes if isinstance(c, Remake)]
-        for remake in found:
-            self._check_inside(remake.path)
+        found = [c for p in proposals for c in p.changes if isinstance(c, FileRewrite)]
+        for rewrite in found:
+            self._check_inside(rewrite.path)
         return tuple(dict.fromkeys(found))
 
     def _span(self, span: Span) -> Replacement:

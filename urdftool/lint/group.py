@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ..finding import Cause, Finding, Fix, Group, Remake, Replacement, Site
+from ..finding import Cause, FileRewrite, Finding, Fix, Group, Replacement, Site
 from ..inputs import Remembered
 from .merge import in_order
 from .outcome import Outcome
@@ -183,7 +183,7 @@ def _fix(found: Sequence[Finding]) -> Fix | None:
     if not chosen:
         return None
     replacements: list[Replacement] = []
-    remakes: list[Remake] = []
+    rewrites: list[FileRewrite] = []
     covered = 0
     for fix in chosen:
         new = [r for r in fix.replacements if r not in replacements]
@@ -191,14 +191,14 @@ def _fix(found: Sequence[Finding]) -> Fix | None:
             continue
         covered += 1
         replacements += new
-        remakes += [remake for remake in fix.remakes if remake not in remakes]
+        rewrites += [rewrite for rewrite in fix.rewrites if rewrite not in rewrites]
     message = chosen[0].message
     if any(fix.message != message for fix in chosen):
         message = f"{message}, and so on"
     if covered < len(found):
         message += f" (covers {covered} of {len(found)} places)"
     replacements.sort(key=lambda r: (r.place.path, r.place.start, r.place.end))
-    return Fix(bool(safe), message, tuple(replacements), tuple(remakes))
+    return Fix(bool(safe), message, tuple(replacements), tuple(rewrites))
 
 
 def _overlap(one: Replacement, other: Replacement) -> bool:

@@ -105,8 +105,8 @@ def fix_record(fix: Fix | None) -> dict[str, Any] | None:
             }
         )
     record = {"applicability": fix.applicability, "message": fix.message, "edits": edits}
-    if fix.remakes:
-        record["files"] = [{"path": f.path, "of": f.origin, "as": f.how} for f in fix.remakes]
+    if fix.rewrites:
+        record["files"] = [{"path": f.path, "of": f.origin, "as": f.how} for f in fix.rewrites]
     return record
 
 

@@ -106,7 +106,7 @@ def _result(finding: Finding, index: int, seen: Counter[tuple[str, str]]) -> dic
             "primaryLocationLineHash": f"{known_by}:{seen[finding.place.path, known_by]}"
         },
     }
-    if finding.fix is not None and not finding.fix.remakes:  # SARIF has no files made anew
+    if finding.fix is not None and not finding.fix.rewrites:  # SARIF only has replacements
         record["fixes"] = [_fix(finding.fix)]
     related = [
         {**location, "id": number} for number, location in enumerate(_related(finding), start=1)

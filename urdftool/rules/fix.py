@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..finding import Finding, Remake, Severity
+from ..finding import FileRewrite, Finding, Severity
 from ..model.elements import Joint, Link, Robot
 from ..source.description import Description
 from ..source.document import Document, Element
@@ -96,7 +96,7 @@ class Proposal:
 
     safe: bool
     message: str
-    changes: tuple[Change | Span | Remake, ...]
+    changes: tuple[Change | Span | FileRewrite, ...]
 
 
 @dataclass
@@ -148,12 +148,12 @@ MakeFix = Callable[[Problem, FixContext], Proposal | None]
 MakeFixOfFile = Callable[[Finding, FixContext], Proposal | None]
 
 
-def safe(message: str, *changes: Change | Span | Remake) -> Proposal:
+def safe(message: str, *changes: Change | Span | FileRewrite) -> Proposal:
     """Propose a safe fix."""
     return Proposal(True, message, changes)
 
 
-def unsafe(message: str, *changes: Change | Span | Remake) -> Proposal:
+def unsafe(message: str, *changes: Change | Span | FileRewrite) -> Proposal:
     """Propose an unsafe fix."""
     return Proposal(False, message, changes)
 

@@ -13,11 +13,21 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from ...errors import MeshError
-from ...finding import Remake
+from ...finding import FileRewrite
 from ...source.document import copy_of
 from ...source.nearby import bytes_of
 from ...source.packages import shown_path
 from ..cross_file_references import check_alone
+from ..file_rewrites import (
+    BINARY,
+    COPIED,
+    HEADED,
+    MIRRORED,
+    TURNED,
+    WITHOUT_COLLAPSED,
+    count_collapsed,
+    rewritten_bytes,
+)
 from ..mesh.uses import MeshUse, mesh_uses
 from ..rule import Problem
 from .proposal import (
@@ -30,7 +40,6 @@ from .proposal import (
     sub,
     unsafe,
 )
-from .remakes import BINARY, COPIED, HEADED, MIRRORED, TURNED, WITHOUT_FLAT, pointed, remade
 
 
 def uses_of(around: Around, uri: str | None) -> list[MeshUse]:
@@ -46,9 +55,9 @@ def _named(problem: Problem, around: Around) -> list[MeshUse]:
     return uses if uses and uses[0].path is not None and uses[0].exists else []
 
 
-def _in_place(uses: Iterable[MeshUse], how: str) -> list[Remake]:
+def _in_place(uses: Iterable[MeshUse], how: str) -> list[FileRewrite]:
     paths = dict.fromkeys(shown_path(use.path) for use in uses if use.path is not None)
-    return [Remake(path, path, how) for path in paths]
+    return [FileRewrite(path, path, how) for path in paths]
 
 
 def ascii_stl(problem: Problem, around: Around) -> Proposal | None:
@@ -88,13 +97,13 @@ def degenerate_triangles(problem: Problem, around: Around) -> Proposal | None:
         return None
     for use, surface in found:
         try:
-            gone = pointed(Path(str(use.path)))
+            gone = count_collapsed(Path(str(use.path)))
         except (MeshError, OSError):
             return None
         if surface.flat - gone > 0.01 * (surface.faces - gone):
             return None  # corners in a row: without those there would be gaps
         check_alone(around, str(use.path and use.path.name), robots=True)
-    return unsafe("take them away", *_in_place(uses, WITHOUT_FLAT))
+    return unsafe("take them away", *_in_place(uses, WITHOUT_COLLAPSED))
 
 
 def dae_as_collision(problem: Problem, around: Around) -> Proposal | None:
@@ -118,7 +127,7 @@ def unsupported_mesh_format(problem: Problem, around: Around) -> Proposal | None
 
 
 def _as_stl(uses: list[MeshUse]) -> Proposal | None:
-    changes: list[Change | Remake] = []
+    changes: list[Change | FileRewrite] = []
     for use in uses:
         if use.path is None:
             return None
@@ -135,7 +144,7 @@ def _as_stl(uses: list[MeshUse]) -> Proposal | None:
 
 def mirrored_scale(problem: Problem, around: Around) -> Proposal | None:
     """Files that are mirrored themselves, where they have no colours to lose."""
-    changes: list[Change | Remake] = []
+    changes: list[Change | FileRewrite] = []
     for use in uses_of(around, None):
         x, y, z = use.mesh.scale
         if x * y * z >= 0:
@@ -186,17 +195,17 @@ def _copied(uses: list[MeshUse], name: str) -> Proposal | None:
     return unsafe(f"copy it to '{name}' and name that", *changes, *new)
 
 
-def _beside(use: MeshUse, name: str, how: str) -> list[Remake]:
+def _beside(use: MeshUse, name: str, how: str) -> list[FileRewrite]:
     """A file beside a mesh that is made of it; none where there is another of that name.
 
     Robots share meshes: what was made for one serves the next.
     """
     old = Path(str(use.path))
     new = old.with_name(name)
-    remake = Remake(shown_path(new), shown_path(old), how)
+    rewrite = FileRewrite(shown_path(new), shown_path(old), how)
     if os.path.lexists(new) or copy_of(new) is not None:
         try:
-            return [remake] if bytes_of(new) == remade(remake) else []
+            return [rewrite] if bytes_of(new) == rewritten_bytes(rewrite) else []
         except (MeshError, OSError):
             return []
-    return [remake]
+    return [rewrite]

@@ -1,4 +1,4 @@
-"""Meshes made anew for a fix: the bytes of the file that is written, from the one that is there."""
+"""Compute the bytes of mesh files that a fix writes, from those of the file that is there."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from ...errors import MeshError
-from ...finding import Remake
-from ...meshes.facts import HEADER_BYTES, TRIANGLE_BYTES, stl_facts
-from ...source.nearby import stand_in
+from ..errors import MeshError
+from ..finding import FileRewrite
+from ..meshes.facts import HEADER_BYTES, TRIANGLE_BYTES, stl_facts
+from ..source.nearby import stand_in
 
-BINARY, TURNED, WITHOUT_FLAT = "binary STL", "turned inside out", "without its flat triangles"
+BINARY, TURNED, WITHOUT_COLLAPSED = "binary STL", "turned inside out", "without its flat triangles"
 MIRRORED, HEADED, COPIED = "mirrored, as STL, along ", "with another word at its head", "a copy"
 
 _RECORD = struct.Struct("<12fH")
@@ -24,35 +24,35 @@ Record = tuple[Any, ...]
 """Normal, three corners and the attribute of a triangle, in a row."""
 
 
-def remade(remake: Remake) -> bytes:
-    """What a file is to be.
+def rewritten_bytes(rewrite: FileRewrite) -> bytes:
+    """Compute what is written to a file.
 
     Raises:
-        MeshError: What it is made of cannot be read.
-        OSError: The same.
+        MeshError: The original cannot be read.
+        OSError: The original cannot be opened.
     """
     try:
-        return _remade(stand_in(Path(remake.origin)), remake)
+        return _rewritten(stand_in(Path(rewrite.origin)), rewrite)
     except (ValueError, OverflowError, struct.error) as error:
-        raise MeshError(str(error), path=remake.origin) from error
+        raise MeshError(str(error), path=rewrite.origin) from error
 
 
-def _remade(path: Path, remake: Remake) -> bytes:
-    if remake.how == COPIED:
+def _rewritten(path: Path, rewrite: FileRewrite) -> bytes:
+    if rewrite.how == COPIED:
         return path.read_bytes()
-    if remake.how == HEADED:
+    if rewrite.how == HEADED:
         data = path.read_bytes()
         return re.sub(rb"solid", b"STL: ", data[:80], count=1, flags=re.IGNORECASE) + data[80:]
-    if remake.how == BINARY:
+    if rewrite.how == BINARY:
         return _text_as_binary(path) if _is_text(path) else _as_stl(path, (1.0, 1.0, 1.0))
-    if remake.how.startswith(MIRRORED):
-        axes = remake.how.removeprefix(MIRRORED)
+    if rewrite.how.startswith(MIRRORED):
+        axes = rewrite.how.removeprefix(MIRRORED)
         x, y, z = (-1.0 if axis in axes else 1.0 for axis in "xyz")
         return _as_stl(path, (x, y, z))
     head, records = _records(path)
-    if remake.how == TURNED:
+    if rewrite.how == TURNED:
         return head + b"".join(_turned(record) for record in records)
-    kept = [_RECORD.pack(*record) for record in records if not _is_flat(record)]
+    kept = [_RECORD.pack(*record) for record in records if not _is_collapsed(record)]
     return head[:80] + struct.pack("<I", len(kept)) + b"".join(kept)
 
 
@@ -61,7 +61,7 @@ def _is_text(path: Path) -> bool:
 
 
 def _text_as_binary(path: Path) -> bytes:
-    """An STL text as the same triangles in the binary form."""
+    """Write an STL text as the same triangles in the binary form."""
     data = path.read_bytes()
     numbers = [float(word) for row in _CORNERS.findall(data) for word in row]
     facets = len(re.findall(rb"\bendfacet\b", data, re.IGNORECASE))
@@ -71,8 +71,8 @@ def _text_as_binary(path: Path) -> bytes:
 
 
 def _as_stl(path: Path, scale: tuple[float, float, float]) -> bytes:
-    """The triangles of any mesh file, in its own frame, scaled by 1 or -1."""
-    from ...meshes.load import load_mesh
+    """Write the triangles of any mesh file as STL, in its own frame, scaled by 1 or -1."""
+    from ..meshes.load import load_mesh
 
     mesh = load_mesh(path, scale)
     return _written(mesh.vertices[mesh.faces].reshape(-1, 9).tolist())
@@ -96,7 +96,7 @@ def _normal(corners: list[float]) -> tuple[float, float, float]:
 
 
 def _records(path: Path) -> tuple[bytes, Iterator[Record]]:
-    """The head and the triangles of a binary STL file."""
+    """Read the head and the triangles of a binary STL file."""
     facts = stl_facts(path)
     if facts.kind != "binary" or not facts.size_agrees:
         raise MeshError("is no binary STL file", path=path)
@@ -110,17 +110,17 @@ def _turned(record: Record) -> bytes:
     return _RECORD.pack(*(0.0 - value for value in normal), *a, *c, *b, attribute)
 
 
-def pointed(path: Path) -> int:
-    """How many triangles of a binary STL file have two corners in one place.
+def count_collapsed(path: Path) -> int:
+    """Count the triangles of a binary STL file that have two corners in one place.
 
     Raises:
-        MeshError: It is none.
+        MeshError: It is not a binary STL file.
         OSError: It cannot be read.
     """
-    return sum(map(_is_flat, _records(stand_in(path))[1]))
+    return sum(map(_is_collapsed, _records(stand_in(path))[1]))
 
 
-def _is_flat(record: Record) -> bool:
-    """Whether two corners of a triangle are one: it can go, and leaves no hole."""
+def _is_collapsed(record: Record) -> bool:
+    """Tell whether two corners of a triangle are one, so that it leaves no hole if removed."""
     a, b, c = record[3:6], record[6:9], record[9:12]
     return a == b or b == c or c == a
