@@ -71,17 +71,6 @@ FIXES: dict[str, dict[str, str]] = {
         "mesh-scaled-twice": UNSAFE,
         "optical-frame-orientation": UNSAFE,
     },
-    "mesh_files": {
-        "ascii-stl": BOTH,
-        "binary-stl-starts-with-solid": SAFE,
-        "inverted-mesh": UNSAFE,
-        "degenerate-triangles": UNSAFE,
-        "dae-as-collision": UNSAFE,
-        "unsupported-mesh-format": UNSAFE,
-        "mirrored-scale": UNSAFE,
-        "unsafe-file-name": UNSAFE,
-        "mesh-stem-collision": UNSAFE,
-    },
     "gazebo": {
         "missing-gazebo-tags": UNSAFE,
         "missing-gazebo-material": SAFE,

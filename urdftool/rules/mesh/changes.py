@@ -1,11 +1,17 @@
-"""Change how meshes are named, wherever a robot uses them."""
+"""Change how meshes are named, and write mesh files in place or beside the old ones."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from pathlib import Path
 
-from ...source.document import Element
+from ...errors import MeshError
+from ...finding import FileRewrite
+from ...source.document import Element, copy_of
+from ...source.nearby import bytes_of
+from ...source.packages import shown_path
+from ..file_rewrites import rewritten_bytes
 from ..fix import Change, FixContext, Proposal, attribute_at, prepend_child, unsafe
 from ..rule import Problem
 from .uses import MeshUse, mesh_uses
@@ -24,6 +30,15 @@ def uses_at(problem: Problem, context: FixContext) -> list[MeshUse]:
     return [use for use in mesh_uses(context.robot, context.description) if use.uri == uri]
 
 
+def files_at(problem: Problem, context: FixContext) -> list[MeshUse]:
+    """List the uses of the mesh whose name a problem points at.
+
+    Returns:
+        Nothing where its file is not there.
+    """
+    return [use for use in uses_at(problem, context) if use.exists and use.path is not None]
+
+
 def change_uses(
     problem: Problem, context: FixContext, change: Callable[[MeshUse], Change | None]
 ) -> list[Change]:
@@ -39,6 +54,43 @@ def change_uses(
     """
     changes = [change(use) for use in uses_at(problem, context)]
     return [] if None in changes else [one for one in changes if one is not None]
+
+
+def rewrite_in_place(uses: Iterable[MeshUse], how: str) -> list[FileRewrite]:
+    """Rewrite the files of meshes.
+
+    This is for changes after which all readers load the same, or for files that no other
+    description of the package names.
+
+    Args:
+        uses: The meshes.
+        how: What is written, one of the constants of :mod:`urdftool.rules.file_rewrites`.
+    """
+    paths = dict.fromkeys(shown_path(use.path) for use in uses if use.path is not None)
+    return [FileRewrite(path, path, how) for path in paths]
+
+
+def write_beside(use: MeshUse, name: str, how: str) -> list[FileRewrite]:
+    """Write a file beside a mesh, computed from it.
+
+    Args:
+        use: The mesh.
+        name: Name of the new file.
+        how: What is written, one of the constants of :mod:`urdftool.rules.file_rewrites`.
+
+    Returns:
+        Nothing where there is a file of that name with other content. Robots share meshes: one that
+        was written for another robot serves this one, too.
+    """
+    old = Path(str(use.path))
+    new = old.with_name(name)
+    rewrite = FileRewrite(shown_path(new), shown_path(old), how)
+    if os.path.lexists(new) or copy_of(new) is not None:
+        try:
+            return [rewrite] if bytes_of(new) == rewritten_bytes(rewrite) else []
+        except (MeshError, OSError):
+            return []
+    return [rewrite]
 
 
 def propose_compiler(context: FixContext) -> Proposal | None:

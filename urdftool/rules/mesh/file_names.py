@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import re
+import unicodedata
 from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.description import Description
-from ..fix import FixContext, Proposal
+from ..file_rewrites import COPIED
+from ..fix import FixContext, Proposal, substitute, unsafe
 from ..mujoco import keeps_visuals
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
-from .changes import propose_compiler
+from .changes import files_at, propose_compiler, write_beside
 from .uris import malformation
 from .uses import MeshUse, mesh_uses
 
@@ -40,7 +43,31 @@ def unsafe_file_name(robot: Robot, description: Description) -> Iterator[Problem
                 use.link,
                 f"mesh '{use.uri}' has {what} in its name; use letters, digits, _ and -",
                 at=use.mesh.element.attribute_place("filename"),
+                data={"uri": use.uri, "characters": odd},
             )
+
+
+@unsafe_file_name.fix(UNSAFE, writes_meshes=True)
+def copy_under_plain_name(problem: Problem, context: FixContext) -> Proposal | None:
+    """Copy the file to a plain name, and use the copy."""
+    uses = files_at(problem, context)
+    if not uses or uses[0].path is None:
+        return None
+    plain = unicodedata.normalize("NFKD", uses[0].path.name).encode("ascii", "ignore").decode()
+    return _copy(uses, re.sub(r"[^\w.-]+", "_", plain, flags=re.ASCII))
+
+
+def _copy(uses: list[MeshUse], name: str) -> Proposal | None:
+    """Copy the file of a mesh to another name, and use the copy wherever the mesh is."""
+    path = uses[0].path
+    if path is None or not name or name == path.name or not uses[0].uri.endswith(path.name):
+        return None
+    new = write_beside(uses[0], name, COPIED)
+    if not new:
+        return None
+    pattern = re.escape(path.name) + "$"
+    changes = [substitute(use.mesh.element, "filename", pattern, name) for use in uses]
+    return unsafe(f"copy it to '{name}' and name that", *changes, *new)
 
 
 @rule(
@@ -109,4 +136,15 @@ def mesh_stem_collision(robot: Robot, description: Description) -> Iterator[Prob
             use.link,
             f"meshes '{first[stem]}' and '{use.uri}' are both '{stem}' to MuJoCo{more}; rename one",
             at=use.mesh.element.attribute_place("filename"),
+            data={"uris": [first[stem], use.uri], "name": stem},
         )
+
+
+@mesh_stem_collision.fix(UNSAFE, writes_meshes=True)
+def copy_under_own_name(problem: Problem, context: FixContext) -> Proposal | None:
+    """Copy the second file to a name with that of its folder, and use the copy."""
+    uses = files_at(problem, context)
+    if not uses or uses[0].path is None:
+        return None
+    path = uses[0].path
+    return _copy(uses, f"{path.stem}_{path.parent.name or 'mesh'}{path.suffix}")

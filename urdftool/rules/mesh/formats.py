@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 
+from ...finding import FileRewrite
 from ...meshes.facts import StlFacts, stl_facts
 from ...model.elements import Robot
 from ...model.mesh_formats import READ_BY
 from ...source.description import Description
+from ..file_rewrites import BINARY, HEADED
+from ..fix import Change, FixContext, Proposal, safe, substitute, unsafe
 from ..mujoco import keeps_visuals
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..rule import BOTH, ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
+from .changes import files_at, rewrite_in_place, write_beside
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
 APPLIES_TO = ("mesh",)
@@ -76,7 +81,21 @@ def unsupported_mesh_format(
                 ),
                 at=use.mesh.element.attribute_place("filename"),
                 effects=_OF_PLY if ending == "ply" and any(u.collides for u in same) else (),
+                data={"uri": use.uri, "format": ending, "readers": who},
             )
+
+
+@unsupported_mesh_format.fix(UNSAFE, writes_meshes=True)
+def convert_ply_to_stl(problem: Problem, context: FixContext) -> Proposal | None:
+    """Convert PLY files to STL, beside them, if they are collisions and so lose no colors."""
+    uses = [
+        use
+        for use in mesh_uses(context.robot, context.description)
+        if use.uri.lower().endswith(f".{problem.data['format']}")
+    ]
+    if problem.data["format"] != "ply" or any(not (u.collides and u.exists) for u in uses):
+        return None
+    return _convert_to_stl(uses)
 
 
 def is_odd(ending: str) -> bool:
@@ -122,7 +141,20 @@ def ascii_stl(robot: Robot, description: Description) -> Iterator[Problem]:
                 f"mesh '{use.uri}' is STL as text; write it as binary STL",
                 at=use.mesh.element.attribute_place("filename"),
                 effects=[*["mujoco"] * (keeps or use.collides), *_OF_TEXT],
+                data={"uri": use.uri},
             )
+
+
+@ascii_stl.fix(BOTH, writes_meshes=True)
+def write_binary_stl(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the same triangles in the binary form.
+
+    PyBullet cannot read the text, so what collides has a shape there only afterwards.
+    """
+    uses = files_at(problem, context)
+    make = unsafe if any(use.collides for use in uses) else safe
+    rewrites = rewrite_in_place(uses[:1], BINARY)
+    return make("write it as binary STL", *rewrites) if rewrites else None
 
 
 @rule(
@@ -139,7 +171,7 @@ def binary_stl_starts_with_solid(robot: Robot, description: Description) -> Iter
     one exporter in fifteen writes it there; loaders that look no further read the file as text and
     fail.
     """
-    found = [use for use in _first_uses(robot, description) if begins_with_solid(use)]
+    found = [use for use in _first_uses(robot, description) if _begins_with_solid(use)]
     if found:
         more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
         yield Problem(
@@ -147,13 +179,22 @@ def binary_stl_starts_with_solid(robot: Robot, description: Description) -> Iter
             f"mesh '{found[0].uri}'{more} is binary STL that begins with 'solid', as text does; "
             "overwrite the first 80 bytes",
             at=found[0].mesh.element.attribute_place("filename"),
+            data={"uris": [use.uri for use in found]},
         )
 
 
-def begins_with_solid(use: MeshUse) -> bool:
-    """Whether a mesh is binary STL with the mark of the text form."""
+def _begins_with_solid(use: MeshUse) -> bool:
+    """Tell whether a mesh is binary STL with the mark of the text form."""
     facts = _stl(use)
     return facts is not None and facts.kind == "binary" and facts.begins_with_solid
+
+
+@binary_stl_starts_with_solid.fix(SAFE, writes_meshes=True)
+def overwrite_first_word(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write another word at the head of each of the files."""
+    uses = mesh_uses(context.robot, context.description)
+    rewrites = rewrite_in_place(filter(_begins_with_solid, uses), HEADED)
+    return safe("write another word there", *rewrites) if rewrites else None
 
 
 _UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']([^\"']+)[\"']")
@@ -249,4 +290,32 @@ def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem
             uses[0].link,
             f"collision mesh '{uses[0].uri}'{more} is COLLADA; OBJ is enough for a collision",
             at=uses[0].mesh.element.attribute_place("filename"),
+            data={"uris": list(dict.fromkeys(use.uri for use in uses))},
         )
+
+
+@dae_as_collision.fix(UNSAFE, writes_meshes=True)
+def convert_collada_to_stl(problem: Problem, context: FixContext) -> Proposal | None:
+    """Convert COLLADA files to STL, beside them, if readers agree on their unit and axes."""
+    uses = mesh_uses(context.robot, context.description)
+    found = [use for use in uses if use.collides and use.uri.lower().endswith(".dae")]
+    if any(not use.exists or unit_and_axis(use) for use in found):
+        return None
+    return _convert_to_stl(found)
+
+
+def _convert_to_stl(uses: list[MeshUse]) -> Proposal | None:
+    """Write meshes as STL under a free name beside them, and use these."""
+    changes: list[Change | FileRewrite] = []
+    for use in uses:
+        if use.path is None:
+            return None
+        for ending in (".stl", "_collision.stl"):
+            new = write_beside(use, use.path.stem + ending, BINARY)
+            if new:
+                break
+        else:
+            return None
+        old = re.escape(os.path.splitext(use.uri)[1]) + r"(?=\s*$)"
+        changes += [substitute(use.mesh.element, "filename", old, ending), *new]
+    return unsafe("convert it to STL, beside it", *dict.fromkeys(changes)) if changes else None

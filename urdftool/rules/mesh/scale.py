@@ -7,11 +7,15 @@ import struct
 from collections.abc import Iterator
 from pathlib import Path
 
+from ...finding import FileRewrite
 from ...meshes.facts import HEADER_BYTES, TRIANGLE_BYTES, stl_bounds, stl_facts
 from ...model.elements import Robot
 from ...model.read import numbers
 from ...source.description import Description
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..file_rewrites import MIRRORED
+from ..fix import Change, FixContext, Proposal, set_attribute, substitute, unsafe
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from .changes import write_beside
 from .outlines import box_of
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
@@ -184,7 +188,29 @@ def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
             f"mesh '{found[0].uri}'{more} is mirrored by its scale; "
             "mirror the file itself, with its triangles turned",
             at=found[0].mesh.element.attribute_place("scale"),
+            data={"uris": list(dict.fromkeys(use.uri for use in found))},
         )
+
+
+@mirrored_scale.fix(UNSAFE, writes_meshes=True)
+def write_mirrored_mesh(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write files that are mirrored themselves, if they are STL and so lose no colors."""
+    changes: list[Change | FileRewrite] = []
+    for use in mesh_uses(context.robot, context.description):
+        x, y, z = use.mesh.scale
+        if x * y * z >= 0:
+            continue
+        if use.path is None or not use.exists or not use.uri.lower().endswith(".stl"):
+            return None
+        axes = "".join(axis for axis, factor in zip("xyz", (x, y, z), strict=True) if factor < 0)
+        new = write_beside(use, f"{use.path.stem}_mirrored_{axes}.stl", MIRRORED + axes)
+        if not new:
+            return None
+        element = use.mesh.element
+        scale = " ".join(f"{abs(factor):.12g}" for factor in (x, y, z))
+        changes.append(substitute(element, "filename", r"\.(?=\w+\s*$)", f"_mirrored_{axes}."))
+        changes += [set_attribute(element, "scale", scale), *new]
+    return unsafe("mirror the file, beside it", *dict.fromkeys(changes)) if changes else None
 
 
 @rule(

@@ -6,10 +6,15 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...errors import MeshError
 from ...inputs import Remembered
 from ...model.elements import Robot
 from ...source.description import Description
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..cross_file_references import check_alone
+from ..file_rewrites import TURNED, WITHOUT_COLLAPSED, count_collapsed
+from ..fix import FixContext, Proposal, unsafe
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from .changes import files_at, rewrite_in_place
 from .uses import MeshUse, Stamp, is_concave, mesh_uses, stamp
 
 APPLIES_TO = ("mesh",)
@@ -68,7 +73,9 @@ def _together(found: list[tuple[MeshUse, str]], message: Callable[[MeshUse], str
     (use, what), rest = found[0], found[1:]
     others = ", ".join(f"'{other.link.name}'" for other, _ in rest)
     text = message(use).format(what) + (f"; so are those of {others}" if rest else "")
-    return [Problem(use.link, text, at=use.mesh.element.attribute_place("filename"))]
+    uris = [use.uri for use, _ in found]
+    place = use.mesh.element.attribute_place("filename")
+    return [Problem(use.link, text, at=place, data={"uris": uris})]
 
 
 @rule(
@@ -130,7 +137,18 @@ def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
                 f"collision mesh '{use.uri}' of link '{use.link.name}' is inside out; turn its "
                 "triangles round",
                 at=use.mesh.element.attribute_place("filename"),
+                data={"uri": use.uri},
             )
+
+
+@inverted_mesh.fix(UNSAFE, writes_meshes=True)
+def turn_triangles(problem: Problem, context: FixContext) -> Proposal | None:
+    """Turn the triangles of the file, if no other description names it."""
+    uses = [use for use in files_at(problem, context) if use.uri.lower().endswith(".stl")]
+    if not uses:
+        return None
+    check_alone(context, str(uses[0].path and uses[0].path.name), robots=True)
+    return unsafe("turn its triangles round", *rewrite_in_place(uses[:1], TURNED))
 
 
 @rule(
@@ -151,7 +169,7 @@ def degenerate_triangles(
     """
     found = [
         (use, f"{surface.flat} of its {surface.faces} triangles")
-        for use, surface in with_slivers(robot, description, most)
+        for use, surface in _with_slivers(robot, description, most)
     ]
     yield from _together(
         found,
@@ -161,15 +179,36 @@ def degenerate_triangles(
     )
 
 
-def with_slivers(
+def _with_slivers(
     robot: Robot, description: Description, most: float = MOST_SLIVERS
 ) -> list[tuple[MeshUse, Surface]]:
-    """The collision meshes of which more than a part of the triangles has no area."""
+    """List the collision meshes of which more than a part of the triangles has no area."""
     return [
         (use, surface)
         for use, _, surface in _surfaces(robot, description)
         if surface.flat > most * surface.faces
     ]
+
+
+@degenerate_triangles.fix(UNSAFE, writes_meshes=True)
+def remove_collapsed_triangles(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove triangles of which two corners are one, which leaves no hole.
+
+    Where three different corners lie on a line, nothing is removed, since that leaves gaps.
+    """
+    found = _with_slivers(context.robot, context.description)
+    uses = [use for use, _ in found]
+    if not uses or any(not use.uri.lower().endswith(".stl") for use in uses):
+        return None
+    for use, surface in found:
+        try:
+            removed = count_collapsed(Path(str(use.path)))
+        except (MeshError, OSError):
+            return None
+        if surface.flat - removed > 0.01 * (surface.faces - removed):
+            return None
+        check_alone(context, str(use.path and use.path.name), robots=True)
+    return unsafe("take them away", *rewrite_in_place(uses, WITHOUT_COLLAPSED))
 
 
 @rule(
@@ -208,6 +247,7 @@ def nonconvex_collision_mesh(
             f"collision mesh '{use.uri}' of link '{use.link.name}' is not convex: its hull has "
             f"{hull / abs(surface.volume):.2g} times its volume",
             at=use.mesh.element.attribute_place("filename"),
+            data={"uri": use.uri, "ratio": hull / abs(surface.volume), "limit": ratio},
             hint="'urdftool collision' cuts it into convex pieces",
             group=""
             if concave
