@@ -61,9 +61,14 @@ class Apart(NamedTuple):
         """What to write for the odd one."""
         if self.same:
             return f"give it the <origin> of the {self.other}"
-        if self.xyz is None:
-            return "check its <origin>"
-        return f'write xyz="{" ".join(f"{round(x, 6) + 0.0:g}" for x in self.xyz)}"'
+        return f'write xyz="{self.xyz_text}"' if self.xyz_text else "check its <origin>"
+
+    @property
+    def xyz_text(self) -> str:
+        """``xyz`` as it is written; empty where it is not known or the shapes share an origin."""
+        if self.same or self.xyz is None:
+            return ""
+        return " ".join(f"{round(x, 6) + 0.0:g}" for x in self.xyz)
 
     @property
     def other(self) -> str:

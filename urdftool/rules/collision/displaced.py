@@ -8,8 +8,10 @@ from typing import NamedTuple
 
 from ...model.elements import Collision, Link, Mesh, Robot, Vector, Visual
 from ...model.pose import Pose, Rotation, matrix_product, pose_of, transpose
+from ..fix import FixContext, Proposal, unsafe
 from ..mesh.outlines import outline_of, reaches
-from ..rule import WARNING, Problem, rule
+from ..rule import UNSAFE, WARNING, Problem, rule
+from ..shape_changes import copy_origin
 
 APPLIES_TO = ("mesh",)
 
@@ -57,7 +59,36 @@ def collision_mesh_displaced(
                 f"collision mesh of link '{link.name}' is the file of its visual, "
                 f"but {' and '.join(apart)}; give both the same <origin>",
                 at=found.collision.origin or found.collision,
+                data={"distance": found.distance, "angle": found.angle},
             )
+
+
+@collision_mesh_displaced.fix(UNSAFE)
+def copy_origin_by_center_of_mass(problem: Problem, context: FixContext) -> Proposal | None:
+    """Copy the origin of the one that the center of mass is at to the other."""
+    link, robot = context.link(problem), context.robot
+    found = next(
+        (
+            pair
+            for pair in displaced(robot, link)
+            if (pair.collision.origin or pair.collision).place == problem.place
+        ),
+        None,
+    )
+    com = link.inertial.origin.xyz if link.inertial and link.inertial.origin else None
+    if found is None or com is None or not any(com):
+        return None  # a center of mass at the frame may be missing as well
+    boxes = [reaches(robot).shape(shape) for shape in (found.visual, found.collision)]
+    if boxes[0] is None or boxes[1] is None:
+        return None
+    visual, collision = (math.dist(com, box.centre) for box in boxes if box is not None)
+    if 2 * visual < collision:
+        change = copy_origin(found.collision, found.visual)
+        return unsafe("give it the <origin> of the visual", change)
+    if 2 * collision < visual:
+        change = copy_origin(found.visual, found.collision)
+        return unsafe("give the visual the <origin> of the collision", change)
+    return None
 
 
 def displaced(

@@ -8,12 +8,14 @@ from pathlib import Path
 
 from ...meshes.facts import stl_facts
 from ...model.bounds import Bounds, size_of
-from ...model.elements import Cylinder, Link, Robot, Sphere
+from ...model.elements import Collision, Cylinder, Link, Robot, Sphere, Visual
 from ...model.gltf_axes import is_gltf
 from ...source.description import Description
+from ..fix import FixContext, Proposal, depends_on_arguments, unsafe
 from ..mesh.outlines import Reaches, reaches
 from ..mesh.uses import MeshUse, Stamp, is_concave, mesh_uses, stamp
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..shape_changes import copy_origin, set_in_origin
 from .apart import compare_places, measured, with_attached
 from .displaced import displaced
 
@@ -339,4 +341,30 @@ def collision_off_visual(
             what + (_AXES if lying else ""),
             at=shape.origin or shape,
             severity=None if found.alike else INFO,
+            data={
+                "distance": found.distance,
+                "odd": found.odd,
+                "same": found.same,
+                "write": found.xyz_text,
+            },
         )
+
+
+@collision_off_visual.fix(UNSAFE)
+def move_odd_shape(problem: Problem, context: FixContext) -> Proposal | None:
+    """Move the one at the wrong place to where the other is, if it is known which one that is."""
+    link, odd, xyz = context.link(problem), problem.data["odd"], problem.data["write"]
+    if not odd or not (xyz or problem.data["same"]):
+        return None
+    if len(link.visuals) != 1 or len(link.collisions) != 1:
+        return None
+    if depends_on_arguments(link.element, "visual", "collision", "inertial"):
+        return None
+    wrong: Visual | Collision = link.visuals[0]
+    right: Visual | Collision = link.collisions[0]
+    if odd == "collision":
+        wrong, right = right, wrong
+    if xyz:
+        return unsafe(f'write xyz="{xyz}" for its {odd}', set_in_origin(wrong, "xyz", xyz))
+    what = f"give the {odd} the <origin> of the {right.element.tag}"
+    return unsafe(what, copy_origin(wrong, right))

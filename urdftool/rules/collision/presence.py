@@ -9,13 +9,15 @@ from statistics import median
 
 from ...model.attached import attached_links
 from ...model.bounds import Bounds, size_of
-from ...model.elements import Link, Mesh, Robot
+from ...model.elements import Box, Cylinder, Link, Mesh, Robot, Sphere
 from ...model.pose import pose_of
+from ..fix import FixContext, Proposal, unsafe
 from ..gazebo.contact import axis_up
 from ..inertia.bodies import bodies, mass_of
 from ..mesh.outlines import reaches
 from ..mujoco import keeps_visuals
-from ..rule import INFO, WARNING, Problem, rule
+from ..rule import INFO, UNSAFE, WARNING, Problem, rule
+from ..shape_changes import copy_shape
 from ..sides import family_of
 from ..words import some_of
 from ..xml.vocabulary_table import misspelt_children
@@ -105,6 +107,24 @@ def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:
             f"link '{link.name}' has a visual, but no collision; {others} one; add a <collision>",
             effects=[_PASS, "moveit", *["mujoco"] * discarded],
         )
+
+
+@missing_collision.fix(UNSAFE)
+@odd_link_without_collision.fix(UNSAFE)
+def copy_visuals(problem: Problem, context: FixContext) -> Proposal | None:
+    """Copy the visuals, if all are primitives; small links lack a collision on purpose."""
+    link = context.link(problem)
+    if not link.visuals or link.collisions or problem.severity is INFO:
+        return None
+    changes = []
+    for visual in link.visuals:
+        if not isinstance(visual.geometry, Box | Cylinder | Sphere):
+            return None
+        change = copy_shape(visual, "collision")
+        if change is None:
+            return None
+        changes.append(change)
+    return unsafe("collide with the shape that is seen", *changes)
 
 
 def _odd_links(robot: Robot) -> list[tuple[Link, str]]:

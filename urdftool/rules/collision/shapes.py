@@ -7,9 +7,20 @@ from collections.abc import Iterator
 from ...model.elements import Collision, Robot, UnknownShape
 from ...model.millimeters import shapes_in_millimeters
 from ...model.read import number, numbers
+from ...suggestions import nearest
+from ..fix import (
+    FixContext,
+    Proposal,
+    element_at,
+    is_computed,
+    rename_element,
+    set_attribute,
+    suggestion_of,
+    unsafe,
+)
 from ..mujoco import keeps_visuals
-from ..rule import ERROR, INFO, WARNING, Problem, rule
-from ..words import did_you_mean
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..xml.from_sdf import move_out_of_geometry
 from ..xml.vocabulary_table import VOCABULARY
 
 _SILENT = "urdfdom, gz, gazebo-classic, pybullet, pinocchio"
@@ -57,6 +68,7 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
                 f"{name} of a <{element.tag}> in a {kind} of link '{link.name}' is {text}; "
                 "every length must be above 0",
                 at=element.attribute_place(name),
+                data={"attribute": name, "value": text},
                 severity=ERROR if rejected else WARNING,
                 effects=[*["mujoco"] * rejected, *["drake"] * aborts, _SILENT],
             )
@@ -119,15 +131,28 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                     effects=effects,
                 )
                 continue
-            near = did_you_mean(tag, _KNOWN)
+            near = nearest(tag, _KNOWN)
             right = _INSTEAD.get(tag, "<box>, <cylinder>, <sphere> or <mesh>")
+            remedy = f"did you mean '{near}'?" if near else f"write {right}"
             yield Problem(
                 link,
-                f"link '{link.name}' has a <{tag}>, which URDF does not know"
-                + (near or f"; write {right}"),
+                f"link '{link.name}' has a <{tag}>, which URDF does not know; {remedy}",
                 at=geometry,
                 effects=effects,
+                data={"tag": tag, "suggestion": near},
             )
+
+
+@unsupported_shape.fix(UNSAFE)
+def write_known_shape(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the shape that is suggested; move what is not a shape out of the geometry."""
+    element = element_at(problem)
+    if element is None:
+        return None
+    if element.tag in VOCABULARY and element.parent is not None:
+        return move_out_of_geometry(element, element.parent)
+    name = suggestion_of(problem, element.tag)
+    return unsafe(f"write <{name}>", rename_element(element, name)) if name else None
 
 
 @rule(
@@ -152,15 +177,30 @@ def shape_in_millimetres(robot: Robot) -> Iterator[Problem]:
             kind = "collision" if isinstance(shape, Collision) else "visual"
             names = _SIZES[element.tag]
             lengths = " and ".join(f"{name} {element.get(name)} m" for name in names)
-            right = " ".join(f'{name}="{thousandth(element.get(name))}"' for name in names)
+            right = " ".join(f'{name}="{_thousandth(element.get(name))}"' for name in names)
             yield Problem(
                 link,
                 f"<{element.tag}> in a {kind} of link '{link.name}' has {lengths}, as if in "
                 f"millimeters; write {right}",
                 at=shape.geometry,
+                data={name: element.get(name) or "" for name in names},
             )
 
 
-def thousandth(text: str | None) -> str:
+def _thousandth(text: str | None) -> str:
     """Write numbers divided by a thousand."""
     return " ".join(f"{float(word) / 1000:.12g}" for word in (text or "").split())
+
+
+@shape_in_millimetres.fix(UNSAFE)
+def write_lengths_in_meters(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write a thousandth of each length."""
+    element = element_at(problem)
+    if element is None or is_computed(element):
+        return None
+    changes = [
+        set_attribute(element, name, _thousandth(element.get(name)))
+        for name in ("size", "radius", "length")
+        if name in element.attributes
+    ]
+    return unsafe("write the lengths in meters", *changes)

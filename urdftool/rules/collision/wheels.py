@@ -3,12 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...model.bounds import size_of
 from ...model.elements import Box, Joint, Robot, Vector
 from ...model.millimeters import shapes_in_millimeters
-from ..rule import INFO, WARNING, Problem, rule
+from ...model.pose import norm
+from ..fix import (
+    FixContext,
+    Proposal,
+    element_at,
+    insert_after,
+    is_computed,
+    set_attribute,
+    unsafe,
+    written_value,
+)
+from ..rule import INFO, UNSAFE, WARNING, Problem, rule
+from ..shape_changes import set_in_origin
 from .axle import PLACE, VISUAL, Wheel, agreeing, angle_between, is_upright, wheel_of_joint
 
 APPLIES_TO = ("collision",)
@@ -47,14 +59,17 @@ def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Pro
         right, why = _which_is_right(robot, wheel, 90 - steepest)
         disc = f"the cylinder of wheel '{wheel.link.name}'"
         line = f"the axis of '{joint.name}'" + (", x by default," if joint.axis is None else "")
+        data: dict[str, Any] = {"angle": angle, "odd": ""}
         if right == "cylinder":
             what = f"{line} is at {angle:.0f}° to {disc}, which {why}; "
-            what += f'write <axis xyz="{axis_text(cylinder)}"/>'
+            data |= {"odd": "axis", "write": axis_text(cylinder)}
+            what += f'write <axis xyz="{data["write"]}"/>'
         elif right == "axis":
             same = any(one.what == VISUAL for one in agreeing(wheel.others, cylinder, 45))
             also = ", and that of its visual," if same else ""
             what = f"{disc} is at {angle:.0f}° to {line}, which {why}; turn its <origin>{also} "
             what += "until z lies along the axis"
+            data |= {"odd": "cylinder"}
         else:
             what = f"{disc} is at {angle:.0f}° to {line}; turn one of the two"
         in_joint = right == "cylinder"
@@ -62,6 +77,7 @@ def wheel_cylinder_axis(robot: Robot, *, steepest: float = 45.0) -> Iterator[Pro
             joint if in_joint else wheel.link,
             what,
             at=(joint.axis or joint) if in_joint else (wheel.kind.origin or wheel.shape),
+            data=data,
         )
 
 
@@ -101,6 +117,40 @@ def axis_text(along: Vector) -> str:
 
 def _listed(reasons: list[str]) -> str:
     return " and ".join(filter(None, (", ".join(reasons[:-1]), *reasons[-1:])))
+
+
+@wheel_cylinder_axis.fix(UNSAFE)
+def align_cylinder_and_axis(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the axis along the cylinder, or turn the cylinder along the axis: the odd one."""
+    if isinstance(problem.subject, Joint):
+        return _write_axis(problem.subject, problem.data["write"])
+    link = context.link(problem)
+    joint = context.robot.tree.parent_joint(link.name)
+    if joint is None or joint.is_fixed or len(link.collisions) != 1:
+        return None
+    if problem.data["odd"] != "cylinder":
+        return None
+    axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+    largest = max(range(3), key=lambda i: abs(axis[i]))
+    if abs(axis[largest]) < 0.999 * norm(axis):
+        return None
+    rpy = ("0 1.5707963267948966 0", "1.5707963267948966 0 0", "0 0 0")[largest]
+    collision = link.collisions[0]
+    if collision.origin is not None and collision.origin.quaternion is not None:
+        return None
+    return unsafe(f'write rpy="{rpy}"', set_in_origin(collision, "rpy", rpy))
+
+
+def _write_axis(joint: Joint, text: str) -> Proposal | None:
+    """Write an ``<axis>``, behind the ``<child>`` where there is none."""
+    if joint.axis is not None:
+        change = set_attribute(joint.axis.element, "xyz", text)
+    else:
+        before = joint.child_element or joint.parent_element
+        if before is None:
+            return None
+        change = insert_after(before, f'<axis xyz="{text}"/>')
+    return unsafe(f'write <axis xyz="{text}"/>', change)
 
 
 @rule(
@@ -153,17 +203,36 @@ def caster_height_mismatch(
 def _caster_problem(caster: Caster, comes_of_it: str) -> Problem:
     where = "below" if caster.above < 0 else "above"
     what = "joint" if isinstance(caster.moved, Joint) else "collision"
-    right = "" if caster.height is None else f"; write z = {_length(caster.height)} for its {what}"
+    data: dict[str, Any] = {"above": caster.above}
+    right = ""
+    if caster.height is not None:
+        data["write"] = _length(caster.height)
+        right = f"; write z = {data['write']} for its {what}"
     return Problem(
         caster.link,
         f"caster '{caster.link.name}' ends {abs(caster.above) * 1000:.3g} mm {where} the lowest "
         f"point of the driven wheels, so {comes_of_it}{right}",
         at=caster.moved.origin or caster.moved,
+        data=data,
     )
 
 
 def _length(value: float) -> str:
     return f"{round(value, 5) + 0.0:g}"
+
+
+@caster_height_mismatch.fix(UNSAFE)
+def write_caster_height(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the height at which the caster ends where the wheels do."""
+    origin = element_at(problem)
+    height = problem.data.get("write")
+    if height is None or origin is None or origin.tag != "origin":
+        return None
+    words = written_value(origin, "xyz").split()
+    if len(words) != 3 or is_computed(origin, "xyz"):
+        return None
+    x, y, _ = words
+    return unsafe(f"write z = {height}", set_attribute(origin, "xyz", f"{x} {y} {height}"))
 
 
 @rule(
@@ -192,4 +261,5 @@ def paper_thin_collision(robot: Robot, *, thinnest: float = 0.001) -> Iterator[P
                 f"a {what} of link '{link.name}' is {min(size) * 1000:.3g} mm thin; "
                 f"make it {thinnest * 1000:g} mm or more",
                 at=collision.geometry,
+                data={"thickness": min(size), "limit": thinnest},
             )

@@ -18,7 +18,7 @@ from .uses import MeshUse, mesh_uses
 
 
 def uses_at(problem: Problem, context: FixContext) -> list[MeshUse]:
-    """List the uses of the mesh whose name a problem points at.
+    """List the uses of the mesh whose name or scale a problem points at.
 
     Returns:
         Nothing where it points at no attribute.
@@ -26,7 +26,7 @@ def uses_at(problem: Problem, context: FixContext) -> list[MeshUse]:
     found = attribute_at(problem)
     if found is None:
         return []
-    uri = found[0].get(found[1])
+    uri = found[0].get("filename")
     return [use for use in mesh_uses(context.robot, context.description) if use.uri == uri]
 
 

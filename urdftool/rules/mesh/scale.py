@@ -13,9 +13,17 @@ from ...model.elements import Robot
 from ...model.read import numbers
 from ...source.description import Description
 from ..file_rewrites import MIRRORED
-from ..fix import Change, FixContext, Proposal, set_attribute, substitute, unsafe
+from ..fix import (
+    Change,
+    FixContext,
+    Proposal,
+    remove_attribute,
+    set_attribute,
+    substitute,
+    unsafe,
+)
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
-from .changes import write_beside
+from .changes import uses_at, write_beside
 from .outlines import box_of
 from .uses import MeshUse, Stamp, mesh_uses, stamp
 
@@ -125,7 +133,19 @@ def mesh_in_millimetres(
                 use.link,
                 f"mesh '{use.uri}' is {length:.3g} m large, as if in millimetres{right}",
                 at=use.mesh.element.attribute_place("filename"),
+                data={"uri": use.uri, "length": length, "limit": largest},
             )
+
+
+@mesh_in_millimetres.fix(UNSAFE)
+def scale_by_thousandth(problem: Problem, context: FixContext) -> Proposal | None:
+    """Scale the file by a thousandth in all places, if it has no scale in any of them."""
+    uses = uses_at(problem, context)
+    if not uses or any(use.mesh.element.get("scale") for use in uses):
+        return None
+    scale = "0.001 0.001 0.001"
+    changes = [set_attribute(use.mesh.element, "scale", scale) for use in uses]
+    return unsafe(f'write scale="{scale}"', *changes)
 
 
 @rule(
@@ -152,12 +172,24 @@ def mesh_scaled_twice(
         length = _largest(use, whole=True)
         if length is not None and 0 < length < smallest:
             told.add(use.uri)
-            right = "; take the scale away" if use.mesh.element.get("scale") else ""
+            scale = use.mesh.element.get("scale") or ""
+            right = "; take the scale away" if scale else ""
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' is {length * 1000:.3g} mm large{right}",
                 at=use.mesh.element.attribute_place("scale"),
+                data={"uri": use.uri, "length": length, "limit": smallest, "scale": scale},
             )
+
+
+@mesh_scaled_twice.fix(UNSAFE)
+def remove_scale(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the scale in all places, if it is a thousandth in each."""
+    uses = uses_at(problem, context) if problem.data["scale"] else []
+    if not uses or any(not math.isclose(part, 0.001) for use in uses for part in use.mesh.scale):
+        return None
+    changes = [remove_attribute(use.mesh.element, "scale") for use in uses]
+    return unsafe("take the scale away", *changes)
 
 
 @rule(

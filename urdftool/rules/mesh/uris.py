@@ -185,7 +185,7 @@ def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
             passes = use.exists and "\\" not in use.uri
             yield Problem(
                 use.link,
-                wrong.message,
+                wrong.text,
                 at=element.attribute_place("filename"),
                 severity=WARNING if passes else ERROR,
                 data={"uri": use.uri, "defect": wrong.defect},
@@ -198,11 +198,11 @@ class Malformation(NamedTuple):
     Attributes:
         defect: ``empty``, ``lacks slash``, ``no file``, ``backslash``, ``outer blank``,
             ``double slash`` or ``blank``.
-        message: The sentence that reports it.
+        text: The sentence that reports it.
     """
 
     defect: str
-    message: str
+    text: str
 
 
 def malformation(use: MeshUse) -> Malformation | None:

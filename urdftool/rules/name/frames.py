@@ -7,8 +7,10 @@ from collections.abc import Iterator
 
 from ...model.elements import Joint, Robot, Sensor
 from ...model.pose import IDENTITY, dot, pose_of, rotation_of_rpy
+from ..fix import FixContext, Proposal, unsafe
 from ..gazebo.sensors import pose_in_link
-from ..rule import GAZEBO, INFO, WARNING, Problem, rule
+from ..rule import GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
+from ..shape_changes import set_in_origin
 
 _OPTICAL = rotation_of_rpy((-math.pi / 2, 0.0, -math.pi / 2))
 _CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "multicamera", "wideanglecamera")
@@ -60,7 +62,18 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
                 f"optical frame '{joint.child}' is turned by {angle:.3g}° from how the camera "
                 f"'{joint.parent}' looks; write rpy=\"-1.5708 0 -1.5708\"",
                 at=joint.origin,
+                data={"angle": angle},
             )
+
+
+@optical_frame_orientation.fix(UNSAFE)
+def turn_optical_frame(problem: Problem, context: FixContext) -> Proposal | None:
+    """Turn the frame so that z points where the camera looks."""
+    joint = context.joint(problem)
+    if joint.origin is not None and "quat_xyzw" in joint.origin.element.attributes:
+        return None
+    rpy = "-1.5707963267948966 0 -1.5707963267948966"
+    return unsafe(f'write rpy="{rpy}"', set_in_origin(joint, "rpy", rpy))
 
 
 def _is_optical_of(joint: Joint) -> bool:

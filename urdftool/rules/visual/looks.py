@@ -11,7 +11,18 @@ from ...model.attached import attached_links
 from ...model.elements import Material, Robot
 from ...source.description import Description
 from ...source.packages import shown_path
-from ..rule import INFO, WARNING, Problem, rule
+from ..fix import (
+    FixContext,
+    Proposal,
+    attribute_at,
+    is_computed,
+    remove_element,
+    safe,
+    set_attribute,
+    unsafe,
+)
+from ..rule import BOTH, INFO, UNSAFE, WARNING, Problem, rule
+from ..shape_changes import copy_shape
 from ..unexpanded import is_unexpanded
 
 APPLIES_TO = ("visual", "collision")
@@ -39,6 +50,15 @@ def missing_visual(robot: Robot) -> Iterator[Problem]:
             continue
         if not any(one.visuals for one, _ in attached_links(robot, link)):
             yield Problem(link, f"link '{link.name}' has a collision and no visual")
+
+
+@missing_visual.fix(UNSAFE)
+def copy_collisions(problem: Problem, context: FixContext) -> Proposal | None:
+    """Copy the collisions."""
+    changes = [copy_shape(shape, "visual") for shape in context.link(problem).collisions]
+    if None in changes:
+        return None
+    return unsafe("show the shape that collides", *filter(None, changes))
 
 
 @rule(
@@ -78,6 +98,17 @@ def fully_transparent(robot: Robot) -> Iterator[Problem]:
                 )
 
 
+@fully_transparent.fix(UNSAFE)
+def make_opaque(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write 1 as the opacity."""
+    found = attribute_at(problem, context.robot.element)
+    values = (found[0].get(found[1]) or "").split() if found is not None else []
+    if found is None or len(values) != 4:
+        return None
+    text = " ".join([*values[:3], "1"])
+    return unsafe(f'write rgba="{text}"', set_attribute(*found, text))
+
+
 @rule(
     INFO,
     default=False,
@@ -104,6 +135,34 @@ def empty_material_name(robot: Robot) -> Iterator[Problem]:
                 )
 
 
+@empty_material_name.fix(BOTH)
+def name_by_color(problem: Problem, context: FixContext) -> Proposal | None:
+    """Name the materials of the link by their colors.
+
+    urdfdom drops the shapes behind a material without a ``name``, and has them afterwards.
+    """
+    found = attribute_at(problem)
+    link = context.link(problem)
+    if found is None and not any(v.material and not v.material.name for v in link.visuals):
+        return None
+    changes = []
+    for visual in link.visuals:
+        material = visual.material
+        if material is None or material.name or (found and material.element is not found[0]):
+            continue
+        if material.color is None or any(not 0 <= part <= 1 for part in material.color):
+            return None
+        if is_computed(material.element.child("color") or material.element, "rgba"):
+            return None
+        name = "rgba_" + "".join(f"{round(part * 255):02x}" for part in material.color)
+        known = {m.name: m.color for m in context.robot.materials}
+        if known.get(name, material.color) != material.color:
+            return None
+        changes.append(set_attribute(material.element, "name", name))
+    there = all("name" in change.element.attributes for change in changes)
+    return (safe if there else unsafe)("name it by its color", *changes) if changes else None
+
+
 @rule(
     INFO,
     default=False,
@@ -127,6 +186,13 @@ def unused_material(robot: Robot) -> Iterator[Problem]:
     for material in robot.materials:
         if material.name and material.name not in used:
             yield Problem(material.element, f"material '{material.name}' is used nowhere")
+
+
+@unused_material.fix(BOTH)
+def remove_material(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove it; in xacro another robot, or other arguments, may use it."""
+    make = safe if context.description.expansion is None else unsafe
+    return make("take it out", remove_element(problem.element))
 
 
 @rule(
@@ -156,4 +222,5 @@ def missing_texture(robot: Robot, description: Description) -> Iterator[Problem]
                 element,
                 f"texture '{uri}' is not there: no file '{shown_path(path)}'",
                 at=element.attribute_place("filename"),
+                data={"uri": uri},
             )

@@ -6,8 +6,17 @@ from collections.abc import Iterator
 
 from ...model.elements import Material, Robot
 from ...model.read import numbers
-from ..fix import FixContext, Proposal, are_equal_elements, remove_element, safe, unsafe
-from ..rule import BOTH, ERROR, WARNING, Problem, holding, rule
+from ..fix import (
+    FixContext,
+    Proposal,
+    are_equal_elements,
+    attribute_at,
+    remove_element,
+    safe,
+    set_attribute,
+    unsafe,
+)
+from ..rule import BOTH, ERROR, UNSAFE, WARNING, Problem, holding, rule
 from ..words import did_you_mean
 from ..xml.vocabulary_table import misspelt_attributes
 
@@ -221,10 +230,15 @@ def invalid_color(robot: Robot) -> Iterator[Problem]:
         text = None if color is None else color.get("rgba")
         if color is None or text is None:
             continue
-        wrong = _wrong_color(text)
+        wrong, right = _wrong_color(text)
         if wrong:
             of = f" of material '{material.name}'" if material.name else ""
-            yield Problem(material.element, f"colour{of} {wrong}", at=color.attribute_place("rgba"))
+            yield Problem(
+                material.element,
+                f"colour{of} {wrong}",
+                at=color.attribute_place("rgba"),
+                data={"write": right},
+            )
 
 
 def _all_materials(robot: Robot) -> Iterator[Material]:
@@ -235,15 +249,28 @@ def _all_materials(robot: Robot) -> Iterator[Material]:
                 yield visual.material
 
 
-def _wrong_color(text: str) -> str:
-    """What is wrong with an ``rgba``; empty if nothing is."""
+def _wrong_color(text: str) -> tuple[str, str]:
+    """Return what is wrong with an ``rgba``, and what to write; both empty if nothing is."""
     values = numbers(text, 4)
     if values is None:
-        return ""  # what is no number, or not four of them, is a matter of any attribute
+        return "", ""  # what is no number, or not four of them, is a matter of any attribute
     if max(values) > 1 and all(value == int(value) and 0 <= value <= 255 for value in values):
-        opacity = 1 if values[3] <= 1 and values[3] else values[3] / 255
-        scaled = " ".join(f"{value:.3g}" for value in (*(v / 255 for v in values[:3]), opacity))
-        return f"'{text}' is on a scale of 0 to 255; write '{scaled}'"
+        opacity = 1.0 if values[3] <= 1 and values[3] else values[3] / 255
+        scaled = (*(value / 255 for value in values[:3]), opacity)
+        shown = " ".join(f"{value:.3g}" for value in scaled)
+        right = " ".join(f"{value:.4g}" for value in scaled)
+        return f"'{text}' is on a scale of 0 to 255; write '{shown}'", right
     if max(values) > 1 or min(values) < 0:
-        return f"'{text}' has a number outside 0 to 1"
-    return ""
+        right = " ".join(f"{min(1.0, max(0.0, value)):.6g}" for value in values)
+        return f"'{text}' has a number outside 0 to 1", right
+    return "", ""
+
+
+@invalid_color.fix(UNSAFE)
+def write_valid_color(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the numbers on a scale of 0 to 1, or the nearest of that range."""
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    text = problem.data["write"]
+    return unsafe(f'write rgba="{text}"', set_attribute(*found, text))

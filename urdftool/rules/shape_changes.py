@@ -1,0 +1,61 @@
+"""Change the shapes of links, and the origins of shapes and joints."""
+
+from __future__ import annotations
+
+from ..model.elements import Collision, Joint, Visual
+from .fix import (
+    Change,
+    insert_after,
+    is_written_inside,
+    prepend_child,
+    remove_element,
+    replace_element,
+    set_attribute,
+    written_lines,
+)
+
+
+def copy_shape(shape: Visual | Collision, tag: str) -> Change | None:
+    """Add an element with the origin and geometry of a shape behind it.
+
+    Args:
+        shape: The shape.
+        tag: ``visual`` or ``collision``.
+
+    Returns:
+        None where the geometry is missing, or not written inside the shape.
+    """
+    geometry = shape.geometry
+    if geometry is None or not is_written_inside(geometry.element, shape.element):
+        return None
+    return insert_after(
+        shape.element,
+        f"<{tag}>",
+        *(f"\t{line}" for line in _origin_lines(shape)),
+        "\t<geometry>",
+        *(f"\t\t{line}" for line in written_lines(geometry.element)),
+        "\t</geometry>",
+        f"</{tag}>",
+    )
+
+
+def copy_origin(shape: Visual | Collision, model: Visual | Collision) -> Change:
+    """Give a shape the ``<origin>`` of another as written, or none where that has none."""
+    lines = _origin_lines(model)
+    if shape.origin is None:
+        return prepend_child(shape.element, *lines)
+    if lines:
+        return replace_element(shape.origin.element, lines)
+    return remove_element(shape.origin.element)
+
+
+def set_in_origin(part: Visual | Collision | Joint, name: str, value: str) -> Change:
+    """Set an attribute of the ``<origin>``, which is added where there is none."""
+    if part.origin is None:
+        return prepend_child(part.element, f'<origin {name}="{value}"/>')
+    return set_attribute(part.origin.element, name, value)
+
+
+def _origin_lines(shape: Visual | Collision) -> tuple[str, ...]:
+    origins = shape.element.all("origin")
+    return tuple(line for origin in origins for line in written_lines(origin))
