@@ -18,7 +18,6 @@ BINARY, TURNED, WITHOUT_COLLAPSED = "binary STL", "turned inside out", "without 
 MIRRORED, HEADED, COPIED = "mirrored, as STL, along ", "with another word at its head", "a copy"
 
 _RECORD = struct.Struct("<12fH")
-_CORNERS = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 
 Record = tuple[Any, ...]
 """Normal, three corners and the attribute of a triangle, in a row."""
@@ -63,7 +62,8 @@ def _is_text(path: Path) -> bool:
 def _text_as_binary(path: Path) -> bytes:
     """Write an STL text as the same triangles in the binary form."""
     data = path.read_bytes()
-    numbers = [float(word) for row in _CORNERS.findall(data) for word in row]
+    rows = re.findall(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", data, re.IGNORECASE)
+    numbers = [float(word) for row in rows for word in row]
     facets = len(re.findall(rb"\bendfacet\b", data, re.IGNORECASE))
     if len(numbers) != 9 * facets or not re.search(rb"\bendsolid\b", data[-1024:], re.IGNORECASE):
         raise MeshError("the STL text is not whole", path=path)
