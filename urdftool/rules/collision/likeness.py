@@ -164,6 +164,7 @@ def collision_mesh_too_dense(
                 use.link,
                 f"collision mesh '{use.uri}' has {faces} triangles; simplify it to some thousand",
                 at=use.mesh.element.attribute_place("filename"),
+                data={"uri": use.uri, "triangles": faces, "limit": mujoco if is_too_many else most},
                 hint=_SIMPLER,
                 severity=ERROR if is_too_many else None,
                 effects=None if is_too_many else (),
@@ -206,6 +207,7 @@ def collision_much_larger_than_visual(
             f"{b:.3g} m"
             + ("; is a diameter written for a radius?" if _is_doubled(link, touches, seen) else ""),
             at=link.collisions[0].geometry or link.collisions[0],
+            data={"collision": a, "visual": b, "axis": "xyz"[axis]},
         )
 
 
@@ -284,6 +286,7 @@ def collision_much_smaller_than_visual(
             f"the visual of link '{link.name}' spans {a:.3g} m and its collision {b:.3g} m; is its "
             "scale right?",
             at=link.collisions[0].geometry or link.collisions[0],
+            data={"collision": b, "visual": a},
         )
 
 

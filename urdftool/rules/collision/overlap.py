@@ -85,7 +85,9 @@ def _overlap(pairs: list[_Pair], effects: tuple[str, ...], what: str) -> Problem
             f"{len(pairs)} pairs of {what.removeprefix('the ')} overlap {at_rest}, by up to "
             f"{depth * 1000:.3g} mm: {_pairs(pairs)}"
         )
-    return Problem(other, message, at=other.collisions[0], effects=effects)
+    names = [[one.name, other.name] for one, other, _ in pairs]
+    data = {"pairs": names, "depth": depth}
+    return Problem(other, message, at=other.collisions[0], effects=effects, data=data)
 
 
 def _pairs(found: list[_Pair]) -> str:

@@ -71,6 +71,7 @@ def mesh_not_found(
                 f"the folder '{shown_path(folder)}' is not there, and {len(paths)} meshes are "
                 f"wanted from it, first '{first.uri}'",
                 at=first.mesh.element.attribute_place("filename"),
+                data={"folder": str(folder), "count": len(paths)},
                 effects=_of_missing(keeps, [use for path in paths for use in wanted[path]]),
             )
             continue
@@ -81,6 +82,7 @@ def mesh_not_found(
                 f"mesh '{first.uri}' of link '{first.link.name}' is not there: "
                 f"no file '{shown_path(path)}'{_elsewhere(path)}",
                 at=first.mesh.element.attribute_place("filename"),
+                data={"uri": first.uri, "path": str(path)},
                 effects=_of_missing(keeps, wanted[path]),
             )
 
@@ -245,6 +247,7 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
                 use.link,
                 f"mesh '{use.uri}' {wrong}",
                 at=use.mesh.element.attribute_place("filename"),
+                data={"uri": use.uri},
             )
 
 
@@ -276,6 +279,7 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
                 use.link,
                 f"mesh '{use.uri}' {_LFS}",
                 at=use.mesh.element.attribute_place("filename"),
+                data={"uri": use.uri},
                 group="{count} mesh files are pointers of git-lfs, not the files themselves, in "
                 "the links {names}; run 'git lfs pull'",
             )

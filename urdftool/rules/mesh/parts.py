@@ -55,6 +55,7 @@ def missing_mesh_dependency(
             use.link,
             f"mesh '{use.uri}' refers to {quoted(missing)}, which is not beside it{others}",
             at=use.mesh.element.attribute_place("filename"),
+            data={"uri": use.uri, "names": list(missing)},
         )
 
 

@@ -340,6 +340,7 @@ def mesh_scale_out_of_line(
                 f"mesh '{use.uri}' of link '{use.link.name}' is scaled {factor:g} times as much as "
                 f"the other {scales.count(usual)} meshes",
                 at=use.mesh.element.attribute_place("scale"),
+                data={"uri": use.uri, "factor": factor},
             )
 
 
@@ -367,6 +368,7 @@ def bad_scale(robot: Robot) -> Iterator[Problem]:
                 link,
                 f"a mesh of link '{link.name}' is scaled by '{text}'; no factor may be 0",
                 at=mesh.element.attribute_place("scale"),
+                data={"scale": list(values)},
             )
 
 
@@ -390,6 +392,7 @@ def non_uniform_scale(robot: Robot, description: Description) -> Iterator[Proble
                 f"mesh '{use.uri}' is scaled by {use.mesh.element.get('scale')}; "
                 "scale the file itself",
                 at=use.mesh.element.attribute_place("scale"),
+                data={"uri": use.uri, "scale": list(use.mesh.scale)},
             )
 
 
@@ -418,4 +421,5 @@ def heavy_visual(
                 use.link,
                 f"visual mesh '{use.uri}' has {size / 1e6:.0f} MB; simplify it",
                 at=use.mesh.element.attribute_place("filename"),
+                data={"uri": use.uri, "bytes": size},
             )

@@ -294,6 +294,7 @@ def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[P
             first.link,
             f"mesh '{first.uri}'{more}: {what}",
             at=first.mesh.element.attribute_place("filename"),
+            data={"scheme": scheme, "uris": list(dict.fromkeys(use.uri for use in uses))},
             severity=None if known else ERROR,
             effects=[
                 *(["rviz", "gz"] if known else []),
@@ -336,6 +337,7 @@ def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Prob
             first.link,
             f"mesh '{first.uri}'{more} is a relative path; write {right}",
             at=first.mesh.element.attribute_place("filename"),
+            data={"uris": list(dict.fromkeys(use.uri for use in relative))},
         )
 
 

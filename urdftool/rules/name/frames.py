@@ -112,6 +112,7 @@ def camera_sensor_not_optical(robot: Robot) -> Iterator[Problem]:
                 sensor.element,
                 f"camera '{sensor.name}' publishes in '{written[0]}'; "
                 f"its optical frame is '{optical}'",
+                data={"frame": written[0], "optical_frame": optical},
             )
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Material, Robot
 from ...model.read import numbers
+from ...suggestions import did_you_mean, nearest
 from ..fix import (
     FixContext,
     Proposal,
@@ -17,7 +18,6 @@ from ..fix import (
     unsafe,
 )
 from ..rule import BOTH, ERROR, UNSAFE, WARNING, Problem, holding, rule
-from ..words import did_you_mean
 from ..xml.vocabulary_table import misspelt_attributes
 
 APPLIES_TO = ("material",)
@@ -62,6 +62,7 @@ def undefined_material(robot: Robot) -> Iterator[Problem]:
                 f"material '{name}' is defined nowhere{times}; give it a <color>"
                 + did_you_mean(name, defined),
                 at=first.element.attribute_place("name"),
+                data={"material": name, "suggestion": nearest(name, defined)},
             )
 
 
