@@ -19,7 +19,7 @@ or remove physics, guess what was meant, change what one reader loads, or remove
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -259,6 +259,36 @@ def suggestion_of(problem: Problem, wrong: str) -> str:
     """Get the name a rule suggests (``data["suggestion"]``), if it is near enough for a fix."""
     right: str = problem.data.get("suggestion", "")
     return right if right and is_close_enough(right, wrong) else ""
+
+
+def write_suggestion(problem: Problem) -> Proposal | None:
+    """Write the suggested name into the attribute or text that a problem points at."""
+    found = attribute_at(problem)
+    if found is not None:
+        name = suggestion_of(problem, found[0].get(found[1]) or "")
+        return unsafe(f"write {name}", set_attribute(*found, name)) if name else None
+    element = element_at(problem)
+    name = suggestion_of(problem, element.text.strip()) if element is not None else ""
+    if element is None or not name:
+        return None
+    return unsafe(f"write {name}", set_text(element, name))
+
+
+def append_number(problem: Problem, taken: Container[str | None]) -> Proposal | None:
+    """Append a number to the name that a problem points at.
+
+    Args:
+        problem: The problem.
+        taken: Names that are in use.
+    """
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    name, number = (found[0].get(found[1]) or "").strip(), 2
+    while f"{name}_{number}" in taken:
+        number += 1
+    change = substitute(*found, r"(?<=\S)(?=\s*$)", f"_{number}")
+    return unsafe(f"call it '{name}_{number}'", change)
 
 
 def is_close_enough(right: str, wrong: str) -> bool:

@@ -6,7 +6,18 @@ from collections.abc import Iterator
 
 from ...model.elements import GazeboExtension, Joint, Robot
 from ...source.document import Element
-from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
+from ..fix import (
+    FixContext,
+    Proposal,
+    append_child,
+    attribute_at,
+    element_at,
+    remove_element,
+    set_attribute,
+    set_text,
+    unsafe,
+)
+from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
 from ..words import quoted
 from .keywords import JOINT_KEYWORDS, SURFACE, is_true
 
@@ -47,6 +58,14 @@ def body_of(robot: Robot, link: str) -> str:
         assert joint is not None
         link = joint.parent
     return link
+
+
+def remove_words(block: Element, words: frozenset[str]) -> Proposal:
+    """Remove children of a ``<gazebo>`` by their tags; the block too, if it has no others."""
+    gone = [child for child in block.children if child.tag in words]
+    if len(gone) == len(block.children):
+        return unsafe("take the block away", remove_element(block))
+    return unsafe("take it away", *map(remove_element, gone))
 
 
 def _blocks_of_links(robot: Robot) -> Iterator[tuple[str, GazeboExtension]]:
@@ -99,6 +118,16 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
         )
 
 
+@lumped_joint_loses_content.fix(UNSAFE)
+def preserve_joint(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write ``preserveFixedJoint``."""
+    block = problem.element
+    if block.child("preserveFixedJoint") is not None:
+        return None
+    line = "<preserveFixedJoint>true</preserveFixedJoint>"
+    return unsafe(f"write {line}", append_child(block, line))
+
+
 @rule(
     WARNING,
     on=GAZEBO,
@@ -136,6 +165,15 @@ def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
                 + f"; write it at '{body}' if that is meant",
                 at=child,
             )
+
+
+@lumped_flag_leaks.fix(UNSAFE)
+def remove_flag(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the flag; the block too, if it has nothing else."""
+    element = element_at(problem)
+    if element is None:
+        return None
+    return remove_words(problem.element, frozenset((element.tag,)))
 
 
 @rule(
@@ -207,6 +245,21 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
                     )
 
 
+@named_geometry_loses_extensions.fix(UNSAFE)
+def prefix_name(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the link's name in front, if nothing refers to the shape; friction applies then."""
+    found = attribute_at(problem)
+    link = context.link(problem)
+    if found is None:
+        return None
+    element, attribute = found
+    name = element.get(attribute) or ""
+    if name in context.texts:
+        return None
+    new = f"{link.name}_{name}"
+    return unsafe(f"call it '{new}'", set_attribute(element, attribute, new))
+
+
 @rule(
     WARNING,
     on=GAZEBO,
@@ -239,8 +292,19 @@ def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
                         f"'{text}' will be called '{new}' (or '{new}_1' …), as '{link.name}' is "
                         f"fixed to '{body}'; write that, or keep the joint",
                         at=collision,
+                        data={"write": new, "link": link.name, "body": body},
                     )
         del name
+
+
+@lumped_link_referenced.fix(UNSAFE)
+def write_merged_name(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the name that the collision will have."""
+    element = element_at(problem)
+    new = problem.data["write"]
+    if element is None:
+        return None
+    return unsafe(f"write {new}", set_text(element, new))
 
 
 @rule(
@@ -268,3 +332,12 @@ def surface_without_collision(robot: Robot) -> Iterator[Problem]:
                 f"{words} {do} nothing, as link '{name}' has no collision",
                 at=children[0],
             )
+
+
+@surface_without_collision.fix(UNSAFE)
+def remove_surface(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove it, if the link has no visual either; the block too, if it has nothing else."""
+    link = context.robot.link.get(problem.element.get("reference") or "")
+    if link is None or link.visuals:
+        return None  # the collision is what is missing
+    return remove_words(problem.element, SURFACE)

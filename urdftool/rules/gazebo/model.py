@@ -8,7 +8,16 @@ from collections.abc import Iterator
 from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
 from ...source.document import parse
-from ..fix import FixContext, Proposal
+from ..cross_file_references import check_not_included
+from ..fix import (
+    Change,
+    FixContext,
+    Proposal,
+    append_child,
+    escape_attribute,
+    is_computed,
+    unsafe,
+)
 from ..joint.range import is_locked
 from ..renaming import part_of, rename_part
 from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
@@ -180,6 +189,45 @@ def missing_control_plugin(
     yield Problem(robot, f"{names} {verb} and no Gazebo plugin {acts}; add {remedy}")
 
 
+@missing_control_plugin.fix(UNSAFE)
+def add_control_plugin(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add one that reports the joints in new Gazebo; that of ros_control in Gazebo Classic.
+
+    A pair of wheels on one axle gets a differential drive in new Gazebo. An end effector that
+    another robot includes is driven by the plugin of that robot.
+    """
+    if {"gz", "gazebo-classic"} <= context.targets:
+        return None
+    check_not_included(context)
+    if "gz" not in context.targets:
+        if not context.robot.transmissions:
+            return None
+        control = '\t<plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so"/>'
+        lines = ("<gazebo>", control, "</gazebo>")
+        return unsafe("add that of ros_control", append_child(context.robot.element, *lines))
+    report = (
+        '\t<plugin filename="gz-sim-joint-state-publisher-system"'
+        ' name="gz::sim::systems::JointStatePublisher"/>'
+    )
+    reported = any("joint-state-publisher" in one.filename for one in context.robot.plugins)
+    pair = wheel_pair(context.robot)
+    systems = [] if reported else [report]
+    what = "" if reported else "a joint state publisher"
+    if pair is not None:
+        systems += [
+            '\t<plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive">',
+            f"\t\t<left_joint>{escape_attribute(pair.left.name)}</left_joint>",
+            f"\t\t<right_joint>{escape_attribute(pair.right.name)}</right_joint>",
+            f"\t\t<wheel_separation>{pair.separation:.6g}</wheel_separation>",
+            f"\t\t<wheel_radius>{pair.radius:.6g}</wheel_radius>",
+            "\t</plugin>",
+        ]
+        what = " and ".join(filter(None, ("a differential drive", what)))
+    return unsafe(
+        f"add {what}", append_child(context.robot.element, "<gazebo>", *systems, "</gazebo>")
+    )
+
+
 _FOR_GAZEBO = re.compile(r"gazebo|(?<![a-z])(gz|ign|sim)(?![a-z])", re.IGNORECASE)
 
 
@@ -229,6 +277,28 @@ def root_not_anchored(robot: Robot) -> Iterator[Problem]:
             "joint to it",
             at=root,
         )
+
+
+@root_not_anchored.fix(UNSAFE)
+def anchor_root(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add a link ``world`` and a fixed joint to it, if no other robot includes the arm."""
+    robot = context.robot
+    root = robot.tree.root
+    if root is None or "world" in robot.link or "world_joint" in robot.joint:
+        return None
+    if is_computed(root.element):
+        return None
+    check_not_included(context)
+    blocks = (
+        ('<link name="world"/>',),
+        (
+            '<joint name="world_joint" type="fixed">',
+            '\t<parent link="world"/>',
+            f'\t<child link="{escape_attribute(root.name)}"/>',
+            "</joint>",
+        ),
+    )
+    return unsafe("fix it to a link 'world'", Change("first", robot.element, blocks=blocks))
 
 
 def _is_wheel(name: str) -> bool:

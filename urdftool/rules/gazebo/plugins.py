@@ -7,7 +7,8 @@ from collections.abc import Iterator
 
 from ...model.elements import Plugin, Robot
 from ...source.document import Element
-from ..rule import ERROR, WARNING, Problem, rule
+from ..fix import FixContext, Proposal, append_number
+from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import did_you_mean, quoted
 from .systems import CLASSIC, REPLACEMENTS, SYSTEMS
@@ -253,3 +254,9 @@ def duplicate_plugin_name(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
                     at=plugin.element.attribute_place("name"),
                 )
             seen.add(key)
+
+
+@duplicate_plugin_name.fix(UNSAFE)
+def number_plugin(problem: Problem, context: FixContext) -> Proposal | None:
+    """Append a number to the second name."""
+    return append_number(problem, {plugin.name for plugin in context.robot.plugins})

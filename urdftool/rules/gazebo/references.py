@@ -6,12 +6,24 @@ from collections.abc import Collection, Iterator
 
 from ...model.elements import GazeboExtension, Robot
 from ...source.document import Element
-from ..rule import ERROR, WARNING, Problem, rule
+from ..fix import (
+    FixContext,
+    Proposal,
+    escape_attribute,
+    insert_after,
+    is_computed,
+    remove_element,
+    set_attribute,
+    suggestion_of,
+    unsafe,
+    written_lines,
+)
+from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean, quoted
+from ..words import did_you_mean, nearest, quoted
 from .kept import joints_of_sdf
 from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS
-from .lumping import body_of, is_lumped, keeps_joint
+from .lumping import body_of, is_lumped, keeps_joint, remove_words
 
 _OF_BLOCK = "gz, gazebo-classic"
 _OF_JOINT = "gz, gazebo-classic (a joint of SDF)"
@@ -42,12 +54,23 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
         name = block.reference
         if not name or name.strip() in stripped or is_unexpanded(name):
             continue
+        known = _meant_by(block, robot)
         yield Problem(
             block.element,
             f"'{name}' is neither a link nor a joint, so the block does nothing"
-            + did_you_mean(name, _meant_by(block, robot)),
+            + did_you_mean(name, known),
             at=block.element.attribute_place("reference"),
+            data={"name": name, "suggestion": nearest(name, known)},
         )
+
+
+@dangling_reference.fix(UNSAFE)
+def write_reference(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the suggested name of a link or joint."""
+    name = suggestion_of(problem, problem.element.get("reference") or "")
+    if not name:
+        return None
+    return unsafe(f"write '{name}'", set_attribute(problem.element, "reference", name))
 
 
 def _meant_by(block: GazeboExtension, robot: Robot) -> Collection[str]:
@@ -150,6 +173,40 @@ def _misplaced(
         block.element,
         f"{tags} {verb} nothing {belongs}; {remedy}",
         at=children[0],
+    )
+
+
+@misplaced_extension.fix(UNSAFE)
+def move_extension(problem: Problem, context: FixContext) -> Proposal | None:
+    """Move the words to the joint or link they are about; remove them if that is lumped."""
+    block, name = problem.element, problem.element.get("reference") or ""
+    robot = context.robot
+    if name in robot.link:
+        joint = robot.tree.parent_joint(name)
+        if joint is None or is_computed(joint.element):
+            return None
+        right, wrong = joint.name, JOINT_KEYWORDS
+        children = [child for child in block.children if child.tag in wrong]
+        if children and is_lumped(robot, name) and not any(map(keeps_joint, children)):
+            return remove_words(block, JOINT_KEYWORDS)
+    elif name in robot.joint:
+        right, wrong = robot.joint[name].child, LINK_KEYWORDS
+        if right not in robot.link or is_computed(robot.link[right].element):
+            return None
+    else:
+        return None
+    moved = [child for child in block.children if child.tag in wrong]
+    if not right or not moved:
+        return None
+    if len(moved) == len(block.children):
+        return unsafe(f"write it at '{right}'", set_attribute(block, "reference", right))
+    lines = (
+        f'<gazebo reference="{escape_attribute(right)}">',
+        *(f"\t{line}" for child in moved for line in written_lines(child)),
+        "</gazebo>",
+    )
+    return unsafe(
+        f"write it at '{right}'", *map(remove_element, moved), insert_after(block, *lines)
     )
 
 

@@ -11,8 +11,25 @@ from ...model.attached import attached_links
 from ...model.elements import GazeboExtension, Link, Robot, Sensor
 from ...model.pose import IDENTITY, Pose, rotation_of_rpy
 from ...model.read import numbers
-from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
-from ..words import did_you_mean, words
+from ..fix import (
+    Change,
+    FixContext,
+    Proposal,
+    append_child,
+    append_number,
+    escape_attribute,
+    insert_after,
+    is_computed,
+    remove_element,
+    rename_element,
+    safe,
+    set_attribute,
+    suggestion_of,
+    unsafe,
+    written_value,
+)
+from ..rule import ERROR, GAZEBO, INFO, SAFE, UNSAFE, WARNING, Problem, rule
+from ..words import did_you_mean, nearest, words
 from .lumping import body_of
 
 APPLIES_TO = ("gazebo",)
@@ -61,7 +78,15 @@ def unknown_sensor_type(robot: Robot) -> Iterator[Problem]:
                 sensor.element,
                 f"{name}{what}{near or '; write such as camera, imu, gpu_lidar'}",
                 at=sensor.element.attribute_place("type"),
+                data={"suggestion": nearest(sensor.type, TYPES) if sensor.type else ""},
             )
+
+
+@unknown_sensor_type.fix(UNSAFE)
+def write_sensor_type(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the suggested type."""
+    name = suggestion_of(problem, problem.element.get("type") or "")
+    return unsafe(f"write {name}", set_attribute(problem.element, "type", name)) if name else None
 
 
 @rule(
@@ -87,6 +112,16 @@ def cpu_ray_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
                 "write gpu_lidar",
                 at=sensor.element.attribute_place("type"),
             )
+
+
+@cpu_ray_in_gz.fix(UNSAFE)
+def write_gpu_lidar(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the type for the graphics card, which Gazebo Classic does not know."""
+    sensor = problem.element
+    changes = [set_attribute(sensor, "type", "gpu_lidar")]
+    if sensor.child("lidar") is None:
+        changes += [rename_element(child, "lidar") for child in sensor.all("ray")]
+    return unsafe("write gpu_lidar", *changes)
 
 
 @rule(
@@ -115,6 +150,28 @@ def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[
                 )
 
 
+@ros_plugin_inside_sensor.fix(UNSAFE)
+def write_topic(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the topic of the plugin in its place."""
+    sensor = problem.element
+    plugins = [p for p in sensor.all("plugin") if "libgazebo_ros_" in (p.get("filename") or "")]
+    if len(plugins) != 1:
+        return None
+    plugin = plugins[0]
+    tags = ("topicName", "topic_name", "imageTopicName", "topic")
+    texts = [child.text.strip() for tag in tags for child in plugin.all(tag)]
+    for argument in plugin.walk():
+        if argument.tag == "remapping" and ":=" in argument.text:
+            texts.append(argument.text.partition(":=")[2].strip())
+    topic = next((text for text in texts if text), (sensor.get("name") or "").strip())
+    if not topic or "$" in topic:
+        return None
+    changes: list[Change] = [remove_element(plugin)]
+    if sensor.child("topic") is None:
+        changes.append(insert_after(plugin, f"<topic>{escape_attribute(topic)}</topic>"))
+    return unsafe(f"write <topic>{topic}</topic>", *changes)
+
+
 @rule(
     WARNING,
     on=("gz",),
@@ -137,6 +194,8 @@ def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Proble
         many = len(found) > together
         for sensor in found[:1] if many else found:
             others = f" (and {len(found) - 1} more)" if many else ""
+            of = [one.sensor.name for one in (found if many else [sensor])]
+            data: dict[str, object] = {"sensors": of, "link": sensor.link.name}
             name = f"sensor '{sensor.sensor.name}'{others}"
             if sensor.frame is None:
                 what = (
@@ -147,7 +206,41 @@ def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Proble
                 where = ", and the link at the pose of each of the others" if many else ""
                 frame = f"<gz_frame_id>{sensor.frame.name}</gz_frame_id>"
                 what = f"{name} names no frame; write {frame}{where}"
-            yield Problem(sensor.sensor.element, what)
+                data["frame"] = sensor.frame.name
+            yield Problem(sensor.sensor.element, what, data=data)
+
+
+@missing_gz_frame_id.fix(SAFE)
+def write_frame_id(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the link where the sensor is, for each of the sensors of the finding."""
+    if "frame" not in problem.data:
+        return None
+    found = [one for one in without_frame(context.robot) if one.frame is not None]
+    if len(problem.data["sensors"]) == 1:
+        found = [one for one in found if one.sensor.element is problem.element]
+    changes = []
+    for one in found:
+        name = _name_of_frame(one)
+        if name is None:
+            return None
+        line = f"<gz_frame_id>{escape_attribute(name)}</gz_frame_id>"
+        changes.append(append_child(one.sensor.element, line))
+    if not changes:
+        return None
+    more = " and so on" if len(changes) > 1 else ""
+    return safe(f"write {changes[0].blocks[0][0]}{more}", *changes)
+
+
+def _name_of_frame(one: Frameless) -> str | None:
+    """Write the name of a sensor's frame as the source does; None where it is made elsewhere."""
+    block, frame = one.sensor.element.parent, one.frame
+    if frame is None or block is None:
+        return None
+    if frame is one.link:
+        return written_value(block, "reference") or None
+    if is_computed(frame.element) and frame.element.calls != one.sensor.element.calls:
+        return None
+    return written_value(frame.element, "name") or None
 
 
 class Frameless(NamedTuple):
@@ -232,6 +325,12 @@ def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
                 "give it a name of its own",
                 at=sensor.element.attribute_place("name"),
             )
+
+
+@duplicate_sensor_name.fix(UNSAFE)
+def number_sensor(problem: Problem, context: FixContext) -> Proposal | None:
+    """Append a number to the second name."""
+    return append_number(problem, {sensor.name for _, sensor in _sensors(context.robot)})
 
 
 _SENSOR_LINK = re.compile(r"camera|lidar|laser|(^|_)(scan|imu|gps)(_|$)", re.IGNORECASE)

@@ -7,10 +7,24 @@ from collections.abc import Iterator
 from ...model.elements import Robot
 from ...model.gazebo_plugins import is_for_gz
 from ...source.document import Element
-from ..rule import GAZEBO, INFO, WARNING, Problem, rule
+from ..fix import (
+    Change,
+    FixContext,
+    Proposal,
+    element_at,
+    escape_attribute,
+    insert_after,
+    remove_element,
+    rename_element,
+    safe,
+    unsafe,
+    written_value,
+)
+from ..rule import GAZEBO, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..words import quoted
 from .contact import contact_role
 from .keywords import NOT_IN_GZ
+from .tags import material_lines
 
 
 @rule(
@@ -34,6 +48,16 @@ def deprecated_cfm_damping(robot: Robot) -> Iterator[Problem]:
                 f"cfmDamping is now called implicitSpringDamper{',' if has_both else ';'} {remedy}",
                 at=child,
             )
+
+
+@deprecated_cfm_damping.fix(SAFE)
+def write_implicit_spring_damper(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write ``implicitSpringDamper``, unless it is there."""
+    element = element_at(problem)
+    parent = element.parent if element is not None else None
+    if element is None or parent is None or parent.child("implicitSpringDamper") is not None:
+        return None
+    return safe("write <implicitSpringDamper>", rename_element(element, "implicitSpringDamper"))
 
 
 @rule(
@@ -72,7 +96,23 @@ def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
             f"{words} {do} nothing in new Gazebo{times}; {remedy}",
             at=first,
             severity=None if own else INFO,
+            data={"elements": list(found), "count": count},
         )
+
+
+@no_effect_in_gz.fix(UNSAFE)
+def remove_classic_settings(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove all settings that only Gazebo Classic reads."""
+    changes = []
+    for block in context.robot.gazebo:
+        if not block.reference:
+            continue
+        gone = [child for child in block.element.children if child.tag in NOT_IN_GZ]
+        if gone and len(gone) == len(block.element.children):
+            changes.append(remove_element(block.element))
+        else:
+            changes += map(remove_element, gone)
+    return unsafe("take all of it away", *changes)
 
 
 @rule(
@@ -112,7 +152,30 @@ def ogre_material_script(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
             elements[0],
             f"material '{name}'{more} is an Ogre script, which new Gazebo cannot read; "
             "leave it out where the URDF has a colour",
+            data={"material": name, "count": len(elements)},
         )
+
+
+@ogre_material_script.fix(SAFE)
+def remove_script(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the material wherever it is used, if the URDF has a color for each of the links."""
+    name = problem.data["material"]
+    changes = []
+    for block in context.robot.gazebo:
+        link = context.robot.link.get(block.reference or "")
+        for element in block.element.walk():
+            if element.tag == "script":
+                uri = element.child("uri")
+                named = uri is not None and uri.text.strip() == name
+            else:
+                value = (element.get("value") or element.text).strip()
+                named = element.tag == "material" and value == name
+            if not named:
+                continue
+            if link is None or material_lines(link, context.robot) is None:
+                return None
+            changes.append(remove_element(element))
+    return safe("leave it to the colour of the URDF", *changes) if changes else None
 
 
 @rule(
@@ -142,6 +205,22 @@ def missing_contact_parameters(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 link, f"{role} '{link.name}' has no contact parameters; write kp, kd and minDepth"
             )
+
+
+@missing_contact_parameters.fix(UNSAFE)
+def write_contact_parameters(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write a stiffness of 1e6 N/m, a damping of 100 N s/m and a depth of 1 mm."""
+    link = context.link(problem)
+    lines = (("<kp>1e6</kp>",), ("<kd>100</kd>",), ("<minDepth>0.001</minDepth>",))
+    blocks = context.robot.extensions.get(link.name)
+    if blocks:
+        return unsafe("write them", Change("insert", blocks[0].element, blocks=lines))
+    block = (
+        f'<gazebo reference="{escape_attribute(written_value(link.element, "name"))}">',
+        *(f"\t{line}" for one in lines for line in one),
+        "</gazebo>",
+    )
+    return unsafe("write them", insert_after(link.element, *block))
 
 
 @rule(

@@ -6,7 +6,19 @@ from collections.abc import Callable, Iterator
 
 from ...model.bounds import size_of
 from ...model.elements import GazeboExtension, Link, Material, Mesh, Robot
-from ..rule import GAZEBO, INFO, WARNING, Problem, holding, rule
+from ..fix import (
+    Change,
+    FixContext,
+    Proposal,
+    append_child,
+    depends_on_arguments,
+    escape_attribute,
+    insert_after,
+    safe,
+    unsafe,
+    written_value,
+)
+from ..rule import GAZEBO, INFO, SAFE, UNSAFE, WARNING, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from ..words import nearest
 from .contact import contact_role, has_friction
@@ -71,6 +83,31 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
             )
 
 
+@missing_gazebo_tags.fix(UNSAFE)
+def add_block(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add a block with its friction, and with its color for Gazebo Classic."""
+    if not isinstance(problem.subject, Link):
+        return None
+    link, robot = problem.subject, context.robot
+    inside: list[str] = []
+    role = contact_role(robot, link)
+    if role:
+        mu = _coefficient(role)
+        inside += [f"<mu1>{mu}</mu1>", f"<mu2>{mu}</mu2>"]
+    if "gazebo-classic" in context.targets and _lacks_material(robot, link, _colours(robot)):
+        lines = material_lines(link, robot)
+        if lines is not None:
+            inside += ["<visual>", *(f"\t{line}" for line in lines), "</visual>"]
+    if not inside:
+        return None
+    block = (
+        f'<gazebo reference="{escape_attribute(written_value(link.element, "name"))}">',
+        *(f"\t{line}" for line in inside),
+        "</gazebo>",
+    )
+    return unsafe("add the block", insert_after(link.element, *block))
+
+
 def _is_unclear(robot: Robot) -> bool:
     """Whether a block is there of which it is not known what it refers to."""
     return any(is_unexpanded(block.reference or "") for block in robot.gazebo)
@@ -106,6 +143,44 @@ def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
                 group="{count} links with a <gazebo> block have a color that Gazebo Classic does "
                 "not show; write <material> into their <gazebo> blocks: {names}",
             )
+
+
+@missing_gazebo_material.fix(SAFE)
+def write_material(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the color of the URDF into its block."""
+    link = context.link(problem)
+    lines = material_lines(link, context.robot)
+    blocks = context.robot.extensions.get(link.name)
+    if lines is None or not blocks:
+        return None
+    block = blocks[0].element
+    visual = block.child("visual")
+    if visual is not None:
+        return safe("write its colour", append_child(visual, *lines))
+    inside = ("<visual>", *(f"\t{line}" for line in lines), "</visual>")
+    return safe("write its colour", append_child(block, *inside))
+
+
+def material_lines(link: Link, robot: Robot) -> tuple[str, ...] | None:
+    """Format the color of a link's visuals as SDF; None where they have several."""
+    colours = _colours(robot)
+    found = set()
+    for visual in link.visuals:
+        material = visual.material
+        if material is not None and depends_on_arguments(link.element, "visual"):
+            return None
+        if material is not None and material.color is None:
+            material = colours.get(material.name)
+        found.add(None if material is None else material.color)
+    if len(found) != 1 or (color := found.pop()) is None:
+        return None
+    text = " ".join(f"{part:.6g}" for part in color)
+    return (
+        "<material>",
+        f"\t<ambient>{text}</ambient>",
+        f"\t<diffuse>{text}</diffuse>",
+        "</material>",
+    )
 
 
 def _has_by_name(
@@ -154,6 +229,26 @@ def missing_friction(robot: Robot) -> Iterator[Problem]:
                     group=f"{{count}} {_PLURAL[role]} have no friction of their own: {{names}}; "
                     f"write {_FRICTION[role].replace(' its ', ' their ')}",
                 )
+
+
+@missing_friction.fix(UNSAFE)
+def write_friction(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the friction of rubber, or none for a caster."""
+    link = context.link(problem)
+    role = contact_role(context.robot, link)
+    blocks = context.robot.extensions.get(link.name)
+    if not role or not blocks:
+        return None
+    mu = _coefficient(role)
+    change = Change(
+        "insert", blocks[0].element, blocks=((f"<mu1>{mu}</mu1>",), (f"<mu2>{mu}</mu2>",))
+    )
+    return unsafe(f"write mu1 and mu2 of {mu}", change)
+
+
+def _coefficient(role: str) -> str:
+    """Get the friction of a link that touches the world so."""
+    return "0.0" if role == "caster" else "1.0"
 
 
 def _colours(robot: Robot) -> dict[str, Material]:

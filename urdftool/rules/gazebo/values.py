@@ -5,9 +5,22 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from ...finding import Severity
 from ...model.elements import GazeboExtension, Robot
 from ...model.read import number
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ...source.document import Element
+from ..fix import (
+    FixContext,
+    Proposal,
+    element_at,
+    escape_attribute,
+    insert_after,
+    safe,
+    set_attribute,
+    set_text,
+    unsafe,
+)
+from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from .contact import contact_role
 from .keywords import NUMBERS
@@ -56,7 +69,20 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
                     f"{child.tag} is '{text}', of which Gazebo reads {number[0]}; write that",
                     at=at or child,
                     severity=WARNING,
+                    data={"write": number[0]},
                 )
+
+
+@bad_extension_number.fix(SAFE)
+def write_leading_number(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the number that Gazebo reads of it."""
+    element = element_at(problem)
+    number = problem.data.get("write", "")
+    if not number or element is None:
+        return None
+    if "value" in element.attributes:
+        return safe(f"write {number}", set_attribute(element, "value", number))
+    return safe(f"write {number}", set_text(element, number))
 
 
 @rule(
@@ -86,6 +112,18 @@ def half_friction(robot: Robot) -> Iterator[Problem]:
                 f"link '{name}' has {word} and no {other}, which is 1 then; write both",
                 at=block.element.child(word),
             )
+
+
+@half_friction.fix(UNSAFE)
+def write_other_friction(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the same friction in the other direction."""
+    element = element_at(problem)
+    if element is None or element.tag not in ("mu1", "mu2"):
+        return None
+    other = "mu2" if element.tag == "mu1" else "mu1"
+    text = escape_attribute((element.get("value") or element.text).strip())
+    line = f'<{other} value="{text}"/>' if element.get("value") else f"<{other}>{text}</{other}>"
+    return unsafe(f"write {line}", insert_after(element, line))
 
 
 _MU = ("mu1", "mu2")
@@ -124,7 +162,7 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
     """
     told: set[tuple[str, float]] = set()
     for block in robot.gazebo:
-        found: dict[str, Problem] = {}
+        found: dict[str, tuple[Element, list[str], Severity | None]] = {}
         meant = _holds(robot, block.reference) and _is_alike(block)
         for child in block.element.children:
             if child.tag not in ("mu1", "mu2", "kp"):
@@ -146,11 +184,8 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
                 why = "rubber on concrete has about 1"
             else:
                 continue
-            if why in found:
-                found[why].message += f" and {wrong}"
-            else:
-                severity = ERROR if value < 0 else None
-                found[why] = Problem(block.element, wrong, at=child, severity=severity)
-        for why, problem in found.items():
-            problem.message += f"; {why}"
-            yield problem
+            severity = ERROR if value < 0 else None
+            found.setdefault(why, (child, [], severity))[1].append(wrong)
+        for why, (child, wrongs, severity) in found.items():
+            message = f"{' and '.join(wrongs)}; {why}"
+            yield Problem(block.element, message, at=child, severity=severity)

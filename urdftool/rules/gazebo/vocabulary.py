@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from ...model.elements import GazeboExtension, Robot
 from ...source.document import Element
-from ..rule import ERROR, WARNING, Problem, rule
+from ..fix import FixContext, Proposal, element_at, rename_element, unsafe
+from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
 from ..words import fold, nearest
 from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS, ROBOT_KEYWORDS
 from .plugin_parameters import LIBRARIES, PARAMETERS
@@ -17,13 +18,17 @@ APPLIES_TO = ("gazebo",)
 _INSTEAD = {
     "mu": "write <mu1> and <mu2>",
     "friction": "write <mu1> and <mu2>, or <collision><surface><friction>…",
-    "friction1": "write <mu1>",
-    "friction2": "write <mu2>",
     "surface": "write it inside <collision>",
     "ode": "write it inside <collision><surface>",
     "color": "write <material>, or <visual><material><diffuse>",
     "restitution": "write <collision><surface><bounce><restitution_coefficient>",
-    "turnOffGravity": "write <turnGravityOff>",
+}
+
+_RENAMED = {
+    "friction1": "mu1",
+    "friction2": "mu2",
+    "color": "material",
+    "turnOffGravity": "turnGravityOff",
 }
 
 
@@ -44,7 +49,7 @@ def unknown_extension(robot: Robot) -> Iterator[Problem]:
     In sensors, and in plugins whose parameters are known, only words that are nearly right are
     told of: plugins read what they like.
     """
-    strange: dict[str, list[Problem]] = {}
+    strange: dict[str, list[tuple[str, GazeboExtension, Element]]] = {}
     for block in robot.gazebo:
         known, parent = _known(robot, block)
         for child in block.element.children:
@@ -56,15 +61,32 @@ def unknown_extension(robot: Robot) -> Iterator[Problem]:
             elif tag == "ros2_control":
                 continue  # a rule of its own says where it belongs
             elif parent and tag not in known and tag not in KEYWORDS and ":" not in tag:
-                problem = _unknown(block, child, known, parent)
-                if problem.severity is not None:
+                problem = _misspelt(block, child, known, parent)
+                if problem is not None:
                     yield problem
                 else:
-                    strange.setdefault(tag, []).append(problem)
-    for problems in strange.values():
-        more = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
-        problems[0].message += more
-        yield problems[0]
+                    strange.setdefault(tag, []).append((parent, block, child))
+    for tag, found in strange.items():
+        parent, block, child = found[0]
+        more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+        yield Problem(
+            block.element,
+            f"<{tag}> means nothing to Gazebo at a {parent}, and nothing of it is read; "
+            f"take it away{more}",
+            at=child,
+            data={"count": len(found)},
+        )
+
+
+@unknown_extension.fix(UNSAFE)
+def write_known_element(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the element that Gazebo knows."""
+    element, word = element_at(problem), problem.data.get("write", "")
+    if element is None or not word.replace("_", "").isalnum():
+        return None
+    if element.parent is None or element.parent.child(word) is not None:
+        return None
+    return unsafe(f"write <{word}>", rename_element(element, word))
 
 
 def _known(robot: Robot, block: GazeboExtension) -> tuple[frozenset[str], str]:
@@ -81,16 +103,23 @@ def _known(robot: Robot, block: GazeboExtension) -> tuple[frozenset[str], str]:
     return frozenset(), ""
 
 
-def _unknown(block: GazeboExtension, child: Element, known: frozenset[str], parent: str) -> Problem:
+def _misspelt(
+    block: GazeboExtension, child: Element, known: frozenset[str], parent: str
+) -> Problem | None:
+    """Report an element in whose place another is meant; None where no other is known."""
     tag = child.tag
-    what = f"<{tag}> means nothing to Gazebo at a {parent}"
-    instead = _INSTEAD.get(tag)
-    if instead is None:
-        near = _near(tag, known | KEYWORDS)
-        instead = f"write <{near}>" if near else ""
-    if instead:
-        return Problem(block.element, f"{what}; {instead}", at=child, severity=ERROR)
-    return Problem(block.element, f"{what}, and nothing of it is read; take it away", at=child)
+    instead, right = _INSTEAD.get(tag, ""), _RENAMED.get(tag, "")
+    if not instead and not right:
+        right = _near(tag, known | KEYWORDS)
+    if not instead and not right:
+        return None
+    return Problem(
+        block.element,
+        f"<{tag}> means nothing to Gazebo at a {parent}; {instead or f'write <{right}>'}",
+        at=child,
+        severity=ERROR,
+        data={"write": right} if right else {},
+    )
 
 
 def _in_sdf(element: Element) -> Iterator[Problem]:
@@ -108,6 +137,7 @@ def _in_sdf(element: Element) -> Iterator[Problem]:
                     f"<{element.tag}> has no <{child.tag}>; write <{near}>",
                     at=child,
                     severity=ERROR,
+                    data={"write": near},
                 )
                 continue
         yield from _in_sdf(child)
@@ -127,6 +157,7 @@ def _in_plugin(plugin: Element) -> Iterator[Problem]:
                 plugin,
                 f"plugin '{plugin.get('name') or library}' has no <{tag}>; write <{near}>",
                 at=child,
+                data={"write": near},
             )
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Joint, Robot, Sensor
 from ...model.pose import IDENTITY, dot, pose_of, rotation_of_rpy
-from ..fix import FixContext, Proposal, unsafe
+from ..fix import FixContext, Proposal, set_text, unsafe
 from ..gazebo.sensors import pose_in_link
 from ..rule import GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
 from ..shape_changes import set_in_origin
@@ -114,6 +114,17 @@ def camera_sensor_not_optical(robot: Robot) -> Iterator[Problem]:
                 f"its optical frame is '{optical}'",
                 data={"frame": written[0], "optical_frame": optical},
             )
+
+
+@camera_sensor_not_optical.fix(UNSAFE)
+def write_optical_frame(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the optical frame."""
+    frame, optical = problem.data["frame"], problem.data["optical_frame"]
+    tags = ("frameName", "frame_name", "gz_frame_id", "ignition_frame_id")
+    for element in problem.element.walk():
+        if element.tag in tags and element.text.strip() == frame:
+            return unsafe(f"publish in '{optical}'", set_text(element, optical))
+    return None
 
 
 def _is_at(joint: Joint, sensor: Sensor) -> bool:

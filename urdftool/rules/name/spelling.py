@@ -7,7 +7,7 @@ import unicodedata
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Material, Robot
-from ..fix import FixContext, Proposal, attribute_at, substitute, unsafe
+from ..fix import FixContext, Proposal, append_number
 from ..renaming import part_of, rename_material, rename_part
 from ..rule import ERROR, INFO, ROS, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
@@ -233,13 +233,4 @@ def _parts(robot: Robot) -> list[Link | Joint]:
 @duplicate_geometry_name.fix(UNSAFE)
 def number_geometry_name(problem: Problem, context: FixContext) -> Proposal | None:
     """Append a number to the second name."""
-    found = attribute_at(problem)
-    if found is None:
-        return None
-    taken = {shape.name for _, shape in context.robot.shapes}
-    name, number = (found[0].get(found[1]) or "").strip(), 2
-    while f"{name}_{number}" in taken:
-        number += 1
-    return unsafe(
-        f"call it '{name}_{number}'", substitute(*found, r"(?<=\S)(?=\s*$)", f"_{number}")
-    )
+    return append_number(problem, {shape.name for _, shape in context.robot.shapes})
