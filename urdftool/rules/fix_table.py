@@ -57,13 +57,6 @@ FIXES: dict[str, dict[str, str]] = {
         "ros1-transmission-in-ros2": UNSAFE,
         "mujoco-welds-root": UNSAFE,
     },
-    "plugins": {
-        "classic-plugin-in-gz": UNSAFE,
-        "ignition-name": UNSAFE,
-        "plugin-class-mismatch": SAFE,
-        "plugin-unknown-entity": UNSAFE,
-        "ros2-control-sim-plugin-pair": UNSAFE,
-    },
     "control": {
         "transmission-unknown-joint": UNSAFE,
         "unprefixed-hardware-interface": SAFE,

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
+from pathlib import Path
 
 from ...errors import PackageNotFound
 from ...model.elements import Robot
 from ...source.description import Description
-from ..rule import ERROR, GAZEBO, WARNING, Problem, rule
+from ...source.nearby import bytes_of
+from ...source.packages import own_package
+from ..cross_file_references import check_not_included
+from ..fix import FixContext, Proposal, append_child, escape_attribute, unsafe
+from ..rule import ERROR, GAZEBO, UNSAFE, WARNING, Problem, rule
 from ..words import did_you_mean
 
 APPLIES_TO = ("ros2_control", "plugin")
@@ -95,12 +101,54 @@ def ros2_control_sim_plugin_pair(robot: Robot) -> Iterator[Problem]:
             first.element,
             f"ros2_control '{first.name}' is simulated, and no <gazebo><plugin> runs it; "
             f'add one with filename="{wanted}"',
+            data={"plugin": wanted},
         )
     elif plugins and not any(control.plugin for control in robot.ros2_controls):
         yield Problem(
             plugins[0].element,
             f"plugin '{plugins[0].name}' runs ros2_control, and there is no <ros2_control> block",
         )
+
+
+_RUNS = {
+    "gz_ros2_control/": ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin"),
+    "gazebo_ros2_control/": ("libgazebo_ros2_control.so", "gazebo_ros2_control"),
+}
+
+
+@ros2_control_sim_plugin_pair.fix(UNSAFE)
+def add_plugin(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add the plugin, if the package has one file of controllers, without which it fails."""
+    described = context.description
+    own = own_package(described.packages.file)
+    controls = [c for c in context.robot.ros2_controls if c.element is problem.element]
+    if own is None or described.expansion is None or not controls:
+        return None
+    runs = [v for prefix, v in _RUNS.items() if (controls[0].plugin or "").startswith(prefix)]
+    files = [path for path in sorted((own[1] / "config").glob("*.y*ml")) if _manages(path)]
+    if len(files) != 1 or not runs:
+        return None
+    check_not_included(context)
+    file, name = runs[0]
+    lines = (
+        "<gazebo>",
+        f'\t<plugin filename="{file}" name="{name}">',
+        f"\t\t<parameters>$(find {own[0]})/config/{escape_attribute(files[0].name)}</parameters>",
+        "\t</plugin>",
+        "</gazebo>",
+    )
+    return unsafe(
+        f"add it with the controllers of config/{files[0].name}",
+        append_child(context.robot.element, *lines),
+    )
+
+
+def _manages(path: Path) -> bool:
+    """Tell whether a file has the parameters of a controller_manager."""
+    try:
+        return re.search(rb"^\W*controller_manager\W*:", bytes_of(path), re.MULTILINE) is not None
+    except OSError:
+        return False
 
 
 @rule(

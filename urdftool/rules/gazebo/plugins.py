@@ -6,11 +6,26 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Plugin, Robot
+from ...model.gazebo_plugins import SYSTEM_PLUGINS, carried, class_of, file_of
+from ...model.gazebo_plugins import library as library_of
 from ...source.document import Element
-from ..fix import FixContext, Proposal, append_number
-from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
+from ..fix import (
+    FixContext,
+    Proposal,
+    append_number,
+    element_at,
+    escape_attribute,
+    replace_element,
+    safe,
+    set_attribute,
+    set_text,
+    substitute,
+    suggestion_of,
+    unsafe,
+)
+from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean, quoted
+from ..words import did_you_mean, nearest, quoted
 from .systems import CLASSIC, REPLACEMENTS, SYSTEMS
 
 APPLIES_TO = ("plugin",)
@@ -65,7 +80,42 @@ def classic_plugin_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
             plugin.element,
             f"'{plugin.filename}' is for Gazebo Classic and is not loaded by new Gazebo{right}",
             at=plugin.element.attribute_place("filename"),
+            data={"counterpart": instead} if instead else {},
         )
+
+
+@classic_plugin_in_gz.fix(UNSAFE)
+def load_counterpart(problem: Problem, context: FixContext) -> Proposal | None:
+    """Load its counterpart, with the parameters that have one."""
+    plugin = problem.element
+    old = library_of(plugin)
+    if old == "gazebo_ros2_control":
+        new = REPLACEMENTS[old]
+        return unsafe(
+            f"load '{new}'",
+            set_attribute(plugin, "filename", new),
+            set_attribute(plugin, "name", SYSTEMS[new]),
+        )
+    systems = SYSTEM_PLUGINS.get(old, ())
+    if not systems or any("$" in child.text for child in plugin.walk()):
+        return None
+    lines: list[str] = []
+    left: set[str] | None = None
+    for system in systems:
+        taken, lost = carried(plugin, system)
+        joints = "left_joint" not in system.parameters.values() or "left_joint" in dict(taken)
+        if system.missing or not joints:
+            return None
+        left = set(lost) if left is None else left & set(lost)
+        inside = [f"<{tag}>{escape_attribute(v)}</{tag}>" for tag, v in taken if isinstance(v, str)]
+        if len(inside) != len(taken):
+            return None
+        start = f'<plugin filename="{file_of(system)}" name="{class_of(system)}"'
+        indented = (f"\t{line}" for line in inside)
+        lines += [f"{start}>", *indented, "</plugin>"] if inside else [f"{start}/>"]
+    dropped = f"; it has no {', '.join(sorted(left))}" if left else ""
+    names = "' and '".join(file_of(system) for system in systems)
+    return unsafe(f"load '{names}'{dropped}", replace_element(plugin, tuple(lines)))
 
 
 @rule(
@@ -114,7 +164,22 @@ def ignition_name(robot: Robot) -> Iterator[Problem]:
                 f"'{plugin.filename}' is an old name; write '{new}'"
                 + (" and gz::sim:: in its name" if "ignition::" in plugin.name else ""),
                 at=plugin.element.attribute_place("filename"),
+                data={"write": new},
             )
+
+
+@ignition_name.fix(UNSAFE)
+def write_gz_name(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write its new name, which Gazebo Fortress, the last called Ignition, does not know."""
+    plugin = problem.element
+    new = problem.data["write"]
+    changes = [set_attribute(plugin, "filename", new)]
+    name = plugin.get("name") or ""
+    if "ignition::gazebo::" in name:
+        changes.append(substitute(plugin, "name", "^ignition::gazebo::", "gz::sim::"))
+    elif name.startswith("ign_ros2_control::"):
+        changes.append(set_attribute(plugin, "name", SYSTEMS["gz_ros2_control-system"]))
+    return unsafe(f"write {new}", *changes)
 
 
 @rule(
@@ -140,7 +205,17 @@ def plugin_class_mismatch(robot: Robot) -> Iterator[Problem]:
                 plugin.element,
                 f"the class in '{plugin.filename}' is '{right}', and not '{plugin.name}'",
                 at=plugin.element.attribute_place("name"),
+                data={"class": right},
             )
+
+
+@plugin_class_mismatch.fix(SAFE)
+def write_class(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the class in the library, in the form of the library's name."""
+    right = problem.data["class"]
+    if "ignition-gazebo" in (problem.element.get("filename") or ""):
+        right = right.replace("gz::sim::", "ignition::gazebo::")
+    return safe(f"write {right}", set_attribute(problem.element, "name", right))
 
 
 _JOINTS = [
@@ -191,7 +266,8 @@ def plugin_unknown_entity(robot: Robot) -> Iterator[Problem]:
             if not kind or child.children or is_unexpanded(text):
                 continue
             known = [*robot.joint] if kind == "joint" else [*robot.link]
-            names = [part.rpartition("::")[2] for part in re.split(r"[,\s]+", text) if part]
+            parts = [part for part in re.split(r"[,\s]+", text) if part]
+            names = [part.rpartition("::")[2] for part in parts]
             if len(names) > 1 and text.rpartition("::")[2] in known:
                 continue
             missing = [name for name in names if name not in (*known, "world", "map")]
@@ -201,6 +277,7 @@ def plugin_unknown_entity(robot: Robot) -> Iterator[Problem]:
                     f"<{child.tag}> of plugin '{plugin.name}' takes one {kind} and names several, "
                     f"'{text}'; write one <{child.tag}> for each",
                     at=child,
+                    data={"kind": kind, "names": parts},
                 )
             elif missing:
                 yield _unknown(plugin, child, missing, kind, known, len(names) > 1)
@@ -217,7 +294,23 @@ def _unknown(
         f"<{at.tag}> of plugin '{plugin.name}' {verb} {quoted(missing)}, and {there} {kinds}"
         + did_you_mean(missing[0], known),
         at=at,
+        data={"kind": kind, "missing": missing, "suggestion": nearest(missing[0], known)},
     )
+
+
+@plugin_unknown_entity.fix(UNSAFE)
+def write_names(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the suggested name; an element for each of several names."""
+    element = element_at(problem)
+    names: list[str] = problem.data.get("names", [])
+    if element is not None and names:
+        tag = element.tag
+        blocks = [(f"<{tag}>{escape_attribute(name)}</{tag}>",) for name in names]
+        return unsafe(f"write {len(names)} <{tag}>", replace_element(element, *blocks))
+    name = suggestion_of(problem, element.text.strip()) if element is not None else ""
+    if element is None or not name or re.search(r"[,\s]", element.text.strip()):
+        return None
+    return unsafe(f"write {name}", set_text(element, name))
 
 
 @rule(
