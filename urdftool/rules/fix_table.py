@@ -53,33 +53,6 @@ FIXES: dict[str, dict[str, str]] = {
         "com-not-mirrored": UNSAFE,
         "radius-of-gyration": UNSAFE,
     },
-    "migration": {
-        "ros1-transmission-in-ros2": UNSAFE,
-        "mujoco-welds-root": UNSAFE,
-    },
-    "control": {
-        "transmission-unknown-joint": UNSAFE,
-        "unprefixed-hardware-interface": SAFE,
-        "missing-hardware-interface": UNSAFE,
-        "unknown-hardware-interface": UNSAFE,
-        "duplicate-transmission": UNSAFE,
-        "transmission-on-immovable-joint": UNSAFE,
-        "actuated-joint-without-transmission": UNSAFE,
-        "ros2-control-unknown-joint": UNSAFE,
-        "ros2-control-fixed-joint": UNSAFE,
-        "ros2-control-mimic": UNSAFE,
-        "ros2-control-legacy-mimic-param": UNSAFE,
-        "ros2-control-duplicate-interface": UNSAFE,
-        "nonstandard-interface-name": UNSAFE,
-        "command-without-state": UNSAFE,
-        "joint-outside-ros2-control": UNSAFE,
-        "ros2-control-invalid-tag": UNSAFE,
-        "ros2-control-nested": BOTH,
-        "ros2-control-wrong-sim-plugin": UNSAFE,
-        "ros2-control-unknown-imu-interface": UNSAFE,
-        "controller-unknown-joint": UNSAFE,
-        "controller-parameter-type": SAFE,
-    },
 }
 """Applicability by rule, by the file in ``fixes``."""
 

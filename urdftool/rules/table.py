@@ -289,6 +289,8 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "unknown-hardware-interface",
             "several-hardware-interfaces",
             "duplicate-transmission",
+        ),
+        "transmission_joints": (
             "transmission-on-immovable-joint",
             "actuated-joint-without-transmission",
             "ros1-transmission-in-ros2",
@@ -298,6 +300,8 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "ros2-control-fixed-joint",
             "ros2-control-mimic",
             "ros2-control-legacy-mimic-param",
+        ),
+        "ros2_control_interfaces": (
             "ros2-control-duplicate-interface",
             "nonstandard-interface-name",
             "command-without-state",
@@ -401,7 +405,9 @@ APPLIES_TO: dict[str, tuple[str, ...]] = {
     "gazebo.plugins": ("plugin",),
     "gazebo.drives": ("plugin", "ros2_control", "transmission"),
     "control.transmissions": ("transmission", "plugin"),
+    "control.transmission_joints": ("transmission", "plugin"),
     "control.ros2_control": ("ros2_control",),
+    "control.ros2_control_interfaces": ("ros2_control",),
     "control.ros2_control_form": ("ros2_control",),
     "control.ros2_control_simulated": ("ros2_control", "plugin"),
     "control.controllers": ("ros2_control", "transmission"),

@@ -2,7 +2,9 @@
 
 FILES = (
     "transmissions",
+    "transmission_joints",
     "ros2_control",
+    "ros2_control_interfaces",
     "ros2_control_form",
     "ros2_control_simulated",
     "controllers",

@@ -9,7 +9,8 @@ from ...model.controllers import Controller, joint_of
 from ...model.elements import Robot
 from ...source.description import Description
 from ...source.yaml_tree import Node
-from ..rule import ROS, WARNING, Problem, rule
+from ..fix import FixContext, Proposal, Span, suggestion_of, unsafe
+from ..rule import ROS, UNSAFE, WARNING, Problem, rule
 from ..words import nearest
 from .controller_files import ControllerFile, Package, package_of
 
@@ -73,7 +74,20 @@ def _wrong(
             f"controller '{controller.name}' names joint '{name}', which the robot does not "
             f"have{asked}",
             at=node.place,
+            data={"joint": name, "suggestion": near},
         )
+
+
+@controller_unknown_joint.fix(UNSAFE)
+def write_joint(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the suggested joint in the file of controllers."""
+    file, start, end = problem.place.file, problem.place.start, problem.place.end
+    wrong = re.search(rb"[\w.-]+(?=[\"']?$)", file.data[start:end])
+    name = suggestion_of(problem, wrong[0].decode("utf-8", "replace")) if wrong is not None else ""
+    if wrong is None or not name:
+        return None
+    at = start + wrong.start()
+    return unsafe(f"write {name}", Span(file, at, at + len(wrong[0]), name.encode()))
 
 
 def _has(robot: Robot, name: str) -> bool:

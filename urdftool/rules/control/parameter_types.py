@@ -9,7 +9,8 @@ from ...errors import ConfigError
 from ...model.elements import Robot
 from ...source.description import Description
 from ...source.yaml_tree import Node, yaml_of
-from ..rule import ERROR, Problem, rule
+from ..fix import FixContext, Proposal, Span, safe
+from ..rule import ERROR, SAFE, Problem, rule
 from ..words import some_of
 from .controller_files import ControllerFile, package_of
 
@@ -111,7 +112,26 @@ def controller_parameter_type(robot: Robot, description: Description) -> Iterato
                 f"{node.key} of '{name}' must be {what or 'an integer'} for ROS 2; "
                 f"write {right}{more}",
                 at=node.place,
+                data={"parameters": [f"{one}.{other.key}" for one, other, _ in wrong]},
             )
+
+
+@controller_parameter_type.fix(SAFE)
+def write_declared_type(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the same numbers in the type that is declared; none is rounded."""
+    for file in package_of(context.robot, context.description).controller_files:
+        if file.file.path != problem.place.path:
+            continue
+        spans = []
+        for _, node, right in wrong_types(file):
+            if node.items is None and float(node.text or 0) != float(right):
+                continue
+            pairs = [(node, right)]
+            if node.items is not None:
+                pairs = [(item, f"{item.text}.0") for item in node.items]
+            spans += [Span(one.file, one.start, one.end, text.encode()) for one, text in pairs]
+        return safe("write the type that is declared", *spans) if spans else None
+    return None
 
 
 def wrong_types(file: ControllerFile) -> Iterator[tuple[str, Node, str]]:

@@ -6,10 +6,20 @@ from collections.abc import Iterator, Mapping
 
 from ...model.elements import ControlComponent, Mimic, Robot
 from ...model.read import number
-from ...source.document import Element
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..fix import (
+    FixContext,
+    Proposal,
+    append_child,
+    element_at,
+    escape_attribute,
+    is_computed,
+    remove_element,
+    unsafe,
+    write_suggestion,
+)
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean, quoted
+from ..words import did_you_mean, nearest
 
 APPLIES_TO = ("ros2_control",)
 
@@ -35,7 +45,18 @@ def ros2_control_unknown_joint(robot: Robot) -> Iterator[Problem]:
                     f"joint '{joint.name}' of ros2_control '{control.name}' is not in the robot"
                     + did_you_mean(joint.name, robot.joint),
                     at=joint.element.attribute_place("name"),
+                    data={
+                        "joint": joint.name,
+                        "suggestion": nearest(joint.name, robot.joint),
+                    },
                 )
+
+
+@ros2_control_unknown_joint.fix(UNSAFE)
+def write_joint(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the suggested joint, if it is in no block yet."""
+    known = {joint.name for control in context.robot.ros2_controls for joint in control.joints}
+    return None if problem.data["suggestion"] in known else write_suggestion(problem)
 
 
 @rule(
@@ -61,6 +82,13 @@ def ros2_control_fixed_joint(robot: Robot) -> Iterator[Problem]:
                     f"joint '{joint.name}' of ros2_control '{control.name}' is fixed; take it out",
                     at=joint.element.attribute_place("name"),
                 )
+
+
+@ros2_control_fixed_joint.fix(UNSAFE)
+def remove_joint(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the joint, whose states ROS before Jazzy reports."""
+    element = element_at(problem)
+    return unsafe("take the joint out", remove_element(element)) if element is not None else None
 
 
 @rule(
@@ -105,6 +133,18 @@ def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
                     f"ros2_control '{control.name}'; add it",
                     at=at.attribute_place("name"),
                 )
+
+
+@ros2_control_mimic.fix(UNSAFE)
+def remove_commands(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the command interfaces, since the joint follows another."""
+    interface = element_at(problem)
+    joint = interface.parent if interface is not None else None
+    if interface is None or interface.tag != "command_interface" or joint is None:
+        return None
+    return unsafe(
+        "take its command interfaces out", *map(remove_element, joint.all("command_interface"))
+    )
 
 
 @rule(
@@ -176,188 +216,28 @@ def repeats_mimic(params: Mapping[str, str], mimic: Mimic) -> bool:
     )
 
 
-@rule(
-    ERROR,
-    on=("ros2",),
-    effects={
-        "controller_manager": "refuses to register the interface twice",
-    },
-)
-def ros2_control_duplicate_interface(robot: Robot) -> Iterator[Problem]:
-    """An interface of a joint is there twice.
-
-    Each interface is a resource with a name, ``joint/position``. The same one twice in a joint, or
-    the same command in two blocks of hardware, is a conflict.
-    """
-    commands: dict[tuple[str, str], str] = {}
-    for control in robot.ros2_controls:
-        for part in control.components:
-            for kind, interfaces in (
-                ("command", part.command_interfaces),
-                ("state", part.state_interfaces),
-            ):
-                seen: set[str] = set()
-                for interface in interfaces:
-                    name = interface.name
-                    other = control.name
-                    if kind == "command":
-                        other = commands.setdefault((part.name, name), control.name)
-                    if name in seen or other != control.name:
-                        where = f" in '{other}' already" if other != control.name else " twice"
-                        yield Problem(
-                            control.element,
-                            f"{part.kind} '{part.name}' has the {kind} interface '{name}'{where}",
-                            at=interface,
-                        )
-                    seen.add(name)
-
-
-_STANDARD = ("position", "velocity", "acceleration", "effort")
-
-
-@rule(
-    INFO,
-    on=("ros2",),
-    effects={
-        "gz_ros2_control": "ignores an interface other than position, velocity and effort",
-    },
-)
-def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
-    """An interface of a joint is nearly called as usual.
-
-    Controllers look for ``position``, ``velocity``, ``acceleration`` and ``effort``. Other names
-    are right for hardware with more to say; a ``postion`` is found by nobody.
-    """
-    for control in robot.ros2_controls:
-        for joint in control.joints:
-            for interface in (*joint.command_interfaces, *joint.state_interfaces):
-                near = did_you_mean(interface.name, _STANDARD, 0.8)
-                if interface.name not in _STANDARD and near:
-                    yield Problem(
-                        control.element,
-                        f"joint '{joint.name}' has an interface '{interface.name}'{near}",
-                        at=interface.element.attribute_place("name"),
-                    )
-
-
-@rule(
-    INFO,
-    on=("ros2",),
-    effects={
-        "joint_trajectory_controller": (
-            "does not activate where it needs a state interface that is not there"
-        ),
-    },
-)
-def command_without_state(robot: Robot) -> Iterator[Problem]:
-    """A joint has a command interface and no state interface of that name.
-
-    Most controllers read the state of what they command: the trajectory controller does not
-    configure a joint of which it commands the velocity without its position and velocity. The
-    wheels of a drive are different: ``diff_drive_controller`` commands their velocity and reads
-    their position, or their velocity with ``position_feedback: false``. A joint that turns without
-    end is therefore right with either state. The state may be in another ``<ros2_control>`` block,
-    as that of a sensor is.
-    """
-    given: dict[str, set[str]] = {}
-    for control in robot.ros2_controls:
-        for joint in control.joints:
-            states = given.setdefault(joint.name, set())
-            states.update(interface.name for interface in joint.state_interfaces)
-    for control in robot.ros2_controls:
-        for joint in control.joints:
-            states = set(given[joint.name])
-            written = robot.joint.get(joint.name)
-            if written is not None and written.type == "continuous" and "position" in states:
-                states.add("velocity")
-            missing = [
-                interface
-                for interface in joint.command_interfaces
-                if interface.name in ("position", "velocity") and interface.name not in states
-            ]
-            if missing:
-                words = quoted(interface.name for interface in missing)
-                yield Problem(
-                    control.element,
-                    f"joint '{joint.name}' has the command {words} and not the state of that name",
-                    at=missing[0],
-                )
-
-
-@rule(
-    WARNING,
-    on=("ros2",),
-    effects={
-        "ros2_control": "has no interface for the joint, so no broadcaster reports its motion",
-    },
-)
-def joint_outside_ros2_control(robot: Robot) -> Iterator[Problem]:
-    """A joint moves and is in no ``<ros2_control>`` block, though others are.
-
-    Nobody reports where it is: RViz finds no transform to what hangs on it. A joint that is only to
-    be reported needs a state interface and no command.
-    """
-    known = {joint.name for control in robot.ros2_controls for joint in control.joints}
-    if not known or not known.intersection(robot.joint) or _reports_otherwise(robot):
-        return
-    for joint in robot.moving_joints:
-        if joint.mimic is None and joint.has_axis and joint.name not in known:
-            yield Problem(
-                joint,
-                f"joint '{joint.name}' moves and is in no <ros2_control>; "
-                "add it there with a state interface",
-            )
-
-
-def _reports_otherwise(robot: Robot) -> bool:
-    """Whether a plugin of Gazebo reports joints as well."""
-    words = ("drive", "joint-state", "joint_state")
-    return any(word in plugin.filename for plugin in robot.plugins for word in words)
-
-
-@rule(
-    ERROR,
-    on=("ros2",),
-    effects={
-        "gz_ros2_control": "stops with an exception where the value is not a number",
-    },
-)
-def bad_initial_value(robot: Robot) -> Iterator[Problem]:
-    """The ``initial_value`` of an interface is no number, or outside the joint's limits.
-
-    The simulated hardware starts the joint there. Text that is no number ends it; a position
-    outside the limits is corrected with a jolt.
-    """
-    for control in robot.ros2_controls:
-        for joint in control.joints:
-            for interface in joint.state_interfaces:
-                text = interface.params.get("initial_value")
-                if text is None or is_unexpanded(text):
-                    continue
-                value = number(text)
-                if value is None:
-                    wrong = "is no number"
-                elif interface.name == "position" and (
-                    limits := _outside(robot, joint.name, value)
-                ):
-                    wrong = f"is outside the limits, {limits}"
-                else:
-                    continue
-                yield Problem(
-                    control.element,
-                    f"initial_value of joint '{joint.name}' is '{text}', which {wrong}",
-                    at=_param(interface.element, "initial_value"),
-                    severity=None if value is None else WARNING,
-                )
-
-
-def _outside(robot: Robot, name: str, value: float) -> str:
-    joint = robot.joint.get(name)
-    if joint is None or not joint.is_limited or joint.limit is None:
-        return ""
-    low, high = joint.limit.lower or 0.0, joint.limit.upper or 0.0
-    return "" if low > high or low <= value <= high else f"{low:g} to {high:g}"
-
-
-def _param(element: Element, name: str) -> Element:
-    return next((p for p in element.all("param") if p.get("name") == name), element)
+@ros2_control_legacy_mimic_param.fix(UNSAFE)
+def leave_to_mimic(problem: Problem, context: FixContext) -> Proposal | None:
+    """Leave it to the ``<mimic>`` of the URDF, which ROS before Jazzy does not read here."""
+    param = element_at(problem)
+    part = param.parent if param is not None else None
+    joint = context.robot.joint.get(part.get("name") or "") if part is not None else None
+    if param is None or part is None or joint is None:
+        return None
+    leader = param.text.strip()
+    factors = [p for p in part.all("param") if p.get("name") == "multiplier"]
+    changes = [remove_element(param), *map(remove_element, factors)]
+    if joint.mimic is None:
+        if leader not in context.robot.joint or joint.is_fixed:
+            return None
+        if is_computed(context.robot.joint[leader].element):
+            return None
+        by = f' multiplier="{escape_attribute(factors[0].text.strip())}"' if factors else ""
+        changes.append(
+            append_child(joint.element, f'<mimic joint="{escape_attribute(leader)}"{by}/>')
+        )
+        return unsafe("write <mimic> into the joint", *changes)
+    params = {p.get("name") or "": p.text.strip() for p in part.all("param")}
+    if not repeats_mimic(params, joint.mimic):
+        return None
+    return unsafe("remove it: the joint has its <mimic>", *changes)

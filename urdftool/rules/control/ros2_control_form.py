@@ -6,8 +6,22 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...model.read import number
-from ..rule import ERROR, Problem, rule
-from ..words import did_you_mean
+from ...source.document import Element
+from ..fix import (
+    FixContext,
+    Proposal,
+    element_at,
+    insert_after,
+    remove_element,
+    rename_element,
+    replace_element,
+    safe,
+    suggestion_of,
+    unsafe,
+    written_lines,
+)
+from ..rule import BOTH, ERROR, UNSAFE, Problem, rule
+from ..words import did_you_mean, nearest
 
 APPLIES_TO = ("ros2_control",)
 
@@ -91,7 +105,18 @@ def ros2_control_invalid_tag(robot: Robot) -> Iterator[Problem]:
                     f"ros2_control '{control.name}' has a <{child.tag}>; there are "
                     f"{', '.join(_CHILDREN)}{did_you_mean(child.tag, _CHILDREN)}",
                     at=child,
+                    data={"suggestion": nearest(child.tag, _CHILDREN)},
                 )
+
+
+@ros2_control_invalid_tag.fix(UNSAFE)
+def write_element(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the suggested element."""
+    element = element_at(problem)
+    name = suggestion_of(problem, element.tag) if element is not None else ""
+    if element is None or not name:
+        return None
+    return unsafe(f"write <{name}>", rename_element(element, name))
 
 
 @rule(
@@ -116,6 +141,22 @@ def ros2_control_nested(robot: Robot) -> Iterator[Problem]:
                     element,
                     f"<ros2_control> stands inside <{child.tag}>; move it up into <robot>",
                 )
+
+
+@ros2_control_nested.fix(BOTH)
+def move_up(problem: Problem, context: FixContext) -> Proposal | None:
+    """Move it up into the robot; it is unsafe if another is there, whose hardware it joins."""
+    element = problem.element
+    make = unsafe if context.robot.element.child("ros2_control") is not None else safe
+    top: Element = element
+    while top.parent is not None and top.parent is not context.robot.element:
+        top = top.parent
+    if top is element or top.parent is None:
+        return None
+    alone = element.parent is top and len(top.children) == 1 and top.tag == "gazebo"
+    if alone and not top.attributes:
+        return make("move it up", replace_element(top, tuple(written_lines(element))))
+    return make("move it up", remove_element(element), insert_after(top, *written_lines(element)))
 
 
 @rule(

@@ -13,9 +13,18 @@ from ...source.description import Description
 from ...source.nearby import bytes_of
 from ...source.packages import own_package
 from ..cross_file_references import check_not_included
-from ..fix import FixContext, Proposal, append_child, escape_attribute, unsafe
+from ..fix import (
+    FixContext,
+    Proposal,
+    append_child,
+    element_at,
+    escape_attribute,
+    set_text,
+    unsafe,
+    write_suggestion,
+)
 from ..rule import ERROR, GAZEBO, UNSAFE, WARNING, Problem, rule
-from ..words import did_you_mean
+from ..words import did_you_mean, nearest
 
 APPLIES_TO = ("ros2_control", "plugin")
 
@@ -56,7 +65,18 @@ def ros2_control_wrong_sim_plugin(robot: Robot, targets: frozenset[str]) -> Iter
                 control.element,
                 f"'{plugin}' is for the other Gazebo; write {right}",
                 at=hardware.child("plugin"),
+                data={"write": right},
             )
+
+
+@ros2_control_wrong_sim_plugin.fix(UNSAFE)
+def write_hardware(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the class of the Gazebo that it is for."""
+    element = element_at(problem)
+    right = problem.data["write"]
+    if element is None or element.tag != "plugin":
+        return None
+    return unsafe(f"write {right}", set_text(element, right))
 
 
 def _of_plugins(robot: Robot) -> frozenset[str]:
@@ -226,7 +246,14 @@ def ros2_control_unknown_imu_interface(robot: Robot) -> Iterator[Problem]:
                         f"sensor '{part.name}' has no state '{interface.name}'"
                         + (did_you_mean(interface.name, _IMU) or f"; there are {', '.join(_IMU)}"),
                         at=interface.element.attribute_place("name"),
+                        data={"suggestion": nearest(interface.name, _IMU)},
                     )
+
+
+@ros2_control_unknown_imu_interface.fix(UNSAFE)
+def write_interface(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the suggested state."""
+    return write_suggestion(problem)
 
 
 @rule(

@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from ...model.elements import Robot, Transmission
-from ..gazebo.lumping import is_lumped
-from ..joint.range import is_locked
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..fix import (
+    FixContext,
+    Proposal,
+    append_child,
+    append_number,
+    element_at,
+    escape_attribute,
+    remove_element,
+    safe,
+    substitute_text,
+    unsafe,
+    write_suggestion,
+)
+from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean
+from ..words import did_you_mean, nearest
 
 APPLIES_TO = ("transmission", "plugin")
 
@@ -42,7 +52,14 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
                     f"{called(transmission)} names joint '{joint.name}', "
                     f"which is not there{did_you_mean(joint.name, idle, 0.8)}",
                     at=joint.element.attribute_place("name"),
+                    data={"joint": joint.name, "suggestion": nearest(joint.name, idle, 0.8)},
                 )
+
+
+@transmission_unknown_joint.fix(UNSAFE)
+def write_joint(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the suggested joint, which no transmission drives."""
+    return write_suggestion(problem)
 
 
 @rule(
@@ -77,6 +94,21 @@ def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
                     )
 
 
+@unprefixed_hardware_interface.fix(SAFE)
+def write_prefix(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the prefix."""
+    element = element_at(problem)
+    if element is None:
+        return None
+    name = element.text.strip()
+    return safe(
+        f"write hardware_interface/{name}",
+        substitute_text(
+            element, r"^(\s*)(?=(?:Effort|Position|Velocity)Joint)", r"\1hardware_interface/"
+        ),
+    )
+
+
 @rule(
     ERROR,
     on=("ros1",),
@@ -106,6 +138,7 @@ def incomplete_transmission(robot: Robot) -> Iterator[Problem]:
             yield Problem(
                 transmission.element,
                 f"{called(transmission)} has no <{'> and no <'.join(missing)}>",
+                data={"missing": missing},
             )
 
 
@@ -137,6 +170,23 @@ def missing_hardware_interface(robot: Robot) -> Iterator[Problem]:
                 f'<joint name="{joint.name}">',
                 at=inside[0] if inside else joint,
             )
+
+
+@missing_hardware_interface.fix(UNSAFE)
+def move_interface(problem: Problem, context: FixContext) -> Proposal | None:
+    """Move the interface of the actuator into the joint."""
+    transmission = problem.element
+    joints = [joint for joint in transmission.all("joint") if not joint.child("hardwareInterface")]
+    inside = [
+        interface
+        for actuator in transmission.all("actuator")
+        for interface in actuator.all("hardwareInterface")
+    ]
+    if len(joints) != 1 or not inside or not inside[0].text.strip():
+        return None
+    changes = [remove_element(interface) for interface in inside]
+    line = f"<hardwareInterface>{escape_attribute(inside[0].text.strip())}</hardwareInterface>"
+    return unsafe("move it into the joint", *changes, append_child(joints[0], line))
 
 
 _KNOWN = (
@@ -171,7 +221,14 @@ def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
                     f"'{name}' in {called(transmission)} is no hardware interface"
                     + (near or "; write such as hardware_interface/EffortJointInterface"),
                     at=child,
+                    data={"suggestion": nearest(name, _KNOWN, 0.6)},
                 )
+
+
+@unknown_hardware_interface.fix(UNSAFE)
+def write_interface(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the suggested interface."""
+    return write_suggestion(problem)
 
 
 @rule(
@@ -232,6 +289,7 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
                 transmission.element,
                 f"a second transmission is called '{name}'; give it a name of its own",
                 at=transmission.element.attribute_place("name"),
+                data={"name": name},
             )
             continue
         names.add(name)
@@ -244,124 +302,13 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
                 transmission.element,
                 f"joint '{joint.name}' is driven by transmission '{other}' already; take one away",
                 at=joint.element.attribute_place("name"),
+                data={"joint": joint.name, "other": other},
             )
 
 
-@rule(
-    ERROR,
-    effects={
-        "gazebo_ros_control (loaded)": (
-            "fails to start: the merged joint is not in the simulated robot"
-        ),
-        "gz, gazebo-classic (merged)": "merge the fixed joint",
-    },
-    group="robot",
-)
-def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
-    """A transmission drives a fixed joint.
-
-    There is nothing to drive, and in Gazebo the joint does not even exist: fixed joints are lumped.
-    It is an error where the plugin of ``gazebo_ros_control`` is loaded and reads the transmission,
-    and a warning elsewhere.
-    """
-    loaded = any("gazebo_ros_control" in plugin.filename for plugin in robot.plugins)
-    for transmission in robot.transmissions:
-        for joint in transmission.joints:
-            driven = robot.joint.get(joint.name)
-            if driven is None or not driven.is_fixed:
-                continue
-            interfaces = [
-                *(part.hardware_interfaces for part in transmission.joints),
-                *(part.hardware_interfaces for part in transmission.actuators),
-            ]
-            keys = []
-            if is_lumped(robot, driven.child):
-                keys.append("gz, gazebo-classic (merged)")
-                # without a type or an interface the plugin skips the transmission
-                if loaded and transmission.type and any(interfaces):
-                    keys.append("gazebo_ros_control (loaded)")
-            yield Problem(
-                transmission.element,
-                f"{called(transmission)} drives '{joint.name}', which is fixed",
-                at=joint.element.attribute_place("name"),
-                severity=None if len(keys) > 1 else WARNING,
-                effects=keys,
-            )
-
-
-_PASSIVE = re.compile(
-    r"caster|castor|passive|suspension|spring|damper|rocker|bogie|free", re.IGNORECASE
-)
-
-
-@rule(
-    WARNING,
-    on=("ros1",),
-    effects={"gazebo_ros_control": "neither reports nor drives the joint"},
-    group="robot",
-)
-def actuated_joint_without_transmission(robot: Robot) -> Iterator[Problem]:
-    """A joint moves and has no transmission, in a robot that ros_control drives.
-
-    ``gazebo_ros_control`` knows the joints of transmissions and no others: this one swings freely,
-    and no joint state tells where it is. In a loop that a joint of SDF closes the others move it;
-    and casters, suspensions and other passive joints, by their names, are not driven.
-    """
-    if not any("gazebo_ros_control" in plugin.filename for plugin in robot.plugins):
-        return
-    driven = {joint.name for t in robot.transmissions for joint in t.joints}
-    others = {
-        child.text.strip()
-        for plugin in robot.plugins
-        for child in plugin.element.children
-        if "oint" in child.tag
-    }
-    others.update(_in_loops(robot))
-    for joint in robot.moving_joints:
-        if joint.mimic is not None or joint.name in driven | others or not joint.has_axis:
-            continue
-        if not is_locked(joint) and not any(map(_PASSIVE.search, (joint.name, joint.child))):
-            yield Problem(
-                joint,
-                f"joint '{joint.name}' moves and has no <transmission>, so nothing drives it",
-            )
-
-
-def _in_loops(robot: Robot) -> Iterator[str]:
-    """Joints of the loops that a ``<joint>`` in a ``<gazebo>`` closes."""
-    for block in robot.gazebo:
-        for joint in () if block.reference else block.element.all("joint"):
-            sides = []
-            for end in (joint.child("parent"), joint.child("child")):
-                name = end.text.strip() if end is not None else ""
-                if name not in robot.link and name != "world":
-                    yield from robot.joint  # which of them are in the loop is not known
-                sides.append({name, *robot.tree.ancestors(name)} if name in robot.link else set())
-            for name in sides[0] ^ sides[1]:
-                above = robot.tree.parent_joint(name)
-                if above is not None:
-                    yield above.name
-
-
-@rule(
-    INFO,
-    on=("ros2",),
-    effects={
-        "ros2_control": "reads only what is in <ros2_control>",
-    },
-)
-def ros1_transmission_in_ros2(robot: Robot) -> Iterator[Problem]:
-    """A transmission of ROS 1 stands in a robot for ROS 2.
-
-    ``ros2_control`` looks for transmissions inside ``<ros2_control>``, and passes over those
-    directly in the robot.
-    """
-    if robot.transmissions:
-        first = robot.transmissions[0]
-        count = len(robot.transmissions)
-        more = f" (and {count - 1} more)" if count > 1 else ""
-        yield Problem(
-            first.element,
-            f"transmission '{first.name}'{more} is not read in ROS 2; "
-            "<ros2_control> says how joints are driven",
-        )
+@duplicate_transmission.fix(UNSAFE)
+def number_transmission(problem: Problem, context: FixContext) -> Proposal | None:
+    """Append a number to the second name; of two at one joint none is chosen."""
+    if "name" not in problem.data:
+        return None
+    return append_number(problem, {one.name for one in context.robot.transmissions})

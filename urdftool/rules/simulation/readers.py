@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Mesh, Robot
-from ..fix import FixContext, Proposal
+from ..cross_file_references import check_not_included
+from ..fix import (
+    Change,
+    FixContext,
+    Lines,
+    Proposal,
+    escape_attribute,
+    is_computed,
+    unsafe,
+)
 from ..gazebo.contact import contact_role
 from ..rule import INFO, UNSAFE, Problem, rule
 
@@ -54,6 +63,31 @@ def mujoco_welds_root(robot: Robot) -> Iterator[Problem]:
         root,
         f"MuJoCo makes '{root.name}' part of the world, and its {weight:g} kg do not count; "
         "put a link 'world' and a floating joint above it if it is to move",
+        data={"mass": weight},
+    )
+
+
+@mujoco_welds_root.fix(UNSAFE)
+def add_floating_joint(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add a link ``world`` and a floating joint, which Gazebo does not accept."""
+    robot, root = context.robot, context.link(problem)
+    if context.targets != {"mujoco"} or is_computed(root.element):
+        return None
+    if "world" in robot.link or "world_joint" in robot.joint:
+        return None
+    check_not_included(context)
+    blocks: tuple[Lines, ...] = (
+        ('<link name="world"/>',),
+        (
+            '<joint name="world_joint" type="floating">',
+            '\t<parent link="world"/>',
+            f'\t<child link="{escape_attribute(root.name)}"/>',
+            "</joint>",
+        ),
+    )
+    return unsafe(
+        "put a link 'world' and a floating joint above it",
+        Change("first", robot.element, blocks=blocks),
     )
 
 

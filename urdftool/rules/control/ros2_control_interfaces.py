@@ -1,0 +1,270 @@
+"""Which interfaces ``<ros2_control>`` gives the joints of the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import Robot
+from ...model.read import number
+from ...source.document import Element
+from ..fix import (
+    Change,
+    FixContext,
+    Proposal,
+    append_child,
+    element_at,
+    escape_attribute,
+    is_computed,
+    remove_element,
+    unsafe,
+    write_suggestion,
+)
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..unexpanded import is_unexpanded
+from ..words import did_you_mean, nearest, quoted
+
+APPLIES_TO = ("ros2_control",)
+
+
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "controller_manager": "refuses to register the interface twice",
+    },
+)
+def ros2_control_duplicate_interface(robot: Robot) -> Iterator[Problem]:
+    """An interface of a joint is there twice.
+
+    Each interface is a resource with a name, ``joint/position``. The same one twice in a joint, or
+    the same command in two blocks of hardware, is a conflict.
+    """
+    commands: dict[tuple[str, str], str] = {}
+    for control in robot.ros2_controls:
+        for part in control.components:
+            for kind, interfaces in (
+                ("command", part.command_interfaces),
+                ("state", part.state_interfaces),
+            ):
+                seen: set[str] = set()
+                for interface in interfaces:
+                    name = interface.name
+                    other = control.name
+                    if kind == "command":
+                        other = commands.setdefault((part.name, name), control.name)
+                    if name in seen or other != control.name:
+                        elsewhere = other != control.name
+                        where = f" in '{other}' already" if elsewhere else " twice"
+                        data = {"interface": name}
+                        yield Problem(
+                            control.element,
+                            f"{part.kind} '{part.name}' has the {kind} interface '{name}'{where}",
+                            at=interface,
+                            data=data | {"block": other} if elsewhere else data,
+                        )
+                    seen.add(name)
+
+
+@ros2_control_duplicate_interface.fix(UNSAFE)
+def remove_second(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the second of one joint; of two blocks none is chosen."""
+    element = element_at(problem)
+    if element is None or "block" in problem.data:
+        return None
+    return unsafe("take the second out", remove_element(element))
+
+
+_STANDARD = ("position", "velocity", "acceleration", "effort")
+
+
+@rule(
+    INFO,
+    on=("ros2",),
+    effects={
+        "gz_ros2_control": "ignores an interface other than position, velocity and effort",
+    },
+)
+def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
+    """An interface of a joint is nearly called as usual.
+
+    Controllers look for ``position``, ``velocity``, ``acceleration`` and ``effort``. Other names
+    are right for hardware with more to say; a ``postion`` is found by nobody.
+    """
+    for control in robot.ros2_controls:
+        for joint in control.joints:
+            for interface in (*joint.command_interfaces, *joint.state_interfaces):
+                near = nearest(interface.name, _STANDARD, 0.8)
+                if interface.name not in _STANDARD and near:
+                    yield Problem(
+                        control.element,
+                        f"joint '{joint.name}' has an interface '{interface.name}'"
+                        + did_you_mean(interface.name, _STANDARD, 0.8),
+                        at=interface.element.attribute_place("name"),
+                        data={"suggestion": near},
+                    )
+
+
+@nonstandard_interface_name.fix(UNSAFE)
+def write_interface(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the suggested name."""
+    return write_suggestion(problem)
+
+
+@rule(
+    INFO,
+    on=("ros2",),
+    effects={
+        "joint_trajectory_controller": (
+            "does not activate where it needs a state interface that is not there"
+        ),
+    },
+)
+def command_without_state(robot: Robot) -> Iterator[Problem]:
+    """A joint has a command interface and no state interface of that name.
+
+    Most controllers read the state of what they command: the trajectory controller does not
+    configure a joint of which it commands the velocity without its position and velocity. The
+    wheels of a drive are different: ``diff_drive_controller`` commands their velocity and reads
+    their position, or their velocity with ``position_feedback: false``. A joint that turns without
+    end is therefore right with either state. The state may be in another ``<ros2_control>`` block,
+    as that of a sensor is.
+    """
+    given: dict[str, set[str]] = {}
+    for control in robot.ros2_controls:
+        for joint in control.joints:
+            states = given.setdefault(joint.name, set())
+            states.update(interface.name for interface in joint.state_interfaces)
+    for control in robot.ros2_controls:
+        for joint in control.joints:
+            states = set(given[joint.name])
+            written = robot.joint.get(joint.name)
+            if written is not None and written.type == "continuous" and "position" in states:
+                states.add("velocity")
+            missing = [
+                interface
+                for interface in joint.command_interfaces
+                if interface.name in ("position", "velocity") and interface.name not in states
+            ]
+            if missing:
+                words = quoted(interface.name for interface in missing)
+                yield Problem(
+                    control.element,
+                    f"joint '{joint.name}' has the command {words} and not the state of that name",
+                    at=missing[0],
+                    data={"missing": [interface.name for interface in missing]},
+                )
+
+
+@command_without_state.fix(UNSAFE)
+def add_state(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add the states of these names."""
+    interface = element_at(problem)
+    joint = interface.parent if interface is not None else None
+    if joint is None:
+        return None
+    states = {
+        state.name
+        for control in context.robot.ros2_controls
+        for other in control.joints
+        if other.name == (joint.get("name") or "")
+        for state in other.state_interfaces
+    }
+    names = [command.get("name") or "" for command in joint.all("command_interface")]
+    missing = [name for name in names if name in ("position", "velocity") and name not in states]
+    lines = tuple((f'<state_interface name="{name}"/>',) for name in dict.fromkeys(missing))
+    return unsafe("add the state", Change("insert", joint, blocks=lines))
+
+
+@rule(
+    WARNING,
+    on=("ros2",),
+    effects={
+        "ros2_control": "has no interface for the joint, so no broadcaster reports its motion",
+    },
+)
+def joint_outside_ros2_control(robot: Robot) -> Iterator[Problem]:
+    """A joint moves and is in no ``<ros2_control>`` block, though others are.
+
+    Nobody reports where it is: RViz finds no transform to what hangs on it. A joint that is only to
+    be reported needs a state interface and no command.
+    """
+    known = {joint.name for control in robot.ros2_controls for joint in control.joints}
+    if not known or not known.intersection(robot.joint) or _reports_otherwise(robot):
+        return
+    for joint in robot.moving_joints:
+        if joint.mimic is None and joint.has_axis and joint.name not in known:
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' moves and is in no <ros2_control>; "
+                "add it there with a state interface",
+            )
+
+
+@joint_outside_ros2_control.fix(UNSAFE)
+def add_joint(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add the joint to the one block there is, with its states and no command."""
+    joint = context.joint(problem)
+    if len(context.robot.ros2_controls) != 1 or is_computed(joint.element):
+        return None
+    block = context.robot.ros2_controls[0].element
+    lines = (
+        f'<joint name="{escape_attribute(joint.name)}">',
+        '\t<state_interface name="position"/>',
+        '\t<state_interface name="velocity"/>',
+        "</joint>",
+    )
+    return unsafe("report its position and velocity", append_child(block, *lines))
+
+
+def _reports_otherwise(robot: Robot) -> bool:
+    """Whether a plugin of Gazebo reports joints as well."""
+    words = ("drive", "joint-state", "joint_state")
+    return any(word in plugin.filename for plugin in robot.plugins for word in words)
+
+
+@rule(
+    ERROR,
+    on=("ros2",),
+    effects={
+        "gz_ros2_control": "stops with an exception where the value is not a number",
+    },
+)
+def bad_initial_value(robot: Robot) -> Iterator[Problem]:
+    """The ``initial_value`` of an interface is no number, or outside the joint's limits.
+
+    The simulated hardware starts the joint there. Text that is no number ends it; a position
+    outside the limits is corrected with a jolt.
+    """
+    for control in robot.ros2_controls:
+        for joint in control.joints:
+            for interface in joint.state_interfaces:
+                text = interface.params.get("initial_value")
+                if text is None or is_unexpanded(text):
+                    continue
+                value = number(text)
+                if value is None:
+                    wrong = "is no number"
+                elif interface.name == "position" and (
+                    limits := _outside(robot, joint.name, value)
+                ):
+                    wrong = f"is outside the limits, {limits}"
+                else:
+                    continue
+                yield Problem(
+                    control.element,
+                    f"initial_value of joint '{joint.name}' is '{text}', which {wrong}",
+                    at=_param(interface.element, "initial_value"),
+                    severity=None if value is None else WARNING,
+                )
+
+
+def _outside(robot: Robot, name: str, value: float) -> str:
+    joint = robot.joint.get(name)
+    if joint is None or not joint.is_limited or joint.limit is None:
+        return ""
+    low, high = joint.limit.lower or 0.0, joint.limit.upper or 0.0
+    return "" if low > high or low <= value <= high else f"{low:g} to {high:g}"
+
+
+def _param(element: Element, name: str) -> Element:
+    return next((p for p in element.all("param") if p.get("name") == name), element)

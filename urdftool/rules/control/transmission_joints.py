@@ -1,0 +1,260 @@
+"""The joints that transmissions of ros_control drive."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ...model.elements import Robot, Transmission
+from ..fix import (
+    FixContext,
+    Lines,
+    Proposal,
+    escape_attribute,
+    insert_after,
+    is_computed,
+    remove_element,
+    replace_element,
+    unsafe,
+    written_value,
+)
+from ..gazebo.lumping import is_lumped
+from ..joint.range import is_locked
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from .transmissions import called
+
+APPLIES_TO = ("transmission", "plugin")
+
+
+@rule(
+    ERROR,
+    effects={
+        "gazebo_ros_control (loaded)": (
+            "fails to start: the merged joint is not in the simulated robot"
+        ),
+        "gz, gazebo-classic (merged)": "merge the fixed joint",
+    },
+    group="robot",
+)
+def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
+    """A transmission drives a fixed joint.
+
+    There is nothing to drive, and in Gazebo the joint does not even exist: fixed joints are lumped.
+    It is an error where the plugin of ``gazebo_ros_control`` is loaded and reads the transmission,
+    and a warning elsewhere.
+    """
+    loaded = any("gazebo_ros_control" in plugin.filename for plugin in robot.plugins)
+    for transmission in robot.transmissions:
+        for joint in transmission.joints:
+            driven = robot.joint.get(joint.name)
+            if driven is None or not driven.is_fixed:
+                continue
+            interfaces = [
+                *(part.hardware_interfaces for part in transmission.joints),
+                *(part.hardware_interfaces for part in transmission.actuators),
+            ]
+            keys = []
+            if is_lumped(robot, driven.child):
+                keys.append("gz, gazebo-classic (merged)")
+                # without a type or an interface the plugin skips the transmission
+                if loaded and transmission.type and any(interfaces):
+                    keys.append("gazebo_ros_control (loaded)")
+            yield Problem(
+                transmission.element,
+                f"{called(transmission)} drives '{joint.name}', which is fixed",
+                at=joint.element.attribute_place("name"),
+                severity=None if len(keys) > 1 else WARNING,
+                effects=keys,
+            )
+
+
+@transmission_on_immovable_joint.fix(UNSAFE)
+def remove_transmission(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the transmission, if it drives no other joint."""
+    transmission = problem.element
+    if sum(1 for _ in transmission.all("joint")) != 1:
+        return None
+    return unsafe("take the transmission out", remove_element(transmission))
+
+
+_PASSIVE = re.compile(
+    r"caster|castor|passive|suspension|spring|damper|rocker|bogie|free", re.IGNORECASE
+)
+
+
+@rule(
+    WARNING,
+    on=("ros1",),
+    effects={"gazebo_ros_control": "neither reports nor drives the joint"},
+    group="robot",
+)
+def actuated_joint_without_transmission(robot: Robot) -> Iterator[Problem]:
+    """A joint moves and has no transmission, in a robot that ros_control drives.
+
+    ``gazebo_ros_control`` knows the joints of transmissions and no others: this one swings freely,
+    and no joint state tells where it is. In a loop that a joint of SDF closes the others move it;
+    and casters, suspensions and other passive joints, by their names, are not driven.
+    """
+    if not any("gazebo_ros_control" in plugin.filename for plugin in robot.plugins):
+        return
+    driven = {joint.name for t in robot.transmissions for joint in t.joints}
+    others = {
+        child.text.strip()
+        for plugin in robot.plugins
+        for child in plugin.element.children
+        if "oint" in child.tag
+    }
+    others.update(_in_loops(robot))
+    for joint in robot.moving_joints:
+        if joint.mimic is not None or joint.name in driven | others or not joint.has_axis:
+            continue
+        if not is_locked(joint) and not any(map(_PASSIVE.search, (joint.name, joint.child))):
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' moves and has no <transmission>, so nothing drives it",
+            )
+
+
+@actuated_joint_without_transmission.fix(UNSAFE)
+def add_transmission(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add a transmission like those of the other joints, if these have one interface."""
+    joint = context.joint(problem)
+    used = [
+        text
+        for transmission in context.robot.transmissions
+        for part in transmission.joints
+        for text in part.hardware_interfaces
+    ]
+    if len(set(used)) > 1:
+        return None
+    interface = used[0] if used else "hardware_interface/EffortJointInterface"
+    name = escape_attribute(written_value(joint.element, "name"))
+    lines = (
+        f'<transmission name="{name}_transmission">',
+        "\t<type>transmission_interface/SimpleTransmission</type>",
+        f'\t<joint name="{name}">',
+        f"\t\t<hardwareInterface>{escape_attribute(interface)}</hardwareInterface>",
+        "\t</joint>",
+        f'\t<actuator name="{name}_motor">',
+        "\t\t<mechanicalReduction>1</mechanicalReduction>",
+        "\t</actuator>",
+        "</transmission>",
+    )
+    return unsafe(f"add a transmission with {interface}", insert_after(joint.element, *lines))
+
+
+def _in_loops(robot: Robot) -> Iterator[str]:
+    """Joints of the loops that a ``<joint>`` in a ``<gazebo>`` closes."""
+    for block in robot.gazebo:
+        for joint in () if block.reference else block.element.all("joint"):
+            sides = []
+            for end in (joint.child("parent"), joint.child("child")):
+                name = end.text.strip() if end is not None else ""
+                if name not in robot.link and name != "world":
+                    yield from robot.joint  # which of them are in the loop is not known
+                sides.append({name, *robot.tree.ancestors(name)} if name in robot.link else set())
+            for name in sides[0] ^ sides[1]:
+                above = robot.tree.parent_joint(name)
+                if above is not None:
+                    yield above.name
+
+
+@rule(
+    INFO,
+    on=("ros2",),
+    effects={
+        "ros2_control": "reads only what is in <ros2_control>",
+    },
+)
+def ros1_transmission_in_ros2(robot: Robot) -> Iterator[Problem]:
+    """A transmission of ROS 1 stands in a robot for ROS 2.
+
+    ``ros2_control`` looks for transmissions inside ``<ros2_control>``, and passes over those
+    directly in the robot.
+    """
+    if robot.transmissions:
+        first = robot.transmissions[0]
+        count = len(robot.transmissions)
+        more = f" (and {count - 1} more)" if count > 1 else ""
+        yield Problem(
+            first.element,
+            f"transmission '{first.name}'{more} is not read in ROS 2; "
+            "<ros2_control> says how joints are driven",
+            data={"transmissions": [one.name for one in robot.transmissions]},
+        )
+
+
+_COMMANDS = {"Position": "position", "Velocity": "velocity", "Effort": "effort"}
+_HARDWARE = {
+    "gz": "gz_ros2_control/GazeboSimSystem",
+    "gazebo-classic": "gazebo_ros2_control/GazeboSystem",
+}
+_NO_HARDWARE = "mock_components/GenericSystem"
+
+
+@ros1_transmission_in_ros2.fix(UNSAFE)
+def write_ros2_control(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write a ``<ros2_control>`` with the same joints and interfaces in their place.
+
+    Its hardware is that of the simulator, or the one that only repeats commands: which drives the
+    real robot only its maker knows.
+    """
+    robot, targets = context.robot, context.targets
+    if "ros1" in targets or set(_HARDWARE) <= targets:
+        return None
+    joints = list(_driven(robot))
+    if not all(commands or robot.joint[name].mimic is not None for name, commands in joints):
+        return None  # transmissions that another reader than ros_control has
+    if not joints:
+        return None
+    if robot.ros2_controls:
+        there = {part.name for control in robot.ros2_controls for part in control.components}
+        if not there.issuperset(name for name, _ in joints):
+            return None
+        return unsafe(
+            "leave it to <ros2_control>", *(remove_element(t.element) for t in robot.transmissions)
+        )
+    if any(is_computed(t.element) or t.element.calls for t in robot.transmissions):
+        return None
+    plugin = next((v for name, v in _HARDWARE.items() if name in targets), _NO_HARDWARE)
+    lines: Lines = (
+        f'<ros2_control name="{escape_attribute(robot.name)}" type="system">',
+        "\t<hardware>",
+        f"\t\t<plugin>{plugin}</plugin>",
+        "\t</hardware>",
+    )
+    for name, commands in joints:
+        states = dict.fromkeys(("position", "velocity", *commands))
+        lines += (
+            f'\t<joint name="{escape_attribute(name)}">',
+            *(f'\t\t<command_interface name="{command}"/>' for command in commands),
+            *(f'\t\t<state_interface name="{state}"/>' for state in states),
+            "\t</joint>",
+        )
+    head, *rest = (transmission.element for transmission in robot.transmissions)
+    return unsafe(
+        f"write <ros2_control> with {plugin} instead",
+        replace_element(head, (*lines, "</ros2_control>")),
+        *map(remove_element, rest),
+    )
+
+
+def _driven(robot: Robot) -> Iterator[tuple[str, list[str]]]:
+    """Get the joints of transmissions, each once, with their commands; none for followers."""
+    found: dict[str, list[str]] = {}
+    for transmission in robot.transmissions:
+        for joint in transmission.joints:
+            if joint.name in robot.joint:
+                found.setdefault(joint.name, []).extend(_commands(transmission, joint.name))
+    for name, commands in found.items():
+        mimics = robot.joint[name].mimic is not None
+        yield name, [] if mimics else list(dict.fromkeys(commands))
+
+
+def _commands(transmission: Transmission, name: str) -> Iterator[str]:
+    written = [joint.hardware_interfaces for joint in transmission.joints if joint.name == name]
+    written += [actuator.hardware_interfaces for actuator in transmission.actuators]
+    for interface in (one for interfaces in written for one in interfaces):
+        word = interface.rpartition("/")[2].removesuffix("JointInterface")
+        if word in _COMMANDS:
+            yield _COMMANDS[word]
