@@ -81,6 +81,7 @@ def ros2_control_fixed_joint(robot: Robot) -> Iterator[Problem]:
                     control.element,
                     f"joint '{joint.name}' of ros2_control '{control.name}' is fixed; take it out",
                     at=joint.element.attribute_place("name"),
+                    data={"joint": joint.name},
                 )
 
 
@@ -125,6 +126,7 @@ def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
                     f"joint '{joint.name}' follows '{written.mimic.joint}' and has a command "
                     'interface; take it out, or write mimic="false"',
                     at=joint.command_interfaces[0],
+                    data={"joint": joint.name, "leader": written.mimic.joint},
                 )
             elif written.mimic.joint and written.mimic.joint not in names:
                 yield Problem(
@@ -132,6 +134,7 @@ def ros2_control_mimic(robot: Robot) -> Iterator[Problem]:
                     f"joint '{joint.name}' follows '{written.mimic.joint}', which is not in "
                     f"ros2_control '{control.name}'; add it",
                     at=at.attribute_place("name"),
+                    data={"joint": joint.name, "leader": written.mimic.joint},
                 )
 
 

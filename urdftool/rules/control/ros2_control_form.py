@@ -51,6 +51,7 @@ def ros2_control_missing_attribute(robot: Robot) -> Iterator[Problem]:
                 f"ros2_control '{control.name}' is of type '{control.type}'; "
                 f"there are {', '.join(_TYPES)}" + did_you_mean(control.type, _TYPES),
                 at=control.element.attribute_place("type"),
+                data={"type": control.type, "suggestion": nearest(control.type, _TYPES)},
             )
 
 

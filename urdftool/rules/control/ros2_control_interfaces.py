@@ -255,6 +255,7 @@ def bad_initial_value(robot: Robot) -> Iterator[Problem]:
                     f"initial_value of joint '{joint.name}' is '{text}', which {wrong}",
                     at=_param(interface.element, "initial_value"),
                     severity=None if value is None else WARNING,
+                    data={"joint": joint.name, "value": text},
                 )
 
 

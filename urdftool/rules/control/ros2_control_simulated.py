@@ -280,4 +280,5 @@ def sensor_name_mismatch(robot: Robot) -> Iterator[Problem]:
                     f"no <sensor> of a <gazebo> block is called '{part.name}'"
                     + did_you_mean(part.name, known),
                     at=part.element.attribute_place("name"),
+                    data={"sensor": part.name, "suggestion": nearest(part.name, known)},
                 )

@@ -65,6 +65,7 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
                 at=joint.element.attribute_place("name"),
                 severity=None if len(keys) > 1 else WARNING,
                 effects=keys,
+                data={"joint": joint.name},
             )
 
 

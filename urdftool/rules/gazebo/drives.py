@@ -154,6 +154,7 @@ def _separation(
         f"{told.word} of {drive.name} is {told.value:.4g} m, and wheels '{pair[0].name}' "
         f"and '{pair[1].name}' are {middles:.4g} m apart{half}; write {middles:.4g}",
         at=told.place,
+        data={"parameter": told.word.strip("<>"), "written": told.value, "measured": middles},
     )
 
 
@@ -185,6 +186,7 @@ def _radius(robot: Robot, drive: Drive, told: Told, wheel: Wheel, part: float) -
         f"{told.word} of {drive.name} is {told.value:.4g} m, and wheel '{wheel.name}' has "
         f"a {word} of {right:.4g} m{also}; write {right:.4g}",
         at=told.place,
+        data={"parameter": told.word.strip("<>"), "written": told.value, "measured": right},
     )
 
 

@@ -115,6 +115,7 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
             f"joint '{joint.name}' is fixed, so Gazebo lumps it and drops {what}; {remedy}",
             at=block.element.attribute_place("reference"),
             severity=WARNING if settles else None,
+            data={"joint": joint.name, "elements": list(dict.fromkeys(one.tag for one in lost))},
         )
 
 
@@ -164,6 +165,7 @@ def lumped_flag_leaks(robot: Robot) -> Iterator[Problem]:
                 f"{what} {means}".rstrip()
                 + f"; write it at '{body}' if that is meant",
                 at=child,
+                data={"element": word, "link": name, "body": body},
             )
 
 
@@ -242,6 +244,7 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
                         f"{what} '{shape.name}' does not begin with '{link.name}', so Gazebo "
                         f"applies no {lost} to it; name it '{link.name}_{shape.name}'",
                         at=shape.element.attribute_place("name"),
+                        data={"write": f"{link.name}_{shape.name}", "elements": sorted(told)},
                     )
 
 
@@ -331,6 +334,7 @@ def surface_without_collision(robot: Robot) -> Iterator[Problem]:
                 block.element,
                 f"{words} {do} nothing, as link '{name}' has no collision",
                 at=children[0],
+                data={"elements": [child.tag for child in children]},
             )
 
 

@@ -186,7 +186,11 @@ def missing_control_plugin(
             f"<wheel_radius>{pair.radius:.4g}</wheel_radius>"
         )
     acts = "drives them" if reported else "drives or reports any joint"
-    yield Problem(robot, f"{names} {verb} and no Gazebo plugin {acts}; add {remedy}")
+    data: dict[str, object] = {"joints": [joint.name for joint in joints]}
+    if pair is not None:
+        data |= {"wheel_separation": pair.separation, "wheel_radius": pair.radius}
+    message = f"{names} {verb} and no Gazebo plugin {acts}; add {remedy}"
+    yield Problem(robot, message, data=data)
 
 
 @missing_control_plugin.fix(UNSAFE)

@@ -110,6 +110,7 @@ def _loops(robot: Robot) -> Iterator[Problem]:
                 _block_of(joint),
                 what,
                 at=end,
+                data={"name": name} | ({"body": body_of(robot, name)} if lumped else {}),
                 severity=WARNING if lumped else None,
                 effects=(_OF_JOINT,),
             )
@@ -173,6 +174,7 @@ def _misplaced(
         block.element,
         f"{tags} {verb} nothing {belongs}; {remedy}",
         at=children[0],
+        data={"elements": list(dict.fromkeys(child.tag for child in children))},
     )
 
 
@@ -237,4 +239,5 @@ def conflicting_references(robot: Robot) -> Iterator[Problem]:
                         block.element,
                         f"{child.tag}{of} is {other} further up and {value} here; keep one",
                         at=child,
+                        data={"element": child.tag, "values": [other, value]},
                     )

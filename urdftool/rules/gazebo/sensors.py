@@ -324,6 +324,7 @@ def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
                 f"a second sensor '{sensor.name}' on body '{body}' (the first is on {where}); "
                 "give it a name of its own",
                 at=sensor.element.attribute_place("name"),
+                data={"name": sensor.name, "body": body},
             )
 
 
@@ -408,4 +409,8 @@ def sensor_needs_world_system(robot: Robot) -> Iterator[Problem]:
     if found:
         systems = ", ".join(f"gz-sim-{system}-system" for system in sorted(found))
         first = next(iter(found.values()))
-        yield Problem(first.element, f"its data is made only in a world that loads {systems}")
+        yield Problem(
+            first.element,
+            f"its data is made only in a world that loads {systems}",
+            data={"systems": [f"gz-sim-{system}-system" for system in sorted(found)]},
+        )

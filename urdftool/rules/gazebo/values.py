@@ -111,6 +111,7 @@ def half_friction(robot: Robot) -> Iterator[Problem]:
                 block.element,
                 f"link '{name}' has {word} and no {other}, which is 1 then; write both",
                 at=block.element.child(word),
+                data={"written": word, "missing": other},
             )
 
 

@@ -43,6 +43,7 @@ def stiff_joint_damping(robot: Robot, *, step: float = 0.001) -> Iterator[Proble
                 f"damping {damping:g} of joint '{joint.name}' brakes {inertia:.3g} {unit}; at "
                 f"steps of {step * 1000:g} ms more than {2 * inertia / step:.3g} is unstable",
                 at=joint.dynamics,
+                data={"damping": damping, "highest": 2 * inertia / step, "inertia": inertia},
             )
 
 
@@ -75,6 +76,7 @@ def below_ground_at_spawn(robot: Robot, *, deep: float = 0.01) -> Iterator[Probl
             whose,
             f"link '{whose.name}' reaches {-lowest:.3g} m below '{root.name}'; spawn the robot at "
             f"z = {-lowest:.3g}",
+            data={"depth": -lowest},
             at=whose.collisions[0],
         )
 

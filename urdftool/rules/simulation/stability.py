@@ -47,6 +47,7 @@ def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) ->
                 f"joint '{joint.name}' carries {heavy:.3g} kg on a body of {light:.3g} kg, "
                 f"{ratio:.0f} times as heavy; if it shakes, raise the iterations of the solver",
                 severity=WARNING if ratio > extreme else None,
+                data={"carried": heavy, "carrying": light, "ratio": ratio},
             )
 
 
