@@ -11,6 +11,7 @@ from tests.conftest import FIXTURES, XACRO
 from urdftool import output
 from urdftool.lint import fix_run
 from urdftool.model.load import load
+from urdftool.rules import get_rule
 
 ROBOT = """<?xml version="1.0"?>
 <robot name="r">
@@ -276,13 +277,12 @@ def test_a_file_of_another_package_is_not_edited(write, urdftool):
 
 
 def test_a_fix_that_makes_things_worse_is_taken_back_and_said(write, urdftool, monkeypatch):
-    from urdftool.rules.fixes import joint
-    from urdftool.rules.fixes.proposal import put, safe
+    from urdftool.rules.fix import safe, set_attribute
 
-    def wrong(problem, around):
-        return safe("break it", put(problem.subject.axis.element, "xyz", "0 0"))
+    def wrong(problem, context):
+        return safe("break it", set_attribute(problem.subject.axis.element, "xyz", "0 0"))
 
-    monkeypatch.setattr(joint, "axis_not_unit", wrong)
+    monkeypatch.setattr(get_rule("axis-not-unit"), "make_fix", wrong)
     path = write("r.urdf", LONG)
     result = urdftool("lint", path, "--fix", "--no-cache")
     assert Path(path).read_text() == LONG
@@ -290,12 +290,10 @@ def test_a_fix_that_makes_things_worse_is_taken_back_and_said(write, urdftool, m
 
 
 def test_a_fix_that_breaks_is_a_bug_of_ours(write, urdftool, monkeypatch):
-    from urdftool.rules.fixes import joint
-
-    def broken(problem, around):
+    def broken(problem, context):
         raise ZeroDivisionError("no axis")
 
-    monkeypatch.setattr(joint, "axis_not_unit", broken)
+    monkeypatch.setattr(get_rule("axis-not-unit"), "make_fix", broken)
     path = write("r.urdf", ROBOT.format(axis="0 0 2", dynamics="\n    <dynamics/>"))
     result = urdftool("lint", path, "--fix", "--no-cache")
     assert result.code == 3

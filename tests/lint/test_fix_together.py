@@ -10,6 +10,7 @@ from urdftool.lint import fix_run
 from urdftool.lint.outcome import Options
 from urdftool.lint.run import lint_file
 from urdftool.lint.settings import Settings
+from urdftool.rules import get_rule
 
 ONLY = ("--select", "empty-dynamics", "--fix", "--no-cache", "--exit-zero")
 OPTIONS = Options(Settings(select=("empty-dynamics",)), fixes=True)
@@ -91,18 +92,18 @@ def test_what_keeps_several_from_being_read_is_fixed_once(write, urdftool):
 
 def _broken_for(monkeypatch, wrong):
     """A fix of empty dynamics that writes nonsense for some joints."""
-    from urdftool.rules.fixes import joint as fixes
-    from urdftool.rules.fixes.proposal import remove, replace, safe
+    from urdftool.rules.fix import remove_element, replace_element, safe
 
-    def fixer(problem, around):
-        dynamics = around.joint(problem).dynamics
+    def fixer(problem, context):
+        dynamics = context.joint(problem).dynamics
         if wrong(problem.name):
             return safe(
-                "break it", replace(dynamics.element, ("<dynamics damping='x' friction='y'/>",))
+                "break it",
+                replace_element(dynamics.element, ("<dynamics damping='x' friction='y'/>",)),
             )
-        return safe("take it out", remove(dynamics.element))
+        return safe("take it out", remove_element(dynamics.element))
 
-    monkeypatch.setattr(fixes, "empty_dynamics", fixer)
+    monkeypatch.setattr(get_rule("empty-dynamics"), "make_fix", fixer)
 
 
 def test_one_bad_fix_among_many_is_found_by_halves(write, lints, monkeypatch):
@@ -130,14 +131,13 @@ def test_a_bad_fix_of_one_description_costs_the_others_nothing(write, lints, mon
 
 def test_what_would_make_another_description_worse_is_not_made(write, urdftool, monkeypatch):
     """The fix of a file that two include is right in the one and an error in the other."""
-    from urdftool.rules.fixes import joint as fixes
-    from urdftool.rules.fixes.proposal import replace, safe
+    from urdftool.rules.fix import replace_element, safe
 
-    def fixer(problem, around):
-        element = around.joint(problem).dynamics.element
-        return safe("write it", replace(element, ("<dynamics damping='${damping}'/>",)))
+    def fixer(problem, context):
+        element = context.joint(problem).dynamics.element
+        return safe("write it", replace_element(element, ("<dynamics damping='${damping}'/>",)))
 
-    monkeypatch.setattr(fixes, "empty_dynamics", fixer)
+    monkeypatch.setattr(get_rule("empty-dynamics"), "make_fix", fixer)
     write("part.xacro", XACRO.format(PART))
     knows = '<xacro:property name="damping" value="1"/>\n'
     one = write("a.urdf.xacro", XACRO.format(knows + USES))

@@ -5,32 +5,6 @@ from __future__ import annotations
 from .rule import BOTH, SAFE, UNSAFE
 
 FIXES: dict[str, dict[str, str]] = {
-    "joint": {
-        "unknown-joint-type": UNSAFE,
-        "redundant-on-fixed": SAFE,
-        "axis-not-unit": UNSAFE,
-        "axis-omitted": SAFE,
-        "axis-nearly-canonical": UNSAFE,
-        "rpy-in-degrees": UNSAFE,
-        "missing-limit": UNSAFE,
-        "limit-without-effort-or-velocity": BOTH,
-        "limit-without-bounds": UNSAFE,
-        "continuous-with-bounds": UNSAFE,
-        "lower-above-upper": UNSAFE,
-        "locked-by-limits": UNSAFE,
-        "limit-in-degrees": UNSAFE,
-        "prismatic-in-millimetres": UNSAFE,
-        "limit-rounded-outward": UNSAFE,
-        "negative-limit": UNSAFE,
-        "negative-dynamics": UNSAFE,
-        "empty-dynamics": SAFE,
-        "dynamics-as-child-elements": UNSAFE,
-        "mimic-unknown-joint": UNSAFE,
-        "mimic-chain": UNSAFE,
-        "mimic-limits-inconsistent": UNSAFE,
-        "soft-limits-lock-joint": UNSAFE,
-        "soft-limits-outside-hard": UNSAFE,
-    },
     "inertia": {
         "missing-inertial": UNSAFE,
         "massless-moving-body": UNSAFE,

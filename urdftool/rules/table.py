@@ -99,9 +99,8 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "mimic-limits-inconsistent",
             "mimic-dof-mismatch",
             "mimic-not-simulated",
-            "gripper-finger-not-mimic",
-            "fingers-move-together",
         ),
+        "gripper": ("gripper-finger-not-mimic", "fingers-move-together"),
         "safety": (
             "incomplete-safety-controller",
             "soft-limits-lock-joint",
@@ -380,7 +379,8 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
 
 APPLIES_TO: dict[str, tuple[str, ...]] = {
     "xacro.expansion": (),
-    "joint.mimic": ("mimic", "joint"),
+    "joint.mimic": ("mimic",),
+    "joint.gripper": ("joint",),
     "joint.safety": ("safety_controller",),
     "inertia.slips": ("inertia",),
     "collision.likeness": ("collision",),

@@ -1,4 +1,7 @@
 """What a joint can do."""
 
-FILES = ("kind", "axis", "origin", "place", "limits", "range", "drive", "mimic", "safety", "sides")
+FILES = (
+    *("kind", "axis", "origin", "place", "limits", "range", "drive", "mimic", "gripper", "safety"),
+    "sides",
+)
 """Files with rules, in reading order."""

@@ -6,7 +6,17 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...model.pose import norm
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..fix import (
+    FixContext,
+    Proposal,
+    format_numbers,
+    insert_after,
+    may_vary,
+    safe,
+    set_attribute,
+    unsafe,
+)
+from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 
 
 @rule(
@@ -59,7 +69,23 @@ def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]
                 joint,
                 f"axis of joint '{joint.name}' has length {length:.6g}; write a unit vector",
                 at=joint.axis.element.attribute_place("xyz"),
+                data={"length": length},
             )
+
+
+@axis_not_unit.fix(UNSAFE)
+def write_unit_axis(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the same direction at unit length.
+
+    PyBullet takes the axis as it is written: at length 2 a revolute joint accelerates by half, and
+    a prismatic one moves by twice its position.
+    """
+    joint = context.joint(problem)
+    if joint.axis is None:
+        return None
+    length = norm(joint.axis.xyz)
+    unit = format_numbers((part / length for part in joint.axis.xyz), 17)
+    return unsafe(f'write xyz="{unit}"', set_attribute(joint.axis.element, "xyz", unit))
 
 
 @rule(
@@ -83,6 +109,16 @@ def axis_omitted(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"joint '{joint.name}' has no <axis>, so it is 1 0 0; write it down",
             )
+
+
+@axis_omitted.fix(SAFE)
+def write_default_axis(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the default, where no argument puts another axis there."""
+    joint = context.joint(problem)
+    behind = joint.child_element or joint.parent_element
+    if behind is None or may_vary(joint.element):
+        return None
+    return safe('write <axis xyz="1 0 0"/>', insert_after(behind, '<axis xyz="1 0 0"/>'))
 
 
 @rule(
@@ -114,4 +150,14 @@ def axis_nearly_canonical(
             f"axis of joint '{joint.name}' is off by {middle / high:.1g} rad; "
             f"write {snapped} if that is meant",
             at=joint.axis.element.attribute_place("xyz"),
+            data={"write": snapped, "angle": middle / high},
         )
+
+
+@axis_nearly_canonical.fix(UNSAFE)
+def write_canonical_axis(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the axis along x, y or z."""
+    axis, snapped = context.joint(problem).axis, problem.data["write"]
+    if axis is None:
+        return None
+    return unsafe(f'write xyz="{snapped}"', set_attribute(axis.element, "xyz", snapped))

@@ -8,8 +8,19 @@ from collections.abc import Iterator
 
 from ...model.actuation import actuated_joints, is_passive, measured_joints
 from ...model.elements import Joint, Limit, Robot
+from ...model.read import number
+from ..fix import (
+    FixContext,
+    Proposal,
+    attribute_at,
+    remove_element,
+    replace_element,
+    safe,
+    set_attribute,
+    unsafe,
+)
 from ..gazebo.contact import is_wheel
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..words import quoted
 from ..xml.vocabulary_table import is_for_another_reader, misspelt_attributes, misspelt_children
 from .range import is_locked
@@ -110,6 +121,7 @@ def negative_limit(robot: Robot) -> Iterator[Problem]:
                     joint,
                     f"{name} limit of joint '{joint.name}' is {value:g}; write {-value:g}",
                     at=joint.limit.element.attribute_place(name),
+                    data={name: value},
                 )
 
 
@@ -147,6 +159,7 @@ def implausible_velocity(
             joint,
             f"velocity limit of joint '{joint.name}'{more} is {what}; write what the drive reaches",
             at=limit.element.attribute_place("velocity"),
+            data={"velocity": limit.velocity},
         )
 
 
@@ -178,6 +191,7 @@ def implausible_effort(
             joint,
             f"effort limit of joint '{joint.name}'{more} is {what}; write what the drive has",
             at=limit.element.attribute_place("effort"),
+            data={"effort": limit.effort},
         )
 
 
@@ -231,7 +245,20 @@ def negative_dynamics(robot: Robot) -> Iterator[Problem]:
                     f"{name} of joint '{joint.name}' is {value:g}; write {-value:g}",
                     at=dynamics.element.attribute_place(name),
                     severity=INFO if joint.is_fixed else None,
+                    data={name: value},
                 )
+
+
+@negative_limit.fix(UNSAFE)
+@negative_dynamics.fix(UNSAFE)
+def remove_sign(problem: Problem, _context: FixContext) -> Proposal | None:
+    """Write the number without its sign."""
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    element, name = found
+    text = (element.get(name) or "").strip().removeprefix("-")
+    return unsafe(f'write {name}="{text}"', set_attribute(element, name, text))
 
 
 @rule(
@@ -261,6 +288,15 @@ def empty_dynamics(robot: Robot) -> Iterator[Problem]:
             )
 
 
+@empty_dynamics.fix(SAFE)
+def remove_empty_dynamics(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the element."""
+    dynamics = context.joint(problem).dynamics
+    if dynamics is None or dynamics.element.attributes:
+        return None
+    return safe("take the empty <dynamics> out", remove_element(dynamics.element))
+
+
 @rule(
     WARNING,
     effects={
@@ -288,6 +324,23 @@ def dynamics_as_child_elements(robot: Robot) -> Iterator[Problem]:
             f"write <dynamics {written or first.tag + '=…'}/>",
             at=first,
         )
+
+
+@dynamics_as_child_elements.fix(UNSAFE)
+def write_dynamics_attributes(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write attributes; MuJoCo loads the joint without damping and friction until then."""
+    dynamics = context.joint(problem).dynamics
+    if dynamics is None:
+        return None
+    element = dynamics.element
+    written = {child.tag: " ".join(child.text.split()) for child in element.children}
+    if not written or len(written) < len(element.children) or element.attributes:
+        return None
+    known = {"damping", "friction"}
+    if not written.keys() <= known or any(number(text) is None for text in written.values()):
+        return None
+    line = "<dynamics " + " ".join(f'{k}="{v}"' for k, v in written.items()) + "/>"
+    return unsafe(f"write {line}", replace_element(element, (line,)))
 
 
 @rule(
@@ -322,6 +375,7 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
             free[0],
             f"{names} {verb} neither damping nor friction, so nothing slows a motion; "
             'write <dynamics damping="…" friction="…"/>',
+            data={"joints": [joint.name for joint in free]},
         )
 
 

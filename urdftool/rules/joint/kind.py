@@ -5,7 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import JOINT_TYPES, Robot
-from ..rule import ERROR, GAZEBO, INFO, Problem, rule
+from ..fix import (
+    FixContext,
+    Proposal,
+    element_at,
+    is_computed,
+    remove_element,
+    safe,
+    set_attribute,
+    unsafe,
+)
+from ..rule import ERROR, GAZEBO, INFO, SAFE, UNSAFE, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..xml.vocabulary_table import meant
 
@@ -15,12 +25,14 @@ _ELSEWHERE = {
     "universal": "only SDF and Drake's <drake:joint> have it; two revolute joints do the same",
     "screw": "only SDF and Drake's <drake:joint> have it",
     "hinge": "write revolute, or continuous without limits",
-    "slide": "write prismatic",
-    "linear": "write prismatic",
-    "rotary": "write revolute",
-    "rotational": "write revolute",
-    "free": "write floating",
-    "weld": "write fixed",
+}
+_SYNONYMS = {
+    "slide": "prismatic",
+    "linear": "prismatic",
+    "rotary": "revolute",
+    "rotational": "revolute",
+    "free": "floating",
+    "weld": "fixed",
 }
 
 
@@ -41,11 +53,11 @@ def unknown_joint_type(robot: Robot, targets: frozenset[str]) -> Iterator[Proble
         kind = joint.type
         if kind.lower() in JOINT_TYPES or is_unexpanded(kind):
             continue
-        element = joint.element
+        element, word = joint.element, None
         if "type" in element.attributes:
             instead = _ELSEWHERE.get(kind)
-            word = meant(kind, JOINT_TYPES)
             if instead is None:
+                word = _SYNONYMS.get(kind) or meant(kind, JOINT_TYPES)
                 instead = f"write {word}" if word else f"there are {', '.join(sorted(JOINT_TYPES))}"
             message = f"joint '{joint.name}' is of unknown type '{kind}'; {instead}"
         elif any(name.lower() == "type" for name in element.attributes):
@@ -54,8 +66,22 @@ def unknown_joint_type(robot: Robot, targets: frozenset[str]) -> Iterator[Proble
             message = f"joint '{joint.name}' has no type; write type=\"…\""
         loads = kind == "spherical" and targets and targets <= {"mujoco", "pybullet"}
         yield Problem(
-            joint, message, at=element.attribute_place("type"), severity=INFO if loads else None
+            joint,
+            message,
+            at=element.attribute_place("type"),
+            severity=INFO if loads else None,
+            data={"write": word} if word else None,
         )
+
+
+@unknown_joint_type.fix(UNSAFE)
+def write_joint_type(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the type that is meant."""
+    word: str | None = problem.data.get("write")
+    if word is None:
+        return None
+    element = context.joint(problem).element
+    return unsafe(f"make it {word}", set_attribute(element, "type", word))
 
 
 @rule(
@@ -112,4 +138,14 @@ def redundant_on_fixed(robot: Robot) -> Iterator[Problem]:
                         joint,
                         f"joint '{joint.name}' is fixed; its <{part.element.tag}> means nothing",
                         at=part,
+                        data={"element": part.element.tag},
                     )
+
+
+@redundant_on_fixed.fix(SAFE)
+def remove_from_fixed_joint(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove what means nothing, where the joint is fixed whatever the arguments are."""
+    element = element_at(problem)
+    if element is None or is_computed(context.joint(problem).element, "type"):
+        return None
+    return safe(f"take the <{element.tag}> away", remove_element(element))

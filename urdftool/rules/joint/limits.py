@@ -2,10 +2,22 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
-from ...model.elements import JOINT_TYPES, Limit, Robot
-from ..rule import ERROR, INFO, WARNING, Problem, holding, rule
+from ...model.elements import JOINT_TYPES, Joint, Limit, Robot
+from ...model.read import number
+from ..fix import (
+    FixContext,
+    Proposal,
+    is_computed,
+    remove_attribute,
+    remove_element,
+    safe,
+    set_attribute,
+    unsafe,
+)
+from ..rule import BOTH, ERROR, INFO, UNSAFE, WARNING, Problem, holding, rule
 from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
 
 
@@ -34,6 +46,15 @@ def missing_limit(robot: Robot) -> Iterator[Problem]:
             f"{joint.type} joint '{joint.name}' has no <limit>; "
             f"write lower, upper, effort and velocity{or_type}",
         )
+
+
+@missing_limit.fix(UNSAFE)
+def make_continuous(problem: Problem, context: FixContext) -> Proposal | None:
+    """Make a revolute joint without stops continuous."""
+    joint = context.joint(problem)
+    if joint.type != "revolute":
+        return None
+    return unsafe("make it continuous", set_attribute(joint.element, "type", "continuous"))
 
 
 @rule(
@@ -68,6 +89,7 @@ def limit_without_effort_or_velocity(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"<limit> of joint '{joint.name}' has no {words}; both must be written",
                 at=limit,
+                data={"missing": missing},
             )
 
 
@@ -76,6 +98,46 @@ def _version(robot: Robot) -> float:
         return float(robot.version or "1.0")
     except ValueError:
         return 1.0
+
+
+@limit_without_effort_or_velocity.fix(BOTH)
+def write_usual_limits(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the effort and velocity of most joints of the type; a fixed joint needs no limit."""
+    joint = context.joint(problem)
+    limit = joint.limit
+    if limit is None:
+        return None
+    if joint.is_fixed:
+        if is_computed(joint.element, "type"):
+            return None
+        return safe("take the <limit> of the fixed joint away", remove_element(limit.element))
+    changes, written = [], []
+    for name in ("effort", "velocity"):
+        if name not in limit.element.attributes:
+            value = _usual_value(context.robot, joint, name)
+            if value is None:
+                return None
+            changes.append(set_attribute(limit.element, name, value))
+            written.append(f'{name}="{value}"')
+    if not changes:
+        return None
+    return unsafe(f"write {' and '.join(written)}, as at its other joints", *changes)
+
+
+def _usual_value(robot: Robot, joint: Joint, name: str) -> str | None:
+    """Get the limit that the other joints of one type have most often, as it is written."""
+    counts: Counter[str] = Counter()
+    for other in robot.joints:
+        limit = other.limit
+        if other is joint or limit is None or other.is_fixed:
+            continue
+        if (other.type == "prismatic") != (joint.type == "prismatic"):
+            continue
+        text = limit.element.get(name)
+        value = number(text)
+        if text is not None and value is not None and value > 0:
+            counts[text] += 1
+    return counts.most_common(1)[0][0] if counts else None
 
 
 _WITHOUT_BOUNDS = {
@@ -128,11 +190,28 @@ def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
             at=limit,
             severity=severity,
             effects=holding(_WITHOUT_BOUNDS, case),
+            data={"missing": missing},
         )
 
 
 def _is_empty(limit: Limit) -> bool:
     return (limit.lower or 0.0) >= (limit.upper or 0.0)
+
+
+@limit_without_bounds.fix(UNSAFE)
+def write_missing_bound(problem: Problem, context: FixContext) -> Proposal | None:
+    """Make a revolute joint without stops continuous; write 0 for one bound that is missing.
+
+    Readers differ on what a missing bound is: pinocchio and urdfdom read 0, PyBullet reads an upper
+    one as -1, and MuJoCo takes a joint with one bound for one without limits.
+    """
+    limit = context.joint(problem).limit
+    if limit is None:
+        return None
+    missing = [name for name in ("lower", "upper") if name not in limit.element.attributes]
+    if len(missing) == 2:
+        return make_continuous(problem, context)
+    return unsafe(f'write {missing[0]}="0"', set_attribute(limit.element, missing[0], "0"))
 
 
 @rule(
@@ -167,3 +246,14 @@ def continuous_with_bounds(robot: Robot) -> Iterator[Problem]:
             f"joint '{joint.name}' is continuous and its bounds are ignored; {remedy}",
             at=limit.element.attribute_place(name),
         )
+
+
+@continuous_with_bounds.fix(UNSAFE)
+def remove_bounds(problem: Problem, context: FixContext) -> Proposal | None:
+    """Remove the bounds."""
+    limit = context.joint(problem).limit
+    if limit is None:
+        return None
+    names = [name for name in ("lower", "upper") if name in limit.element.attributes]
+    changes = [remove_attribute(limit.element, name) for name in names]
+    return unsafe(f"take {' and '.join(names)} out", *changes)

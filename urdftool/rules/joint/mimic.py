@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import math
-import re
 from collections.abc import Iterator
 
-from ...model.elements import Joint, Mimic, Robot, Vector
-from ...model.pose import pose_of, rotate
+from ...model.elements import Joint, Mimic, Robot
 from ...source.document import Element
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..fix import FixContext, Proposal, format_numbers, set_attribute, suggestion_of, unsafe
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import did_you_mean
+from ..words import did_you_mean, nearest
 from ..xml.vocabulary_table import misspelt_attributes
+from .range import bounds_of_joint
 
-APPLIES_TO = ("mimic", "joint")
+APPLIES_TO = ("mimic",)
 
 
 @rule(
@@ -58,12 +57,25 @@ def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
             joint,
             f"joint '{joint.name}' mimics '{name}', which is no joint{near}",
             at=mimic.element.attribute_place("joint"),
+            data={"suggestion": nearest(name, robot.joint)},
         )
 
 
 def _is_misspelt(element: Element) -> bool:
     """Whether the attribute is there under another name, which is a finding of its own."""
     return "name" in element.attributes or "joint" in misspelt_attributes(element).values()
+
+
+@mimic_unknown_joint.fix(UNSAFE)
+def write_suggested_joint(problem: Problem, context: FixContext) -> Proposal | None:
+    """Follow the joint that is meant."""
+    joint = context.joint(problem)
+    if joint.mimic is None:
+        return None
+    name = suggestion_of(problem, joint.mimic.joint)
+    if not name or name == joint.name:
+        return None
+    return unsafe(f"mimic '{name}'", set_attribute(joint.mimic.element, "joint", name))
 
 
 @rule(
@@ -100,7 +112,8 @@ def _of_circle(joint: Joint, circle: list[str]) -> Problem:
     else:
         names = " follows ".join(f"'{name}'" for name in (*circle, circle[0]))
         message = f"mimic joints follow each other: {names}; one must lead"
-    return Problem(joint, message, at=joint.mimic.element.attribute_place("joint"))
+    place = joint.mimic.element.attribute_place("joint")
+    return Problem(joint, message, at=place, data={"joints": circle})
 
 
 @rule(
@@ -131,7 +144,24 @@ def mimic_chain(robot: Robot) -> Iterator[Problem]:
             f"joint '{joint.name}' mimics '{leader.name}', itself a mimic joint; "
             f"mimic '{first.name}' with multiplier {multiplier:g} and offset {offset:g}",
             at=mimic.element.attribute_place("joint"),
+            data={"joint": first.name, "multiplier": multiplier, "offset": offset},
         )
+
+
+@mimic_chain.fix(UNSAFE)
+def follow_first_leader(problem: Problem, context: FixContext) -> Proposal | None:
+    """Follow the first leader, with the multipliers multiplied.
+
+    It is the same motion, and another constraint in MuJoCo, which ties the joint to another one.
+    """
+    mimic, data = context.joint(problem).mimic, problem.data
+    if mimic is None:
+        return None
+    changes = [set_attribute(mimic.element, "joint", data["joint"])]
+    for name, default in (("multiplier", 1.0), ("offset", 0.0)):
+        if data[name] != default or name in mimic.element.attributes:
+            changes.append(set_attribute(mimic.element, name, format_numbers([data[name]], 15)))
+    return unsafe(f"mimic '{data['joint']}'", *changes)
 
 
 @rule(
@@ -164,7 +194,35 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
                 f"joint '{joint.name}' follows '{leader.name}' from {ends[0]:.4g} "
                 f"to {ends[1]:.4g}, beyond its own limits {lower:g} to {upper:g}",
                 at=joint.limit.element.attribute_place(name),
+                data={"leader": leader.name, "range": ends, "limits": [lower, upper]},
             )
+
+
+@mimic_limits_inconsistent.fix(UNSAFE)
+def lower_limits_of_leader(problem: Problem, context: FixContext) -> Proposal | None:
+    """Lower the limits of the leader to what its follower can do.
+
+    The limits of the follower are those of the hardware, and are not raised.
+    """
+    joint = context.joint(problem)
+    mimic = joint.mimic
+    leader = context.robot.joint.get(mimic.joint) if mimic is not None else None
+    if mimic is None or leader is None or not mimic.multiplier:
+        return None
+    own, other = bounds_of_joint(joint), bounds_of_joint(leader)
+    if own is None or other is None:
+        return None
+    ends = sorted((value - mimic.offset) / mimic.multiplier for value in own[1:])
+    limit, lower, upper = other
+    low, high = max(ends[0], lower), min(ends[1], upper)
+    if low >= high:
+        return None
+    changes = []
+    if low > lower:
+        changes.append(set_attribute(limit.element, "lower", format_numbers([low])))
+    if high < upper:
+        changes.append(set_attribute(limit.element, "upper", format_numbers([high])))
+    return unsafe(f"limit '{leader.name}' to {low:g} … {high:g}", *changes)
 
 
 @rule(
@@ -218,6 +276,7 @@ def mimic_dof_mismatch(robot: Robot) -> Iterator[Problem]:
             at=mimic,
             severity=INFO if kind == "fixed" and not leading and keys <= {"moveit"} else None,
             effects=keys,
+            data={"type": kind, "joints": [joint.name for joint, _ in found]},
         )
 
 
@@ -288,102 +347,12 @@ def _hanging(mimics: list[tuple[Joint, Mimic]], where: str) -> Problem:
     joint, mimic = mimics[0]
     more = f" and {len(mimics) - 1} more" if len(mimics) > 1 else ""
     are = "mimic joints hang" if more else "a mimic joint hangs"
-    return Problem(joint, f"joint '{joint.name}'{more}: {are} free {where}", at=mimic)
-
-
-@rule(
-    INFO,
-    effects={
-        "mujoco, pybullet": "move the fingers each on its own",
-    },
-    default=False,
-)
-def gripper_finger_not_mimic(robot: Robot) -> Iterator[Problem]:
-    """A left and a right finger move on their own.
-
-    Most parallel grippers have one motor. Without ``<mimic>`` the fingers need two commands and
-    close off centre.
-    """
-    for joint in robot.joints:
-        if "left" not in joint.name or "finger" not in joint.name or not joint.is_limited:
-            continue
-        other = robot.joint.get(joint.name.replace("left", "right"))
-        if other is None or other.type != joint.type or other.parent != joint.parent:
-            continue
-        if joint.mimic is None and other.mimic is None:
-            yield Problem(
-                other,
-                f"joints '{joint.name}' and '{other.name}' move on their own; "
-                "if one motor drives both, let one <mimic> the other",
-            )
-
-
-@rule(
-    WARNING,
-    effects={
-        "urdfdom, gz, gazebo-classic, mujoco, pybullet, drake": (
-            "move both fingers the same way: the gripper cannot grip"
-        ),
-    },
-)
-def fingers_move_together(robot: Robot) -> Iterator[Problem]:
-    """The two sliding fingers of a gripper move in the same direction.
-
-    Two prismatic joints of one parent, named as fingers, open and close a gripper if one goes one
-    way while the other goes the other. Here their axes point the same way in the frame of the
-    parent, and so do their ranges from zero, or one follows the other with a positive multiplier.
-    One axis was flipped, or the right finger is a copy of the left one. Nothing is reported of
-    ranges that have zero within them, unless one joint is a mimic joint of the other.
-    """
-    for link in robot.links:
-        slides = [j for j in robot.tree.child_joints(link.name) if j.type == "prismatic"]
-        if len(slides) != 2 or not all(map(_is_finger, slides)):
-            continue
-        one, other = slides
-        axes = (_axis_in_parent(one), _axis_in_parent(other))
-        if sum(a * b for a, b in zip(*axes, strict=True)) < 0.95:
-            continue
-        leader = {joint.mimic.joint: joint for joint in slides if joint.mimic is not None}
-        follower = leader.get(one.name) or leader.get(other.name)
-        if follower is not None and follower.mimic is not None:
-            together = follower.mimic.multiplier > 0
-            remedy = "write a negative multiplier, or reverse one axis"
-        else:
-            ways = {_way(joint) for joint in slides}
-            together = len(ways) == 1 and None not in ways
-            remedy = "reverse the axis of one of them"
-        if together:
-            yield Problem(
-                other,
-                f"fingers '{one.name}' and '{other.name}' both move the same way, so the gripper "
-                f"cannot grip; {remedy}",
-                at=other.axis or other,
-            )
-
-
-_FINGER = re.compile(r"finger|jaw|claw|grip", re.IGNORECASE)
-
-
-def _is_finger(joint: Joint) -> bool:
-    return _FINGER.search(joint.name) is not None or _FINGER.search(joint.child) is not None
-
-
-def _axis_in_parent(joint: Joint) -> Vector:
-    axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
-    length = math.hypot(*axis) or 1.0
-    x, y, z = rotate(pose_of(joint.origin).rotation, axis)
-    return x / length, y / length, z / length
-
-
-def _way(joint: Joint) -> int | None:
-    """Where a joint goes from zero: 1 along its axis, -1 against it; None where it goes both."""
-    if joint.limit is None or joint.limit.lower is None or joint.limit.upper is None:
-        return None
-    lower, upper = joint.limit.lower, joint.limit.upper
-    slack = 0.1 * (upper - lower)
-    if upper <= lower:
-        return None
-    return 1 if lower >= -slack else -1 if upper <= slack else None
+    return Problem(
+        joint,
+        f"joint '{joint.name}'{more}: {are} free {where}",
+        at=mimic,
+        data={"joints": [one.name for one, _ in mimics]},
+    )
 
 
 def _mimics(robot: Robot) -> Iterator[tuple[Joint, Mimic]]:

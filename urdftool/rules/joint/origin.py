@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 
 from ...model.elements import Robot
-from ..rule import WARNING, Problem, rule
+from ..fix import FixContext, Proposal, attribute_at, format_numbers, set_attribute, unsafe
+from ..rule import UNSAFE, WARNING, Problem, rule
 from ..xml.owner import owner
 from ..xml.vocabulary_table import census
 
@@ -36,11 +37,23 @@ def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iter
         angle = max(angles, key=abs, default=0.0)
         if abs(angle) <= largest or not math.isfinite(angle):
             continue
+        data: dict[str, object] = {"angle": angle}
         if abs(angle) in _DEGREES:
+            data |= {"degrees": True, "write": format_numbers(map(math.radians, angles))}
             shown = " ".join(f"{math.radians(a):.6g}" for a in angles)
             what = f"has {angle:g} in its rpy, which looks like degrees; in radians write {shown}"
         else:
             what = f"has {angle:g} rad in its rpy, more than a full turn; are these degrees?"
         around = element.parent.tag if element.parent is not None else "robot"
         whose = owner(element) if around == "joint" else f"the <{around}> of {owner(element)}"
-        yield Problem(element, f"{whose} {what}", at=element.attribute_place("rpy"))
+        yield Problem(element, f"{whose} {what}", at=element.attribute_place("rpy"), data=data)
+
+
+@rpy_in_degrees.fix(UNSAFE)
+def write_angles_in_radians(problem: Problem, _context: FixContext) -> Proposal | None:
+    """Write the same angles in radians."""
+    found = attribute_at(problem)
+    if found is None or "degrees" not in problem.data:
+        return None
+    text = problem.data["write"]
+    return unsafe(f'write rpy="{text}"', set_attribute(*found, text))

@@ -94,6 +94,7 @@ def axis_misses_links(
         joint,
         f"axis of joint '{joint.name}' {where}{also}; {why}",
         at=joint.origin or joint,
+        data={"joints": [miss.joint.name for miss in found], "distance": first.child},
         hint="export each link with its own frame, at the joint that moves it",
     )
 

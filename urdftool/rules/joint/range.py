@@ -6,8 +6,17 @@ import math
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Limit, Link, Robot
+from ..fix import (
+    FixContext,
+    Proposal,
+    attribute_at,
+    format_numbers,
+    remove_attribute,
+    set_attribute,
+    unsafe,
+)
 from ..mesh.outlines import reaches
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 
 
 @rule(
@@ -47,12 +56,40 @@ def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                 f"{upper:g}; {so}",
                 at=limit.element.attribute_place("lower"),
                 severity=INFO if meant else None,
+                data={"lower": lower, "upper": upper},
             )
 
 
 def says_unlimited(lower: float, upper: float) -> bool:
     """Whether limits are those by which PyBullet's models say that there is none, as 1 and -1."""
     return lower in (0.0, 1.0) and upper in (-1.0, 0.0) and lower > upper
+
+
+@lower_above_upper.fix(UNSAFE)
+def swap_bounds(problem: Problem, context: FixContext) -> Proposal | None:
+    """Swap the two; make a joint continuous whose limits mean that there are none."""
+    joint = context.joint(problem)
+    found = bounds_of_joint(joint)
+    if found is None:
+        return None
+    if says_unlimited(*found[1:]):
+        return _make_continuous(joint) if joint.type == "revolute" else None
+    element = found[0].element
+    lower, upper = element.get("lower") or "", element.get("upper") or ""
+    changes = set_attribute(element, "lower", upper), set_attribute(element, "upper", lower)
+    return unsafe("swap the two", *changes)
+
+
+def _make_continuous(joint: Joint) -> Proposal | None:
+    """Make a joint with two bounds continuous."""
+    if joint.limit is None:
+        return None
+    return unsafe(
+        "make it continuous",
+        set_attribute(joint.element, "type", "continuous"),
+        remove_attribute(joint.limit.element, "lower"),
+        remove_attribute(joint.limit.element, "upper"),
+    )
 
 
 def is_locked(joint: Joint) -> bool:
@@ -89,7 +126,23 @@ def locked_by_limits(robot: Robot) -> Iterator[Problem]:
                 f"limits of joint '{joint.name}' are both {lower:g}, so it cannot move; "
                 "make it fixed, or write its range",
                 at=limit.element.attribute_place("upper"),
+                data={"position": lower},
             )
+
+
+@locked_by_limits.fix(UNSAFE)
+def make_fixed(problem: Problem, context: FixContext) -> Proposal | None:
+    """Make a joint fixed that cannot leave 0, and that nothing drives."""
+    joint = context.joint(problem)
+    if problem.data["position"] != 0.0 or joint.mimic is not None:
+        return None
+    robot = context.robot
+    driven = {part.name for t in robot.transmissions for part in t.joints}
+    driven |= {part.name for control in robot.ros2_controls for part in control.joints}
+    driven |= {other.mimic.joint for other in robot.joints if other.mimic is not None}
+    if joint.name in driven or robot.extensions.get(joint.name):
+        return None
+    return unsafe("make it fixed", set_attribute(joint.element, "type", "fixed"))
 
 
 @rule(
@@ -129,6 +182,7 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
                 at=at,
                 severity=INFO,
                 effects=("urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake (none)",),
+                data={"limit": value, "unlimited": True},
             )
         elif _looks_like_degrees(lower) and _looks_like_degrees(upper):
             low, high = math.radians(lower), math.radians(upper)
@@ -136,6 +190,7 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
                 joint,
                 f"{what} looks like degrees; in radians the range is {low:.5g} to {high:.5g}",
                 at=at,
+                data={"limit": value, "degrees": True},
             )
         else:
             turns = abs(value) / (2 * math.pi)
@@ -143,11 +198,32 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
                 joint,
                 f"{what} is {turns:.3g} turns; limits are in radians",
                 at=at,
+                data={"limit": value},
             )
 
 
 def _looks_like_degrees(value: float) -> bool:
     return abs(value) <= 720 and (value * 2).is_integer()
+
+
+@limit_in_degrees.fix(UNSAFE)
+def write_limits_in_radians(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the same range in radians; make a joint continuous whose limits mean none."""
+    joint = context.joint(problem)
+    limit = joint.limit
+    if limit is None:
+        return None
+    if "unlimited" in problem.data:
+        bounds = [value for value in (limit.lower, limit.upper) if value is not None]
+        return None if len(bounds) < 2 or min(map(abs, bounds)) < 1e3 else _make_continuous(joint)
+    if "degrees" not in problem.data:
+        return None
+    changes = [
+        set_attribute(limit.element, name, format_numbers([math.radians(value)]))
+        for name, value in (("lower", limit.lower), ("upper", limit.upper))
+        if value
+    ]
+    return unsafe("write them in radians", *changes)
 
 
 @rule(
@@ -174,6 +250,7 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
                 f"{name} limit of joint '{joint.name}' is {value:g} m; "
                 f"if that is millimetres, write {value / 1000:g}",
                 at=limit.element.attribute_place(name),
+                data={"limit": value},
             )
     for joint in robot.joints:
         if joint.origin is None:
@@ -185,7 +262,38 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
                 f"joint '{joint.name}' is {abs(far):g} m from its parent; "
                 f"if that is millimetres, write {far / 1000:g}",
                 at=joint.origin.element.attribute_place("xyz"),
+                data={"distance": abs(far)},
             )
+
+
+_FAR, _FARTHEST = 100.0, 1e4
+"""Lengths [m] between which a number is in millimeters, and not one that means none."""
+
+
+@prismatic_in_millimetres.fix(UNSAFE)
+def write_limits_in_meters(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the thousandth."""
+    found = attribute_at(problem)
+    joint = context.joint(problem)
+    if found is None:
+        return None
+    element, name = found
+    if name == "xyz":
+        values = [float(word) / 1000 for word in (element.get("xyz") or "").split()]
+        if not _FAR / 1000 <= max(map(abs, values)) <= _FARTHEST / 1000:
+            return None
+        text = format_numbers(values, 12)
+        return unsafe(f'write xyz="{text}"', set_attribute(element, "xyz", text))
+    if joint.limit is None:
+        return None
+    if not _FAR <= max(abs(joint.limit.lower or 0.0), abs(joint.limit.upper or 0.0)) <= _FARTHEST:
+        return None
+    changes = [
+        set_attribute(element, bound, format_numbers([value / 1000], 12))
+        for bound, value in (("lower", joint.limit.lower), ("upper", joint.limit.upper))
+        if value
+    ]
+    return unsafe("write them in metres", *changes)
 
 
 @rule(
@@ -219,7 +327,18 @@ def limit_rounded_outward(
                     f"{name} limit {value:g} of joint '{joint.name}' is beyond {turns * 90}° "
                     f"by {beyond:.1g} rad; write {inside:g}",
                     at=limit.element.attribute_place(name),
+                    data={"write": f"{inside:.9g}", "beyond": beyond},
                 )
+
+
+@limit_rounded_outward.fix(UNSAFE)
+def round_limit_toward_zero(problem: Problem, _context: FixContext) -> Proposal | None:
+    """Write the limit rounded toward zero."""
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    text = problem.data["write"]
+    return unsafe(f'write {found[1]}="{float(text):g}"', set_attribute(*found, text))
 
 
 @rule(
@@ -242,6 +361,7 @@ def range_above_full_turn(robot: Robot) -> Iterator[Problem]:
                 f"range of joint '{joint.name}' is {turns:.3g} turns; "
                 "one turn is enough to reach every pose",
                 at=limit,
+                data={"turns": turns},
             )
 
 
@@ -271,6 +391,7 @@ def zero_outside_limits(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Pr
                 f"its range is {lower:g} to {upper:g}",
                 at=limit.element.attribute_place(name),
                 group="{count} joints cannot be at 0, where simulators start them: {names}",
+                data={"lower": lower, "upper": upper},
             )
 
 
@@ -300,9 +421,14 @@ def _is_body(link: Link) -> bool:
 def _bounded(robot: Robot) -> Iterator[tuple[Joint, Limit, float, float]]:
     """Revolute and prismatic joints of which both bounds are written and can be read."""
     for joint in robot.joints:
-        limit = joint.limit
-        if limit is None or not joint.is_limited:
-            continue
-        lower, upper = limit.lower, limit.upper
-        if lower is not None and upper is not None:
-            yield joint, limit, lower, upper
+        found = bounds_of_joint(joint)
+        if joint.is_limited and found is not None:
+            yield joint, *found
+
+
+def bounds_of_joint(joint: Joint) -> tuple[Limit, float, float] | None:
+    """Get the limit of a joint with its bounds [rad or m], if both are written and can be read."""
+    limit = joint.limit
+    if limit is None or limit.lower is None or limit.upper is None:
+        return None
+    return limit, limit.lower, limit.upper

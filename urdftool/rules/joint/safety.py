@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Limit, Robot, SafetyController
-from ..rule import ERROR, INFO, ROS, WARNING, Problem, rule
+from ..fix import FixContext, Proposal, set_attribute, unsafe
+from ..rule import ERROR, INFO, ROS, UNSAFE, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_attributes
+from .range import bounds_of_joint
 
 APPLIES_TO = ("safety_controller",)
 
@@ -67,7 +69,27 @@ def soft_limits_lock_joint(robot: Robot, targets: frozenset[str]) -> Iterator[Pr
                 f"soft limits {low:g} to {high:g} of joint '{joint.name}' leave it no range; "
                 "write soft_lower_limit and soft_upper_limit within its limits",
                 at=safety,
+                data={"soft_lower": low, "soft_upper": high},
             )
+
+
+@soft_limits_lock_joint.fix(UNSAFE)
+def write_hard_limits(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the hard limits."""
+    joint = context.joint(problem)
+    found, safety = bounds_of_joint(joint), joint.safety_controller
+    if found is None or safety is None or found[1] >= found[2]:
+        return None
+    return _write_limits(safety, found[0], "lower", "upper")
+
+
+def _write_limits(safety: SafetyController, limit: Limit, *names: str) -> Proposal:
+    """Write hard limits as the soft ones."""
+    changes = [
+        set_attribute(safety.element, f"soft_{name}_limit", (limit.element.get(name) or "").strip())
+        for name in names
+    ]
+    return unsafe("write the limits of the joint", *changes)
 
 
 @rule(
@@ -117,7 +139,24 @@ def soft_limits_outside_hard(
         else:
             continue
         name = "soft_lower_limit" if below else "soft_upper_limit"
-        yield Problem(joint, what, at=safety.element.attribute_place(name))
+        yield Problem(
+            joint,
+            what,
+            at=safety.element.attribute_place(name),
+            data={"soft_lower": low, "soft_upper": high},
+        )
+
+
+@soft_limits_outside_hard.fix(UNSAFE)
+def clamp_soft_limits(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the hard limits, where the soft ones are beyond."""
+    joint = context.joint(problem)
+    found, safety = bounds_of_joint(joint), joint.safety_controller
+    if found is None or safety is None:
+        return None
+    limit, lower, upper = found
+    beyond = {"lower": safety.soft_lower_limit < lower, "upper": safety.soft_upper_limit > upper}
+    return _write_limits(safety, limit, *(name for name, is_beyond in beyond.items() if is_beyond))
 
 
 @rule(
@@ -155,6 +194,7 @@ def soft_limits_far_inside(
                 f"soft limits {low:g} to {high:g} of joint '{joint.name}' leave {left:.0%} of its "
                 f"range {limit.lower:g} to {limit.upper:g}; MoveIt plans within them alone",
                 at=safety,
+                data={"part": left},
             )
 
 

@@ -39,6 +39,7 @@ def joint_not_mirrored(robot: Robot) -> Iterator[Problem]:
             f"joint '{right.name}' is {gap * 1000:.3g} mm from where '{pair.left_joint.name}' has "
             "its mirror image; one of the two is misplaced",
             at=right.origin or right,
+            data={"twin": pair.left_joint.name, "distance": gap},
         )
 
 
@@ -72,12 +73,15 @@ def limits_not_mirrored(
     found = sides(robot)
     if found.normal is None:
         return
-    problems = list(_unlike(robot, found, tolerance))
-    if len(problems) > together:
-        names = ", ".join(f"'{problem.name}'" for problem in problems[1:])
-        problems[0].message += f"; the same is true of {names}"
-        del problems[1:]
-    yield from problems
+    unlike = list(_unlike(robot, found, tolerance))
+    also = ""
+    if len(unlike) > together:
+        names = ", ".join(f"'{pair.right_joint.name}'" for pair, _, _ in unlike[1:])
+        also = f"; the same is true of {names}"
+    for pair, message, wanted in unlike[:1] if also else unlike:
+        joint = pair.right_joint
+        data = {"twin": pair.left_joint.name, "mirrored": list(wanted)}
+        yield Problem(joint, message + also, at=joint.limit, data=data)
 
 
 _GRIPPER = re.compile(r"gripper|finger|thumb|knuckle", re.IGNORECASE)
@@ -92,7 +96,15 @@ def _carries_nothing(robot: Robot, link: Link) -> bool:
     )
 
 
-def _unlike(robot: Robot, found: Sides, tolerance: float) -> Iterator[Problem]:
+def _unlike(
+    robot: Robot, found: Sides, tolerance: float
+) -> Iterator[tuple[Pair, str, tuple[float, float]]]:
+    """Find pairs of joints with ranges that do not mirror each other.
+
+    Yields:
+        The pair, what is wrong with the right joint, and the range that mirrors that of the left
+        one [rad or m].
+    """
     for pair in found.pairs:
         if found.is_displaced(pair):
             continue
@@ -114,12 +126,11 @@ def _unlike(robot: Robot, found: Sides, tolerance: float) -> Iterator[Problem]:
             what = "its axis or its limits have the wrong sign"
         else:
             what = f"the mirror image of '{twin}' goes from {low:g} to {high:g}"
-        yield Problem(
-            pair.right_joint,
+        message = (
             f"joint '{name}' goes from {right[0]:g} to {right[1]:g} and is not the mirror image of "
-            f"'{twin}': {what}",
-            at=pair.right_joint.limit,
+            f"'{twin}': {what}"
         )
+        yield pair, message, wanted
 
 
 @rule(
@@ -168,6 +179,7 @@ def axis_against_others(robot: Robot) -> Iterator[Problem]:
                 f"axis of joint '{joint.name}' is to that of '{twin.name}' not as those of {names} "
                 "are to each other; one of them is flipped",
                 at=joint.axis or joint,
+                data={"twin": twin.name},
             )
     yield from _lone(robot, found)
 
@@ -219,6 +231,7 @@ def _lone(robot: Robot, found: Sides) -> Iterator[Problem]:
             f"axis of joint '{joint.name}' is to that of '{twin.name}' not as those of {names} "
             "are to those of their twins; one of the two is flipped",
             at=joint.axis or joint,
+            data={"twin": twin.name},
         )
 
 

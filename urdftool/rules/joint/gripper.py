@@ -1,0 +1,110 @@
+"""Fingers of a gripper, and how they move together."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+
+from ...model.elements import Joint, Robot, Vector
+from ...model.pose import pose_of, rotate
+from ..rule import INFO, WARNING, Problem, rule
+
+APPLIES_TO = ("joint",)
+
+
+@rule(
+    INFO,
+    effects={
+        "mujoco, pybullet": "move the fingers each on its own",
+    },
+    default=False,
+)
+def gripper_finger_not_mimic(robot: Robot) -> Iterator[Problem]:
+    """A left and a right finger move on their own.
+
+    Most parallel grippers have one motor. Without ``<mimic>`` the fingers need two commands and
+    close off centre.
+    """
+    for joint in robot.joints:
+        if "left" not in joint.name or "finger" not in joint.name or not joint.is_limited:
+            continue
+        other = robot.joint.get(joint.name.replace("left", "right"))
+        if other is None or other.type != joint.type or other.parent != joint.parent:
+            continue
+        if joint.mimic is None and other.mimic is None:
+            yield Problem(
+                other,
+                f"joints '{joint.name}' and '{other.name}' move on their own; "
+                "if one motor drives both, let one <mimic> the other",
+                data={"joints": [joint.name, other.name]},
+            )
+
+
+@rule(
+    WARNING,
+    effects={
+        "urdfdom, gz, gazebo-classic, mujoco, pybullet, drake": (
+            "move both fingers the same way: the gripper cannot grip"
+        ),
+    },
+)
+def fingers_move_together(robot: Robot) -> Iterator[Problem]:
+    """The two sliding fingers of a gripper move in the same direction.
+
+    Two prismatic joints of one parent, named as fingers, open and close a gripper if one goes one
+    way while the other goes the other. Here their axes point the same way in the frame of the
+    parent, and so do their ranges from zero, or one follows the other with a positive multiplier.
+    One axis was flipped, or the right finger is a copy of the left one. Nothing is reported of
+    ranges that have zero within them, unless one joint is a mimic joint of the other.
+    """
+    for link in robot.links:
+        slides = [j for j in robot.tree.child_joints(link.name) if j.type == "prismatic"]
+        if len(slides) != 2 or not all(map(_is_finger, slides)):
+            continue
+        one, other = slides
+        axes = (_axis_in_parent(one), _axis_in_parent(other))
+        if sum(a * b for a, b in zip(*axes, strict=True)) < 0.95:
+            continue
+        leader = {joint.mimic.joint: joint for joint in slides if joint.mimic is not None}
+        follower = leader.get(one.name) or leader.get(other.name)
+        if follower is not None and follower.mimic is not None:
+            together = follower.mimic.multiplier > 0
+            remedy = "write a negative multiplier, or reverse one axis"
+        else:
+            ways = {_way(joint) for joint in slides}
+            together = len(ways) == 1 and None not in ways
+            remedy = "reverse the axis of one of them"
+        if together:
+            yield Problem(
+                other,
+                f"fingers '{one.name}' and '{other.name}' both move the same way, so the gripper "
+                f"cannot grip; {remedy}",
+                at=other.axis or other,
+                data={"joints": [one.name, other.name]},
+            )
+
+
+_FINGER = re.compile(r"finger|jaw|claw|grip", re.IGNORECASE)
+
+
+def _is_finger(joint: Joint) -> bool:
+    return _FINGER.search(joint.name) is not None or _FINGER.search(joint.child) is not None
+
+
+def _axis_in_parent(joint: Joint) -> Vector:
+    axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+    length = math.hypot(*axis) or 1.0
+    x, y, z = rotate(pose_of(joint.origin).rotation, axis)
+    return x / length, y / length, z / length
+
+
+def _way(joint: Joint) -> int | None:
+    """Where a joint goes from zero: 1 along its axis, -1 against it; None where it goes both."""
+    if joint.limit is None or joint.limit.lower is None or joint.limit.upper is None:
+        return None
+    lower, upper = joint.limit.lower, joint.limit.upper
+    slack = 0.1 * (upper - lower)
+    if upper <= lower:
+        return None
+    return 1 if lower >= -slack else -1 if upper <= slack else None
