@@ -63,7 +63,7 @@ def fix(
     options.gltf_up = gltf_up
     if unsafe:
         from ..inertia.scales import Scales
-        from ..rules.fixes.inertia import DENSITY
+        from ..rules.inertia.solids import DENSITY
 
         options.weigh = Scales(DENSITY)
     report = lint_file(path, options)

@@ -54,7 +54,7 @@ def fix_files(
     from ..lint.fix_run import apply_fixes
     from ..lint.parallel import lint_files
     from ..lint.skipped import with_parts
-    from ..rules.fixes.inertia import DENSITY
+    from ..rules.inertia.solids import DENSITY
     from ..source.document import STDIN, reading_instead
     from .lint_report import report
 

@@ -255,6 +255,16 @@ def element_at(problem: Problem, root: Element | None = None) -> Element | None:
     return None
 
 
+def remove_sign(problem: Problem) -> Proposal | None:
+    """Propose the attribute that a problem points at without its minus sign."""
+    found = attribute_at(problem)
+    if found is None:
+        return None
+    element, name = found
+    text = (element.get(name) or "").strip().removeprefix("-")
+    return unsafe(f'write {name}="{text}"', set_attribute(element, name, text))
+
+
 def suggestion_of(problem: Problem, wrong: str) -> str:
     """Get the name a rule suggests (``data["suggestion"]``), if it is near enough for a fix."""
     right: str = problem.data.get("suggestion", "")

@@ -17,6 +17,7 @@ from ..fix import (
     set_text,
     unsafe,
 )
+from ..inertia.corrections import give_small_inertial
 from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
 from ..words import quoted
 from .keywords import JOINT_KEYWORDS, SURFACE, is_true
@@ -204,8 +205,18 @@ def preserved_joint_massless(robot: Robot) -> Iterator[Problem]:
                     joint,
                     f"fixed joint '{joint.name}' is kept, and link '{side}' has no mass; "
                     f"give '{side}' a small <inertial>",
+                    data={"link": side},
                 )
                 break
+
+
+@preserved_joint_massless.fix(UNSAFE)
+def add_inertial_of_kept_link(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add an inertial of a few grams to the child, if that is the link without mass."""
+    child = context.robot.link.get(context.joint(problem).child)
+    if child is None or problem.data["link"] != child.name:
+        return None
+    return give_small_inertial(child)
 
 
 @rule(

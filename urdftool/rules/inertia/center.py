@@ -8,15 +8,25 @@ from collections.abc import Iterator
 from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
 from ...model.gltf_axes import is_gltf
-from ...model.mass_fit import MARGIN, misfit_of_com, shapes_in_words
+from ...model.mass_fit import MARGIN, Misfit, misfit_of_com, shapes_in_words
 from ...model.pose import pose_of
+from ..fix import (
+    FixContext,
+    Proposal,
+    depends_on_arguments,
+    format_numbers,
+    prepend_child,
+    set_attribute,
+    unsafe,
+)
 from ..mesh.outlines import reaches
-from ..rule import INFO, WARNING, Problem, rule
+from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from .bodies import LIGHT, negligible
+from .corrections import write_tensor
 from .frame import about_center
 from .proposals import attributes_text
 from .size import SIZE_IN_DOUBT, has_mesh, is_placeholder
-from .solids import centre_of_solids
+from .solids import box_of, centre_of_solids
 from .tensors import is_zero, six_of
 
 
@@ -42,7 +52,7 @@ def com_outside_geometry(
     their own count, too. A link with less than the part ``light`` of the robot's mass is left out,
     and one with less than ten times that part of the links that are fixed together.
     """
-    remarks: list[tuple[Problem, str]] = []
+    remarks: list[tuple[Link, Misfit]] = []
     reach = reaches(robot)
     skipped = negligible(robot, light)
     for link in robot.links:
@@ -62,21 +72,29 @@ def com_outside_geometry(
         found = misfit_of_com(box, com, of_mesh, margin=margin, shapes=shapes)
         if found is None:
             continue
-        problem = Problem(
-            link,
-            f"centre of mass of link '{link.name}' {found.sentence}",
-            at=inertial.origin if inertial.origin is not None else inertial,
-            severity=None if found.certain else INFO,
-        )
         if found.certain:
-            yield problem
+            yield _outside(link, found)
         else:
-            what = f"'{link.name}' by {found.amount:.3g} m along {'xyz'[found.axis]}"
-            remarks.append((problem, what))
+            remarks.append((link, found))
+    also = ""
     if len(remarks) > together:
-        remarks[0][0].message += f"; so are those of {', '.join(said for _, said in remarks[1:])}"
+        others = (
+            f"'{link.name}' by {found.amount:.3g} m along {'xyz'[found.axis]}"
+            for link, found in remarks[1:]
+        )
+        also = f"; so are those of {', '.join(others)}"
         del remarks[1:]
-    yield from (problem for problem, _ in remarks)
+    yield from (_outside(link, found, also) for link, found in remarks)
+
+
+def _outside(link: Link, found: Misfit, also: str = "") -> Problem:
+    return Problem(
+        link,
+        f"centre of mass of link '{link.name}' {found.sentence}{also}",
+        at=(link.inertial and link.inertial.origin) or link.inertial,
+        severity=None if found.certain else INFO,
+        data={"distance": found.amount, "axis": "xyz"[found.axis]},
+    )
 
 
 @rule(
@@ -126,6 +144,7 @@ def inertial_not_at_com_suspect(
             f"mass of link '{link.name}' is at its frame, while its shapes are centred at "
             f"{shown} m; {_remedy(link, inertial, box)}",
             at=inertial.origin if inertial.origin is not None else inertial,
+            data={"center": centre},
         )
 
 
@@ -143,6 +162,28 @@ def _remedy(link: Link, inertial: Inertial, box: Bounds) -> str:
         f"{remedy}, and the inertia, which fits the shapes only about the frame, about it: "
         f"{attributes_text(right)}"
     )
+
+
+@inertial_not_at_com_suspect.fix(UNSAFE)
+def write_center_of_mass(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the center of the shapes, and the inertia about it where it is about the frame."""
+    link = context.link(problem)
+    box, inertial = box_of(link), link.inertial
+    if box is None or inertial is None or inertial.inertia is None:
+        return None
+    if depends_on_arguments(link.element):
+        return None
+    right = about_center(link, inertial, box.centre, box)
+    if right is None:
+        return None
+    if right != inertial.inertia.six:
+        return write_tensor(link, right, center=box.centre)
+    center = format_numbers(box.centre, 6)
+    if inertial.origin is None:
+        change = prepend_child(inertial.element, f'<origin xyz="{center}"/>')
+    else:
+        change = set_attribute(inertial.origin.element, "xyz", center)
+    return unsafe(f"put it at the center of its shapes, {center}", change)
 
 
 def _is_turned(link: Link) -> bool:

@@ -58,6 +58,7 @@ def mass_out_of_line(
         link,
         f"mass of link '{link.name}' is {link.mass:g} kg: {found.denser:.2g} times as dense as the "
         f"other links, while its inertia is that of {found.fitting:.2g} kg; is the mass too large?",
+        data={"mass": link.mass, "fitting": found.fitting},
         at=mass.attribute_place("value") if mass is not None else None,
     )
 

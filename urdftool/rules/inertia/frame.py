@@ -11,8 +11,10 @@ from ...model.inertia_slips import is_possible, shifted_to_com
 from ...model.mass_fit import spread_ratio
 from ...model.pose import pose_of, transpose
 from ...model.tensor3 import Six, turned
+from ..fix import FixContext, Proposal
 from ..mesh.outlines import reaches
-from ..rule import WARNING, Problem, rule
+from ..rule import UNSAFE, WARNING, Problem, rule
+from .corrections import write_proposed_inertia
 from .proposals import attributes_text, proposal_of
 from .solids import solid_tensor
 from .tensors import is_zero, tensors
@@ -61,7 +63,14 @@ def inertia_about_link_frame(robot: Robot) -> Iterator[Problem]:
                 f"inertia of link '{link.name}' fits its geometry only if it is about the link "
                 f"frame; readers take it about the center of mass: write {attributes_text(right)}",
                 at=inertial.inertia,
+                data={"inertia": list(right)},
             )
+
+
+@inertia_about_link_frame.fix(UNSAFE)
+def write_inertia_about_center(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the tensor about the center of mass."""
+    return write_proposed_inertia(problem, context)
 
 
 def about_com(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> Six | None:

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
 from ...model.millimeters import shapes_in_millimeters
 from ...source.document import Element
+from ..fix import FixContext, Proposal, remove_sign, set_attribute, unsafe
 from ..mesh.outlines import Reaches, reaches
-from ..rule import ERROR, GAZEBO, INFO, WARNING, Problem, rule
+from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
 from ..words import some_of
 from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
 from .bodies import bodies, mass_of, massless_pairs
 from .solids import solid_volume
-from .tensors import six_of
+from .tensors import SIX, six_of
 
-_SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _AS_PART = ("gz, gazebo-classic, pinocchio (part)", "mujoco (part)", "drake (part)")
 _AS_ROOT = ("gz, gazebo-classic (root)", "pybullet (root)")
 
@@ -55,6 +56,7 @@ def incomplete_inertial(robot: Robot) -> Iterator[Problem]:
                 f"<inertial> of link '{link.name}' has no {', '.join(missing)}; write it",
                 at=at,
                 effects=_effects_of(link.inertial),
+                data={"missing": missing},
             )
 
 
@@ -84,13 +86,27 @@ def _missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
         if missing and (meant := misspelt_children(element)):
             missing = [name for name in missing if name.strip("<>") not in meant.values()]
     if inertia is not None:
-        lacking = [name for name in _SIX if name not in inertia.attributes]
+        lacking = [name for name in SIX if name not in inertia.attributes]
         if lacking and (meant := misspelt_attributes(inertia)):
             lacking = [name for name in lacking if name not in meant.values()]
         if lacking and not missing:
             return lacking, Inertial(inertia)
         missing += lacking
     return missing, inertial
+
+
+@incomplete_inertial.fix(UNSAFE)
+def write_products_of_zero(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write 0 for products of inertia that are not written."""
+    inertial = context.link(problem).inertial
+    inertia = inertial.element.child("inertia") if inertial is not None else None
+    if inertial is None or inertia is None or inertial.element.child("mass") is None:
+        return None
+    missing = [name for name in SIX if name not in inertia.attributes]
+    if not missing or not set(missing) <= {"ixy", "ixz", "iyz"}:
+        return None
+    zeros = " ".join(f'{name}="0"' for name in missing)
+    return unsafe(f"write {zeros}", *(set_attribute(inertia, name, "0") for name in missing))
 
 
 @rule(
@@ -204,7 +220,14 @@ def negative_mass(robot: Robot) -> Iterator[Problem]:
                 link,
                 f"mass of link '{link.name}' is {mass:g} kg; write {-mass:g}",
                 at=element.attribute_place("value"),
+                data={"mass": mass},
             )
+
+
+@negative_mass.fix(UNSAFE)
+def write_magnitude(problem: Problem, _context: FixContext) -> Proposal | None:
+    """Write the mass without its sign."""
+    return remove_sign(problem)
 
 
 @rule(
@@ -236,6 +259,7 @@ def implausible_mass(
             link,
             f"mass of link '{link.name}' is {what}",
             at=element.attribute_place("value"),
+            data={"mass": mass},
         )
 
 
@@ -274,7 +298,7 @@ def implausible_density(
     beyond belief. More than ``together`` remarks are one, which names some of the links.
     """
     reach = reaches(robot)
-    remarks: list[tuple[Problem, float]] = []
+    found: list[_Density] = []
     for link, mass, element in _masses(robot):
         density, in_box = _density(reach.link(link), link, mass)
         if any(shapes_in_millimeters(link)) or _is_incomplete(link):
@@ -293,22 +317,41 @@ def implausible_density(
             impossible = False
         if density < least and mass <= dummy and _is_fixed(robot, link):
             impossible = False
-        problem = Problem(
-            link,
-            f"link '{link.name}' weighs {mass:g} kg and has a density of {density:.3g} kg/m³"
-            f"{' in the box around it' if in_box else ''}; water has 1000",
-            at=element.attribute_place("value"),
-            severity=WARNING if impossible else INFO,
-        )
-        if impossible:
-            yield problem
-        else:
-            remarks.append((problem, density))
+        found.append(_Density(link, element, density, in_box, impossible))
+    yield from (_of_density(one) for one in found if one.impossible)
+    remarks = [one for one in found if not one.impossible]
+    also = ""
     if len(remarks) > together:
-        others = some_of([f"'{one.name}' {density:.3g}" for one, density in remarks[1:]], "links")
-        remarks[0][0].message += f"; densities are as odd of {others}"
+        names = [f"'{one.link.name}' {one.density:.3g}" for one in remarks[1:]]
+        also = f"; densities are as odd of {some_of(names, 'links')}"
         del remarks[1:]
-    yield from (problem for problem, _ in remarks)
+    yield from (_of_density(one, also) for one in remarks)
+
+
+class _Density(NamedTuple):
+    """A link whose mass does not go with its size."""
+
+    link: Link
+    element: Element
+    """Its ``<mass>``."""
+    density: float
+    """Density [kg/m³]."""
+    in_box: bool
+    """Whether it is that in the box around the shapes."""
+    impossible: bool
+    """Whether no material has it."""
+
+
+def _of_density(found: _Density, also: str = "") -> Problem:
+    link, where = found.link, " in the box around it" if found.in_box else ""
+    return Problem(
+        link,
+        f"link '{link.name}' weighs {link.mass:g} kg and has a density of {found.density:.3g} kg/m³"
+        f"{where}; water has 1000{also}",
+        at=found.element.attribute_place("value"),
+        severity=WARNING if found.impossible else INFO,
+        data={"mass": link.mass, "density": found.density},
+    )
 
 
 def _is_mark(reach: Reaches, link: Link, mass: float, small: float) -> bool:

@@ -6,11 +6,23 @@ from collections.abc import Iterator
 
 from ...model.attached import attached_links, is_fixed_to_world
 from ...model.elements import MOVING_TYPES, Joint, Link, Robot
+from ..cross_file_references import check_not_included
+from ..fix import (
+    Change,
+    FixContext,
+    Proposal,
+    escape_attribute,
+    is_computed,
+    prepend_child,
+    remove_element,
+    unsafe,
+)
 from ..gazebo.kept import kept_links
-from ..rule import ERROR, GAZEBO, INFO, ROS, WARNING, Problem, rule
+from ..rule import ERROR, GAZEBO, INFO, ROS, UNSAFE, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_children
 from .bodies import bodies, mass_of
-from .solids import solid_volume
+from .corrections import give_small_inertial, inertial_of_shapes
+from .solids import DENSITY, solid_volume
 
 _SIMULATED = ("gazebo-classic", "gz", "mujoco")
 _MARKER = 1e-3  # [kg]
@@ -125,6 +137,23 @@ def _is_marker(link: Link) -> bool:
     return all(volumes) and 1000 * sum(volumes) < _MARKER
 
 
+_LIGHTEST = 1e-5
+"""Mass [kg] below which a shape marks a place, and has no mass that is worth writing."""
+
+
+@missing_inertial.fix(UNSAFE)
+def add_inertial(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add the inertial of the shapes at the density of water."""
+    link = context.link(problem)
+    if problem.severity is INFO:
+        return None  # the body has a mass, or needs none
+    found = inertial_of_shapes(link, context)
+    if found is None or found[0] < _LIGHTEST:
+        return None
+    change = prepend_child(link.element, *found[1])
+    return unsafe(f"add the <inertial> of its shapes at {DENSITY:g} kg/m³", change)
+
+
 @rule(
     WARNING,
     raised=dict.fromkeys(_SIMULATED, ERROR),
@@ -157,7 +186,14 @@ def massless_moving_body(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
             link,
             f"joint '{joint.name}' moves link '{name}', which has no mass{_below(robot, name)}; "
             "give it a small <inertial>, or make the joint fixed",
+            data={"joint": joint.name, "below": sum(1 for _ in robot.tree.descendants(name))},
         )
+
+
+@massless_moving_body.fix(UNSAFE)
+def add_small_inertial(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add an inertial of a few grams to the frame."""
+    return give_small_inertial(context.link(problem))
 
 
 def moved_bodies(robot: Robot) -> Iterator[tuple[Joint, str, list[Link]]]:
@@ -283,6 +319,34 @@ def is_needless(robot: Robot, root: Link) -> bool:
     if root.mass >= _SLIGHT or root.visuals or root.collisions:
         return False
     return any(link.mass > 0 for link, _ in attached_links(robot, root)[1:])
+
+
+@root_link_has_inertia.fix(UNSAFE)
+def add_root_link(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add a link without inertial above the root, on a fixed joint; remove a needless one."""
+    robot, link = context.robot, context.link(problem)
+    if link.element.parent is not robot.element or link.inertial is None:
+        return None
+    if link.name == "world" or (is_needless(robot, link) and "pybullet" not in context.targets):
+        return unsafe("remove its <inertial>", remove_element(link.inertial.element))
+    name, joint = f"{link.name}_root", f"{link.name}_root_joint"
+    taken = {*robot.link, *robot.joint}
+    if name in taken or joint in taken or is_computed(link.element):
+        return None
+    if context.targets & {"moveit", "pybullet"}:
+        return None  # the SRDF names the root, and PyBullet gives a new one 1 kg
+    check_not_included(context)
+    made = (
+        (f'<link name="{escape_attribute(name)}"/>',),
+        (
+            f'<joint name="{escape_attribute(joint)}" type="fixed">',
+            f'\t<parent link="{escape_attribute(name)}"/>',
+            f'\t<child link="{escape_attribute(link.name)}"/>',
+            "</joint>",
+        ),
+    )
+    what = f"put a link '{name}' without <inertial> above it, on a fixed joint"
+    return unsafe(f"{what}; PyBullet gives it 1 kg", Change("first", robot.element, blocks=made))
 
 
 @rule(

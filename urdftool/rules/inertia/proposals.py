@@ -40,8 +40,8 @@ def remedy_text(link: Link, inertial: Inertial, six: Six) -> str:
 
 
 def attributes_text(six: Six) -> str:
-    """The six numbers as attributes: ``ixx="1" ixy="0" …``."""
-    return " ".join(f'{name}="{value:.6g}"' for name, value in zip(NAMES, six, strict=True))
+    """Format the six numbers as attributes: ``ixx="1" ixy="0" …``, without ``-0``."""
+    return " ".join(f'{name}="{value + 0.0:.6g}"' for name, value in zip(NAMES, six, strict=True))
 
 
 def _turned(box: Bounds, rotation: Rotation) -> Bounds:

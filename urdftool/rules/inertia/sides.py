@@ -9,8 +9,9 @@ from ...model.attached import attached_links
 from ...model.body_inertia import BodyInertia, combined_inertia
 from ...model.elements import Link, Robot, Vector
 from ...model.pose import norm, rotate, transpose
+from ..fix import FixContext, Proposal, set_attribute, unsafe
 from ..mesh.outlines import reaches
-from ..rule import INFO, WARNING, Problem, rule
+from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from ..sides import Pair, Sides, family_of, sides, twin_links
 from .tensors import is_accepted, is_zero, moments_of, six_of
 
@@ -66,6 +67,7 @@ def left_right_asymmetry(
                 f"link '{other.name}' weighs {other.mass:g} kg and '{link.name}' {link.mass:g} kg; "
                 "mirror images weigh the same",
                 at=other.inertial,
+                data={"twin": link.name, "mass": other.mass, "mass_of_twin": link.mass},
                 effects=[*_readers_of(link, other), "pybullet"],
             )
             continue
@@ -76,6 +78,7 @@ def left_right_asymmetry(
                 f"centre of mass of link '{other.name}' is {there:.3g} m from its frame and that "
                 f"of '{link.name}' {here:.3g} m; mirror images have it at one distance",
                 at=other.inertial.origin or other.inertial,
+                data={"twin": link.name, "distance": there, "distance_of_twin": here},
                 effects=[*_readers_of(link, other), "pybullet"],
             )
             continue
@@ -87,6 +90,7 @@ def left_right_asymmetry(
                 f"principal moments of inertia of link '{other.name}', in ascending order, are "
                 f"{_factors(other, link)} times those of '{link.name}', which is its mirror image",
                 at=other.inertial.inertia or other.inertial,
+                data={"twin": link.name},
                 effects=_readers_of(link, other),
             )
 
@@ -222,6 +226,7 @@ def com_not_mirrored(
             f"center of mass of link '{link.name}' is at {'xyz'[axis]} = {wrong_one[axis]:.3g} m, "
             f"{where} that of '{twin.name}', but {why}; write xyz=\"{image}\"",
             at=link.inertial.origin or link.inertial,
+            data={"twin": twin.name, "axis": "xyz"[axis], "write": image},
         )
 
 
@@ -230,6 +235,16 @@ def mirror_image(found: Sides, link: Link, com: Vector) -> str:
     x, y, z = (-value if axis == found.normal else value for axis, value in enumerate(com))
     back = transpose(found.poses[link.name].rotation)
     return " ".join(f"{round(value, 9) + 0.0:.6g}" for value in rotate(back, (x, y, z)))
+
+
+@com_not_mirrored.fix(UNSAFE)
+def write_mirror_image(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the mirror image of the center of mass of the other side."""
+    inertial = context.link(problem).inertial
+    if inertial is None or inertial.origin is None:
+        return None
+    image = problem.data["write"]
+    return unsafe(f'write xyz="{image}"', set_attribute(inertial.origin.element, "xyz", image))
 
 
 def _coms(found: Sides, pair: Pair) -> tuple[Vector, Vector] | None:

@@ -17,9 +17,11 @@ from ...model.mass_fit import (
 )
 from ...model.pose import pose_of
 from ...model.tensor3 import Six, turned
+from ..fix import FixContext, Proposal
 from ..mesh.outlines import reaches
-from ..rule import INFO, WARNING, Problem, rule
+from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from .bodies import bodies, slight_parts
+from .corrections import undo_slip, write_inertia_of_shapes, write_meant_inertia, write_tensor
 from .density import outlier
 from .frame import about_com
 from .proposals import remedy_text
@@ -75,6 +77,7 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
             hint="'urdftool inertia robot' computes it" if has_shapes and not dummy else "",
             group="inertia of {count} links is a placeholder, the same power of ten about every "
             "axis: {names}",
+            data={"moment": moment},
         )
 
 
@@ -105,6 +108,12 @@ def is_placeholder(link: Link, six: Six) -> bool:
         return False
     solid = solid_moments(link)
     return solid is None or not all(0.5 <= moment / xx <= 2 for moment in solid)
+
+
+@placeholder_inertia.fix(UNSAFE)
+def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write what the shapes have, unless they are those of a dummy, which have next to nothing."""
+    return None if is_dummy(context.link(problem)) else write_inertia_of_shapes(problem, context)
 
 
 @rule(
@@ -167,7 +176,7 @@ def inertia_exceeds_geometry(
         found = judge(box, com=pose.translation, shapes=shapes)
         if found is not None:
             fits = judge(box, com=box.centre) is None
-            is_own = has_own_size(robot, link, found.certain)
+            is_own = _has_own_size(robot, link, found.certain)
             remedy = remedy_text(link, inertial, six) if is_own else ""
             yield Problem(
                 link,
@@ -176,6 +185,7 @@ def inertia_exceeds_geometry(
                 severity=None if found.certain else INFO,
                 caused_by=(*SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits else ())),
                 effects=_readers_of(six),
+                data={"certain": found.certain},
             )
 
 
@@ -184,7 +194,7 @@ def _readers_of(six: Six) -> list[str]:
     return [*[_CHECKING] * is_accepted(six), "pinocchio"]
 
 
-def has_own_size(robot: Robot, link: Link, certain: bool) -> bool:
+def _has_own_size(robot: Robot, link: Link, certain: bool) -> bool:
     """Whether an inertia can be proposed for a link whose inertia exceeds its geometry.
 
     Args:
@@ -197,6 +207,18 @@ def has_own_size(robot: Robot, link: Link, certain: bool) -> bool:
         from the body.
     """
     return not reaches(robot).counted(link) and (certain or bool(link.collisions))
+
+
+@inertia_exceeds_geometry.fix(UNSAFE)
+def write_inertia_that_fits(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write what was meant, or what the shapes have, where these are certain to be the body."""
+    link, certain = context.link(problem), problem.data["certain"]
+    inertial = link.inertial
+    if not _has_own_size(context.robot, link, certain):
+        return None
+    if not certain and inertial is not None and inertial.inertia is not None:
+        return undo_slip(link, inertial, inertial.inertia)
+    return write_meant_inertia(problem, context)
 
 
 def has_mesh(link: Link) -> bool:
@@ -251,6 +273,7 @@ def inertia_below_geometry(
                 "by a power of ten?",
                 at=inertial.inertia,
                 effects=_readers_of(six),
+                data={"part": written / solid, "size": list(box.size)},
             )
 
 
@@ -294,8 +317,12 @@ def radius_of_gyration(
         around = reach.body(link)
         if around is not None and radius <= math.dist(*around):
             continue  # it is that of the body
+        data: dict[str, object] = {"radius": radius}
         if radius > largest:
-            remedy = "; if it is in kg·mm², divide it by 1e6" if may_be_kg_mm2(radius) else ""
+            remedy = ""
+            if _may_be_kg_mm2(radius):
+                remedy = "; if it is in kg·mm², divide it by 1e6"
+                data["inertia"] = [value * 1e-6 for value in six]
         elif radius < smallest and mass > heavy:
             remedy = "; are the units kg·m²?"
         else:
@@ -306,13 +333,26 @@ def radius_of_gyration(
             f"inertia is {high:.4g} kg·m² and its mass {mass:g} kg{remedy}",
             at=inertial.inertia,
             effects=_readers_of(six),
+            data=data,
         )
 
 
-def may_be_kg_mm2(radius: float) -> bool:
+def _may_be_kg_mm2(radius: float) -> bool:
     """Whether a radius of gyration [m] is that of a link if its inertia is in kg·mm²."""
     return _OF_A_LINK[0] < radius / 1000 <= _OF_A_LINK[1]
 
 
 _OF_A_LINK = (0.01, 1.0)
 """Radii of gyration [m] of links."""
+
+
+@radius_of_gyration.fix(UNSAFE)
+def write_inertia_in_kg_m2(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the inertia in kg·m², where it is in kg·mm²."""
+    link = context.link(problem)
+    if "inertia" not in problem.data:
+        return None
+    xx, xy, xz, yy, yz, zz = problem.data["inertia"]
+    if is_zero((xx, xy, xz, yy, yz, zz), link.mass):
+        return None
+    return write_tensor(link, (xx, xy, xz, yy, yz, zz), "divide it by 1e6")

@@ -6,13 +6,16 @@ from collections.abc import Iterator
 
 from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
-from ...model.inertia_slips import Proposal, is_possible, propose_moment
+from ...model.inertia_slips import Proposal as Slip
+from ...model.inertia_slips import is_possible, propose_moment
 from ...model.pose import pose_of
 from ...model.read import number
 from ...model.tensor3 import Six
 from ...source.document import Element
+from ..fix import FixContext, Proposal, attribute_at, remove_attribute, safe
 from ..mesh.outlines import reaches
-from ..rule import ERROR, WARNING, Problem, rule
+from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule
+from .corrections import write_proposed_inertia
 from .proposals import attributes_text, proposal_of
 from .solids import solid_tensor
 from .tensors import SIX, is_rejected_by_gazebo, is_zero, tensors
@@ -45,6 +48,7 @@ def inertia_component_slip(robot: Robot) -> Iterator[Problem]:
                 f"the numbers of the inertia of link '{link.name}' are in the wrong order; "
                 f"write {attributes_text(slip.tensor)}",
                 at=inertial.inertia,
+                data={"inertia": list(slip.tensor)},
                 effects=["mujoco", *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
             )
 
@@ -73,11 +77,19 @@ def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
                 f"{slip.name} of link '{link.name}' is off by a power of ten, so no rigid body has "
                 f"this inertia; write {value:.12g}",
                 at=inertial.inertia.element.attribute_place(slip.name),
+                data={"inertia": list(slip.tensor)},
                 effects=["mujoco", *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
             )
 
 
-def slip_of(link: Link, inertial: Inertial, six: Six, robot: Robot) -> Proposal | None:
+@inertia_component_slip.fix(UNSAFE)
+@inertia_off_by_power_of_ten.fix(UNSAFE)
+def write_without_slip(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write what was meant."""
+    return write_proposed_inertia(problem, context)
+
+
+def slip_of(link: Link, inertial: Inertial, six: Six, robot: Robot) -> Slip | None:
     """The slip that explains a tensor no body has, if it is one of these."""
     if is_zero(six, link.mass) or is_possible(six):
         return None
@@ -89,7 +101,7 @@ def slip_of(link: Link, inertial: Inertial, six: Six, robot: Robot) -> Proposal 
     return proposal
 
 
-def _moment_of_box(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> Proposal | None:
+def _moment_of_box(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> Slip | None:
     """The one moment that is off by a power of ten, by the other two and the bounding box.
 
     None for one solid shape, whose tensor is known, for numbers that xacro computes, where no
@@ -137,7 +149,8 @@ def redundant_inertia_attributes(robot: Robot) -> Iterator[Problem]:
         for name, twin in _TWINS.items():
             if name not in element.attributes:
                 continue
-            if repeats_twin(element, name):
+            repeats = _repeats_twin(element, name)
+            if repeats:
                 remedy = "take it out"
             elif twin in element.attributes:
                 remedy = f"it differs from {twin}, which is read; write one"
@@ -148,13 +161,23 @@ def redundant_inertia_attributes(robot: Robot) -> Iterator[Problem]:
                 f"{name} in the inertia of link '{link.name}' is not read; {remedy}",
                 at=element.attribute_place(name),
                 effects=None if twin in element.attributes else (),
+                data={"twin": twin, "repeats": repeats},
             )
 
 
 _TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
 
 
-def repeats_twin(element: Element, name: str) -> bool:
+def _repeats_twin(element: Element, name: str) -> bool:
     """Whether ``iyx``, ``izx`` or ``izy`` of an ``<inertia>`` is the number in the upper half."""
     mine, its = (number(element.attributes.get(one)) for one in (name, _TWINS[name]))
     return mine is not None and mine == its
+
+
+@redundant_inertia_attributes.fix(SAFE)
+def remove_repeated_product(problem: Problem, _context: FixContext) -> Proposal | None:
+    """Remove what is not read and repeats what is."""
+    found = attribute_at(problem)
+    if found is None or not problem.data["repeats"]:
+        return None
+    return safe(f"take {found[1]} out", remove_attribute(*found))

@@ -20,6 +20,9 @@ from ...model.elements import (
 from ...model.pose import matrix_product, pose_of, transpose
 from ...model.tensor3 import Six, turned
 
+DENSITY = 1000.0
+"""Density [kg/m³] of the shapes of a link whose mass is not written: that of water."""
+
 
 def box_of(link: Link) -> Bounds | None:
     """The box around a link's shapes in the link frame; None unless all are primitives."""
@@ -79,7 +82,7 @@ def solid_moments(link: Link) -> Vector | None:
     the ``<inertial>``.
     """
     inertial = link.inertial
-    shape = _only_shape(link)
+    shape = only_shape(link)
     if inertial is None or shape is None or not inertial.mass:
         return None
     if pose_of(inertial.origin).rotation != pose_of(shape.origin).rotation:
@@ -92,7 +95,7 @@ def solid_tensor(link: Link) -> Six | None:
 
     None where the link has several shapes, or none that is a primitive.
     """
-    inertial, shape = link.inertial, _only_shape(link)
+    inertial, shape = link.inertial, only_shape(link)
     if inertial is None or shape is None or not inertial.mass:
         return None
     moments = _moments(shape.geometry, inertial.mass)
@@ -105,7 +108,7 @@ def solid_tensor(link: Link) -> Six | None:
     return turned((x, 0.0, 0.0, y, 0.0, z), matrix_product(transpose(here), there))
 
 
-def _only_shape(link: Link) -> Visual | Collision | None:
+def only_shape(link: Link) -> Visual | Collision | None:
     """A link's collision if it has one, or its visual; None where there are several."""
     shapes: Sequence[Visual | Collision] = link.collisions or link.visuals
     return shapes[0] if len(shapes) == 1 else None
@@ -136,7 +139,7 @@ def is_dummy(link: Link, *, largest: float = 0.005) -> bool:
 
 def solid_text(link: Link) -> str:
     """What to write: ``; a solid box of that mass has ixx 1, iyy 2, izz 3``, or nothing."""
-    moments, shape = solid_moments(link), _only_shape(link)
+    moments, shape = solid_moments(link), only_shape(link)
     if moments is None or shape is None or shape.geometry is None:
         return ""
     x, y, z = moments

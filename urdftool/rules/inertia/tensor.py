@@ -11,8 +11,10 @@ from ...model.kinematics import MOVABLE, limits_of, link_poses
 from ...model.pose import Pose
 from ...model.tensor3 import Six
 from ...source.location import Place
-from ..rule import ERROR, INFO, WARNING, Problem, rule
+from ..fix import FixContext, Proposal, set_attribute, unsafe
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from .bodies import bodies, body_inertia, mass_of
+from .corrections import write_inertia_of_shapes, write_meant_inertia
 from .joint_inertia import joint_inertia
 from .proposals import remedy_text
 from .slips import slip_of
@@ -62,6 +64,7 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
             f"all three must be positive{remedy_text(link, inertial, six)}",
             at=_component(inertial, six, min(six[0], six[3], six[5])),
             effects=[*_NOT_GAZEBO, *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
+            data={"moments": list(moments)},
         )
 
 
@@ -106,7 +109,15 @@ def inertia_triangle_inequality(
             f"{remedy_text(link, inertial, six)}",
             at=_component(inertial, six, max(six[0], six[3], six[5])),
             effects=[*_NOT_GAZEBO, *[_GAZEBO] * is_rejected_by_gazebo(robot, link)],
+            data={"moments": list(moments)},
         )
+
+
+@inertia_not_positive_definite.fix(UNSAFE)
+@inertia_triangle_inequality.fix(UNSAFE)
+def write_possible_inertia(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write what was meant, or what the shapes have."""
+    return write_meant_inertia(problem, context)
 
 
 @rule(
@@ -132,7 +143,7 @@ def inertia_triangle_inequality_rounding(
     by the digits that are written; more is ``inertia-triangle-inequality``.
     """
     for link, inertial, six in tensors(robot):
-        low, middle, high = moments_of(six)
+        moments = low, middle, high = moments_of(six)
         excess = high - low - middle
         if inertial.inertia is None or low < 0 or excess <= tolerance * high:
             continue
@@ -143,7 +154,36 @@ def inertia_triangle_inequality_rounding(
                 f"others by {excess:.1g}; write the moments with more digits, or lower the largest",
                 at=inertial.inertia,
                 effects=[*_NOT_GAZEBO, _GAZEBO if is_rejected_by_gazebo(robot, link) else _PART],
+                data={"moments": list(moments), "excess": excess},
             )
+
+
+@inertia_triangle_inequality_rounding.fix(UNSAFE)
+def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
+    """Add the excess to each moment, which keeps the principal axes.
+
+    However small it is, PyBullet reads a tensor that breaks the inequality as zero.
+    """
+    inertial = context.link(problem).inertial
+    if inertial is None or inertial.inertia is None:
+        return None
+    xx, xy, xz, yy, yz, zz = six_of(inertial.inertia)
+    excess, high = problem.data["excess"], problem.data["moments"][2]
+    for factor in (1.0, 1.5, 2.0, 4.0):
+        more = factor * (excess + 1e-9 * high)
+        moments = [float(f"{value + more:.10g}") for value in (xx, yy, zz)]
+        shown = [float(f"{value:.10g}") for value in (xy, xz, yz)]
+        a, b, c = moments_of((moments[0], shown[0], shown[1], moments[1], shown[2], moments[2]))
+        if c <= a + b:
+            break
+    else:
+        return None
+    element = inertial.inertia.element
+    changes = [
+        set_attribute(element, name, f"{value + more:.10g}")
+        for name, value in (("ixx", xx), ("iyy", yy), ("izz", zz))
+    ]
+    return unsafe(f"make each moment {factor * excess:.1g} larger", *changes)
 
 
 @rule(
@@ -241,7 +281,15 @@ def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Proble
             f"inertia of link '{link.name}' is zero about one axis ({_shown(moments)})"
             f"{solid_text(link)}",
             at=inertial.inertia,
+            data={"moments": list(moments)},
         )
+
+
+@zero_inertia.fix(UNSAFE)
+@singular_inertia.fix(UNSAFE)
+def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write what the shapes have."""
+    return write_inertia_of_shapes(problem, context)
 
 
 @rule(
@@ -310,6 +358,7 @@ def tiny_moving_inertia(
             f"joint '{joint.name}' moves an inertia of only {inertia:.2g} {unit}, and {why}. "
             f"Raise the inertia of link '{link.name}' above {least:.2g} {unit}, or lower the other",
             at=(link.inertial.inertia or link.inertial) if link.inertial is not None else None,
+            data={"joint": joint.name, "inertia": inertia, "least": least},
         )
 
 

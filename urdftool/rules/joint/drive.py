@@ -12,11 +12,10 @@ from ...model.read import number
 from ..fix import (
     FixContext,
     Proposal,
-    attribute_at,
     remove_element,
+    remove_sign,
     replace_element,
     safe,
-    set_attribute,
     unsafe,
 )
 from ..gazebo.contact import is_wheel
@@ -251,14 +250,9 @@ def negative_dynamics(robot: Robot) -> Iterator[Problem]:
 
 @negative_limit.fix(UNSAFE)
 @negative_dynamics.fix(UNSAFE)
-def remove_sign(problem: Problem, _context: FixContext) -> Proposal | None:
+def write_magnitude(problem: Problem, _context: FixContext) -> Proposal | None:
     """Write the number without its sign."""
-    found = attribute_at(problem)
-    if found is None:
-        return None
-    element, name = found
-    text = (element.get(name) or "").strip().removeprefix("-")
-    return unsafe(f'write {name}="{text}"', set_attribute(element, name, text))
+    return remove_sign(problem)
 
 
 @rule(

@@ -1,0 +1,189 @@
+"""Changes that write an ``<inertial>``: what was meant, or what the shapes of the link have."""
+
+from __future__ import annotations
+
+import math
+
+from ...model.elements import Inertia, Inertial, Link, Vector
+from ...model.inertia_slips import NAMES, is_possible
+from ...model.pose import pose_of, transpose
+from ...model.tensor3 import Six, turned
+from ..fix import (
+    Change,
+    FixContext,
+    Lines,
+    Proposal,
+    depends_on_arguments,
+    format_numbers,
+    is_computed,
+    prepend_child,
+    set_attribute,
+    unsafe,
+)
+from ..rule import Problem
+from .proposals import attributes_text, proposal_of
+from .solids import DENSITY, box_of, only_shape, solid_tensor, solid_volume
+
+_SMALL = (0.01, 1e-6)
+"""Mass [kg] and moments [kg·m²] of a frame that a simulator wants to weigh something."""
+
+
+def inertial_of_shapes(link: Link, context: FixContext) -> tuple[float, Lines] | None:
+    """Compute the ``<inertial>`` of a link from its shapes, at the density of water.
+
+    Returns:
+        Its mass [kg] and its lines; None where the shapes do not tell.
+    """
+    if depends_on_arguments(link.element, "visual", "collision"):
+        return None
+    shape = only_shape(link)
+    volume = solid_volume(shape.geometry) if shape is not None else 0.0
+    if shape is not None and volume > 0:
+        mass, pose = DENSITY * volume, pose_of(shape.origin)
+        made = Link(link.element, link.name, visuals=link.visuals, collisions=link.collisions)
+        made.inertial = Inertial(link.element, shape.origin, mass)
+        six = solid_tensor(made)
+        if six is None:
+            return None
+        rpy = format_numbers(shape.origin.rpy) if shape.origin is not None else ""
+        is_turned = shape.origin is not None and any(shape.origin.rpy)
+        is_alike = max(six[0], six[3], six[5]) == min(six[0], six[3], six[5])
+        rpy = rpy if is_turned and not is_alike else ""
+        return mass, _inertial_lines(mass, format_numbers(pose.translation), six, rpy)
+    found = _weigh(link, context)
+    if found is None:
+        return None
+    mass, center, six = found
+    return mass, _inertial_lines(mass, format_numbers(center, 6), six)
+
+
+def give_small_inertial(link: Link) -> Proposal | None:
+    """Propose an ``<inertial>`` of a few grams for a frame without one."""
+    if link.inertial is not None or not link.is_frame:
+        return None
+    mass, moment = _SMALL
+    lines = _inertial_lines(mass, "0 0 0", (moment, 0.0, 0.0, moment, 0.0, moment))
+    return unsafe(f"give it {mass * 1000:g} g", prepend_child(link.element, *lines))
+
+
+def _inertial_lines(mass: float, center: str, six: Six, rpy: str = "") -> Lines:
+    turn = f' rpy="{rpy}"' if rpy else ""
+    return (
+        "<inertial>",
+        *([f'\t<origin xyz="{center}"{turn}/>'] if center != "0 0 0" or turn else []),
+        f'\t<mass value="{mass:.6g}"/>',
+        f"\t<inertia {attributes_text(six)}/>",
+        "</inertial>",
+    )
+
+
+def _weigh(link: Link, context: FixContext) -> tuple[float, Vector, Six] | None:
+    """Compute mass [kg], center of mass [m] and tensor [kg·m²] of a link from its meshes."""
+    if context.compute_inertia is None:
+        return None
+    return context.compute_inertia(context.robot, [link.name]).get(link.name)
+
+
+def write_meant_inertia(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write what was probably meant; else what the shapes of the link have at its mass."""
+    link = context.link(problem)
+    inertial = link.inertial
+    if inertial is None or inertial.inertia is None:
+        return None
+    return undo_slip(link, inertial, inertial.inertia) or write_inertia_of_shapes(problem, context)
+
+
+def undo_slip(link: Link, inertial: Inertial, inertia: Inertia) -> Proposal | None:
+    """Write the tensor that one slip explains."""
+    slip = proposal_of(link, inertial, inertia.six)
+    return None if slip is None else write_tensor(link, slip.tensor)
+
+
+def write_inertia_of_shapes(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the inertia of the link's shapes at its mass, and its center, if none is written."""
+    link = context.link(problem)
+    inertial = link.inertial
+    if inertial is None or not inertial.mass or inertial.mass <= 0 or inertial.inertia is None:
+        return None
+    if any(is_computed(inertial.inertia.element, name) for name in NAMES):
+        return None  # before meshes are read for nothing
+    if depends_on_arguments(link.element):
+        return None
+    shape = only_shape(link)
+    six = solid_tensor(link)
+    if six is not None and shape is not None and shape.geometry is not None:
+        what = f"of a solid {shape.geometry.element.tag}"
+        why = f"write the inertia {what} of {inertial.mass:g} kg"
+        return write_tensor(link, six, why, pose_of(shape.origin).translation)
+    found = _weigh(link, context)
+    if found is None:
+        return None
+    mass, center, tensor = found
+    scale = inertial.mass / mass
+    here = turned(
+        tuple(value * scale for value in tensor),  # type: ignore[arg-type]
+        transpose(pose_of(inertial.origin).rotation),
+    )
+    return write_tensor(
+        link, here, f"write the inertia of its shapes at {inertial.mass:g} kg", center
+    )
+
+
+def write_proposed_inertia(problem: Problem, context: FixContext) -> Proposal | None:
+    """Write the inertia that the rule proposes, ``data["inertia"]``."""
+    xx, xy, xz, yy, yz, zz = problem.data["inertia"]
+    return write_tensor(context.link(problem), (xx, xy, xz, yy, yz, zz))
+
+
+def write_tensor(
+    link: Link, six: Six, why: str = "", center: Vector | None = None
+) -> Proposal | None:
+    """Write six numbers, as far as they differ, and where the mass is.
+
+    Args:
+        link: The link.
+        six: The tensor about the center of mass, along the axes of the inertial [kg·m²].
+        why: Description of the change; the numbers if empty.
+        center: Where the center of mass belongs in the frame of the link [m]; None if it stays.
+    """
+    inertial = link.inertial
+    if inertial is None or inertial.inertia is None or not is_possible(six):
+        return None
+    why = why or f"write {attributes_text(six)}"
+    element = inertial.inertia.element
+    least = 1e-12 * max(map(abs, six))
+    changes = [
+        set_attribute(element, name, f"{new + 0.0 if abs(new) > least else 0:.9g}")
+        for name, old, new in zip(NAMES, inertial.inertia.six, six, strict=True)
+        if f"{new:.9g}" != f"{old:.9g}" and max(abs(new), abs(old)) > least
+    ]
+    if center is not None:
+        moved = _move_center(link, inertial, center)
+        if moved is None:
+            return None
+        if moved:
+            why += f", centred at {format_numbers(center, 6)}"
+        changes += moved
+    return unsafe(why, *changes) if changes else None
+
+
+def _move_center(link: Link, inertial: Inertial, center: Vector) -> list[Change] | None:
+    """Put a center of mass where it belongs that is not written, or is outside of the shapes.
+
+    Returns:
+        None where it comes from an expression.
+    """
+    now = pose_of(inertial.origin).translation
+    box = box_of(link)
+    inside = box is not None and all(
+        low <= value <= high for low, value, high in zip(box.low, now, box.high, strict=True)
+    )
+    written = inertial.origin is not None and any(inertial.origin.xyz)
+    if (written and (inside or box is None)) or math.dist(now, center) <= 1e-6:
+        return []
+    text = format_numbers((round(value, 9) for value in center), 6)
+    if inertial.origin is None:
+        return [prepend_child(inertial.element, f'<origin xyz="{text}"/>')]
+    if is_computed(inertial.origin.element, "xyz"):
+        return None
+    return [set_attribute(inertial.origin.element, "xyz", text)]
