@@ -1,6 +1,7 @@
 """What a finding advises fits its case, and so does its fix."""
 
 import shutil
+from pathlib import Path
 
 import pytest
 
@@ -342,3 +343,24 @@ def test_an_inertia_that_a_mesh_makes_doubtful_is_not_recomputed(
     (found,) = lint_file(path, options).findings
     assert found.severity.label == severity
     assert (found.fix is not None) is has_fix
+
+
+@pytest.mark.parametrize(
+    ("kind", "word"),
+    [
+        ("slide", "prismatic"),
+        ("weld", "fixed"),
+        ("revolut", "revolute"),
+        ("hinge", None),
+        ("ball", None),
+        ("crank", None),
+    ],
+)
+def test_a_joint_type_is_written_where_one_is_meant(write, urdftool, kind, word):
+    text = MOVING.format(root="base", inertial="", kind=kind)
+    path = write("r.urdf", text)
+    assert one(path, "unknown-joint-type").data.get("write") == word
+    only = ("--select", "unknown-joint-type", "--no-cache")
+    urdftool("lint", path, "--fix", "--unsafe-fixes", *only)
+    fixed = text.replace(f'"{kind}"', f'"{word or kind}"')
+    assert Path(path).read_text() == fixed

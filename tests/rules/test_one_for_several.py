@@ -1,0 +1,88 @@
+"""One problem that names several links or joints."""
+
+import pytest
+
+from urdftool import load
+from urdftool.finding import Severity
+from urdftool.rules import get_rule
+
+LINK = """<link name="{name}"><inertial><origin xyz="{com}"/><mass value="{mass}"/>
+  <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+  <visual><geometry>{shape}</geometry></visual>
+  <collision><geometry>{shape}</geometry></collision></link>
+"""
+JOINT = """<joint name="{child}_joint" type="revolute"><parent link="{parent}"/>
+  <child link="{child}"/><origin xyz="{at}"/><axis xyz="0 1 0"/>
+  <limit lower="{lower}" upper="1" effort="1" velocity="1"/></joint>
+"""
+BOX = '<box size="0.1 0.1 0.1"/>'
+TETRAHEDRON = "v 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+
+def problems(path, rule):
+    """Run one rule."""
+    return list(get_rule(rule).check(load(path)))
+
+
+def chain(count, com="0 0 0", mass=1, shape=BOX):
+    """Write links in a row."""
+    body = "".join(LINK.format(name=f"l{n}", com=com, mass=mass, shape=shape) for n in range(count))
+    body += "".join(
+        JOINT.format(parent=f"l{n}", child=f"l{n + 1}", at="0 0 0", lower=-1)
+        for n in range(count - 1)
+    )
+    return f'<robot name="r">\n{body}</robot>'
+
+
+def test_odd_densities(write):
+    path = write("few.urdf", chain(6, mass=15))
+    assert [one.name for one in problems(path, "implausible-density")] == [
+        f"l{n}" for n in range(6)
+    ]
+    (found,) = problems(write("many.urdf", chain(7, mass=15)), "implausible-density")
+    assert (found.name, found.severity) == ("l0", Severity.INFO)
+    assert found.data == {"mass": 15, "density": pytest.approx(15000)}
+    others = ", ".join(f"'l{n}' 1.5e+04" for n in range(1, 7))
+    assert found.message.endswith(f"; water has 1000; densities are as odd of {others}")
+
+
+def test_impossible_densities_are_named_one_by_one(write):
+    found = problems(write("r.urdf", chain(7, mass=30)), "implausible-density")
+    assert {one.severity for one in found} == {Severity.WARNING}
+    assert [one.name for one in found] == [f"l{n}" for n in range(7)]
+
+
+def test_centers_of_mass_outside_of_meshes(write):
+    write("part.obj", TETRAHEDRON)
+    mesh, com = '<mesh filename="part.obj"/>', "0.17 0.05 0.05"
+    path = write("few.urdf", chain(6, com=com, shape=mesh))
+    assert [one.name for one in problems(path, "com-outside-geometry")] == [
+        f"l{n}" for n in range(6)
+    ]
+    path = write("many.urdf", chain(7, com=com, shape=mesh))
+    (found,) = problems(path, "com-outside-geometry")
+    assert (found.name, found.severity) == ("l0", Severity.INFO)
+    assert found.data == {"distance": pytest.approx(0.07), "axis": "x"}
+    others = ", ".join(f"'l{n}' by 0.07 m along x" for n in range(1, 7))
+    assert found.message.endswith(f"; so are those of {others}")
+
+
+def limbs(count, lower):
+    """Write a body with limbs on both sides, of which the right ones have another lower limit."""
+    body = LINK.format(name="base", com="0 0 0", mass=1, shape=BOX)
+    for n in range(count):
+        for side, y, low in (("left", 0.2, -1), ("right", -0.2, lower)):
+            name, at = f"{side}_leg_{n}", f"{n} {y} 0"
+            body += LINK.format(name=name, com="0 0 0", mass=1, shape=BOX)
+            body += JOINT.format(parent="base", child=name, at=at, lower=low)
+    return f'<robot name="r">\n{body}</robot>'
+
+
+def test_limits_that_are_not_mirrored(write):
+    found = problems(write("few.urdf", limbs(3, -0.5)), "limits-not-mirrored")
+    assert [one.name for one in found] == [f"right_leg_{n}_joint" for n in range(3)]
+    (found,) = problems(write("many.urdf", limbs(4, -0.5)), "limits-not-mirrored")
+    assert found.data == {"twin": "left_leg_0_joint", "mirrored": [-1, 1]}
+    others = ", ".join(f"'right_leg_{n}_joint'" for n in range(1, 4))
+    assert found.message.endswith(f" goes from -1 to 1; the same is true of {others}")
+    assert found.place.line == found.subject.limit.place.line
