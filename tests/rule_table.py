@@ -9,8 +9,6 @@ from pathlib import Path
 from types import ModuleType
 
 import urdftool.rules
-from urdftool.rules.fix_table import FIX_FILE
-from urdftool.rules.fix_table import FIXES as OLD_FIXES
 from urdftool.rules.rule import FixTraits, Rule
 
 TABLE = Path(urdftool.rules.__file__).with_name("table.py")
@@ -40,14 +38,6 @@ def rules_in(module: ModuleType) -> list[Rule]:
     return [rule for rule in found if rule.check.__module__ == module.__name__]
 
 
-def _in_a_file_of_fixes(name: str) -> FixTraits | None:
-    file = FIX_FILE.get(name)
-    if file is None:
-        return None
-    how = OLD_FIXES[file][name]
-    return FixTraits(how, file == "failures", file == "mesh_files", file == "renames")
-
-
 def _traits(traits: FixTraits) -> str:
     named = {"safe": "SAFE", "unsafe": "UNSAFE", "safe or unsafe": "BOTH"}
     flags = [f"{name}=True" for name, value in traits._asdict().items() if value is True]
@@ -65,9 +55,8 @@ def text() -> str:
         if hasattr(module, "APPLIES_TO"):
             applies_to[f"{family}.{file}"] = module.APPLIES_TO
         for rule in found:
-            traits = rule.fix_traits or _in_a_file_of_fixes(rule.name)
-            if traits is not None:
-                fixes.append((rule.name, traits))
+            if rule.fix_traits is not None:
+                fixes.append((rule.name, rule.fix_traits))
     lines = ",\n".join(f"{name!r}: {_traits(traits)}" for name, traits in fixes)
     raw = (
         f"{_HEAD}RULES: dict[str, dict[str, tuple[str, ...]]] = {rules!r}\n"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from importlib import import_module
 from typing import Any, NamedTuple
 
 from ..extras import missing_library
@@ -12,7 +11,6 @@ from ..finding import Finding, Fix, Replacement
 from ..model.elements import Robot
 from ..rules import get_rule
 from ..rules.fix import FixContext, Proposal, RefusedError
-from ..rules.fix_table import FIX_FILE
 from ..rules.rule import Problem
 from ..rules.table import FIXES
 from ..source.description import Description
@@ -108,9 +106,7 @@ def _proposal(finding: Finding, origin: Origin | None, context: FixContext) -> P
     if (origin is None) != FIXES[finding.rule].of_file:
         return None
     make = get_rule(finding.rule).make_fix
-    if make is None:
-        module = import_module(f"..rules.fixes.{FIX_FILE[finding.rule]}", __package__)
-        make = getattr(module, finding.rule.replace("-", "_"))
+    assert make is not None, finding.rule
     if origin is None:
         return make(finding, context)
     context.document, context.severity = origin.document, finding.severity
