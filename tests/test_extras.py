@@ -185,7 +185,7 @@ def test_a_fix_without_its_library_is_reported(tmp_path):
 
 def test_the_report_of_an_engine_that_has_no_wheel_here(monkeypatch):
     from urdftool.errors import MissingDependency
-    from urdftool.simulation import engines
+    from urdftool.simulation.engines import registry as engines
 
     def here(system, machine, python, installed=()):
         monkeypatch.setattr(engines.sys, "platform", system)
@@ -201,11 +201,13 @@ def test_the_report_of_an_engine_that_has_no_wheel_here(monkeypatch):
     here("linux", "x86_64", (3, 11))
     assert message(engines.default_engine).endswith("pip install 'urdftool[simulate]'")
     here("linux", "x86_64", (3, 13))
-    said = message(lambda: engines.check_engines(("bullet",)))
+    said = message(lambda: engines.check_engines(("pybullet",)))
     assert "not for Python 3.13" in said
     assert said.endswith("use --engine mujoco, after pip install 'urdftool[simulate]'")
     here("darwin", "arm64", (3, 11), installed=("mujoco",))
     assert engines.default_engine() == "mujoco"
-    assert message(lambda: engines.check_engines(("bullet", "mj"))).endswith("use --engine mujoco")
+    assert message(lambda: engines.check_engines(("pybullet", "mujoco"))).endswith(
+        "use --engine mujoco"
+    )
     here("linux", "armv7l", (3, 12))
     assert "neither PyBullet nor MuJoCo has a wheel for" in message(engines.default_engine)

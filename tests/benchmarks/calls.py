@@ -9,10 +9,11 @@ from typing import Any
 from unittest import mock
 
 from urdftool.model.load import load
-from urdftool.simulation import bullet
+from urdftool.simulation.engines import driver
+from urdftool.simulation.engines.pybullet import world
+from urdftool.simulation.engines.pybullet.urdf import write_folder
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
-from urdftool.simulation.urdf import write_folder
 
 LOOKING = ("get", "calculate", "invert", "multiply")
 """How the names of functions begin that change nothing."""
@@ -53,10 +54,10 @@ def write_calls(path: Path, settings: Settings, folder: Path) -> Path:
     """Simulate a robot in this process; the file of its calls, beside the URDF that they load."""
     bodies = prepare(load(path), settings)
     write_folder(bodies, folder)
-    module = bullet.bullet_module()
+    module = world.import_pybullet()
     recorder = Recorder(module)
-    with mock.patch.object(bullet, "bullet_module", return_value=recorder):
-        bullet.run(bodies, settings, folder)
+    with mock.patch.object(world, "import_pybullet", return_value=recorder):
+        driver.run("pybullet", bodies, settings, folder)
     module.disconnect()
     target = folder / "calls"
     target.write_bytes(pickle.dumps(recorder.calls))

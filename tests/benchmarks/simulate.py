@@ -11,9 +11,9 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from urdftool.model.load import load
+from urdftool.simulation.engines.pybullet.urdf import NAME
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
-from urdftool.simulation.urdf import NAME
 
 from .calls import REPLAY, write_calls
 from .robots import FIXTURES, bullet_robots, example

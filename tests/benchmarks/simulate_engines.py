@@ -18,7 +18,7 @@ FILES = {str(path): name for name, path in robots()}
 def work(path: str) -> Row:
     """One robot in both engines."""
     robot = load(path)
-    verdicts, differ = judged(robot, Settings(), ("bullet", "mj"))
+    verdicts, differ = judged(robot, Settings(), ("pybullet", "mujoco"))
     row = row_of(path, robot.name, [verdict for some in verdicts for verdict in some], differ)
     ends = []
     for (verdict,) in verdicts:

@@ -24,8 +24,10 @@ from urdftool.model.elements import Origin, Robot
 from urdftool.model.kinematics import link_poses
 from urdftool.model.load import load
 from urdftool.model.pose import Pose
-from urdftool.simulation import bullet
 from urdftool.simulation.bodies import Body
+from urdftool.simulation.engines import driver
+from urdftool.simulation.engines.pybullet.urdf import write_folder
+from urdftool.simulation.engines.pybullet.world import import_pybullet
 from urdftool.simulation.judge_contact import judge_contacts
 from urdftool.simulation.judge_inside import INTO
 from urdftool.simulation.judge_rest import rest_of
@@ -33,7 +35,6 @@ from urdftool.simulation.prepare import prepare
 from urdftool.simulation.recording import GROUND, Array
 from urdftool.simulation.run import Run
 from urdftool.simulation.settings import Settings
-from urdftool.simulation.urdf import write_folder
 
 SETTINGS = Settings(duration=0.002)
 MOVED = 0.1
@@ -53,8 +54,8 @@ def started(robot: Robot) -> Run:
     bodies = prepare(robot, SETTINGS)
     with tempfile.TemporaryDirectory() as folder:
         write_folder(bodies, Path(folder))
-        recording = bullet.run(bodies, SETTINGS, Path(folder))
-    bullet.bullet_module().disconnect()
+        recording = driver.run("pybullet", bodies, SETTINGS, Path(folder))
+    import_pybullet().disconnect()
     return Run(SETTINGS, bodies, recording)
 
 

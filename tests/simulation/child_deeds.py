@@ -17,14 +17,14 @@ def talk():
     return "said"
 
 
-def report(number, tell):
-    tell(number)
-    tell(number + 1)
+def report(number, emit):
+    emit(number)
+    emit(number + 1)
     return number + 2
 
 
-def die_telling(tell):
-    tell("on my way")
+def die_telling(emit):
+    emit("on my way")
     crash()
 
 

@@ -25,7 +25,7 @@ pytestmark = pytest.mark.skipif(
 
 def _both(robot, **settings):
     chosen = Settings(**settings)
-    runs = [simulate(robot, chosen, engine=engine) for engine in ("bullet", "mj")]
+    runs = [simulate(robot, chosen, engine=engine) for engine in ("pybullet", "mujoco")]
     return chosen, *([judge(robot, run) for run in some] for some in runs)
 
 

@@ -13,7 +13,7 @@ from urdftool.simulation.verdict import judge
 
 ENGINES = [
     pytest.param(*pair, marks=pytest.mark.skipif(not find_spec(pair[1]), reason=pair[1]))
-    for pair in (("bullet", "pybullet", "PyBullet"), ("mj", "mujoco", "MuJoCo"))
+    for pair in (("pybullet", "pybullet", "PyBullet"), ("mujoco", "mujoco", "MuJoCo"))
 ]
 BOX = '<collision><geometry><box size="0.3 0.3 0.1"/></geometry></collision>'
 # nothing balances the arm but the mass that its root does not have
@@ -52,12 +52,12 @@ def test_a_massless_root_comes_before_what_follows_from_it(write, engine, librar
     assert name in first.cause
     for fault in others:
         assert "the root, link 'base', has no mass" in fault.cause
-    if engine == "mj":
+    if engine == "mujoco":
         assert "sank-in" in kinds(verdict)
 
 
 def test_one_mass_several_times_too_large_is_seen():
-    verdict = _judged(FIXTURES / "rules" / "mass-out-of-line" / "bad.urdf", "bullet")
+    verdict = _judged(FIXTURES / "rules" / "mass-out-of-line" / "bad.urdf", "pybullet")
     (fault,) = [fault for fault in verdict.faults if fault.kind == "mass-out-of-line"]
     assert fault.fails
     assert fault.rule == "mass-out-of-line"

@@ -8,7 +8,7 @@ import pytest
 
 from tests.conftest import FIXTURES, ROOT
 from tests.simulation.robots import body, inertial
-from urdftool.simulation import engines
+from urdftool.simulation.engines import registry
 
 BOX = body('<box size="0.4 0.3 0.2"/>', 2, (0.0216667, 0.0333333, 0.0416667))
 MIRA = FIXTURES / "robots" / "mira_description" / "urdf" / "mira.urdf"
@@ -44,8 +44,8 @@ def test_words(urdftool):
     ],
 )
 def test_the_engine_that_is_there_simulates(monkeypatch, there, engine):
-    monkeypatch.setattr(engines, "is_installed", lambda name: name in there)
-    assert engines.default_engine() == engine
+    monkeypatch.setattr(registry, "is_installed", lambda name: name in there)
+    assert registry.default_engine() == engine
 
 
 def test_json_is_as_its_schema_says(urdftool, write):

@@ -21,7 +21,7 @@ from urdftool.simulation.verdict import judge
 ROBOTS = FIXTURES / "robots"
 ENGINES = [
     pytest.param(engine, marks=pytest.mark.skipif(not find_spec(library), reason=library))
-    for engine, library in (("bullet", "pybullet"), ("mj", "mujoco"))
+    for engine, library in (("pybullet", "pybullet"), ("mujoco", "mujoco"))
 ]
 ARM = """<robot name="arm"><link name="world"/>
  <joint name="swing" type="revolute"><parent link="world"/><child link="rod"/>

@@ -5,11 +5,11 @@ import pytest
 
 from tests.simulation.robots import inertial
 from urdftool.model.load import load
-from urdftool.simulation.bullet import World, bullet_module
+from urdftool.simulation.engines.pybullet.urdf import write_folder
+from urdftool.simulation.engines.pybullet.world import PyBulletWorld, import_pybullet
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
-from urdftool.simulation.urdf import write_folder
 
 pytest.importorskip("pybullet")
 
@@ -42,8 +42,8 @@ def test_what_a_joint_moves_is_what_the_engine_says(chain, tmp_path):
     settings = Settings(pose={"a": 0.4, "b": 0.2, "c": -0.7})
     bodies = prepare(chain(5), settings)
     write_folder(bodies, tmp_path)
-    p = bullet_module()
-    motors = World(p, bodies, settings, tmp_path).motors
+    p = import_pybullet()
+    motors = PyBulletWorld(p, bodies, settings, tmp_path).motors
     try:
         assert motors._added_inertias() == pytest.approx(motors._inertias(), rel=1e-6)
     finally:

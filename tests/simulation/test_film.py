@@ -25,7 +25,7 @@ MIRA = ROBOTS / "mira_description" / "urdf" / "mira.urdf"
 @pytest.fixture(scope="module")
 def collapse():
     robot = load(ROBOTS / "ros2_arm" / "urdf" / "robot2_sound.urdf.xacro")
-    (run,) = simulate(robot, Settings(hold="none", duration=1.6), engine="mj")
+    (run,) = simulate(robot, Settings(hold="none", duration=1.6), engine="mujoco")
     return robot, run, robot_shapes(robot)
 
 
@@ -69,7 +69,7 @@ def test_a_film_moves_and_ends_where_the_run_does(collapse):
 
 def test_what_stands_still_is_drawn_once():
     robot = load(MIRA)
-    (run,) = simulate(robot, Settings(duration=1.0), engine="mj")
+    (run,) = simulate(robot, Settings(duration=1.0), engine="mujoco")
     data = film(run, robot_shapes(robot), size=(96, 72))
     with Image.open(io.BytesIO(data)) as seen:
         assert seen.n_frames < 8

@@ -14,7 +14,7 @@ from urdftool.simulation.verdict import judge
 G = 9.81
 ENGINES = [
     pytest.param(engine, marks=pytest.mark.skipif(not find_spec(library), reason=library))
-    for engine, library in (("bullet", "pybullet"), ("mj", "mujoco"))
+    for engine, library in (("pybullet", "pybullet"), ("mujoco", "mujoco"))
 ]
 
 

@@ -38,7 +38,7 @@ def robot(write):
     return load(write("r.urdf", f'<robot name="r">{text}\n</robot>\n'))
 
 
-@pytest.mark.parametrize(("engine", "library"), [("bullet", "pybullet"), ("mj", "mujoco")])
+@pytest.mark.parametrize(("engine", "library"), [("pybullet", "pybullet"), ("mujoco", "mujoco")])
 def test_followers_are_where_their_leader_sends_them(robot, engine, library):
     if find_spec(library) is None:
         pytest.skip(f"{library} is not installed")
@@ -47,6 +47,6 @@ def test_followers_are_where_their_leader_sends_them(robot, engine, library):
     ends = dict(zip(run.recording.joints, run.recording.positions[-1], strict=True))
     assert ends["leader"] == pytest.approx(0.4, abs=5e-3)
     for name, (_, _, _, expected) in FOLLOWERS.items():
-        if name == "stopped" and engine == "mj":
+        if name == "stopped" and engine == "mujoco":
             continue  # its equality constraint pushes through the limit
         assert ends[f"{name}_joint"] == pytest.approx(expected, abs=0.02), name

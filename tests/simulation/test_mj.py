@@ -29,7 +29,7 @@ PENDULUM = """<robot name="pendulum"><link name="world"/>
 
 def _run(write, text, **settings):
     robot = load(write("robot.urdf", text))
-    (run,) = simulate(robot, Settings(**{"nudge": 0.0, **settings}), engine="mj")
+    (run,) = simulate(robot, Settings(**{"nudge": 0.0, **settings}), engine="mujoco")
     return robot, run
 
 
@@ -109,7 +109,7 @@ def test_what_was_read_is_what_was_written(write):
         ROBOTS / "mira_description" / "urdf" / "mira.urdf",
         ROBOTS / "my_robot" / "urdf" / "mobile_manipulator.urdf.xacro",
     ):
-        (run,) = simulate(load(path), Settings(duration=0.1), engine="mj")
+        (run,) = simulate(load(path), Settings(duration=0.1), engine="mujoco")
         assert run.recording.read_back == []
 
 
@@ -134,7 +134,7 @@ def test_a_payload_weighs(write):
 )  # fmt: skip
 def test_fixture_robots_stand(path):
     robot = load(ROBOTS / path)
-    (run,) = simulate(robot, Settings(), engine="mj")
+    (run,) = simulate(robot, Settings(), engine="mujoco")
     verdict = judge(robot, run)
     assert verdict.stands, verdict.faults
 
@@ -142,7 +142,7 @@ def test_fixture_robots_stand(path):
 def test_the_same_run_gives_the_same_numbers():
     robot = load(ROBOTS / "my_robot" / "urdf" / "robot_base.urdf.xacro")
     settings = Settings(duration=0.5, trials=2, seed=3)
-    first, second = (simulate(robot, settings, engine="mj") for _ in range(2))
+    first, second = (simulate(robot, settings, engine="mujoco") for _ in range(2))
     for one, two in zip(first, second, strict=True):
         for name in ("poses", "velocities", "positions", "efforts", "kinetic", "depths"):
             assert getattr(one.recording, name).tobytes() == getattr(two.recording, name).tobytes()
@@ -150,7 +150,7 @@ def test_the_same_run_gives_the_same_numbers():
 
 def test_a_fixed_base_hangs_where_it_is_put():
     robot = load(ROBOTS / "my_robot" / "urdf" / "robot_base.urdf.xacro")
-    (run,) = simulate(robot, Settings(fixed_base=True, height=1.0), engine="mj")
+    (run,) = simulate(robot, Settings(fixed_base=True, height=1.0), engine="mujoco")
     assert run.recording.poses[-1, 0, :3] == pytest.approx([0, 0, 1.0])
     assert not run.recording.contacts
 
@@ -170,7 +170,7 @@ def test_a_joint_is_swept_until_links_overlap(write):
   </geometry></collision></link></robot>""",
         )
     )
-    (run,) = simulate(robot, Settings(sweep=True, duration=0.1), engine="mj")
+    (run,) = simulate(robot, Settings(sweep=True, duration=0.1), engine="mujoco")
     turn = next(joint for joint in run.swept if joint.joint == "turn")
     assert turn.free_lower == -1.5
     corner = math.atan2(0.25, 0.05) - 0.01 / 0.25  # where the bar's upper edge meets the corner

@@ -22,7 +22,7 @@ CLOSED = (
 )
 
 
-@pytest.mark.parametrize(("engine", "said"), [("bullet", ["closing"]), ("mj", [])])
+@pytest.mark.parametrize(("engine", "said"), [("pybullet", ["closing"]), ("mujoco", [])])
 def test_what_engine_leaves_a_loop_open(tmp_path, engine, said):
     path = tmp_path / "robot.urdf"
     links = "".join(BAR.format(name) for name in ("base", "left_bar", "right_bar"))

@@ -71,7 +71,7 @@ def test_curves_without_extent_are_drawn_all_the_same(values):
 
 def test_a_run_is_plotted_the_same_each_time():
     robot = load(FIXTURES / "robots" / "mira_description" / "urdf" / "mira.urdf")
-    (run,) = simulate(robot, Settings(duration=0.3), engine="mj")
+    (run,) = simulate(robot, Settings(duration=0.3), engine="mujoco")
     image = plot("mira", [run])
     assert image.shape == (120 + 190 * 5, 1200, 3)
     assert (image == plot("mira", [run])).all()

@@ -118,7 +118,7 @@ def test_without_gravity_nothing_need_carry(write):
     assert np.isfinite(verdict.run.recording.poses).all()
 
 
-@pytest.mark.parametrize("engine", ["bullet", "mj"])
+@pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
 def test_a_collision_without_extent_is_left_out_as_in_an_export(write, engine):
     flat = '<collision><geometry><box size="0.4 0 0.4"/></geometry></collision></link>'
     robot = load(write("robot.urdf", BOX.replace("</link>", flat)))

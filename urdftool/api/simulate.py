@@ -31,17 +31,16 @@ def simulate(
     """
     from ..errors import ConfigError
     from ..extras import require
-    from ..simulation.engines import ENGINES, check_engines, default_engine
+    from ..simulation.engines.registry import REGISTRY, check_engines, default_engine
     from ..simulation.judge_inside import look_inside
     from ..simulation.run import simulate as run
     from ..simulation.settings import Settings
     from ..simulation.verdict import judge
 
     engine = engine or default_engine()
-    if engine not in ("pybullet", "mujoco"):
-        raise ConfigError(f"there is no engine '{engine}'; there are pybullet and mujoco")
-    check_engines(ENGINES[engine])
+    if engine not in REGISTRY:
+        raise ConfigError(f"there is no engine '{engine}'; there are {' and '.join(REGISTRY)}")
+    check_engines((engine,))
     require("simulate", "scipy", "manifold3d")
-    (module,) = ENGINES[engine]
-    runs = run(robot, settings or Settings(), engine=module, look=look_inside)
+    runs = run(robot, settings or Settings(), engine=engine, look=look_inside)
     return [judge(robot, one) for one in runs]

@@ -53,7 +53,12 @@ def command(
     from ..extras import require
     from ..parallel import terminate_gracefully
     from ..simulation.child import Child
-    from ..simulation.engines import ENGINES, LIBRARIES, check_engines, default_engine
+    from ..simulation.engines.registry import (
+        check_engines,
+        default_engine,
+        engine_names,
+        library_of,
+    )
     from ..simulation.kept import keeping_in
     from .cache_options import cache_place
     from .read_lax import read_lax
@@ -63,7 +68,7 @@ def command(
     from .simulate_options import settings_of
     from .simulate_outputs import Outputs, check_output
 
-    engines = ENGINES[values["engine"] or default_engine()]
+    engines = engine_names(values["engine"] or default_engine())
     controllers, strict, junit = values["controllers"], values["strict"], values["junit"]
     outputs = Outputs(values["plot"], values["picture"], values["video"])
     outputs.check()
@@ -86,7 +91,7 @@ def command(
     with (
         terminate_gracefully(),
         keeping_in(cache),
-        Child(LIBRARIES[engines[0]]) as child,  # which starts meanwhile
+        Child(library_of(engines[0])) as child,  # which starts meanwhile
     ):
         model = read_lax(console, paths[0], arguments, package, package_path)
         settings = controlled(console, settings, model, controllers, strict=strict)

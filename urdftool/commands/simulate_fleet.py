@@ -27,7 +27,7 @@ class Fleet:
         packages: Folders by package name.
         package_paths: Folders with packages below.
         settings: How each is spawned.
-        engines: Modules of ``simulation``.
+        engines: Names of engines.
         controllers: A file of controllers.
         strict: Whether controllers of an unknown type are refused.
         named: Descriptions that were named, and not found in a folder.

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 import click
 
+from ..simulation.engines.registry import BOTH, REGISTRY
 from .cache_options import CACHE_OPTIONS
 from .options import one_robot, split_arguments
 
@@ -15,7 +16,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 _OPTIONS = (
     click.option(
         "--engine",
-        type=click.Choice(["pybullet", "mujoco", "both"]),
+        type=click.Choice([*REGISTRY, BOTH]),
         help="What simulates; mujoco runs our own MJCF export, both compares the two.  [default: "
         "pybullet; mujoco where PyBullet has no wheels: from Python 3.12 on, and on ARM]",
     ),

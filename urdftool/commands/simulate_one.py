@@ -66,7 +66,7 @@ def simulate_one(
         console: Where it is said.
         robot: The robot.
         settings: How it is spawned.
-        engines: Modules of ``simulation``; two are compared.
+        engines: Names of engines; two are compared.
         child: A process of the first engine that waits for work.
         style: ``text``, ``json`` or ``junit``.
         outputs: What is drawn of the first trial.

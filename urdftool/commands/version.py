@@ -24,7 +24,7 @@ def environment() -> list[str]:
     import sys
 
     from ..extras import DISTRIBUTION_OF, EXTRA_OF, install_command
-    from ..simulation.engines import has_pybullet_wheel
+    from ..simulation.engines.registry import extra_library
 
     lines = [
         f"Python {platform.python_version()} on {platform.platform()}: {sys.executable}",
@@ -32,8 +32,8 @@ def environment() -> list[str]:
     ]
     for extra in dict.fromkeys(EXTRA_OF.values()):
         libraries = [library for library, of in EXTRA_OF.items() if of == extra]
-        if extra == "simulate" and not has_pybullet_wheel():
-            libraries = ["mujoco"]
+        if extra == "simulate":
+            libraries = [extra_library()]
         names = [DISTRIBUTION_OF.get(library, library) for library in libraries]
         versions = {name: _version(name) for name in names}
         said = ", ".join(f"{name} {version or 'missing'}" for name, version in versions.items())

@@ -16,6 +16,7 @@ import numpy as np
 from ..errors import UrdftoolError
 from ..model.elements import Inertia, Inertial, Joint, Limit, Link, Robot
 from .bodies import Bodies, Body
+from .engines.registry import REGISTRY
 from .fault import Fault
 from .judge_rest import Rest
 from .run import Run, simulate
@@ -192,7 +193,7 @@ def _again(robot: Robot, settings: Settings, attempt: _Try) -> list[float]:
     changed = attempt.robot(robot)
     chosen = attempt.settings(replace(settings, trials=1, sweep=False))
     verdicts = []
-    for engine in ("bullet", "mj"):
+    for engine in REGISTRY:
         (run,) = simulate(changed, chosen, engine=engine, alter=attempt.bodies)
         verdicts.append(judge(changed, run))
     return sorted((part.excess for part in compare(*verdicts)), reverse=True)

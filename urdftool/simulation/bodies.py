@@ -23,6 +23,9 @@ from .shapes import Shape, shapes_of
 from .spawn import spawn_pose
 from .surface import Surface, surface_of
 
+TENSOR_ROUNDING = 0.01
+"""How far a tensor may exceed the triangle inequality by rounding [1]; engines get its edge."""
+
 ROOTED = "world"
 """The name of a root link that Gazebo nails to the world."""
 

@@ -36,11 +36,11 @@ class Child(IsolatedProcess):
         """Call a function of this package in the process.
 
         Args:
-            module: Of this package, such as ``bullet``.
+            module: Of this package, such as ``engines.driver``.
             function: In it.
             arguments: Anything that pickles.
             time_limit: The longest it may take [s].
-            hear: Is given what the function tells before it returns; if so, it is given ``tell``.
+            hear: Is given what the function emits before it returns; it is then given ``emit``.
 
         Raises:
             EngineDied: It took longer, or the process ended.

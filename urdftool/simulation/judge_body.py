@@ -9,7 +9,7 @@ import numpy as np
 from ..model.elements import Geometry, Link, Mesh, Robot
 from ..rules.inertia.density import mass_out_of_line
 from ..source.location import Place
-from .bodies import Bodies, Body, mass_of
+from .bodies import TENSOR_ROUNDING, Bodies, Body, mass_of
 from .extent import extent_of
 from .fault import Fault
 from .judge_size import has_shapes, judge_size
@@ -17,7 +17,6 @@ from .recording import Array
 from .remembered import mesh_points
 from .run import Run
 from .shapes import is_without_extent
-from .urdf import ROUNDED
 
 LARGEST = 30.0
 """A part larger than this, on a robot of smaller parts, is in millimetres [m]."""
@@ -193,7 +192,7 @@ def _is_hollow(robot: Robot, name: str) -> bool:
 def is_impossible(tensor: Array) -> bool:
     """Whether no body has a tensor: it is not positive, or breaks the triangle inequality."""
     low, middle, high = np.linalg.eigvalsh(tensor).tolist()
-    possible: bool = low >= -1e-9 * abs(high) and 0 < high <= (low + middle) * (1 + ROUNDED)
+    possible: bool = low >= -1e-9 * abs(high) and 0 < high <= (low + middle) * (1 + TENSOR_ROUNDING)
     return not possible
 
 
@@ -235,22 +234,22 @@ def _tensor(robot: Robot, run: Run, body: Body) -> Iterator[Fault]:
 
 def _mass_taken(run: Run, body: Body) -> str:
     """What the engine that ran did with a body without mass."""
-    library = run.recording.library
+    engine = run.recording.capabilities
     for part in run.recording.read_back:
         if part.name == body.name and part.what == "mass":
-            return f"{library} simulated a mass of {part.got}"
-    if body.parent < 0 and library == "PyBullet":
-        return "PyBullet holds such a root where it starts"
-    return f"{library} simulated it with none, or next to none"
+            return f"{engine.title} simulated a mass of {part.got}"
+    if body.parent < 0 and engine.holds_massless_root:
+        return f"{engine.title} holds such a root where it starts"
+    return f"{engine.title} simulated it with none, or next to none"
 
 
 def _tensor_taken(run: Run, body: Body) -> str:
     """What the engine that ran took instead of an impossible tensor."""
-    library = run.recording.library
+    engine = run.recording.capabilities.title
     for part in run.recording.read_back:
         if part.name == body.name and part.what == "principal moments":
-            return f"{library} simulated principal moments of {part.got}"
-    return f"{library} simulated it as written"
+            return f"{engine} simulated principal moments of {part.got}"
+    return f"{engine} simulated it as written"
 
 
 def _giants(robot: Robot, bodies: Bodies) -> Iterator[Fault]:

@@ -57,7 +57,7 @@ def judge_joints(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
             rule="zero-outside-limits",
             fails=False,
         )
-    if recording.library != "MuJoCo":  # which closes them
+    if not recording.capabilities.closes_loops:
         yield from _open(robot)
 
 

@@ -11,13 +11,13 @@ import numpy as np
 from ..model.elements import Robot
 from ..model.pose import IDENTITY, matrix_product, rotation_of_quaternion, transpose
 from .centre import centre_of
+from .engines.driver import CREEP, TURN, WINDOW
 from .fault import Fault, listed
 from .footprint import footprint
 from .judge_slide import judge_slide
 from .recording import GROUND, Array, Recording
 from .run import Run
 from .shapes import lowest
-from .stillness import CREEP, TURN, WINDOW
 from .why_moving import why_moving
 
 TIPPED = math.radians(30)

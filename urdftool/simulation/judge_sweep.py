@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator
 from ..model.elements import Robot
 from .fault import Fault
 from .judge_inside import INTO, deep
+from .recording import Swept
 from .run import Run
-from .sweep import Swept
 
 
 def judge_sweep(robot: Robot, run: Run, swept: Iterable[Swept]) -> Iterator[Fault]:

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from .engines.base import Capabilities
 
 Array = npt.NDArray[np.float64]
 
@@ -51,7 +55,8 @@ class Recording:
     """One run: n samples of b bodies and j joints; the first sample is the start.
 
     Attributes:
-        engine: Its name and version.
+        engine: Its title and version.
+        capabilities: What it does differently from other engines.
         bodies: The topmost link of each rigid body, the root first.
         joints: Those that ``bodies[1:]`` hang on, in that order.
         times: Shape (n,) [s].
@@ -80,6 +85,7 @@ class Recording:
     """
 
     engine: str
+    capabilities: Capabilities
     bodies: tuple[str, ...]
     joints: tuple[str, ...]
     times: Array
@@ -104,7 +110,42 @@ class Recording:
     seconds: float = 0.0
     steps: int = 0
 
-    @property
-    def library(self) -> str:
-        """The name of the engine without its version: ``PyBullet`` or ``MuJoCo``."""
-        return self.engine.partition(" ")[0]
+
+@dataclass(frozen=True)
+class Hit:
+    """Two links that run into each other while a joint moves.
+
+    Attributes:
+        one: A link.
+        other: Another.
+        first: The lowest position at which they overlap [rad, m].
+        last: The highest.
+        depth: How deep at most [m], by the hulls that the engine collides.
+    """
+
+    one: str
+    other: str
+    first: float
+    last: float
+    depth: float
+
+
+@dataclass(frozen=True)
+class Swept:
+    """A joint.
+
+    Attributes:
+        joint: Its name.
+        lower: Its lower limit, or half a turn where it has none [rad, m].
+        upper: Its upper limit.
+        free_lower: How far down it comes from the start before links overlap.
+        free_upper: How far up.
+        hits: What runs into what.
+    """
+
+    joint: str
+    lower: float
+    upper: float
+    free_lower: float
+    free_upper: float
+    hits: list[Hit] = field(default_factory=list)

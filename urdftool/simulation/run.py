@@ -16,14 +16,14 @@ from ..errors import ModelError
 from ..model.elements import Robot
 from .bodies import Bodies
 from .child import Child
-from .engines import LIBRARIES
+from .engines.registry import REGISTRY, library_of, load_engine
 from .meanwhile import meanwhile
 from .moment import Moment
 from .prepare import prepare
-from .recording import Array, Contact, Recording
+from .recording import Array, Contact, Recording, Swept
 from .settings import Settings
-from .sweep import Swept
-from .urdf import write_folder
+
+_DRIVER = "engines.driver"
 
 Progress = Callable[[int, int], None]
 
@@ -69,7 +69,7 @@ def simulate(
     robot: Robot,
     settings: Settings,
     *,
-    engine: str = "bullet",
+    engine: str | None = None,
     progress: Progress = lambda *_: None,
     alter: Callable[[Bodies], Bodies] | None = None,
     child: Child | None = None,
@@ -80,7 +80,7 @@ def simulate(
     Args:
         robot: Any robot, read from a description, which finds its meshes.
         settings: How it is spawned.
-        engine: A key of ``LIBRARIES``.
+        engine: The name of an engine; None is the first of the registry.
         progress: Told before each trial: its number, how many.
         alter: Changes the bodies before an engine has them.
         child: A process of this engine that waits for the first trial.
@@ -92,18 +92,19 @@ def simulate(
         EngineDied: The engine crashed or took too long.
         MissingDependency: It is not installed.
     """
+    engine = engine or next(iter(REGISTRY))
     runs = []
     ends = perf_counter() + settings.time_limit
     for number, trial in enumerate(trials(settings), 1):
         progress(number, settings.trials)
         with (
-            (number == 1 and child) or Child(LIBRARIES[engine]) as process,
+            (number == 1 and child) or Child(library_of(engine)) as process,
             tempfile.TemporaryDirectory(prefix="urdftool-") as folder,
         ):
             bodies = prepare(robot, trial)
             if alter is not None:
                 bodies = alter(bodies)
-            _write(robot, bodies, trial, engine, Path(folder))
+            load_engine(engine).write_model(robot, bodies, trial, Path(folder))
             left = max(0.1, ends - perf_counter()) if number > 1 else settings.time_limit
             known: Known = {}
 
@@ -112,7 +113,9 @@ def simulate(
 
             with _placed(robot), meanwhile(robot, see) as hear:
                 recording = process.call(
-                    engine, "run", bodies, trial, Path(folder), time_limit=left, hear=hear
+                    *(_DRIVER, "run", engine, bodies, trial, Path(folder)),
+                    time_limit=left,
+                    hear=hear,
                 )
             swept = []
             if settings.sweep and number == 1:
@@ -132,21 +135,12 @@ def _placed(robot: Robot) -> Iterator[None]:
         raise ModelError(error.message, at=robot.place, notes=error.notes) from None
 
 
-def _write(robot: Robot, bodies: Bodies, settings: Settings, engine: str, folder: Path) -> None:
-    """Write what an engine reads."""
-    if engine == "mj":
-        from .mj_file import write_model
-
-        write_model(robot, bodies, settings, folder)
-    else:
-        write_folder(bodies, folder)
-
-
 def _sweep(bodies: Bodies, settings: Settings, engine: str, folder: Path) -> list[Swept]:
     """Joints moved through their limits, in a process of its own."""
-    with Child(LIBRARIES[engine]) as child:
+    with Child(library_of(engine)) as child:
         found: list[Swept] = child.call(
-            f"{engine}_sweep", "sweep", bodies, settings, folder, time_limit=settings.time_limit
+            *(_DRIVER, "sweep", engine, bodies, settings, folder),
+            time_limit=settings.time_limit,
         )
     return found
 

@@ -1,4 +1,4 @@
-"""What a file says of its links' surfaces: Gazebo's tags, and PyBullet's ``<contact>``."""
+"""What a file says of its links' surfaces: Gazebo's tags, and ``<contact>`` of Bullet."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Surface:
     where: tuple[str, ...] = ()
 
 
-# what a Surface holds -> Gazebo's tags, tags of PyBullet's <contact>
+# what a Surface holds -> Gazebo's tags, tags of Bullet's <contact>
 _WORDS = {
     "friction": (("mu1", "mu", "mu2"), "lateral_friction"),
     "stiffness": (("kp",), "stiffness"),

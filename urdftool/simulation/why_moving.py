@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .engines.registry import alternatives
 from .fault import listed
 from .run import Run
 
@@ -46,8 +47,11 @@ def why_moving(run: Run, drift: float) -> str:
         return "it rolls or slides along the floor"
     velocities = np.abs(np.nan_to_num(recording.velocities[-1]))
     slow = velocities[:, :3].max() < CREEPS * run.bodies.size and velocities[:, 3:].max() < TURNS
-    if slow and recording.library == "PyBullet":
-        return "it creeps, which may be the engine's contacts: --engine mujoco has others"
+    engine = recording.capabilities
+    if slow and engine.creeps:
+        other = alternatives(engine.name, lambda known: not known.creeps)
+        advice = f": {other} has others" if other else ""
+        return f"it creeps, which may be the engine's contacts{advice}"
     return "parts push against each other, or it rolls"
 
 

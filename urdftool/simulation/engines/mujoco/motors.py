@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from .bodies import Bodies
-from .bullet_motors import UNBOUND
-from .control import Pids, driven
-from .recording import Array
-from .settings import Settings
+from ...bodies import Bodies
+from ...control import Pids, driven
+from ...recording import Array
+from ...settings import Settings
+from ..base import UNLIMITED_EFFORT
 
 _RIGID = (2.5, 1.0)  # of a brake: time constant in timesteps, damping over critical
 _IMPEDANCE = (0.9999, 0.9999, 0.001, 0.5, 2.0)
@@ -59,7 +59,7 @@ class Motors:
         model.actuator_gainprm[self._driven, 0] = 1.0
         self._held, self._at, self._dofs = self._found(names, motors)
         self._target = np.array([bodies.positions[name] for name in names])
-        self._bound = np.array([joints[name].effort or UNBOUND for name in names])
+        self._bound = np.array([joints[name].effort or UNLIMITED_EFFORT for name in names])
         self._friction = np.array(model.dof_frictionloss[self._dofs])
         self._make_servos(settings.timestep)
         self._braked = np.ones(len(names), dtype=bool)

@@ -1,10 +1,4 @@
-"""PyBullet, without its silent habits: the one file that knows this engine.
-
-Undone are: tensors computed from shapes instead of read, a motor that holds every joint, damping of
-bodies and joints that nobody wrote, cylinders made of flat sides, a base without mass that is
-nailed down unasked (``Bodies.nailed`` says it), joints without limits taken for locked, limits that
-give way to what is heavy.
-"""
+"""The robot above a plane in PyBullet: loading, stepping and sampling."""
 
 from __future__ import annotations
 
@@ -14,29 +8,25 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import ModelError
-from ..extras import missing
-from .bodies import Bodies
-from .bullet_contacts import Touches
-from .bullet_forces import Forces
-from .bullet_motors import Motors
-from .bullet_read import read_back
-from .bullet_rolling import NEARING, forget_contacts, is_lying, round_part
-from .driver import Sample, Tell, settle
-from .recording import Array, Contact, ReadBack, Recording
-from .settings import Settings
+from ....errors import ModelError
+from ....extras import missing
+from ...bodies import Bodies
+from ...recording import Array, Contact, ReadBack
+from ...settings import Settings
+from ..base import Sample
+from .contacts import NEARING, Touches, forget_contacts, is_lying, round_part
+from .forces import Forces
+from .motors import Motors
+from .readback import read_back
 from .urdf import NAME, principal_frame
-
-MOST_JOINTS = 120
-"""Its messages have room for 128 degrees of freedom, of which the root takes seven."""
 
 _ITERATIONS = 100
 _STOP = 1e9  # N·m, N; its own is an impulse of 100 a step, which a load of 5 t breaks through
 _BREAKING = 0.005  # m; contacts kept longer lag behind what rolls, and push it on
 
 
-def bullet_module() -> Any:
-    """PyBullet.
+def import_pybullet() -> Any:
+    """Import PyBullet.
 
     Raises:
         MissingDependency: It is not installed.
@@ -48,28 +38,7 @@ def bullet_module() -> Any:
     return pybullet
 
 
-def run(bodies: Bodies, settings: Settings, folder: Path, tell: Tell = lambda _: None) -> Recording:
-    """Spawn a robot and let it settle.
-
-    Args:
-        bodies: The robot; ``folder`` holds it as ``urdf.write_folder`` wrote it.
-        settings: How, and for how long.
-        folder: Where the URDF is.
-        tell: Is given the poses and the contacts of the start.
-
-    Raises:
-        MissingDependency: PyBullet is not installed.
-        ModelError: It does not read the robot.
-    """
-    if len(bodies.joints) > MOST_JOINTS:
-        raise ModelError(
-            f"the robot has {len(bodies.joints)} moving joints; PyBullet takes at most "
-            f"{MOST_JOINTS}; --engine mujoco takes more"
-        )
-    return settle(World(bullet_module(), bodies, settings, folder), tell)
-
-
-class World:
+class PyBulletWorld:
     """A robot above a plane, in PyBullet.
 
     Attributes:
@@ -105,7 +74,7 @@ class World:
         self.forces = Forces(p, self.robot, bodies, self.indices, self.touches.frame)
         self.gravity = settings.gravity_at(0.0)
         self.capped = self.motors.capped
-        self.name = f"PyBullet {p.getAPIVersion()}"
+        self.version = str(p.getAPIVersion())
         self._rolling: list[int] = []
 
     def _load(self, folder: Path) -> int:
@@ -167,13 +136,13 @@ class World:
                 p.changeDynamics(self.robot, self.link_of[number], jointLimitForce=_STOP)
             self._check_friction(number, options["lateralFriction"])
 
-    def lift(self) -> None:
+    def clear_ground(self) -> None:
         """Take the robot off the plane, which is not to matter."""
         at, turn = self.p.getBasePositionAndOrientation(self.robot)
         up = (at[0], at[1], at[2] + 10 * max(1.0, self.bodies.size))
         self.p.resetBasePositionAndOrientation(self.robot, up, turn)
 
-    def put(self, joint: int, value: float) -> None:
+    def set_joint_position(self, joint: int, value: float) -> None:
         """Put a joint somewhere, with those that mimic it, without a step."""
         self.p.resetJointState(self.robot, self.indices[joint], value, 0.0)
         for link, leader, follower in self.motors.followers:
@@ -194,7 +163,7 @@ class World:
         """Never said by this engine: its numbers are looked at."""
         return False
 
-    def lean(self, gravity: tuple[float, float, float], poses: Array) -> None:
+    def set_gravity(self, gravity: tuple[float, float, float], poses: Array) -> None:
         """Set gravity, and see which links may roll."""
         self._rolling = self._round_links(poses)
         self.p.setGravity(*gravity)
@@ -291,7 +260,7 @@ class World:
 
 def quaternion(rotation: Any) -> tuple[float, float, float, float]:
     """The quaternion x, y, z, w of a rotation matrix."""
-    from ..model.pose import quaternion_of_rpy, rpy_of_rotation
+    from ....model.pose import quaternion_of_rpy, rpy_of_rotation
 
     w, x, y, z = quaternion_of_rpy(rpy_of_rotation(rotation))
     return x, y, z, w

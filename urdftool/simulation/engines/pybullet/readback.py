@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from .bodies import Bodies, Body
-from .recording import ReadBack
+from ...bodies import Bodies, Body
+from ...recording import ReadBack
 from .urdf import principal_frame
 
 _CLOSE = 1e-5

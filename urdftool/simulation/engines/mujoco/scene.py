@@ -7,11 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from xml.etree.ElementTree import Element, ElementTree, SubElement
 
-from ..formats.mjcf.options import Options
-from ..formats.mjcf.write import write
-from ..model.elements import Inertial, Joint, Link, Robot
-from .bodies import ROOTED, Bodies
-from .settings import Settings
+from ....formats.mjcf.options import Options
+from ....formats.mjcf.write import write
+from ....model.elements import Inertial, Joint, Link, Robot
+from ...bodies import ROOTED, Bodies
+from ...settings import Settings
 
 SCENE = "scene.xml"
 PLANE = "plane of the simulation"

@@ -1,8 +1,4 @@
-"""MuJoCo, on our own MJCF export: the one file that steps this engine.
-
-Contacts are as stiff as the timestep allows, friction does not creep, nothing is set back to the
-start when numbers run away, and no log is written to the current folder.
-"""
+"""The robot above a plane in MuJoCo: compiling, stepping and sampling."""
 
 from __future__ import annotations
 
@@ -12,23 +8,24 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import ModelError
-from ..extras import missing
-from .bodies import Bodies
-from .driver import Sample, Tell, settle
-from .mj_contacts import Touches
-from .mj_file import MOTOR, PLANE, SCENE, moving_name
-from .mj_motors import Motors
-from .mj_read import read_back
-from .recording import Array, Contact, Recording
-from .settings import Settings
+from ....errors import ModelError
+from ....extras import missing
+from ...bodies import Bodies
+from ...recording import Array, Contact
+from ...settings import Settings
+from ..base import Sample
+from ..registry import alternatives
+from .contacts import Touches
+from .motors import Motors
+from .readback import read_back
+from .scene import MOTOR, PLANE, SCENE, moving_name
 
 _SOFT = 5.0  # timesteps: the time constant of a contact; below two it is unstable, near it jumps
 _IMPEDANCE = (0.95, 0.99, 0.001, 0.5, 2.0)
 
 
-def mujoco_module() -> Any:
-    """MuJoCo.
+def import_mujoco() -> Any:
+    """Import MuJoCo.
 
     Raises:
         MissingDependency: It is not installed.
@@ -43,22 +40,7 @@ def mujoco_module() -> Any:
 _TOO_DEEP = "XML_ELEMENT_DEPTH_EXCEEDED"
 
 
-def run(bodies: Bodies, settings: Settings, folder: Path, tell: Tell = lambda _: None) -> Recording:
-    """Spawn a robot and let it settle.
-
-    Args:
-        bodies: The robot; ``folder`` holds it as ``mj_file.write_model`` wrote it.
-        settings: How, and for how long.
-        folder: Where the scene is.
-        tell: Is given the poses and the contacts of the start.
-
-    Raises:
-        ModelError: MuJoCo does not compile it.
-    """
-    return settle(World(mujoco_module(), bodies, settings, folder), tell)
-
-
-class World:
+class MuJoCoWorld:
     """A robot above a plane, in MuJoCo.
 
     Attributes:
@@ -71,7 +53,7 @@ class World:
     def __init__(self, mj: Any, bodies: Bodies, settings: Settings, folder: Path) -> None:
         """Set the scene; nothing moves yet."""
         self.mj, self.bodies, self.settings = mj, bodies, settings
-        self.name = f"MuJoCo {mj.__version__}"
+        self.version = str(mj.__version__)
         self.capped: dict[str, float] = {}  # its own integration bears any damping
         mj.set_mju_user_warning(lambda _: None)  # without it a log is written to the folder
         try:
@@ -79,10 +61,7 @@ class World:
         except ValueError as error:
             reason = " ".join(str(error).split())
             if _TOO_DEEP in reason:
-                raise ModelError(
-                    "the robot has more links in a row than MuJoCo's reader of XML bears, which is "
-                    "about 500; --engine pybullet takes more where they are fixed"
-                ) from None
+                raise ModelError(_too_deep()) from None
             raise ModelError(f"MuJoCo does not compile the robot's MJCF: {reason}") from None
         self.data = mj.MjData(self.model)
         self.number_of = {link: self._body(link) for body in bodies.bodies for link in body.links}
@@ -194,7 +173,7 @@ class World:
                 mj.mju_mulQuat(whole, turn, turns[row])
                 places[row], turns[row] = place + at, whole
 
-    def put(self, joint: int, value: float) -> None:
+    def set_joint_position(self, joint: int, value: float) -> None:
         """Put a joint somewhere, with those that mimic it, without a step."""
         name = self.bodies.joints[joint].name
         for number, one in zip(self.joints, self.bodies.joints, strict=True):
@@ -202,6 +181,9 @@ class World:
                 to = value if one.name == name else one.multiplier * value + one.offset
                 self.data.qpos[self.model.jnt_qposadr[number]] = to
         self.mj.mj_kinematics(self.model, self.data)
+
+    def clear_ground(self) -> None:
+        """Do nothing: overlaps are measured with the bodies that are asked for."""
 
     def overlaps(self, *, ground: bool = True) -> list[Contact]:
         """The deepest place of each two bodies that are in each other, whether they push or not."""
@@ -217,7 +199,7 @@ class World:
         numbers = (bad.mjWARN_BADQPOS, bad.mjWARN_BADQVEL, bad.mjWARN_BADQACC)
         return any(self.data.warning[int(number)].number for number in numbers)
 
-    def lean(self, gravity: tuple[float, float, float], poses: Array) -> None:
+    def set_gravity(self, gravity: tuple[float, float, float], poses: Array) -> None:
         """Set gravity."""
         self.model.opt.gravity = gravity
 
@@ -267,8 +249,16 @@ class World:
         }
 
 
+def _too_deep() -> str:
+    other = alternatives("mujoco", lambda known: known.lumps_fixed_joints)
+    return (
+        "the robot has more links in a row than MuJoCo's reader of XML bears, which is about 500"
+        + (f"; {other} takes more where they are fixed" if other else "")
+    )
+
+
 def _quaternion(rotation: Any) -> Array:
     """The quaternion w, x, y, z of a rotation matrix."""
-    from ..model.pose import quaternion_of_rotation
+    from ....model.pose import quaternion_of_rotation
 
     return np.array(quaternion_of_rotation(rotation))

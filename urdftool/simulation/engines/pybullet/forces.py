@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .bodies import Bodies
+from ...bodies import Bodies
 
 Frame = Callable[[int], tuple[Any, Any]]
 """The position [m] and quaternion x, y, z, w of a body's link frame in the world, by its number."""

@@ -6,12 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from .bodies import Bodies, JointOf
-from .control import Pids, driven
-from .settings import Settings
-
-UNBOUND = 1e6
-"""The effort of a motor for whose joint the file says none [N·m, N]."""
+from ...bodies import Bodies, JointOf
+from ...control import Pids, driven
+from ...settings import Settings
+from ..base import UNLIMITED_EFFORT
 
 
 class Motors:
@@ -51,7 +49,7 @@ class Motors:
                     link,
                     p.POSITION_CONTROL,
                     targetPosition=self.bodies.positions[joint.name],
-                    force=joint.effort if joint.effort is not None else UNBOUND,
+                    force=joint.effort if joint.effort is not None else UNLIMITED_EFFORT,
                 )
             else:
                 p.setJointMotorControl2(
@@ -162,7 +160,7 @@ class Motors:
                 for state, (_, _, joint) in zip(leaders, self.followers, strict=True)
             ],
             forces=[
-                joint.effort if joint.effort is not None else UNBOUND
+                joint.effort if joint.effort is not None else UNLIMITED_EFFORT
                 for _, _, joint in self.followers
             ],
         )

@@ -8,14 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from ..inertia.lump import placed
-from ..inertia.tensor import MassProperties, combine
-from ..model.pose import rotation_of_quaternion
-from .bodies import Bodies, Body
-from .recording import ReadBack
+from ....inertia.lump import placed
+from ....inertia.tensor import MassProperties, combine
+from ....model.pose import rotation_of_quaternion
+from ...bodies import TENSOR_ROUNDING, Bodies, Body
+from ...recording import ReadBack
 
 _CLOSE = 1e-5
-_ROUNDED = 0.01  # of the largest moment: what a tensor that was rounded is mended by
 
 
 def read_back(
@@ -65,7 +64,7 @@ def _mass(model: Any, body: Body, number_of: Mapping[str, int]) -> Iterator[Read
         return
     scale = float(np.abs(said.inertia).max())
     least, middle, most = np.linalg.eigvalsh(said.inertia)
-    close = 1e-4 if most <= least + middle else _ROUNDED
+    close = 1e-4 if most <= least + middle else TENSOR_ROUNDING
     if not np.allclose(got.inertia, said.inertia, rtol=1e-4, atol=close * scale + 1e-12):
         one, two = (
             " ".join(f"{value:.4g}" for value in np.linalg.eigvalsh(part.inertia))

@@ -8,15 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ..inertia.tensor import principal
-from ..model.pose import Pose, rpy_of_rotation
-from .bodies import Bodies, Body, JointOf
-from .shapes import Shape
+from ....inertia.tensor import principal
+from ....model.pose import Pose, rpy_of_rotation
+from ...bodies import TENSOR_ROUNDING, Bodies, Body, JointOf
+from ...shapes import Shape
 
 NAME = "robot.urdf"
-
-ROUNDED = 0.01
-"""How far a tensor may be beyond the triangle inequality by rounding; it is moved to its edge."""
 
 
 def write_folder(robot: Bodies, folder: Path) -> Path:
@@ -50,7 +47,7 @@ def principal_frame(body: Body) -> tuple[Pose, tuple[float, float, float]]:
         return Pose(), (0.0, 0.0, 0.0)
     moments, axes = principal(body.properties.inertia)
     most = float(moments[0] + moments[1])
-    if most < moments[2] <= most * (1 + ROUNDED):
+    if most < moments[2] <= most * (1 + TENSOR_ROUNDING):
         moments = np.array([moments[0], moments[1], most * (1 - 1e-6)])
     x, y, z = (float(part) for part in body.properties.com)
     rows = tuple(tuple(float(value) for value in row) for row in axes)
@@ -73,7 +70,7 @@ def _joint(number: int, body: Body, joint: JointOf) -> Iterator[str]:
     yield f'<joint name="j{number}" type="{kind}">{_origin(body.origin)}'
     yield f'<parent link="b{body.parent}"/><child link="b{number}"/>'
     yield f'<axis xyz="{" ".join(f"{part:.17g}" for part in joint.axis)}"/>'
-    lower, upper = (joint.lower, joint.upper) if limited else (0.0, -1.0)  # PyBullet: no limit
+    lower, upper = (joint.lower, joint.upper) if limited else (0.0, -1.0)  # read as no limit
     if limited or joint.kind == "prismatic":
         yield f'<limit lower="{lower:.17g}" upper="{upper:.17g}" effort="0" velocity="0"/>'
     yield "</joint>"

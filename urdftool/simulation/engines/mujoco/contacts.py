@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .bodies import Bodies
-from .recording import GROUND, Contact
+from ...bodies import Bodies
+from ...recording import GROUND, Contact
 
 _TOUCH = 1e-6  # m: bodies that touch are not in each other
 

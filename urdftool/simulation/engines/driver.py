@@ -1,0 +1,237 @@
+"""What runs in an engine's process: stepping until the robot rests, and sweeping its joints."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+from ...errors import ModelError
+from ..bodies import Bodies
+from ..recording import Array, Contact, Hit, Recording, Swept
+from ..settings import Settings
+from .base import Capabilities, Sample, World
+from .registry import alternatives, load_engine
+
+SAMPLE = 1 / 30
+"""Time between samples, as near as the timestep allows [s]."""
+
+RUNAWAY = 1e3
+"""How far a robot may get before it is lost, in its sizes or meters."""
+
+SWEEP_STEPS = 36
+"""Intervals between the limits of a swept joint."""
+
+WINDOW = 0.5
+"""How long nothing may move for a robot to be at rest [s]."""
+
+PATIENCE = 1.5
+"""How long a robot is watched at least: what balances falls slowly at first [s]."""
+
+CREEP = 0.002
+"""How far a body may creep in that time, as a part of the robot's size."""
+
+TURN = 0.01
+"""How far a body may turn, or a joint, in that time [rad]."""
+
+Emit = Callable[[tuple[Array, list[Contact]]], None]
+
+
+def run(
+    engine: str, bodies: Bodies, settings: Settings, folder: Path, emit: Emit = lambda _: None
+) -> Recording:
+    """Spawn a robot in an engine, and let it settle.
+
+    Args:
+        engine: The engine's name.
+        bodies: The robot.
+        settings: How it is spawned, and for how long.
+        folder: Where ``Engine.write_model`` wrote it.
+        emit: Receives the poses and the contacts of the start before the first step.
+
+    Raises:
+        MissingDependency: The engine is not installed.
+        ModelError: The engine does not load the robot.
+    """
+    loaded = load_engine(engine)
+    _check_joints(loaded.capabilities, len(bodies.joints))
+    return settle(loaded.open_world(bodies, settings, folder), loaded.capabilities, emit)
+
+
+def _check_joints(known: Capabilities, count: int) -> None:
+    most = known.max_joints
+    if most is None or count <= most:
+        return
+    other = alternatives(known.name, lambda c: c.max_joints is None or c.max_joints >= count)
+    raise ModelError(
+        f"the robot has {count} moving joints; {known.title} takes at most {most}"
+        + (f"; {other} takes more" if other else "")
+    )
+
+
+def settle(world: World, capabilities: Capabilities, emit: Emit = lambda _: None) -> Recording:
+    """Step until nothing moves, the time is over, or the robot is lost."""
+    bodies, settings = world.bodies, world.settings
+    every = max(1, round(SAMPLE / settings.timestep))
+    steps = max(1, round(settings.duration / settings.timestep))
+    watch = Stillness(bodies.size, every * settings.timestep)
+    late: deque[list[Contact]] = deque(maxlen=max(1, round(WINDOW / (every * settings.timestep))))
+    start_contacts = world.overlaps()
+    samples = [world.sample(0.0)]
+    emit((samples[0]["poses"], start_contacts))
+    began = perf_counter()
+    still: float | None = None
+    ended, done = "time", 0
+    while done < steps and ended == "time":
+        world.set_gravity(settings.gravity_at(done * settings.timestep), samples[-1]["poses"])
+        for _ in range(min(every, steps - done)):
+            world.step()
+            done += 1
+        sample = world.sample(done * settings.timestep)
+        samples.append(sample)
+        if world.is_broken() or not _is_sane(sample, bodies):
+            ended = "lost"
+            break
+        late.append([touch for touch in world.contacts() if touch.force > 0])
+        still = watch.add(sample["times"], sample["poses"], sample["positions"])
+        if still is not None and sample["times"] > PATIENCE:
+            ended = "still"
+    seconds = perf_counter() - began
+    columns = {name: np.array([sample[name] for sample in samples]) for name in samples[0]}
+    columns["potential"] = columns["potential"] - columns["potential"][0]
+    return Recording(
+        engine=f"{capabilities.title} {world.version}",
+        capabilities=capabilities,
+        bodies=tuple(body.name for body in bodies.bodies),
+        joints=tuple(joint.name for joint in bodies.joints),
+        **columns,
+        held=bodies.held,
+        targets={name: bodies.positions[name] for name in bodies.held},
+        start_contacts=start_contacts,
+        contacts=world.contacts() + world.overlaps(ground=False),
+        carrying=[touch for some in late for touch in some],
+        carried=sum(touch.force for some in late for touch in some) / len(late)
+        if late
+        else math.nan,
+        read_back=world.read_back,
+        capped=world.capped,
+        still_since=still,
+        ended=ended,
+        seconds=seconds,
+        steps=done,
+    )
+
+
+def _is_sane(sample: Sample, bodies: Bodies) -> bool:
+    poses = sample["poses"]
+    far = RUNAWAY * max(1.0, bodies.size)
+    return bool(
+        np.isfinite(poses).all()
+        and math.isfinite(sample["kinetic"])
+        and np.abs(poses[:, :2]).max() < far
+    )
+
+
+class Stillness:
+    """Tells from samples since when a robot is at rest: by where it is, not by its velocities."""
+
+    def __init__(self, size: float, sample: float) -> None:
+        """Begin.
+
+        Args:
+            size: The largest extent of the robot [m].
+            sample: Time between samples [s].
+        """
+        self.creep = max(CREEP * size, 1e-5)
+        self.window = max(2, round(WINDOW / sample))
+        self.seen: deque[tuple[float, Array, Array]] = deque(maxlen=self.window + 1)
+
+    def add(self, time: float, poses: Array, positions: Array) -> float | None:
+        """Take a sample; return since when nothing moved, or None while something does.
+
+        Args:
+            time: Of the sample [s].
+            poses: Shape (b, 7), as in ``Recording``.
+            positions: Shape (j,).
+        """
+        self.seen.append((time, poses, positions))
+        if len(self.seen) <= self.window:
+            return None
+        quiet = all(self._is_near(poses, positions, *old[1:]) for old in self.seen)
+        return self.seen[0][0] if quiet else None
+
+    def _is_near(self, poses: Array, positions: Array, before: Array, joints: Array) -> bool:
+        moved = np.abs(poses[:, :3] - before[:, :3]).max(initial=0.0)
+        dots = np.abs(np.einsum("ij,ij->i", poses[:, 3:], before[:, 3:]))
+        turned = 2 * np.arccos(np.clip(dots, 0.0, 1.0)).max(initial=0.0)
+        bent = np.abs(positions - joints).max(initial=0.0)
+        return bool(moved < self.creep and turned < TURN and bent < TURN)
+
+
+def sweep(engine: str, bodies: Bodies, settings: Settings, folder: Path) -> list[Swept]:
+    """Move each joint of a robot through its limits in an engine.
+
+    Args:
+        engine: The engine's name.
+        bodies: The robot.
+        settings: Where the other joints are.
+        folder: Where ``Engine.write_model`` wrote it.
+    """
+    world = load_engine(engine).open_world(bodies, settings, folder)
+    world.clear_ground()
+    return sweep_world(world, bodies)
+
+
+def sweep_world(world: World, bodies: Bodies) -> list[Swept]:
+    """Put each joint that follows none to positions between its limits, and look for overlaps.
+
+    Overlaps of the start are left out. A continuous joint, and one without limits, goes through
+    half a turn, or a meter, to each side.
+    """
+    at_start = {_pair(contact) for contact in world.overlaps(ground=False)}
+    found = []
+    for number, joint in enumerate(bodies.joints):
+        if joint.leader is not None:
+            continue
+        low, high = joint.lower, joint.upper
+        if not (math.isfinite(low) and math.isfinite(high)):
+            low, high = (-math.pi, math.pi) if joint.kind != "prismatic" else (-1.0, 1.0)
+        hits: dict[frozenset[str], list[tuple[float, float, tuple[str, str]]]] = {}
+        start = bodies.positions[joint.name]
+        for value in _values(low, high, start):
+            world.set_joint_position(number, value)
+            for contact in world.overlaps(ground=False):
+                if _pair(contact) not in at_start:
+                    where = (value, contact.depth, (contact.one, contact.other))
+                    hits.setdefault(_pair(contact), []).append(where)
+        world.set_joint_position(number, start)
+        free_low, free_high = _free(low, high, start, [v for h in hits.values() for v, _, _ in h])
+        found.append(
+            Swept(joint.name, low, high, free_low, free_high, [_hit(h) for h in hits.values()])
+        )
+    return found
+
+
+def _hit(found: list[tuple[float, float, tuple[str, str]]]) -> Hit:
+    values = [value for value, _, _ in found]
+    return Hit(*found[0][2], min(values), max(values), max(depth for _, depth, _ in found))
+
+
+def _values(low: float, high: float, start: float) -> list[float]:
+    inner = np.linspace(low, high, SWEEP_STEPS + 1)
+    return sorted({*inner.tolist(), min(max(start, low), high)})
+
+
+def _free(low: float, high: float, start: float, hit: list[float]) -> tuple[float, float]:
+    """Return the range around the start in which nothing is hit."""
+    below = [value for value in hit if value < start]
+    above = [value for value in hit if value > start]
+    return max(below, default=low), min(above, default=high)
+
+
+def _pair(contact: Contact) -> frozenset[str]:
+    return frozenset((contact.one, contact.other))

@@ -1,0 +1,64 @@
+"""MuJoCo, on our own MJCF export.
+
+``world`` steps it, on the model that ``scene`` writes. Contacts are as stiff as the timestep
+allows, friction does not creep, nothing is reset to the start when numbers diverge, and no log is
+written to the current folder.
+"""
+
+from __future__ import annotations
+
+import platform
+import sys
+from typing import TYPE_CHECKING, ClassVar
+
+from ..base import Capabilities, Engine, World
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from ....model.elements import Robot
+    from ...bodies import Bodies
+    from ...settings import Settings
+
+_MACHINES = {
+    "linux": ("x86_64", "aarch64"),
+    "darwin": ("x86_64", "arm64"),
+    "win32": ("AMD64",),
+}
+
+
+class MuJoCo(Engine):
+    """MuJoCo 3 and 4."""
+
+    capabilities: ClassVar[Capabilities] = Capabilities(
+        name="mujoco",
+        title="MuJoCo",
+        library="mujoco",
+        wheels="Linux and macOS on x86-64 and ARM, and Windows on x86-64",
+        closes_loops=True,
+        max_joints=None,
+        lumps_fixed_joints=False,
+        hull_per_object=False,
+        uses_contact_stiffness=False,
+        creeps=False,
+        holds_massless_root=False,
+    )
+
+    def has_wheel(self) -> bool:
+        """Tell whether MuJoCo has a wheel for this machine, which it has for every Python."""
+        return platform.machine() in _MACHINES.get(sys.platform, ())
+
+    def write_model(self, robot: Robot, bodies: Bodies, settings: Settings, folder: Path) -> None:
+        """Write the MJCF export of the robot, in a scene with a plane."""
+        from .scene import write_model
+
+        write_model(robot, bodies, settings, folder)
+
+    def open_world(self, bodies: Bodies, settings: Settings, folder: Path) -> World:
+        """Compile the scene."""
+        from .world import MuJoCoWorld, import_mujoco
+
+        return MuJoCoWorld(import_mujoco(), bodies, settings, folder)
+
+
+ENGINE = MuJoCo()

@@ -1,0 +1,60 @@
+"""PyBullet, without its silent defaults.
+
+``world`` steps it, on the URDF that ``urdf`` writes. Switched off are: tensors computed from shapes
+instead of read, a motor on every joint, damping that the file does not have, cylinders of flat
+sides, a base without mass that is fixed silently (``Bodies.nailed`` decides), joints without limits
+that are locked, and limits that yield to a heavy load.
+"""
+
+from __future__ import annotations
+
+import platform
+import sys
+from typing import TYPE_CHECKING, ClassVar
+
+from ..base import Capabilities, Engine, World
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from ....model.elements import Robot
+    from ...bodies import Bodies
+    from ...settings import Settings
+
+
+class PyBullet(Engine):
+    """PyBullet 3."""
+
+    capabilities: ClassVar[Capabilities] = Capabilities(
+        name="pybullet",
+        title="PyBullet",
+        library="pybullet",
+        wheels="Linux on x86-64 with Python 3.10 and 3.11",
+        closes_loops=False,
+        max_joints=120,  # its messages have room for 128 degrees of freedom; the root takes seven
+        lumps_fixed_joints=True,
+        hull_per_object=True,
+        uses_contact_stiffness=True,
+        creeps=True,
+        holds_massless_root=True,
+    )
+
+    def has_wheel(self) -> bool:
+        """Tell whether PyBullet has a wheel for this Python and machine."""
+        is_linux = sys.platform == "linux" and platform.machine() == "x86_64"
+        return is_linux and sys.version_info[:2] < (3, 12)
+
+    def write_model(self, robot: Robot, bodies: Bodies, settings: Settings, folder: Path) -> None:
+        """Write the rigid bodies as URDF, and their hulls as OBJ."""
+        from .urdf import write_folder
+
+        write_folder(bodies, folder)
+
+    def open_world(self, bodies: Bodies, settings: Settings, folder: Path) -> World:
+        """Load the URDF."""
+        from .world import PyBulletWorld, import_pybullet
+
+        return PyBulletWorld(import_pybullet(), bodies, settings, folder)
+
+
+ENGINE = PyBullet()

@@ -1,0 +1,109 @@
+"""The physics engines by name, whether they are installed, and how to install them."""
+
+from __future__ import annotations
+
+import platform
+import sys
+from collections.abc import Callable, Iterable
+from importlib import import_module
+
+from ...errors import MissingDependency
+from ...extras import install_command, is_installed, missing
+from .base import Capabilities, Engine
+
+REGISTRY = {
+    "pybullet": "pybullet",
+    "mujoco": "mujoco",
+}
+"""The package of each engine, by the name of ``--engine``; the preferred one first."""
+
+BOTH = "both"
+"""The value of ``--engine`` that compares all engines."""
+
+
+def load_engine(name: str) -> Engine:
+    """Import an engine's package, which imports no library."""
+    engine: Engine = import_module(f"{__package__}.{REGISTRY[name]}").ENGINE
+    return engine
+
+
+def engine_names(option: str) -> tuple[str, ...]:
+    """Return the engines that a value of ``--engine`` runs."""
+    return tuple(REGISTRY) if option == BOTH else (option,)
+
+
+def library_of(name: str) -> str:
+    """Return the Python package that an engine imports."""
+    return load_engine(name).capabilities.library
+
+
+def alternatives(name: str, suits: Callable[[Capabilities], bool]) -> str:
+    """Name the first other engine that suits, as ``--engine mujoco``; empty if none does."""
+    others = (load_engine(other).capabilities for other in REGISTRY if other != name)
+    return next((f"--engine {other.name}" for other in others if suits(other)), "")
+
+
+def default_engine() -> str:
+    """Choose the first engine that is installed.
+
+    Raises:
+        MissingDependency: None is installed.
+    """
+    for name in REGISTRY:
+        if is_installed(library_of(name)):
+            return name
+    raise MissingDependency(
+        f"'urdftool simulate' requires a physics engine, and none is installed: {_advice()}",
+        library=extra_library(),
+    )
+
+
+def check_engines(names: Iterable[str]) -> None:
+    """Refuse engines that are not installed, before any work is done.
+
+    Args:
+        names: Keys of ``REGISTRY``.
+
+    Raises:
+        MissingDependency: With what to do on this Python and machine.
+    """
+    for name in names:
+        engine = load_engine(name)
+        known = engine.capabilities
+        if is_installed(known.library):
+            continue
+        if engine.has_wheel():
+            raise missing(known.library, f"--engine {name}")
+        raise MissingDependency(
+            f"{known.title} is not installed and has wheels for {known.wheels} only, not for "
+            f"{_here()}: {_advice()}",
+            library=known.library,
+        )
+
+
+def extra_library() -> str:
+    """Return the engine's library that the extra ``simulate`` installs on this machine."""
+    *preferred, last = REGISTRY
+    return library_of(next((name for name in preferred if load_engine(name).has_wheel()), last))
+
+
+def _advice() -> str:
+    """Say which engine can be installed on this machine, and how."""
+    if load_engine(next(iter(REGISTRY))).has_wheel():
+        return install_command("simulate")
+    for name in REGISTRY:
+        if is_installed(library_of(name)):
+            return f"use --engine {name}"
+    for name in REGISTRY:
+        if load_engine(name).has_wheel():
+            return f"use --engine {name}, after {install_command('simulate')}"
+    titles = " nor ".join(load_engine(name).capabilities.title for name in REGISTRY)
+    return (
+        f"neither {titles} has a wheel for {_here()}; simulate on Linux, macOS or "
+        "Windows on x86-64, or on Linux or macOS on ARM"
+    )
+
+
+def _here() -> str:
+    version = f"{sys.version_info[0]}.{sys.version_info[1]}"
+    return f"Python {version} on {platform.system()} {platform.machine()}"
