@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .source.description import GltfUp
 
 NAMES = (".urdftool.toml", "urdftool.toml", "pyproject.toml")
-TABLES = ("packages", "lint", "collision")
+TABLES = ("packages", "lint", "collision", "simulate")
 GLTF_UP = "gltf-up"
 
 _found: dict[str, Configuration] = {}
@@ -34,6 +34,7 @@ class Configuration:
         packages: Folders by package name, absolute.
         lint: The ``lint`` table as it is written.
         collision: The ``collision`` table as it is written.
+        simulate: The ``simulate`` table as it is written.
         gltf_up: The axis that is up in glTF meshes.
     """
 
@@ -41,6 +42,7 @@ class Configuration:
     packages: dict[str, Path] = field(default_factory=dict)
     lint: dict[str, Any] = field(default_factory=dict)
     collision: dict[str, Any] = field(default_factory=dict)
+    simulate: dict[str, Any] = field(default_factory=dict)
     gltf_up: GltfUp = "y"
 
 
@@ -103,7 +105,8 @@ def _parse(path: Path, *, required: bool) -> Configuration | None:
     if not isinstance(packages, dict) or not all(isinstance(v, str) for v in packages.values()):
         raise ConfigError('[packages] wants lines like my_robot = "../my_robot"', path=path)
     collision = table.get("collision", {})
-    for name, value in (("lint", lint), ("collision", collision)):
+    simulate = table.get("simulate", {})
+    for name, value in (("lint", lint), ("collision", collision), ("simulate", simulate)):
         if not isinstance(value, dict):
             raise ConfigError(f"[{name}] wants to be a table", path=path)
     gltf_up = table.get(GLTF_UP, "y")
@@ -115,6 +118,7 @@ def _parse(path: Path, *, required: bool) -> Configuration | None:
         {name: folder / value for name, value in packages.items()},
         lint,
         collision,
+        simulate,
         gltf_up,
     )
 

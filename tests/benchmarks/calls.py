@@ -9,6 +9,7 @@ from typing import Any
 from unittest import mock
 
 from urdftool.model.load import load
+from urdftool.simulation.checks.thresholds import Thresholds
 from urdftool.simulation.engines import driver
 from urdftool.simulation.engines.pybullet import world
 from urdftool.simulation.engines.pybullet.urdf import write_folder
@@ -57,7 +58,7 @@ def write_calls(path: Path, settings: Settings, folder: Path) -> Path:
     module = world.import_pybullet()
     recorder = Recorder(module)
     with mock.patch.object(world, "import_pybullet", return_value=recorder):
-        driver.run("pybullet", bodies, settings, folder)
+        driver.run("pybullet", bodies, settings, folder, Thresholds())
     module.disconnect()
     target = folder / "calls"
     target.write_bytes(pickle.dumps(recorder.calls))

@@ -9,6 +9,7 @@ from tests.benchmarks.simulate_robots import robots
 from urdftool.commands.simulate_one import judged
 from urdftool.errors import UrdftoolError
 from urdftool.model.load import load
+from urdftool.simulation.checks.thresholds import Thresholds
 from urdftool.simulation.fleet import Row, in_parallel, row_of
 from urdftool.simulation.settings import Settings
 
@@ -18,7 +19,7 @@ FILES = {str(path): name for name, path in robots()}
 def work(path: str) -> Row:
     """One robot in both engines."""
     robot = load(path)
-    verdicts, differ = judged(robot, Settings(), ("pybullet", "mujoco"))
+    verdicts, differ = judged(robot, Settings(), ("pybullet", "mujoco"), Thresholds())
     row = row_of(path, robot.name, [verdict for some in verdicts for verdict in some], differ)
     ends = []
     for (verdict,) in verdicts:

@@ -25,12 +25,13 @@ from urdftool.model.kinematics import link_poses
 from urdftool.model.load import load
 from urdftool.model.pose import Pose
 from urdftool.simulation.bodies import Body
+from urdftool.simulation.checks.contact import check_contacts
+from urdftool.simulation.checks.final_state import final_state
+from urdftool.simulation.checks.interpenetration import overlap_depth
+from urdftool.simulation.checks.thresholds import Thresholds
 from urdftool.simulation.engines import driver
 from urdftool.simulation.engines.pybullet.urdf import write_folder
 from urdftool.simulation.engines.pybullet.world import import_pybullet
-from urdftool.simulation.judge_contact import judge_contacts
-from urdftool.simulation.judge_inside import INTO
-from urdftool.simulation.judge_rest import rest_of
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.recording import GROUND, Array
 from urdftool.simulation.run import Run
@@ -54,14 +55,14 @@ def started(robot: Robot) -> Run:
     bodies = prepare(robot, SETTINGS)
     with tempfile.TemporaryDirectory() as folder:
         write_folder(bodies, Path(folder))
-        recording = driver.run("pybullet", bodies, SETTINGS, Path(folder))
+        recording = driver.run("pybullet", bodies, SETTINGS, Path(folder), Thresholds())
     import_pybullet().disconnect()
     return Run(SETTINGS, bodies, recording)
 
 
 def misplaced(robot: Robot, run: Run) -> set[str]:
     """Links that are said to be in another, with what fails."""
-    faults = judge_contacts(robot, run, rest_of(run))
+    faults = check_contacts(robot, run, final_state(run))
     return {fault.name for fault in faults if fault.fails and fault.kind == "parts-collide"}
 
 
@@ -83,7 +84,7 @@ def planted(robot: Robot, link: str, shift: Array) -> set[str] | None:
             ),
             default=0.0,
         )
-        return misplaced(robot, run) if depth > max(INTO * run.bodies.size, 0.002) else None
+        return misplaced(robot, run) if depth > overlap_depth(run.start) else None
     finally:
         for collision, origin in whole:
             collision.origin = origin

@@ -14,7 +14,7 @@ from pathlib import Path
 from urdftool.errors import UrdftoolError
 from urdftool.model.load import load
 from urdftool.report.simulate import outcome
-from urdftool.simulation.judge_inside import look_inside
+from urdftool.simulation.checks.interpenetration import precompute_overlaps
 from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
@@ -45,7 +45,7 @@ def row(named: tuple[str, Path]) -> str:
     name, path = named
     try:
         robot = load(path)
-        (run,) = simulate(robot, Settings(), look=look_inside)
+        (run,) = simulate(robot, Settings(), look=precompute_overlaps)
     except UrdftoolError as error:
         said = error.message.partition("; what it names is in")[0]  # a path
         return f"| {name} | refused | {said[:110]} |"

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.simulation.robots import inertial, runs
-from urdftool.simulation.judge_joint import _why_idle
+from urdftool.simulation.checks.joints import _why_idle
 
 BOX = '<collision><geometry><box size=".1 .1 .1"/></geometry></collision>'
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from urdftool.simulation.judge_rest import support_margin
+from urdftool.simulation.checks.final_state import support_margin
 
 SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5], [0.5, 0.0]], dtype=float)
 

@@ -9,8 +9,9 @@ import pytest
 
 from tests.conftest import FIXTURES
 from urdftool.model.load import load
-from urdftool.simulation import judge_inside, remembered
-from urdftool.simulation.judge_inside import look_inside
+from urdftool.simulation import remembered
+from urdftool.simulation.checks import interpenetration
+from urdftool.simulation.checks.interpenetration import precompute_overlaps
 from urdftool.simulation.meanwhile import meanwhile
 from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
@@ -55,11 +56,13 @@ def robot(tmp_path):
 
 def test_the_verdict_is_the_same_whether_one_looked_before(robot):
     settings = Settings(duration=0.3)
-    (looked,) = simulate(robot, settings, look=look_inside)
+    (looked,) = simulate(robot, settings, look=precompute_overlaps)
     (plain,) = simulate(robot, settings)
     assert looked.known
     assert not plain.known
-    with mock.patch.object(judge_inside, "strayed", side_effect=AssertionError("looked again")):
+    with mock.patch.object(
+        interpenetration, "misplaced_collision", side_effect=AssertionError("looked again")
+    ):
         found = judge(robot, looked).faults
     wanted = judge(robot, plain).faults
     assert [str(fault) for fault in found] == [str(fault) for fault in wanted]

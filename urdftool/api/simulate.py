@@ -31,8 +31,8 @@ def simulate(
     """
     from ..errors import ConfigError
     from ..extras import require
+    from ..simulation.checks.interpenetration import precompute_overlaps
     from ..simulation.engines.registry import REGISTRY, check_engines, default_engine
-    from ..simulation.judge_inside import look_inside
     from ..simulation.run import simulate as run
     from ..simulation.settings import Settings
     from ..simulation.verdict import judge
@@ -42,5 +42,5 @@ def simulate(
         raise ConfigError(f"there is no engine '{engine}'; there are {' and '.join(REGISTRY)}")
     check_engines((engine,))
     require("simulate", "scipy", "manifold3d")
-    runs = run(robot, settings or Settings(), engine=engine, look=look_inside)
+    runs = run(robot, settings or Settings(), engine=engine, look=precompute_overlaps)
     return [judge(robot, one) for one in runs]

@@ -64,7 +64,7 @@ def command(
     from .read_lax import read_lax
     from .simulate_control import controlled
     from .simulate_fleet import Fleet, simulate_fleet
-    from .simulate_one import simulate_one
+    from .simulate_one import configured_thresholds, simulate_one
     from .simulate_options import settings_of
     from .simulate_outputs import Outputs, check_output
 
@@ -88,6 +88,7 @@ def command(
         )  # fmt: skip
         with terminate_gracefully():
             return simulate_fleet(fleet, paths, style=style, junit=junit, jobs=values["jobs"])
+    thresholds = configured_thresholds(console, paths[0])
     with (
         terminate_gracefully(),
         keeping_in(cache),
@@ -96,5 +97,13 @@ def command(
         model = read_lax(console, paths[0], arguments, package, package_path)
         settings = controlled(console, settings, model, controllers, strict=strict)
         return simulate_one(
-            console, model, settings, engines, child, style=style, outputs=outputs, junit=junit
+            console,
+            model,
+            settings,
+            engines,
+            thresholds,
+            child,
+            style=style,
+            outputs=outputs,
+            junit=junit,
         )

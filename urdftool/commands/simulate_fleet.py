@@ -55,7 +55,7 @@ class Fleet:
         from ..simulation.kept import keeping_in
         from .read_lax import read_lax
         from .simulate_control import controlled
-        from .simulate_one import judged
+        from .simulate_one import configured_thresholds, judged
 
         robot = read_lax(
             self.console, path, self.arguments, self.packages, self.package_paths, many=True
@@ -66,7 +66,8 @@ class Fleet:
             self.console, self.settings, robot, self.controllers, strict=self.strict
         )
         with keeping_in(self.cache):
-            verdicts, differ = judged(robot, settings, self.engines)
+            thresholds = configured_thresholds(self.console, path)
+            verdicts, differ = judged(robot, settings, self.engines, thresholds)
         return row_of(path, robot.name, [v for some in verdicts for v in some], differ)
 
 

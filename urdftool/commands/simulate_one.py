@@ -11,6 +11,7 @@ from .progress import Progress
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
+    from ..simulation.checks.thresholds import Thresholds
     from ..simulation.child import Child
     from ..simulation.fault import Fault
     from ..simulation.run import Progress as Told
@@ -19,10 +20,24 @@ if TYPE_CHECKING:
     from .simulate_outputs import Outputs
 
 
+def configured_thresholds(console: Console, path: str) -> Thresholds:
+    """Read the thresholds that the configuration of a description has.
+
+    Raises:
+        ConfigError: It has an unknown one, or a value that is not a number above zero.
+    """
+    from ..configuration import find_configuration
+    from ..simulation.checks.thresholds import read_thresholds
+
+    configuration = find_configuration(path, console.config)
+    return read_thresholds(configuration.simulate, configuration.path)
+
+
 def judged(
     robot: Robot,
     settings: Settings,
     engines: tuple[str, ...],
+    thresholds: Thresholds,
     progress: Told = lambda *_: None,
     child: Child | None = None,
 ) -> tuple[list[list[Verdict]], list[Fault]]:
@@ -34,13 +49,21 @@ def judged(
         UrdftoolError: The robot cannot be simulated.
     """
     from ..simulation.agreement import differences
-    from ..simulation.judge_inside import look_inside
+    from ..simulation.checks.interpenetration import precompute_overlaps
     from ..simulation.run import simulate
     from ..simulation.verdict import judge
 
     waiting = (child, *(None for _ in engines[1:]))
     runs = [
-        simulate(robot, settings, engine=engine, progress=progress, child=process, look=look_inside)
+        simulate(
+            robot,
+            settings,
+            engine=engine,
+            progress=progress,
+            child=process,
+            look=precompute_overlaps,
+            thresholds=thresholds,
+        )
         for engine, process in zip(engines, waiting, strict=True)
     ]
     verdicts = [[judge(robot, run) for run in some] for some in runs]
@@ -54,6 +77,7 @@ def simulate_one(
     robot: Robot,
     settings: Settings,
     engines: tuple[str, ...],
+    thresholds: Thresholds,
     child: Child,
     *,
     style: str,
@@ -67,6 +91,7 @@ def simulate_one(
         robot: The robot.
         settings: How it is spawned.
         engines: Names of engines; two are compared.
+        thresholds: Of the checks.
         child: A process of the first engine that waits for work.
         style: ``text``, ``json`` or ``junit``.
         outputs: What is drawn of the first trial.
@@ -86,7 +111,7 @@ def simulate_one(
     check_targets(files, inputs=sorted(sources(robot)))
     outputs.read(console, robot)
     with Progress(console, "trials", timed=True) as progress:
-        verdicts, differ = judged(robot, settings, engines, progress, child)
+        verdicts, differ = judged(robot, settings, engines, thresholds, progress, child)
     everything = [verdict for some in verdicts for verdict in some]
     path = robot.source.path if robot.source is not None else ""
     row = row_of(path, robot.name, everything, differ)

@@ -16,9 +16,9 @@ import numpy as np
 from ..errors import UrdftoolError
 from ..model.elements import Inertia, Inertial, Joint, Limit, Link, Robot
 from .bodies import Bodies, Body
+from .checks.final_state import FinalState
 from .engines.registry import REGISTRY
 from .fault import Fault
-from .judge_rest import Rest
 from .run import Run, simulate
 from .settings import Settings
 from .shapes import hull
@@ -110,7 +110,7 @@ def compare(one: Verdict, other: Verdict) -> list[Difference]:
     return list(_compare(one.run, one.rest, other.run, other.rest))
 
 
-def _compare(one: Run, rest: Rest, other: Run, rest2: Rest) -> Iterator[Difference]:
+def _compare(one: Run, rest: FinalState, other: Run, rest2: FinalState) -> Iterator[Difference]:
     top = one.bodies.bodies[0].name
     size = max(one.bodies.size, _LEAST)
     length = max(HEIGHT * size, _LEAST)

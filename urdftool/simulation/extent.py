@@ -10,7 +10,7 @@ import numpy as np
 
 from ..formats.mjcf.extent import placed, shape_points
 from ..meshes.hull import convex_hull
-from ..model.elements import Box, Capsule, Collision, Cylinder, Link, Mesh, Robot, Sphere, Visual
+from ..model.elements import Box, Capsule, Collision, Cylinder, Mesh, Robot, Sphere, Visual
 from .recording import Array
 from .remembered import mesh_points
 
@@ -57,45 +57,6 @@ def extent_of(robot: Robot, name: str, *, only_collisions: bool = False) -> Exte
         read.append(tuple((shape, corners) for shape, corners in found if corners is not None))
     points = [corners for shapes in read for _, corners in shapes]
     return Extent(np.concatenate(points), tuple(read)) if points else Extent()
-
-
-def is_beside(robot: Robot, name: str) -> bool:
-    """Whether what touches of a link lies beside what is seen of it, or else beside its mass.
-
-    That is where less than half of the smaller one's box is in the other's, along one axis.
-    """
-    link = robot.link[name]
-    touches, seen = (box_of(robot, group) for group in (link.collisions, looks_of(link)))
-    if touches is None:
-        return False
-    if seen is None:
-        return is_off_mass(robot, name)
-    shared = np.minimum(touches[1], seen[1]) - np.maximum(touches[0], seen[0])
-    smaller = np.minimum(touches[1] - touches[0], seen[1] - seen[0])
-    return bool((shared < 0.5 * smaller - 1e-6).any())
-
-
-def looks_of(link: Link) -> list[Visual]:
-    """The visuals of a link that show where it is: readers differ in which way up glTF is."""
-    return [
-        visual
-        for visual in link.visuals
-        if not (
-            isinstance(visual.geometry, Mesh)
-            and visual.geometry.filename.lower().endswith((".glb", ".gltf"))
-        )
-    ]
-
-
-def is_off_mass(robot: Robot, name: str) -> bool:
-    """Whether the centre of a link's mass is further from what touches than half of that."""
-    link = robot.link[name]
-    touches = box_of(robot, link.collisions)
-    if touches is None or not link.mass or link.inertial is None:
-        return False
-    centre = np.array(link.inertial.origin.xyz if link.inertial.origin else (0.0, 0.0, 0.0))
-    slack = (touches[1] - touches[0]) / 2
-    return bool((centre < touches[0] - slack).any() or (centre > touches[1] + slack).any())
 
 
 def points_of(robot: Robot, shape: Visual | Collision) -> Array | None:

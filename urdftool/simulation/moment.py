@@ -8,6 +8,7 @@ from typing import TypeVar, cast
 
 from ..model.pose import Pose, rotation_of_quaternion
 from .bodies import Bodies
+from .checks.thresholds import Thresholds
 from .recording import Array, Contact
 
 T = TypeVar("T")
@@ -22,12 +23,14 @@ class Moment:
         poses: Of each body, as in a recording, shape (b, 7).
         contacts: What touches what.
         known: What was found out already; see :meth:`once`.
+        thresholds: Of the checks, on which that depends.
     """
 
     bodies: Bodies
     poses: Array
     contacts: list[Contact] = field(default_factory=list)
     known: dict[Hashable, object] = field(default_factory=dict)
+    thresholds: Thresholds = field(default_factory=Thresholds)
 
     def pose(self, number: int) -> Pose:
         """Where a body is in the world."""

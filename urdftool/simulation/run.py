@@ -5,16 +5,20 @@ from __future__ import annotations
 import math
 import random
 import tempfile
-from collections.abc import Callable, Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from time import perf_counter
 
+import numpy as np
+
 from ..errors import ModelError
 from ..model.elements import Robot
+from ..model.pose import rotation_of_quaternion
 from .bodies import Bodies
+from .checks.thresholds import Thresholds
 from .child import Child
 from .engines.registry import REGISTRY, library_of, load_engine
 from .meanwhile import meanwhile
@@ -45,6 +49,7 @@ class Run:
         recording: What the engine measured.
         swept: Each joint moved through its limits; empty where that was not asked for.
         known: What was found out of its start while the engine was waited for.
+        thresholds: Of the checks.
     """
 
     settings: Settings
@@ -52,17 +57,48 @@ class Run:
     recording: Recording
     swept: list[Swept] = field(default_factory=list)
     known: Known = field(default_factory=dict)
+    thresholds: Thresholds = field(default_factory=Thresholds)
 
     @cached_property
     def start(self) -> Moment:
         """Before the first step."""
         told = self.recording
-        return Moment(self.bodies, told.poses[0], told.start_contacts, self.known)
+        return Moment(self.bodies, told.poses[0], told.start_contacts, self.known, self.thresholds)
 
     @cached_property
     def end(self) -> Moment:
         """The last sample."""
-        return Moment(self.bodies, self.recording.poses[-1], self.recording.contacts)
+        recorded = self.recording
+        return Moment(
+            self.bodies, recorded.poses[-1], recorded.contacts, thresholds=self.thresholds
+        )
+
+    def center_of_mass(
+        self, numbers: Iterable[int], sample: int
+    ) -> tuple[float, float, float] | None:
+        """Compute the center of mass of some bodies in the world [m], of what gravity acts on.
+
+        Args:
+            numbers: Of bodies.
+            sample: Of the recording.
+
+        Returns:
+            None if they have no mass, or a pose is not finite.
+        """
+        total, summed = 0.0, np.zeros(3)
+        for number in numbers:
+            mass, center = self.bodies.bodies[number].weight
+            if not mass:
+                continue
+            pose = self.recording.poses[sample, number]
+            x, y, z, w = pose[3:].tolist()
+            turn = np.array(rotation_of_quaternion((w, x, y, z)))
+            summed += mass * (pose[:3] + turn @ center)
+            total += mass
+        if not total or not np.isfinite(summed).all():
+            return None
+        a, b, c = (summed / total).tolist()
+        return a, b, c
 
 
 def simulate(
@@ -74,6 +110,7 @@ def simulate(
     alter: Callable[[Bodies], Bodies] | None = None,
     child: Child | None = None,
     look: Look = lambda *_: None,
+    thresholds: Thresholds | None = None,
 ) -> list[Run]:
     """Spawn a robot and let it settle, as often as the settings say.
 
@@ -86,13 +123,14 @@ def simulate(
         child: A process of this engine that waits for the first trial.
         look: Told of each start while the engine goes on from it, to find out what it will be
             asked for.
+        thresholds: When a robot is at rest, and what is reported; None is the defaults.
 
     Raises:
         ModelError: The robot is one that no engine can be given.
         EngineDied: The engine crashed or took too long.
         MissingDependency: It is not installed.
     """
-    engine = engine or next(iter(REGISTRY))
+    engine, bounds = engine or next(iter(REGISTRY)), thresholds or Thresholds()
     runs = []
     ends = perf_counter() + settings.time_limit
     for number, trial in enumerate(trials(settings), 1):
@@ -109,18 +147,18 @@ def simulate(
             known: Known = {}
 
             def see(start: Start, bodies: Bodies = bodies, known: Known = known) -> None:
-                look(robot, Moment(bodies, *start, known))
+                look(robot, Moment(bodies, *start, known, bounds))
 
             with _placed(robot), meanwhile(robot, see) as hear:
                 recording = process.call(
-                    *(_DRIVER, "run", engine, bodies, trial, Path(folder)),
+                    *(_DRIVER, "run", engine, bodies, trial, Path(folder), bounds),
                     time_limit=left,
                     hear=hear,
                 )
             swept = []
             if settings.sweep and number == 1:
                 swept = _sweep(bodies, trial, engine, Path(folder))
-        runs.append(Run(trial, bodies, recording, swept, known))
+        runs.append(Run(trial, bodies, recording, swept, known, bounds))
     return runs
 
 

@@ -6,15 +6,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from ..model.elements import Robot
+from .checks.contact import check_contacts
+from .checks.controllers import check_controllers
+from .checks.final_state import FinalState, final_state
+from .checks.interpenetration import check_sweep
+from .checks.joints import check_joints
+from .checks.settling import check_final_state
+from .checks.support import check_support
 from .fault import Fault
-from .judge_body import judge_bodies
-from .judge_contact import judge_contacts
-from .judge_control import judge_controls
-from .judge_joint import judge_joints
-from .judge_rest import Rest, judge_rest, rest_of
-from .judge_support import judge_support
-from .judge_sweep import judge_sweep
 from .lint_words import in_lint_words
+from .model_checks.bodies import check_bodies
 from .run import Run
 
 
@@ -29,7 +30,7 @@ class Verdict:
     """
 
     run: Run
-    rest: Rest
+    rest: FinalState
     faults: list[Fault] = field(default_factory=list)
 
     @property
@@ -45,7 +46,7 @@ class Verdict:
 
 def judge(robot: Robot, run: Run) -> Verdict:
     """Judge one trial."""
-    rest = rest_of(run)
+    rest = final_state(run)
     faults = [_caused(run, fault) for fault in _faults(robot, run, rest)]
     faults.sort(key=lambda fault: not fault.fails)
     return Verdict(run, rest, faults)
@@ -68,11 +69,11 @@ def _caused(run: Run, fault: Fault) -> Fault:
     return replace(fault, cause=cause, rule="massless-root-body")
 
 
-def _faults(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
-    yield from in_lint_words(robot, judge_bodies(robot, run))
-    yield from judge_rest(robot, run, rest)
-    yield from judge_support(robot, run, rest)
-    yield from judge_contacts(robot, run, rest)
-    yield from judge_joints(robot, run, rest)
-    yield from judge_controls(robot, run)
-    yield from judge_sweep(robot, run, run.swept)
+def _faults(robot: Robot, run: Run, rest: FinalState) -> Iterator[Fault]:
+    yield from in_lint_words(robot, check_bodies(robot, run))
+    yield from check_final_state(robot, run, rest)
+    yield from check_support(robot, run, rest)
+    yield from check_contacts(robot, run, rest)
+    yield from check_joints(robot, run, rest)
+    yield from check_controllers(robot, run)
+    yield from check_sweep(robot, run)

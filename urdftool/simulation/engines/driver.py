@@ -12,6 +12,7 @@ import numpy as np
 
 from ...errors import ModelError
 from ..bodies import Bodies
+from ..checks.thresholds import Thresholds
 from ..recording import Array, Contact, Hit, Recording, Swept
 from ..settings import Settings
 from .base import Capabilities, Sample, World
@@ -26,23 +27,16 @@ RUNAWAY = 1e3
 SWEEP_STEPS = 36
 """Intervals between the limits of a swept joint."""
 
-WINDOW = 0.5
-"""How long nothing may move for a robot to be at rest [s]."""
-
-PATIENCE = 1.5
-"""How long a robot is watched at least: what balances falls slowly at first [s]."""
-
-CREEP = 0.002
-"""How far a body may creep in that time, as a part of the robot's size."""
-
-TURN = 0.01
-"""How far a body may turn, or a joint, in that time [rad]."""
-
 Emit = Callable[[tuple[Array, list[Contact]]], None]
 
 
 def run(
-    engine: str, bodies: Bodies, settings: Settings, folder: Path, emit: Emit = lambda _: None
+    engine: str,
+    bodies: Bodies,
+    settings: Settings,
+    folder: Path,
+    thresholds: Thresholds,
+    emit: Emit = lambda _: None,
 ) -> Recording:
     """Spawn a robot in an engine, and let it settle.
 
@@ -51,6 +45,7 @@ def run(
         bodies: The robot.
         settings: How it is spawned, and for how long.
         folder: Where ``Engine.write_model`` wrote it.
+        thresholds: When it is at rest.
         emit: Receives the poses and the contacts of the start before the first step.
 
     Raises:
@@ -59,7 +54,8 @@ def run(
     """
     loaded = load_engine(engine)
     _check_joints(loaded.capabilities, len(bodies.joints))
-    return settle(loaded.open_world(bodies, settings, folder), loaded.capabilities, emit)
+    world = loaded.open_world(bodies, settings, folder)
+    return settle(world, loaded.capabilities, thresholds, emit)
 
 
 def _check_joints(known: Capabilities, count: int) -> None:
@@ -73,13 +69,16 @@ def _check_joints(known: Capabilities, count: int) -> None:
     )
 
 
-def settle(world: World, capabilities: Capabilities, emit: Emit = lambda _: None) -> Recording:
+def settle(
+    world: World, capabilities: Capabilities, thresholds: Thresholds, emit: Emit
+) -> Recording:
     """Step until nothing moves, the time is over, or the robot is lost."""
     bodies, settings = world.bodies, world.settings
     every = max(1, round(SAMPLE / settings.timestep))
     steps = max(1, round(settings.duration / settings.timestep))
-    watch = Stillness(bodies.size, every * settings.timestep)
-    late: deque[list[Contact]] = deque(maxlen=max(1, round(WINDOW / (every * settings.timestep))))
+    interval = every * settings.timestep
+    watch = Stillness(bodies, interval, thresholds)
+    late: deque[list[Contact]] = deque(maxlen=max(1, round(thresholds.settle_window / interval)))
     start_contacts = world.overlaps()
     samples = [world.sample(0.0)]
     emit((samples[0]["poses"], start_contacts))
@@ -98,7 +97,7 @@ def settle(world: World, capabilities: Capabilities, emit: Emit = lambda _: None
             break
         late.append([touch for touch in world.contacts() if touch.force > 0])
         still = watch.add(sample["times"], sample["poses"], sample["positions"])
-        if still is not None and sample["times"] > PATIENCE:
+        if still is not None and sample["times"] > thresholds.settle_min_time:
             ended = "still"
     seconds = perf_counter() - began
     columns = {name: np.array([sample[name] for sample in samples]) for name in samples[0]}
@@ -139,15 +138,23 @@ def _is_sane(sample: Sample, bodies: Bodies) -> bool:
 class Stillness:
     """Tells from samples since when a robot is at rest: by where it is, not by its velocities."""
 
-    def __init__(self, size: float, sample: float) -> None:
+    def __init__(self, bodies: Bodies, interval: float, thresholds: Thresholds) -> None:
         """Begin.
 
         Args:
-            size: The largest extent of the robot [m].
-            sample: Time between samples [s].
+            bodies: The robot.
+            interval: Time between samples [s].
+            thresholds: When a robot is at rest.
         """
-        self.creep = max(CREEP * size, 1e-5)
-        self.window = max(2, round(WINDOW / sample))
+        self.creep = max(thresholds.settle_creep * bodies.size, 1e-5)
+        self.turn = thresholds.settle_turn
+        self.joint_bounds = np.array(
+            [
+                thresholds.settle_slide if joint.kind == "prismatic" else thresholds.settle_turn
+                for joint in bodies.joints
+            ]
+        )
+        self.window = max(2, round(thresholds.settle_window / interval))
         self.seen: deque[tuple[float, Array, Array]] = deque(maxlen=self.window + 1)
 
     def add(self, time: float, poses: Array, positions: Array) -> float | None:
@@ -168,8 +175,8 @@ class Stillness:
         moved = np.abs(poses[:, :3] - before[:, :3]).max(initial=0.0)
         dots = np.abs(np.einsum("ij,ij->i", poses[:, 3:], before[:, 3:]))
         turned = 2 * np.arccos(np.clip(dots, 0.0, 1.0)).max(initial=0.0)
-        bent = np.abs(positions - joints).max(initial=0.0)
-        return bool(moved < self.creep and turned < TURN and bent < TURN)
+        bent = (np.abs(positions - joints) < self.joint_bounds).all()
+        return bool(moved < self.creep and turned < self.turn and bent)
 
 
 def sweep(engine: str, bodies: Bodies, settings: Settings, folder: Path) -> list[Swept]:

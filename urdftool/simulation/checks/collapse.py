@@ -6,41 +6,39 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..model.elements import Robot
-from ..model.pose import rotation_of_quaternion
-from .centre import centre_of
-from .fault import Fault
-from .recording import Array
-from .run import Run
-
-SUNK = 0.05
-"""How far something is to sink to have fallen, as a part of the robot's size."""
-
-SHARE = 0.01
-"""How far a joint is to move what it bears, up or down, to be why the robot is lower; the same."""
-
-TURNED = 0.05
-"""How far a joint is to turn [rad], or to slide as a part of the robot's size."""
+from ...model.elements import Robot
+from ...model.pose import rotation_of_quaternion
+from ..fault import Fault
+from ..recording import Array
+from ..run import Run
 
 
-def judge_collapse(robot: Robot, run: Run) -> Iterator[Fault]:
-    """What is to be said of joints that nothing held, at the end of a run that was not lost."""
-    recording, bodies = run.recording, run.bodies
+def check_collapse(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Report the joint that nothing holds and with which the robot, or its load, sank."""
+    recording, bodies, bounds = run.recording, run.bodies, run.thresholds
     moved = np.abs(recording.positions[-1] - recording.positions[0])
     alone = {
         column: _sunk_alone(run, column)
         for column, joint in enumerate(bodies.joints)
         if joint.name not in recording.targets and joint.leader is None
-        if moved[column] > TURNED * (bodies.size if joint.kind == "prismatic" else 1.0)
+        if moved[column]
+        > (
+            bounds.collapse_slide * bodies.size
+            if joint.kind == "prismatic"
+            else bounds.collapse_turn
+        )
     }
     if not alone:
         return
     column = max(alone, key=lambda number: abs(alone[number]))
     name = bodies.joints[column].name
     whole = _sunk(run)
-    if whole >= SUNK * bodies.size and abs(alone[column]) >= SHARE * bodies.size:
+    if (
+        whole >= bounds.collapse_depth * bodies.size
+        and abs(alone[column]) >= bounds.collapse_share * bodies.size
+    ):
         what = f"what its joints bear sank by {whole:.3g} m, and joint '{name}' went"
-    elif max(alone.values()) >= SUNK * bodies.size:
+    elif max(alone.values()) >= bounds.collapse_depth * bodies.size:
         column = max(alone, key=lambda number: alone[number])
         name = bodies.joints[column].name
         what = f"what joint '{name}' bears sank by {alone[column]:.3g} m; it went"
@@ -64,7 +62,7 @@ def _sunk(run: Run) -> float:
     That is all of a robot but a root that is nailed: legs bear a root that is not.
     """
     numbers = range(int(run.bodies.nailed), len(run.bodies.bodies))
-    first_at, last_at = (centre_of(run, numbers, moment) for moment in (0, -1))
+    first_at, last_at = (run.center_of_mass(numbers, moment) for moment in (0, -1))
     return 0.0 if first_at is None or last_at is None else first_at[2] - last_at[2]
 
 
@@ -76,7 +74,7 @@ def _sunk_alone(run: Run, column: int) -> float:
     for number in range(child + 1, len(bodies)):
         if bodies[number].parent in beyond:
             beyond.add(number)
-    centre = centre_of(run, beyond, 0)
+    centre = run.center_of_mass(beyond, 0)
     if centre is None:
         return 0.0
     own = _turn(poses[0, child]).T @ (centre - poses[0, child, :3])

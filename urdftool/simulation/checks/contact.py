@@ -6,46 +6,39 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..formats.mjcf.extent import shape_points
-from ..model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere, Visual
-from ..model.pose import Pose, pose_of
-from .extent import box_of, points_of
-from .fault import Fault
-from .judge_inside import deep, judge_inside
-from .judge_rest import Rest
-from .overlap import primitive_triangles
-from .recording import GROUND, Array
-from .run import Run
-from .shapes import lowest
-
-SUNK = 0.01
-"""How deep a robot at rest may be in the floor, as a part of its size."""
-
-NEAR = 0.002
-"""How near to the floor a part is that should touch it [m]."""
-
-DROWNED = 0.4
-"""How much of what is seen of a link with a collision is in the floor, of its height."""
-
-SHOWS = 0.001
-"""How far what is seen of a foot sticks out of what touches beside it [m]."""
+from ...formats.mjcf.extent import shape_points
+from ...model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere, Visual
+from ...model.pose import Pose, pose_of
+from ..extent import box_of, points_of
+from ..fault import Fault
+from ..overlap import primitive_triangles
+from ..recording import GROUND, Array
+from ..run import Run
+from ..shapes import lowest
+from .final_state import FinalState
+from .interpenetration import check_interpenetration
 
 
-def judge_contacts(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
-    """What is to be said of contacts."""
+def check_contacts(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+    """Report contacts that should not be, and parts that should make contact and do not."""
     yield from _in_the_floor(robot, run)
-    yield from judge_inside(robot, run)
-    if not rest.fell and run.recording.ended != "lost":
+    yield from check_interpenetration(robot, run)
+    if not state.fell and run.recording.ended != "lost":
         yield from _sunk(robot, run)
         told = {fault.name: fault for fault in _untouching(robot, run)}
         told |= {fault.name: fault for fault in _sunken(robot, run) if fault.name not in told}
         yield from told.values()
-        yield from (f for f in _unlike(robot, run, rest) if f.name not in told)
+        yield from (f for f in _unlike(robot, run, state) if f.name not in told)
+
+
+def _ground_depth(run: Run) -> float:
+    """Return the depth of a contact with the ground that is reported [m]."""
+    return max(run.thresholds.ground_depth * run.bodies.size, run.thresholds.contact_depth)
 
 
 def _in_the_floor(robot: Robot, run: Run) -> Iterator[Fault]:
     for contact in run.recording.start_contacts:
-        if contact.other == GROUND and contact.depth > deep(run.bodies, SUNK):
+        if contact.other == GROUND and contact.depth > _ground_depth(run):
             if run.bodies.nailed and contact.one in run.bodies.bodies[0].links:
                 continue
             yield Fault(
@@ -63,7 +56,7 @@ def _in_the_floor(robot: Robot, run: Run) -> Iterator[Fault]:
 def _sunk(robot: Robot, run: Run) -> Iterator[Fault]:
     grounded = [contact for contact in run.recording.contacts if contact.other == GROUND]
     deepest = max(grounded, key=lambda contact: contact.depth, default=None)
-    if deepest is not None and deepest.depth > deep(run.bodies, SUNK):
+    if deepest is not None and deepest.depth > _ground_depth(run):
         yield Fault(
             "sank-in",
             f"link '{deepest.one}' sank {deepest.depth:.3g} m into the floor",
@@ -85,13 +78,14 @@ def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
         if not seen or (number == 0 and run.bodies.nailed):
             continue
         pose = run.end.pose(number)
-        highest = NEAR
+        gap = run.thresholds.ground_gap
+        highest = gap
         if body.shapes:
             seen = [name for name in seen if not robot.link[name].collisions]
-            highest = -deep(run.bodies, SUNK)
+            highest = -_ground_depth(run)
             if number not in parents:  # a foot on the end of a leg, of which the rest may touch
                 turn, at = np.array(pose.rotation), np.array(pose.translation)
-                highest = min(NEAR, lowest(body.shapes, turn, at) - SHOWS)
+                highest = min(gap, lowest(body.shapes, turn, at) - run.thresholds.foot_protrusion)
         for name in seen:
             points = _seen(robot, name, shape_points)
             if not len(points):
@@ -100,7 +94,7 @@ def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
             heights = points @ np.array(place.rotation[2]) + place.translation[2]
             least = float(heights.min())
             if least < highest:
-                where = "on" if least > -NEAR else f"{-least:.3g} m below"
+                where = "on" if least > -gap else f"{-least:.3g} m below"
                 yield Fault(
                     "no-contact-shape",
                     f"link '{name}' is {where} the floor and has no <collision> to touch it with",
@@ -114,7 +108,7 @@ def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
 
 def _sunken(robot: Robot, run: Run) -> Iterator[Fault]:
     """Links that are seen deep in the floor, where their own collision does not reach."""
-    least = deep(run.bodies, SUNK)
+    least = _ground_depth(run)
     for number, body in enumerate(run.bodies.bodies):
         if number == 0 and run.bodies.nailed:
             continue
@@ -131,10 +125,12 @@ def _sunken(robot: Robot, run: Run) -> Iterator[Fault]:
             points = _seen(robot, name, points_of)
             heights = points @ np.array(place.rotation[2]) + place.translation[2]
             low, high = float(heights.min()), float(heights.max())
-            if -low > least and -low > DROWNED * (high - low):
+            if -low > least and -low > run.thresholds.submerged_visual * (high - low):
                 bounds = [shape.bounds() for shape in shapes]
                 size = max(float((upper - lower).max()) for lower, upper in bounds)
-                small = size < 0.5 * float((points.max(axis=0) - points.min(axis=0)).max())
+                small = size < run.thresholds.small_collision * float(
+                    (points.max(axis=0) - points.min(axis=0)).max()
+                )
                 yield Fault(
                     "no-contact-shape",
                     f"link '{name}' is seen {-low:.3g} m below the floor, and its <collision> does "
@@ -157,9 +153,9 @@ def _lowest_corner(box: tuple[Array, Array], place: Pose) -> float:
     return middle - float(np.abs(up) @ (box[1] - box[0])) / 2
 
 
-def _unlike(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
+def _unlike(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     """Links that look like one on which the robot stands, and have nothing to stand on."""
-    feet = {look: name for name in rest.supports if (look := _look(robot, name)) is not None}
+    feet = {look: name for name in state.supports if (look := _look(robot, name)) is not None}
     for body in run.bodies.bodies[1:]:
         for name in body.links:
             look = None if robot.link[name].collisions else _look(robot, name)

@@ -7,42 +7,31 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..model.elements import Joint, Robot
-from ..model.pose import rotation_of_quaternion
-from .bodies import JointOf
-from .control import driven
-from .fault import Fault
-from .judge_body import is_impossible
-from .judge_collapse import judge_collapse
-from .judge_rest import Rest
-from .recording import GROUND
-from .run import Run
-from .why_moving import is_swinging
-
-SAG = 0.05
-"""How far a held joint may be from where it is held [rad]; a sliding one, of the robot's size."""
-
-BEYOND = 0.02
-"""How far a joint may be beyond a limit [rad]; a sliding one, of the robot's size."""
-
-_NEARLY = 0.9
-
-ON_AXIS = 0.01
-"""How far from its axis the mass of a wheel may be, as a part of the robot's size."""
+from ...model.elements import Joint, Robot
+from ...model.pose import rotation_of_quaternion
+from ..bodies import JointOf
+from ..control import driven
+from ..fault import Fault
+from ..model_checks.bodies import is_impossible
+from ..recording import GROUND
+from ..run import Run
+from .collapse import check_collapse
+from .final_state import FinalState
+from .settling import is_swinging
 
 
-def judge_joints(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
-    """What is to be said of joints, at the end of a run that was not lost."""
+def check_joints(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+    """Report joints that left their target or limits, and those that need much effort."""
     recording = run.recording
     if not recording.joints:
         return
-    if recording.ended != "lost" and not rest.fell:
-        sagging = list(_sag(robot, run, rest))
+    if recording.ended != "lost" and not state.fell:
+        sagging = list(_sag(robot, run, state))
         yield from sagging
         yield from _beyond(robot, run)
         yield from _misled(robot, run)
         if not sagging:
-            yield from judge_collapse(robot, run)
+            yield from check_collapse(robot, run)
             yield from _nearly(robot, run)
     yield from _unlimited(robot, run)
     yield from _unheld(robot, run)
@@ -80,23 +69,35 @@ def _joint(robot: Robot, name: str) -> Joint:
     return robot.joint[name]
 
 
-def _allowed(joint: JointOf, part: float, run: Run) -> float:
-    return part * max(run.bodies.size, 1e-3) if joint.kind == "prismatic" else part
+def sag_bound(joint: JointOf, run: Run) -> float:
+    """Return how far a held joint may be off its target [rad, m]."""
+    bounds = run.thresholds
+    if joint.kind == "prismatic":
+        return bounds.sag_slide * max(run.bodies.size, 1e-3)
+    return bounds.sag_turn
+
+
+def _limit_bound(joint: JointOf, run: Run) -> float:
+    """Return how far a joint may be beyond a limit [rad, m]."""
+    bounds = run.thresholds
+    if joint.kind == "prismatic":
+        return bounds.limit_slide * max(run.bodies.size, 1e-3)
+    return bounds.limit_turn
 
 
 def _units(joint: JointOf) -> tuple[str, str]:
     return ("m", "N") if joint.kind == "prismatic" else ("rad", "N·m")
 
 
-def _sag(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
+def _sag(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     recording = run.recording
     for column, joint in enumerate(run.bodies.joints):
         if joint.name not in recording.targets or driven(run.settings.controls, joint.name):
             continue
         target, now = recording.targets[joint.name], float(recording.positions[-1, column])
-        if not abs(now - target) > _allowed(joint, SAG, run):
+        if not abs(now - target) > sag_bound(joint, run):
             continue
-        if rest.settled is not None and _rolls(run, column):
+        if state.settled is not None and _rolls(run, column):
             continue  # it was set down so, or slid; whether it stands does not hang on that
         need = needed_effort(run, column)
         length, force = _units(joint)
@@ -105,12 +106,14 @@ def _sag(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
             why = "no effort is written, and it was held without bound: something pushes it away"
         elif need is not None and abs(need) > allowed:
             why = f"to hold it takes {abs(need):.4g} {force}, and it may use {allowed:.4g}"
-        elif rest.settled is None and is_swinging(run, column):
+        elif state.settled is None and is_swinging(run, column):
             why = (
                 f"it swings: the {allowed:.4g} {force} that it may use brake what it moves too "
                 "late; something struck that, or its inertia is too large"
             )
-        elif abs(used := float(recording.efforts[-1, column])) > _NEARLY * allowed:
+        elif (
+            abs(used := float(recording.efforts[-1, column])) > run.thresholds.near_effort * allowed
+        ):
             why = f"it may use {allowed:.4g} {force}, which was not enough"
         else:
             why = f"it uses {abs(used):.4g} of the {allowed:.4g} {force} that it may: "
@@ -118,7 +121,7 @@ def _sag(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
         yield Fault(
             "sags",
             f"joint '{joint.name}' is held at {target:.3g} {length} and "
-            f"{'is' if rest.settled is None else 'came to rest'} at {now:.3g} {length}",
+            f"{'is' if state.settled is None else 'came to rest'} at {now:.3g} {length}",
             (_joint(robot, joint.name).limit or _joint(robot, joint.name)).place,
             "joint",
             joint.name,
@@ -141,13 +144,15 @@ def _rolls(run: Run, column: int) -> bool:
         return False
     centre = np.array(body.properties.com)
     off = centre - np.array(joint.axis) * (centre @ np.array(joint.axis))
-    return bool(np.linalg.norm(off) < ON_AXIS * run.bodies.size)
+    return bool(np.linalg.norm(off) < run.thresholds.wheel_offset * run.bodies.size)
 
 
 def _why_idle(run: Run, column: int) -> str:
     """Why a joint does not go where it is held, though it could use more effort."""
     body = run.bodies.bodies[column + 1]
-    if body.properties is not None and is_impossible(body.properties.inertia):
+    if body.properties is not None and is_impossible(
+        body.properties.inertia, run.thresholds.tensor_excess
+    ):
         return f"link '{body.name}' has a physically inconsistent inertia"
     return "it is blocked, or moves too slowly to be there in time"
 
@@ -156,7 +161,7 @@ def needed_effort(run: Run, column: int) -> float | None:
     """What a joint needs to hold what hangs on it where the run began [N·m, N].
 
     The static balance of weights: each body beyond the joint pulls at its center of mass, and its
-    spring where it is at rest. None where something beyond the joint touches the plane, which then
+    spring where it is at state. None where something beyond the joint touches the plane, which then
     carries a part.
     """
     bodies, recording = run.bodies.bodies, run.recording
@@ -199,7 +204,7 @@ def _misled(robot: Robot, run: Run) -> Iterator[Fault]:
             continue
         led = float(run.recording.positions[-1, columns[joint.leader]])
         asked = joint.multiplier * led + joint.offset
-        if not max(joint.lower - asked, asked - joint.upper) > _allowed(joint, BEYOND, run):
+        if not max(joint.lower - asked, asked - joint.upper) > _limit_bound(joint, run):
             continue
         length, _ = _units(joint)
         side, limit = ("upper", joint.upper) if asked > joint.upper else ("lower", joint.lower)
@@ -220,7 +225,7 @@ def _beyond(robot: Robot, run: Run) -> Iterator[Fault]:
     for column, joint in enumerate(run.bodies.joints):
         now = float(run.recording.positions[-1, column])
         past = max(joint.lower - now, now - joint.upper)
-        if not past > _allowed(joint, BEYOND, run):
+        if not past > _limit_bound(joint, run):
             continue
         length, _ = _units(joint)
         side = "upper" if now > joint.upper else "lower"
@@ -244,9 +249,10 @@ def _nearly(robot: Robot, run: Run) -> Iterator[Fault]:
         return
     for column, joint in enumerate(run.bodies.joints):
         used = abs(float(recording.efforts[-1, column]))
-        if joint.name in recording.targets and joint.effort and used > _NEARLY * joint.effort:
+        near = run.thresholds.near_effort * (joint.effort or 0.0)
+        if joint.name in recording.targets and joint.effort and used > near:
             need = needed_effort(run, column)
-            idle = need is not None and abs(need) < _NEARLY * joint.effort
+            idle = need is not None and abs(need) < near
             if idle or _rolls(run, column):
                 continue  # it is on its way back, or wheels push against each other
             _, force = _units(joint)

@@ -8,38 +8,16 @@ from itertools import product
 
 import numpy as np
 
-from ..inertia.tensor import MassProperties
-from ..model.elements import Link, Robot
-from .bodies import mass_of
-from .extent import Extent, extent_of
-from .fault import Fault
-from .recording import Array
-from .run import Run
-
-REACH = 1.2
-"""How far out a link's mass may sit on average, as a part of how far its shapes reach."""
-
-FAR_OUT = 3.0
-"""The same of a link so light that its inertia hardly matters."""
-
-SPREAD = 2.0
-"""How far out along one axis, as a part of half the length of its shapes along it.
-
-Mass in two lumps at the ends has one; real parts have 0.6. Shapes leave out what is small.
-"""
-
-MADE_UP = 2.0
-"""How much larger than that of a solid box a tensor of equal powers of ten may be."""
-
-DENSEST = 12_000.0
-"""Denser than lead [kg/m³]."""
+from ...inertia.tensor import MassProperties
+from ...model.elements import Link, Robot
+from ..bodies import mass_of
+from ..checks.thresholds import Thresholds
+from ..extent import Extent, extent_of
+from ..fault import Fault
+from ..recording import Array
+from ..run import Run
 
 TOO_LARGE = "a tensor of ones, or of other units; the link turns far too slowly"
-
-_HEAVY = 0.1
-_LIGHT = 0.02  # of the robot's mass: what is lighter stands for a camera or a frame
-_ASIDE = 0.5  # of the longest half: a motor may stick out of a thin box by that
-_THICK = 0.05  # of the longest half: how thick a sheet is at least
 
 
 def has_shapes(robot: Robot, name: str) -> bool:
@@ -47,29 +25,33 @@ def has_shapes(robot: Robot, name: str) -> bool:
     return bool(robot.link[name].collisions or robot.link[name].visuals)
 
 
-def judge_size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
-    """Mass and inertia that no shape of this size could have."""
+def check_mass_distribution(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
+    """Report mass and inertia that no shape of a link's size could have."""
+    bounds = run.thresholds
     own = mass_of(link)
     if own is None or link.inertial is None:
         return
     share = own.mass / run.bodies.mass
     spread = math.sqrt(max(0.0, float(np.trace(own.inertia)) / 2 / own.mass))
-    if not has_shapes(robot, link.name) and share < _HEAVY:
+    if not has_shapes(robot, link.name) and share < bounds.heavy_link:
         yield from _bare(robot, link, own, spread, run)
         return
     extent = _around(robot, link, run, only_collisions=True)
-    if _fits(extent, own, spread):
+    if _fits(extent, own, spread, bounds):
         return
-    if not (share > _LIGHT or _rules(own.inertia, link.name, run)):
+    if not (share > bounds.light_link or _rules(own.inertia, link.name, run)):
         return
     extent = _around(robot, link, run)
     reach = extent.reach(own.com)
-    if reach and spread > (REACH if share > _LIGHT else FAR_OUT) * reach:
+    heavy = share > bounds.light_link
+    if reach and spread > (bounds.gyration_reach if heavy else bounds.light_gyration_reach) * reach:
         said = f"that of mass {spread:.3g} m from its centre; its shapes reach {reach:.3g} m"
-    elif share > _LIGHT and reach:
-        said = _made_up(own.inertia, own.mass, extent)
-        if not said and _too_wide(own.inertia, own.mass, extent):  # or in what is fixed
-            said = _too_wide(own.inertia, own.mass, _around(robot, link, run, all_links=True))
+    elif share > bounds.light_link and reach:
+        said = _made_up(own.inertia, own.mass, extent, bounds)
+        if not said and _too_wide(own.inertia, own.mass, extent, bounds):  # or in what is fixed
+            said = _too_wide(
+                own.inertia, own.mass, _around(robot, link, run, all_links=True), bounds
+            )
     else:
         said = ""
     if said:
@@ -82,7 +64,7 @@ def judge_size(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
             TOO_LARGE,
             "inertia-exceeds-geometry",
         )
-    if share > _LIGHT and extent.volume and own.mass > DENSEST * extent.volume:
+    if share > bounds.light_link and extent.volume and own.mass > bounds.density * extent.volume:
         yield Fault(
             "too-dense",
             f"link '{link.name}' weighs {own.mass:.4g} kg, {own.mass / extent.volume:,.0f} kg/m³ "
@@ -136,12 +118,12 @@ def _frames(run: Run) -> Array:
     return np.array(found)
 
 
-def _too_wide(tensor: Array, mass: float, extent: Extent) -> str:
+def _too_wide(tensor: Array, mass: float, extent: Extent, bounds: Thresholds) -> str:
     """What a tensor is that spreads its mass beyond the shapes along an axis; empty if none."""
-    moments, half = _halves(tensor, extent)
+    moments, half = _halves(tensor, extent, bounds)
     spread = np.sqrt(np.maximum(0.0, moments.sum() / 2 - moments) / mass)
     worst = int((spread / half).argmax())
-    if spread[worst] <= max(SPREAD * half[worst], _ASIDE * half.max()):
+    if spread[worst] <= max(bounds.axis_spread * half[worst], bounds.axis_overhang * half.max()):
         return ""
     return (
         f"that of mass {spread[worst]:.3g} m to either side of its centre; its shapes reach "
@@ -149,15 +131,15 @@ def _too_wide(tensor: Array, mass: float, extent: Extent) -> str:
     )
 
 
-def _made_up(tensor: Array, mass: float, extent: Extent) -> str:
+def _made_up(tensor: Array, mass: float, extent: Extent, bounds: Thresholds) -> str:
     """What a tensor is that is a power of ten about every axis, and too large; empty if not."""
     moment = float(tensor[0, 0])
     power = math.log10(moment) if moment > 0 else 0.5
     if abs(power - round(power)) > 1e-9 or not np.array_equal(tensor, moment * np.eye(3)):
         return ""
-    _, half = _halves(tensor, extent)
+    _, half = _halves(tensor, extent, bounds)
     solid = mass / 3 * (float(half @ half) - half**2)
-    if moment <= MADE_UP * solid.min():
+    if moment <= bounds.placeholder_ratio * solid.min():
         return ""
     return (
         f"{moment:g} kg·m² about every axis, which is made up; a solid of its size has "
@@ -165,19 +147,21 @@ def _made_up(tensor: Array, mass: float, extent: Extent) -> str:
     )
 
 
-def _halves(tensor: Array, extent: Extent) -> tuple[Array, Array]:
+def _halves(tensor: Array, extent: Extent, bounds: Thresholds) -> tuple[Array, Array]:
     """Principal moments, and half of what the shapes reach along each axis [m]."""
     moments, axes = np.linalg.eigh(tensor)
     along = extent.points @ axes
     half = (along.max(axis=0) - along.min(axis=0)) / 2
-    return moments, np.maximum(half, _THICK * half.max())
+    return moments, np.maximum(half, bounds.sheet_thickness * half.max())
 
 
 def _rules(tensor: Array, name: str, run: Run) -> bool:
     """Whether a light link's tensor is most of its rigid body's all the same."""
     body = next(body for body in run.bodies.bodies if name in body.links)
     assert body.properties is not None
-    return bool(np.trace(tensor) > 0.5 * np.trace(body.properties.inertia))
+    return bool(
+        np.trace(tensor) > run.thresholds.dominant_inertia * np.trace(body.properties.inertia)
+    )
 
 
 def _around(
@@ -201,11 +185,11 @@ def _around(
     )
 
 
-def _fits(extent: Extent, own: MassProperties, spread: float) -> bool:
+def _fits(extent: Extent, own: MassProperties, spread: float, bounds: Thresholds) -> bool:
     reach = extent.reach(own.com)
     return bool(
-        spread <= REACH * reach
-        and own.mass <= DENSEST * extent.volume
-        and not (reach and _made_up(own.inertia, own.mass, extent))
-        and not (reach and _too_wide(own.inertia, own.mass, extent))
+        spread <= bounds.gyration_reach * reach
+        and own.mass <= bounds.density * extent.volume
+        and not (reach and _made_up(own.inertia, own.mass, extent, bounds))
+        and not (reach and _too_wide(own.inertia, own.mass, extent, bounds))
     )

@@ -6,23 +6,20 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..errors import UrdftoolError
-from ..model.elements import Robot
-from ..model.pose import rotation_of_quaternion
-from ..source.document import read_file
-from ..source.location import Place
-from .bodies import JointOf
-from .control import POSITION, VELOCITY, Control
-from .fault import Fault
-from .judge_joint import SAG, needed_effort
-from .run import Run
-
-_SWINGS = 4  # turns of direction in the last second
-_SHAKES = 0.01  # rad; a sliding joint, of the robot's size
+from ...errors import UrdftoolError
+from ...model.elements import Robot
+from ...model.pose import rotation_of_quaternion
+from ...source.document import read_file
+from ...source.location import Place
+from ..bodies import JointOf
+from ..control import POSITION, VELOCITY, Control
+from ..fault import Fault
+from ..run import Run
+from .joints import needed_effort, sag_bound
 
 
-def judge_controls(robot: Robot, run: Run) -> Iterator[Fault]:
-    """What is to be said of the controllers that a run was given."""
+def check_controllers(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Report joints that the controllers of a run shake, or do not hold."""
     controls = run.settings.controls
     if controls is None:
         return
@@ -94,7 +91,7 @@ def _unstable(run: Run, column: int, joint: JointOf, control: Control) -> str:
     if control.kind == POSITION and recording.ended != "lost":
         damping = pid.d + joint.damping
         critical = 2 * (pid.p * inertia) ** 0.5
-        if damping < 0.1 * critical and pid.p > 0:
+        if damping < run.thresholds.damping_ratio * critical and pid.p > 0:
             return (
                 f"nothing damps it: d and the joint's damping are {damping:.3g} together, and "
                 f"with p of {pid.p:g} for {inertia:.3g} {unit} a d near {critical:.3g} calms it"
@@ -112,16 +109,19 @@ def _shakes(run: Run, column: int, joint: JointOf) -> bool:
     positions = recording.positions[late, column]
     if not np.isfinite(positions).all():
         return True
-    least = _SHAKES * (max(run.bodies.size, 1e-3) if joint.kind == "prismatic" else 1.0)
+    bounds = run.thresholds
+    least = bounds.shake_turn
+    if joint.kind == "prismatic":
+        least = bounds.shake_slide * max(run.bodies.size, 1e-3)
     turns = int((np.diff(np.sign(rates)) != 0).sum())
-    return turns >= _SWINGS and float(np.ptp(positions)) > least
+    return turns >= bounds.shake_reversals and float(np.ptp(positions)) > least
 
 
 def _weak(run: Run, column: int, joint: JointOf, control: Control) -> Iterator[Fault]:
     pid, recording = control.pid, run.recording
     assert pid is not None
     target, now = recording.targets[joint.name], float(recording.positions[-1, column])
-    bound = SAG * (max(run.bodies.size, 1e-3) if joint.kind == "prismatic" else 1.0)
+    bound = sag_bound(joint, run)
     if abs(now - target) <= bound:
         return
     length, force = ("m", "N") if joint.kind == "prismatic" else ("rad", "N·m")
@@ -131,7 +131,7 @@ def _weak(run: Run, column: int, joint: JointOf, control: Control) -> Iterator[F
     parts = []
     if need is not None:
         parts.append(f"to hold it takes {load:.3g} {force}")
-    if joint.effort is not None and used >= 0.98 * joint.effort:
+    if joint.effort is not None and used >= run.thresholds.saturated_effort * joint.effort:
         parts.append(f"it may use {joint.effort:.3g} {force}, and does")
     elif control.kind == VELOCITY:
         parts.append("gains of a velocity brake a joint and do not bring it back")

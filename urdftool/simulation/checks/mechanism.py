@@ -12,37 +12,21 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..model.elements import Robot
-from ..model.kinematics import link_poses, with_mimics
-from .bodies import Body, JointOf
-from .moment import Moment
-from .overlap import triangle_overlap
-from .recording import Array
-
-SAME = 0.25
-"""By how much an overlap that stays the same may vary with the motion, as a part of the largest."""
-
-LONG = 2.0
-"""How much longer than wide a rod or a cylinder is."""
-
-ASKEW = math.radians(5)
-"""The angle between the axes of a rod and its cylinder."""
-
-THINNER = 0.8
-"""How wide a rod is at most, as a part of its cylinder."""
-
-OFF_AXIS = 0.25
-"""How far the middle of a rod is from the axis of its cylinder, as a part of the thinner one."""
+from ...model.elements import Robot
+from ...model.kinematics import link_poses, with_mimics
+from ..bodies import Body, JointOf
+from ..moment import Moment
+from ..overlap import triangle_overlap
+from ..recording import Array
 
 _STEPS = 5
 _WIDE = 1.0  # rad: how far a joint is moved to each side that has no limits
-_LEAST = 0.002  # m
 
 
-def mechanism_of(
+def find_mechanism(
     robot: Robot, start: Moment, links: tuple[str, str], between: Sequence[int]
 ) -> str:
-    """What mechanism two links belong to that overlap at the start; empty where none is seen.
+    """Name the mechanism that two links which overlap at the start belong to; empty if none.
 
     Args:
         robot: The robot, which finds its meshes.
@@ -81,7 +65,9 @@ def _slides(start: Moment, between: Sequence[int]) -> bool:
         if joint is None or joint.kind != "prismatic":
             return False
         axes.append(np.array(start.pose(number).rotation) @ np.array(joint.axis))
-    return len(axes) > 1 and all(abs(float(axis @ axes[0])) > math.cos(ASKEW) for axis in axes)
+    return len(axes) > 1 and all(
+        abs(float(axis @ axes[0])) > math.cos(start.thresholds.rod_angle) for axis in axes
+    )
 
 
 def _is_coaxial(start: Moment, ends: tuple[int, int]) -> bool:
@@ -90,12 +76,12 @@ def _is_coaxial(start: Moment, ends: tuple[int, int]) -> bool:
     if found[0] is None or found[1] is None:
         return False
     (middle, along, width), (other, direction, thickness) = found[0], found[1]
-    if abs(float(along @ direction)) < math.cos(ASKEW):
+    if abs(float(along @ direction)) < math.cos(start.thresholds.rod_angle):
         return False
-    if min(width, thickness) > THINNER * max(width, thickness):
+    if min(width, thickness) > start.thresholds.rod_width * max(width, thickness):
         return False
     off = np.linalg.norm(np.cross(other - middle, along))
-    return bool(off < OFF_AXIS * min(width, thickness))
+    return bool(off < start.thresholds.rod_offset * min(width, thickness))
 
 
 def _long_axis(start: Moment, number: int) -> tuple[Array, Array, float] | None:
@@ -118,7 +104,7 @@ def _long_axis(start: Moment, number: int) -> tuple[Array, Array, float] | None:
     edges = high - low
     longest = int(edges.argmax())
     width = float(np.delete(edges, longest).max())
-    if edges[longest] < LONG * width:
+    if edges[longest] < start.thresholds.rod_length * width:
         return None
     return axes @ ((low + high) / 2), axes[:, longest], width
 
@@ -146,7 +132,9 @@ def _keeps_overlap(
         if depth is None:
             return False
         depths.append(depth)
-    return min(depths) > 0 and max(depths) - min(depths) <= max(SAME * max(depths), _LEAST)
+    bounds = start.thresholds
+    varies = max(bounds.mechanism_variation * max(depths), bounds.mechanism_depth)
+    return min(depths) > 0 and max(depths) - min(depths) <= varies
 
 
 def _leader(start: Moment, joint: JointOf) -> JointOf:

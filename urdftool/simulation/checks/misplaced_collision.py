@@ -11,49 +11,20 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..model.elements import Collision, Link, Mesh, Robot, Visual
-from ..model.pose import Pose, pose_of
-from .extent import box_of, is_beside, is_off_mass, looks_of, points_of
-from .moment import Moment
-from .overlap import primitive_triangles
-from .recording import Array
-from .remembered import mesh_points, remembered
-from .shapes import Shape, is_without_extent
-from .solid import Solids, hulls
-
-UNLIKE = 0.45
-"""How much of collision and visual is in both at most, for a misplaced one, of the smaller."""
-
-GAIN = 0.2
-"""How much more of the smaller neighbour is in both by its collision than as it is seen."""
-
-ALIKE = 0.05
-"""By how much a visual may be larger or smaller than a collision that is its copy."""
-
-OFF = 0.25
-"""How far a copy may be from its visual along an axis, as a part of its size along it."""
-
-COMPACT = 0.8
-"""How large a housing may be, as a part of what is seen of its link."""
-
-HOUSING = 0.25
-"""How far from a joint a housing may be put that belongs around it, as a part of its size."""
-
-FIT = 0.2
-"""How much more of a collision is where its link is seen, if it is moved to the middle of that."""
-
-FREE = 0.15
-"""How much of a collision is where nothing is seen, of its link or the other, to be misplaced."""
-
-ROUGH = 0.05
-"""How much more of its neighbour a collision may share that is moved to where it belongs."""
-
-SHARE = 0.1
-"""How much of the smaller of two neighbours is in both, for one to be misplaced."""
+from ...model.elements import Collision, Link, Mesh, Robot, Visual
+from ...model.pose import Pose, pose_of
+from ..extent import box_of, points_of
+from ..moment import Moment
+from ..overlap import primitive_triangles
+from ..recording import Array
+from ..remembered import mesh_points, remembered
+from ..shapes import Shape, is_without_extent
+from ..solid import Solids, hulls
+from .thresholds import Thresholds
 
 
-def strayed(robot: Robot, moment: Moment, link: str, other: int) -> str | None:
-    """Why the collision of a link is misplaced that is in a neighbour's; None if it is not.
+def misplaced_collision(robot: Robot, moment: Moment, link: str, other: int) -> str | None:
+    """Say why collision geometry that overlaps a neighbor's is misplaced; None if it is not.
 
     Args:
         robot: The robot, which finds its meshes.
@@ -61,11 +32,11 @@ def strayed(robot: Robot, moment: Moment, link: str, other: int) -> str | None:
         link: A link.
         other: Number of the body that a joint joins to its own.
     """
-    part = robot.link[link]
-    box, shown_box = box_of(robot, part.collisions), box_of(robot, looks_of(part))
+    part, bounds = robot.link[link], moment.thresholds
+    box, shown_box = box_of(robot, part.collisions), box_of(robot, visuals_with_known_pose(part))
     if box is None:
         return None
-    if shown_box is not None and (moved := _copy_moved(box, shown_box)):
+    if shown_box is not None and (moved := _copy_moved(box, shown_box, bounds)):
         return f"the collision of '{link}' is as large as what is seen of it, and {moved:.3g} m off"
     bodies = moment.bodies.bodies
     own = moment.body_of(link)
@@ -88,11 +59,11 @@ def strayed(robot: Robot, moment: Moment, link: str, other: int) -> str | None:
     shown = _union(_seen(robot, moment, name).moved(at[name]) for name in at)
     if shown_box is not None:
         off = (shown_box[0] + shown_box[1] - box[0] - box[1]) / 2
-        if _may_fit_better(touches, box, off) and share() > SHARE:
-            more = _fits_better(touches, off, seen, theirs)
-            if more > FIT and (
+        if _may_fit_better(touches, box, off, bounds) and share() > bounds.neighbor_overlap:
+            more = _fits_better(touches, off, seen, theirs, bounds)
+            if more > bounds.better_fit and (
                 _is_nearer_mass(part, box, off)
-                or touches.shared(seen | shown) < (1 - FREE) * touches.volume
+                or touches.shared(seen | shown) < (1 - bounds.outside_visuals) * touches.volume
             ):
                 return (
                     f"moved by {np.linalg.norm(off):.3g} m, onto the middle of what is seen of it, "
@@ -100,7 +71,7 @@ def strayed(robot: Robot, moment: Moment, link: str, other: int) -> str | None:
                 )
     if around:
         return None
-    if is_beside(robot, link) and share() > SHARE:
+    if is_offset_from_visual(robot, link, bounds.box_overlap) and share() > bounds.neighbor_overlap:
         what = "what is seen of it" if shown_box is not None else "its mass"
         return f"the collision of '{link}' lies beside {what}"
     low, high = box
@@ -111,13 +82,13 @@ def strayed(robot: Robot, moment: Moment, link: str, other: int) -> str | None:
         return None
     if not seen:
         return None
-    unlike = moment.once(("unlike", link), lambda: _are_unlike(touches, seen))
-    if not (unlike or is_off_mass(robot, link)) or share() <= GAIN:
+    unlike = moment.once(("unlike", link), lambda: _are_unlike(touches, seen, bounds))
+    if not (unlike or is_offset_from_com(robot, link)) or share() <= bounds.neighbor_gain:
         return None
     gain = share() - seen.shared(theirs) / smaller
-    if gain > GAIN:
+    if gain > bounds.neighbor_gain:
         gain = min(gain, share() - seen.shared(shown) / smaller)
-    if gain <= GAIN:
+    if gain <= bounds.neighbor_gain:
         return None
     if unlike:
         return (
@@ -127,30 +98,34 @@ def strayed(robot: Robot, moment: Moment, link: str, other: int) -> str | None:
     return f"the collision of '{link}' lies beside its mass"
 
 
-def _are_unlike(touches: Solids, seen: Solids) -> bool:
+def _are_unlike(touches: Solids, seen: Solids, bounds: Thresholds) -> bool:
     """Whether less is in both than would be, if one were the other."""
-    return touches.shared(seen) < UNLIKE * min(touches.volume, seen.volume)
+    return touches.shared(seen) < bounds.unlike_overlap * min(touches.volume, seen.volume)
 
 
-def _copy_moved(box: tuple[Array, Array], shown: tuple[Array, Array]) -> float:
+def _copy_moved(box: tuple[Array, Array], shown: tuple[Array, Array], bounds: Thresholds) -> float:
     """How far a collision is from a visual of the same size [m]; 0 where it is not, or is near."""
     size, size_seen = box[1] - box[0], shown[1] - shown[0]
     largest = float(size_seen.max())
-    if (np.abs(size - size_seen) > ALIKE * largest).any():
+    if (np.abs(size - size_seen) > bounds.copy_size * largest).any():
         return 0.0
     off = np.abs(box[0] + box[1] - shown[0] - shown[1]) / 2
-    far = off > np.maximum(OFF * size_seen, OFF / 2 * largest)
+    far = off > bounds.copy_offset * np.maximum(size_seen, largest / 2)
     return float(np.linalg.norm(off)) if far.any() else 0.0
 
 
-def _may_fit_better(touches: Solids, box: tuple[Array, Array], off: Array) -> bool:
+def _may_fit_better(
+    touches: Solids, box: tuple[Array, Array], off: Array, bounds: Thresholds
+) -> bool:
     """Whether a collision can get so much further into its visual at all, when it is moved."""
     size = box[1] - box[0]
     swept = float(np.abs(off) @ (np.prod(size) / np.maximum(size, 1e-12)))
-    return swept > FIT * touches.volume
+    return swept > bounds.better_fit * touches.volume
 
 
-def _fits_better(touches: Solids, off: Array, seen: Solids, theirs: Solids) -> float:
+def _fits_better(
+    touches: Solids, off: Array, seen: Solids, theirs: Solids, bounds: Thresholds
+) -> float:
     """How much more of a collision is in its visual when it is moved, as a part of it.
 
     Args:
@@ -158,10 +133,12 @@ def _fits_better(touches: Solids, off: Array, seen: Solids, theirs: Solids) -> f
         off: How it is moved [m].
         seen: The visual.
         theirs: What touches of the neighbour, of which it may share no more when it is moved.
+        bounds: The thresholds.
     """
     moved = touches.moved(Pose(translation=(float(off[0]), float(off[1]), float(off[2]))))
     more = (moved.shared(seen) - touches.shared(seen)) / touches.volume
-    if more <= FIT or moved.shared(theirs) > (1 + ROUGH) * touches.shared(theirs):
+    grown = (1 + bounds.neighbor_growth) * touches.shared(theirs)
+    if more <= bounds.better_fit or moved.shared(theirs) > grown:
         return 0.0
     return more
 
@@ -197,11 +174,14 @@ def _is_housing(
     centre, size = (box[0] + box[1]) / 2, float((box[1] - box[0]).max())
     if bodies[other].parent == own:  # the joint is the neighbour's
         joint = np.array((place @ bodies[other].origin).translation)
-    elif shown is None or (box[1] - box[0]).max() < COMPACT * (shown[1] - shown[0]).max():
+    elif (
+        shown is None
+        or (box[1] - box[0]).max() < moment.thresholds.housing_size * (shown[1] - shown[0]).max()
+    ):
         joint = np.array(place.translation)
     else:  # a part as long as what is seen of it is no housing of its own joint
         return False
-    return float(np.linalg.norm(centre - joint)) < HOUSING * size
+    return float(np.linalg.norm(centre - joint)) < moment.thresholds.housing_offset * size
 
 
 def _union(some: Iterable[Solids]) -> Solids:
@@ -238,7 +218,8 @@ def _solids(robot: Robot, shape: Shape, collision: Collision) -> Solids:
 def _seen(robot: Robot, moment: Moment, link: str) -> Solids:
     """The hulls of what is seen of a link, in its frame."""
     return moment.once(
-        ("seen", link), lambda: _union(_look(robot, look) for look in looks_of(robot.link[link]))
+        ("seen", link),
+        lambda: _union(_look(robot, look) for look in visuals_with_known_pose(robot.link[link])),
     )
 
 
@@ -252,3 +233,47 @@ def _look(robot: Robot, look: Visual) -> Solids:
         return remembered(robot, key, lambda: hulls([points])).moved(pose)
     corners = points_of(robot, look)
     return Solids([]) if corners is None else hulls([corners])
+
+
+def is_offset_from_visual(robot: Robot, name: str, overlap: float) -> bool:
+    """Tell whether the collision geometry of a link is offset from its visuals, or else its mass.
+
+    Args:
+        robot: The robot.
+        name: Of the link.
+        overlap: How much of the smaller bounding box is in the other along each axis, at least.
+    """
+    link = robot.link[name]
+    touches, seen = (
+        box_of(robot, group) for group in (link.collisions, visuals_with_known_pose(link))
+    )
+    if touches is None:
+        return False
+    if seen is None:
+        return is_offset_from_com(robot, name)
+    shared = np.minimum(touches[1], seen[1]) - np.maximum(touches[0], seen[0])
+    smaller = np.minimum(touches[1] - touches[0], seen[1] - seen[0])
+    return bool((shared < overlap * smaller - 1e-6).any())
+
+
+def visuals_with_known_pose(link: Link) -> list[Visual]:
+    """The visuals of a link that show where it is: readers differ in which way up glTF is."""
+    return [
+        visual
+        for visual in link.visuals
+        if not (
+            isinstance(visual.geometry, Mesh)
+            and visual.geometry.filename.lower().endswith((".glb", ".gltf"))
+        )
+    ]
+
+
+def is_offset_from_com(robot: Robot, name: str) -> bool:
+    """Whether the centre of a link's mass is further from what touches than half of that."""
+    link = robot.link[name]
+    touches = box_of(robot, link.collisions)
+    if touches is None or not link.mass or link.inertial is None:
+        return False
+    centre = np.array(link.inertial.origin.xyz if link.inertial.origin else (0.0, 0.0, 0.0))
+    slack = (touches[1] - touches[0]) / 2
+    return bool((centre < touches[0] - slack).any() or (centre > touches[1] + slack).any())

@@ -6,29 +6,21 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..model.elements import Geometry, Link, Mesh, Robot
-from ..rules.inertia.density import mass_out_of_line
-from ..source.location import Place
-from .bodies import TENSOR_ROUNDING, Bodies, Body, mass_of
-from .extent import extent_of
-from .fault import Fault
-from .judge_size import has_shapes, judge_size
-from .recording import Array
-from .remembered import mesh_points
-from .run import Run
-from .shapes import is_without_extent
-
-LARGEST = 30.0
-"""A part larger than this, on a robot of smaller parts, is in millimetres [m]."""
-
-_THIN = 1.0  # kg/m³, a bit less than air
-_SHARE = 0.5
-_PART = 0.05  # of the volume of all links: what is smaller may be a camera that weighs little
-_HOLLOW = 20.0  # kg/m³ of hulls: an inertial kept apart that is lighter stands for less
+from ...model.elements import Geometry, Link, Mesh, Robot
+from ...rules.inertia.density import mass_out_of_line
+from ...source.location import Place
+from ..bodies import Body, mass_of
+from ..extent import extent_of
+from ..fault import Fault
+from ..recording import Array
+from ..remembered import mesh_points
+from ..run import Run
+from ..shapes import is_without_extent
+from .mass_distribution import check_mass_distribution, has_shapes
 
 
-def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
-    """What is missing or impossible in the file."""
+def check_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Report collision geometry, mass and inertia that are missing or impossible in the file."""
     bodies = run.bodies
     if not any(body.shapes for body in bodies.bodies):
         yield Fault(
@@ -45,15 +37,17 @@ def judge_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
     for number, body in enumerate(bodies.bodies):
         if number == 0 and bodies.nailed:
             continue
-        if body.properties is not None and is_impossible(body.properties.inertia):
+        if body.properties is not None and is_impossible(
+            body.properties.inertia, run.thresholds.tensor_excess
+        ):
             told.add(body.name)
             yield from _tensor(robot, run, body)
         for name in body.links:
-            yield from judge_size(robot, robot.link[name], run)
+            yield from check_mass_distribution(robot, robot.link[name], run)
     yield from _out_of_line(robot, run)
-    yield from _unweighed(robot, bodies)
-    yield from _giants(robot, bodies)
-    yield from _giant_looks(robot, bodies)
+    yield from _unweighed(robot, run)
+    yield from _giants(robot, run)
+    yield from _giant_looks(robot, run)
     for difference in run.recording.read_back:
         if difference.name in told:
             continue
@@ -137,12 +131,13 @@ def _out_of_line(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _unweighed(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
+def _unweighed(robot: Robot, run: Run) -> Iterator[Fault]:
     """Links that are a good part of their rigid body or the robot, and have no mass.
 
     The mass of a link without shapes counts for those of its body that have some and no mass: so
     are inertials kept out of a root. A neighbour with shapes of its own has its own mass only.
     """
+    bodies, bounds = run.bodies, run.thresholds
     extents = {
         name: extent_of(robot, name)
         for body in bodies.bodies
@@ -165,13 +160,15 @@ def _unweighed(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
         if not hollow or (number == 0 and bodies.nailed):
             continue
         bare = sum(robot.link[name].mass for name in body.links if not has_shapes(robot, name))
-        if bare > _HOLLOW * sum(extents[name].volume for name in hollow):
+        if bare > bounds.hollow_density * sum(extents[name].volume for name in hollow):
             continue
         whole = sum(extents[name].volume for name in body.links if name in extents)
         for name in hollow:
             volume = extents[name].volume
             solid = bool(robot.link[name].collisions)  # what is only seen may be a cover
-            if volume > _SHARE * whole > 0 or (solid and volume > _PART * everything):
+            if volume > bounds.massless_share * whole > 0 or (
+                solid and volume > bounds.massless_part * everything
+            ):
                 yield Fault(
                     "no-mass",
                     f"link '{name}' weighs nothing and is {volume / whole:.0%} of its rigid body, "
@@ -189,10 +186,15 @@ def _is_hollow(robot: Robot, name: str) -> bool:
     return not robot.link[name].mass and has_shapes(robot, name)
 
 
-def is_impossible(tensor: Array) -> bool:
-    """Whether no body has a tensor: it is not positive, or breaks the triangle inequality."""
+def is_impossible(tensor: Array, excess: float) -> bool:
+    """Tell whether a tensor is physically inconsistent.
+
+    Args:
+        tensor: Shape (3, 3) [kg·m²].
+        excess: How far it may exceed the triangle inequality [1].
+    """
     low, middle, high = np.linalg.eigvalsh(tensor).tolist()
-    possible: bool = low >= -1e-9 * abs(high) and 0 < high <= (low + middle) * (1 + TENSOR_ROUNDING)
+    possible: bool = low >= -1e-9 * abs(high) and 0 < high <= (low + middle) * (1 + excess)
     return not possible
 
 
@@ -201,7 +203,8 @@ def _tensor(robot: Robot, run: Run, body: Body) -> Iterator[Fault]:
     bad = [
         link
         for link in (robot.link[name] for name in body.links)
-        if (own := mass_of(link)) is not None and is_impossible(own.inertia)
+        if (own := mass_of(link)) is not None
+        and is_impossible(own.inertia, run.thresholds.tensor_excess)
     ]
     link = max(bad, key=lambda link: link.mass) if bad else robot.link[body.name]
     own = mass_of(link)
@@ -252,7 +255,8 @@ def _tensor_taken(run: Run, body: Body) -> str:
     return f"{engine} simulated it as written"
 
 
-def _giants(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
+def _giants(robot: Robot, run: Run) -> Iterator[Fault]:
+    bodies, bounds = run.bodies, run.thresholds
     sizes: dict[str, list[float]] = {}
     for body in bodies.bodies:
         for shape in body.shapes:
@@ -263,8 +267,10 @@ def _giants(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
         others = [value for other, value in largest.items() if other != name]
         link = robot.link[name]
         volume = extent_of(robot, name, only_collisions=True).volume
-        thin = link.mass and volume and link.mass / volume < _THIN
-        if size > LARGEST and (thin or (others and size > 30 * float(np.median(others)))):
+        thin = link.mass and volume and link.mass / volume < bounds.thinnest_density
+        ratio = bounds.largest_part_ratio
+        far = others and size > ratio * float(np.median(others))
+        if size > bounds.largest_part and (thin or far):
             yield Fault(
                 "too-large",
                 f"a collision of link '{name}' is {size:,.0f} m large",
@@ -275,9 +281,10 @@ def _giants(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
             )
 
 
-def _giant_looks(robot: Robot, bodies: Bodies) -> Iterator[Fault]:
+def _giant_looks(robot: Robot, run: Run) -> Iterator[Fault]:
     """Meshes that are seen in millimetres on a robot that touches in metres."""
-    least = max(LARGEST, 30 * bodies.size)
+    bodies, bounds = run.bodies, run.thresholds
+    least = max(bounds.largest_part, bounds.largest_part_ratio * bodies.size)
     if not bodies.size:
         return
     for name in (name for body in bodies.bodies for name in body.links):

@@ -6,50 +6,37 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..model.elements import Robot
-from .bodies import Bodies, Body
-from .fault import Fault
-from .mechanism import mechanism_of
-from .moment import Moment
-from .overlap import overlap
-from .recording import GROUND, Array, Contact
-from .run import Run
-from .strayed import strayed
-
-INTO = 0.005
-"""How deep parts are in each other to be worth a word, as a part of the robot's size."""
-
-THICK = 0.25
-"""How deep they are for a fault, as a part of the thinner one's smallest extent."""
-
-COMPACT = 0.5
-"""How far apart joints may be that are one compound joint, as a part of the smaller body."""
-
-MOVED = 0.05
-"""How far a joint went since the start that takes parts into each other [rad, m]."""
-
-_LEAST = 0.002  # m: hulls have a margin, and files are rounded
+from ...model.elements import Robot
+from ..bodies import Body
+from ..fault import Fault
+from ..moment import Moment
+from ..overlap import overlap
+from ..recording import GROUND, Array, Contact
+from ..run import Run
+from .mechanism import find_mechanism
+from .misplaced_collision import misplaced_collision
 
 
-def deep(bodies: Bodies, part: float) -> float:
-    """How deep a contact is that counts [m]: a part of a robot's size."""
-    return max(part * bodies.size, _LEAST)
+def overlap_depth(start: Moment) -> float:
+    """Return the depth of an overlap that is reported [m]."""
+    bounds = start.thresholds
+    return max(bounds.overlap_depth * start.bodies.size, bounds.contact_depth)
 
 
-def look_inside(robot: Robot, start: Moment) -> None:
-    """Find out of a start what :func:`judge_inside` will ask of it: an engine is waited for."""
+def precompute_overlaps(robot: Robot, start: Moment) -> None:
+    """Compute what :func:`check_interpenetration` needs of a start, and keep it there."""
     for contact in start.contacts:
-        if contact.other != GROUND and contact.depth >= deep(start.bodies, INTO):
+        if contact.other != GROUND and contact.depth >= overlap_depth(start):
             depth = _depth(robot, start, start, contact)
             _misplaced(robot, start, start, contact)
-            if depth >= deep(start.bodies, INTO) and not _are_joined(start, contact):
+            if depth >= overlap_depth(start) and not _are_joined(start, contact):
                 _mechanism(robot, start, contact)
 
 
-def judge_inside(robot: Robot, run: Run) -> Iterator[Fault]:
-    """What is to be said of parts that are in each other."""
+def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Report links that overlap at the start, or at the end only."""
     bodies = run.bodies.bodies
-    least = deep(run.bodies, INTO)
+    least = overlap_depth(run.start)
     at_start = {_pair(contact) for contact in run.start.contacts}
     new = [contact for contact in run.end.contacts if _pair(contact) not in at_start]
     contacts = [(run.start, contact) for contact in run.start.contacts]
@@ -70,7 +57,9 @@ def judge_inside(robot: Robot, run: Run) -> Iterator[Fault]:
         numbers = run.start.body_of(contact.one), run.start.body_of(contact.other)
         thin = min(_extents(bodies[number]).min() for number in numbers)
         brought = "" if joined or moment is run.start else _brought(run, numbers)
-        fails = beside is not None or bool(not joined and depth > THICK * thin and not brought)
+        fails = beside is not None or bool(
+            not joined and depth > run.thresholds.overlap_failure * thin and not brought
+        )
         mechanism = ""
         if fails and beside is None:
             mechanism = _mechanism(robot, run.start, contact)
@@ -100,7 +89,7 @@ def _mechanism(robot: Robot, start: Moment, contact: Contact) -> str:
     links = contact.one, contact.other
     numbers = start.body_of(contact.one), start.body_of(contact.other)
     return start.once(
-        ("mechanism", *links), lambda: mechanism_of(robot, start, links, _between(start, numbers))
+        ("mechanism", *links), lambda: find_mechanism(robot, start, links, _between(start, numbers))
     )
 
 
@@ -121,7 +110,7 @@ def _brought(run: Run, numbers: tuple[int, int]) -> str:
     """Which joint took two bodies into each other since the start; empty where none did."""
     moved = run.recording.positions[-1] - run.recording.positions[0]
     columns = [number - 1 for number in _between(run.start, numbers)]
-    far = [column for column in columns if abs(moved[column]) > MOVED]
+    far = [column for column in columns if abs(moved[column]) > _overlap_motion(run, column)]
     if not far or run.settings.self_collision:
         return ""
     most = max(far, key=lambda column: abs(float(moved[column])))
@@ -132,12 +121,17 @@ def _brought(run: Run, numbers: tuple[int, int]) -> str:
     )
 
 
+def _overlap_motion(run: Run, column: int) -> float:
+    bounds, joint = run.thresholds, run.bodies.joints[column]
+    return bounds.overlap_slide if joint.kind == "prismatic" else bounds.overlap_turn
+
+
 def _depth(robot: Robot, start: Moment, moment: Moment, contact: Contact) -> float:
     """How deep two parts are in each other [m]: no deeper than their own triangles are.
 
     Where those are not deep enough to count, it may be 0.
     """
-    least = deep(start.bodies, INTO)
+    least = overlap_depth(start)
     if _are_joined(start, contact):
         return contact.depth
     links = contact.one, contact.other
@@ -154,7 +148,7 @@ def _misplaced(
 
     def look() -> tuple[str, str] | None:
         for link, other in ((contact.one, contact.other), (contact.other, contact.one)):
-            why = strayed(robot, moment, link, moment.body_of(other))
+            why = misplaced_collision(robot, moment, link, moment.body_of(other))
             if why is not None:
                 return link, why
         return None
@@ -193,7 +187,7 @@ def _share_joint(start: Moment, numbers: tuple[int, int]) -> bool:
     places = start.poses[path, :3]
     apart = float(np.linalg.norm(places.max(axis=0) - places.min(axis=0)))
     smaller = min(_extents(bodies[number]).max() for number in numbers)
-    return bool(apart < COMPACT * smaller)
+    return bool(apart < start.thresholds.compound_joint * smaller)
 
 
 def _extents(body: Body) -> Array:
@@ -207,3 +201,27 @@ def _extents(body: Body) -> Array:
 
 def _pair(contact: Contact) -> frozenset[str]:
     return frozenset((contact.one, contact.other))
+
+
+def check_sweep(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Report links that overlap where a joint moves through its limits."""
+    least = overlap_depth(run.start)
+    for joint in run.swept:
+        hits = sorted((hit for hit in joint.hits if hit.depth > least), key=lambda hit: -hit.depth)
+        if not hits:
+            continue
+        hit = hits[0]
+        more = f", and {len(hits) - 1} more pairs" if len(hits) > 1 else ""
+        part = robot.joint[joint.joint]
+        yield Fault(
+            "blocked",
+            f"joint '{joint.joint}' may go from {joint.lower:.3g} to {joint.upper:.3g} and is free "
+            f"from {joint.free_lower:.3g} to {joint.free_upper:.3g}: beyond, '{hit.one}' and "
+            f"'{hit.other}' overlap{more}",
+            (part.limit or part).place,
+            "joint",
+            joint.joint,
+            "its limits are wider than its parts allow, by the hulls of their collision shapes; "
+            "or one of those is too large",
+            fails=False,
+        )

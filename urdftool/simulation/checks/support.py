@@ -7,48 +7,39 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..model.elements import Robot
-from ..rules.gazebo.contact import contact_role
-from .fault import Fault, listed
-from .judge_rest import TIPPED, Rest
-from .recording import GROUND, Contact
-from .run import Run
-from .shapes import lowest
-
-OUTSIDE = 0.05
-"""How far outside its support polygon the center of mass of a robot at rest may be, as a part of
-the robot's size: the polygon is known only as well as contacts are."""
-
-CARRIED = 0.8
-"""The least part of its weight that the ground carries of a robot at rest."""
-
-_LEAST = 0.005  # m
-_FEW = 2  # wheels or feet, of a robot that stands on them
+from ...model.elements import Robot
+from ...rules.gazebo.contact import contact_role
+from ..fault import Fault, listed
+from ..recording import GROUND, Contact
+from ..run import Run
+from ..shapes import lowest
+from .final_state import FinalState
 
 
-def judge_support(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
-    """What is to be said of what carries a robot that came to rest upright."""
+def check_support(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+    """Report what carries a robot at rest and upright, where that cannot be or should not be."""
     bodies = run.bodies
-    if bodies.nailed or rest.fell or rest.settled is None or rest.tilt > TIPPED:
+    if bodies.nailed or state.fell or state.settled is None or state.tilt > run.thresholds.tip_tilt:
         return
     if not bodies.bodies[0].mass:
         return  # which is reported; engines hold such a root in the air
-    yield from _unsupported(robot, run, rest)
-    yield from _wheels_in_the_air(robot, run, rest)
+    yield from _unsupported(robot, run, state)
+    yield from _wheels_in_the_air(robot, run, state)
     yield from _body_on_ground(robot, run)
 
 
-def _unsupported(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
+def _unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     """A robot at rest that nothing outside it could keep there."""
+    bounds = run.thresholds
     weight = run.settings.gravity * math.fsum(body.weight[0] for body in run.bodies.bodies)
     carried = run.recording.carried
-    least = max(OUTSIDE * run.bodies.size, _LEAST)
+    least = max(bounds.support_margin * run.bodies.size, bounds.support_margin_min)
     root = robot.link[run.bodies.bodies[0].name]
     names = listed(_carrying(run))
-    if weight > 0 and carried < CARRIED * weight:
+    if weight > 0 and carried < bounds.carried_weight * weight:
         what = f"the ground carries {carried:.3g} N of the {weight:.3g} N that the robot weighs"
-    elif rest.margin is not None and rest.margin < -least:
-        what = f"the center of mass is {-1000 * rest.margin:.0f} mm outside the support polygon"
+    elif state.margin is not None and state.margin < -least:
+        what = f"the center of mass is {-1000 * state.margin:.0f} mm outside the support polygon"
         what += f" of {names}"
     else:
         return
@@ -85,11 +76,11 @@ def _by_role(robot: Robot, run: Run, role: str) -> dict[int, str]:
     return found
 
 
-def _wheels_in_the_air(robot: Robot, run: Run, rest: Rest) -> Iterator[Fault]:
+def _wheels_in_the_air(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     wheels = _by_role(robot, run, "wheel")
     carrying = _carrying(run)
     numbers = {run.start.body_of(name) for name in carrying}
-    if len(wheels) < _FEW or numbers & set(wheels) or not carrying:
+    if len(wheels) < run.thresholds.supporting_parts or numbers & set(wheels) or not carrying:
         return
     name = next(iter(wheels.values()))
     height = min(_height(run, number) for number in wheels)
@@ -117,7 +108,10 @@ def _body_on_ground(robot: Robot, run: Run) -> Iterator[Fault]:
     wheels, feet = (_by_role(robot, run, role) for role in ("wheel", "foot"))
     carrying = set(_carrying(run))
     on_wheels = {run.start.body_of(name) for name in carrying} & set(wheels)
-    if not (len(wheels) >= _FEW and on_wheels) and len(feet) < _FEW:
+    if (
+        not (len(wheels) >= run.thresholds.supporting_parts and on_wheels)
+        and len(feet) < run.thresholds.supporting_parts
+    ):
         return
     root = run.bodies.bodies[0]
     for name in root.links:

@@ -1,0 +1,171 @@
+"""Checks of the end of a run: diverged, fallen, or not at rest, and why it still moves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...model.elements import Robot
+from ..engines.registry import alternatives
+from ..fault import Fault, listed
+from ..recording import Array, Recording
+from ..run import Run
+from .final_state import FinalState
+from .tipping import check_tipping
+
+
+def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+    """Report a robot that diverged, fell, does not come to rest, tipped over or slid."""
+    recording, bodies = run.recording, run.bodies
+    size = max(bodies.size, 1e-3)
+    top = robot.link[bodies.bodies[0].name]
+    heavy = max(bodies.mass * run.settings.gravity * size, 1e-9)
+    blew = recording.ended == "lost" or state.gain > run.thresholds.energy_gain * heavy + 1e-3
+    if blew and not state.fell:
+        name = _fastest(run)
+        gain = f"by {state.gain:.3g} J" if math.isfinite(state.gain) else "beyond all bounds"
+        yield Fault(
+            "blew-up",
+            f"it blew up: its energy grew {gain} at {_when(recording):.2f} s, "
+            f"most of it in link '{name}'",
+            robot.link[name].place,
+            "link",
+            name,
+            "parts that start in each other push each other off, or a link is far lighter, or its "
+            "inertia far smaller, than what hangs on it",
+            "tiny-moving-inertia",
+        )
+        return
+    if state.fell:
+        touching = any(body.shapes for body in bodies.bodies)
+        yield Fault(
+            "fell-through",
+            "it fell through the floor",
+            top.place,
+            "link",
+            top.name,
+            "a part that could touch the floor was below it at the start"
+            if touching
+            else "no link has a <collision>, so nothing of it can touch",
+            "missing-collision",
+        )
+        return
+    if state.settled is None:
+        name, does = _fastest_way(run)
+        joint = _fastest_joint(recording)
+        at = f"; joint '{joint[0]}' moves at {joint[1]:.3g}" if joint else ""
+        yield Fault(
+            "not-settled",
+            f"it did not come to rest in {recording.times[-1]:.3g} s; link '{name}' still {does}"
+            f"{at}",
+            robot.link[name].place,
+            "link",
+            name,
+            diagnose_motion(run, state.drift),
+        )
+    if bodies.nailed:
+        return
+    yield from check_tipping(robot, run, state)
+
+
+def _when(recording: Recording) -> float:
+    total = np.nan_to_num(recording.kinetic + recording.potential, nan=math.inf)
+    return float(recording.times[int(total.argmax())])
+
+
+def _speeds(run: Run) -> Array:
+    found: Array = np.linalg.norm(np.nan_to_num(run.recording.velocities[-1, :, :3]), axis=1)
+    return found
+
+
+def _fastest(run: Run) -> str:
+    return run.recording.bodies[int(_speeds(run).argmax())]
+
+
+def _fastest_way(run: Run) -> tuple[str, str]:
+    """The link that moves most at the end, and how: where none goes anywhere, one turns."""
+    speeds = _speeds(run)
+    rates = np.linalg.norm(np.nan_to_num(run.recording.velocities[-1, :, 3:]), axis=1)
+    turning = int(rates.argmax())
+    bounds, window = run.thresholds, run.thresholds.settle_window
+    slow = speeds.max() * window < bounds.settle_creep * run.bodies.size
+    if slow and rates[turning] * window > bounds.settle_turn:
+        return run.recording.bodies[turning], f"turns at {rates[turning]:.3g} rad/s"
+    return _fastest(run), f"moves at {speeds.max():.3g} m/s"
+
+
+def _fastest_joint(recording: Recording) -> tuple[str, float] | None:
+    if not recording.joints:
+        return None
+    rates = np.abs(np.nan_to_num(recording.rates[-1]))
+    number = int(rates.argmax())
+    return (recording.joints[number], float(rates[number])) if rates[number] > 0.01 else None
+
+
+def diagnose_motion(run: Run, drift: float) -> str:
+    """Name the most probable reason why a robot still moves.
+
+    Args:
+        run: A run that did not come to rest.
+        drift: How far its root moved along the plane [m].
+    """
+    recording, joints, bounds = run.recording, run.bodies.joints, run.thresholds
+    moves = [_moves(run, column) for column in range(len(joints))]
+    loose = [j for j in joints if j.name not in run.bodies.held and not j.leader]
+    if any(moves[recording.joints.index(joint.name)] for joint in loose):
+        damped = any(joint.damping or joint.friction for joint in loose)
+        which = f"joint '{loose[0].name}'" if len(loose) == 1 else f"{len(loose)} of its joints"
+        it, its = ("it", "its") if len(loose) == 1 else ("them", "their")
+        brake = f"has not stopped {it} yet" if damped else "is zero"
+        return f"nothing holds {which}, and {its} damping {brake}"
+    swinging = [joint.name for column, joint in enumerate(joints) if is_swinging(run, column)]
+    if swinging:
+        does = "swing about where they are" if len(swinging) > 1 else "swings about where it is"
+        return f"joint {listed(swinging)} {does} held"
+    weak = [j.name for column, j in enumerate(joints) if moves[column] and _gives(run, column)]
+    if weak:
+        them = "them" if len(weak) > 1 else "it"
+        return f"joint {listed(weak)} may use less effort than it takes to hold {them}"
+    if not run.bodies.nailed and drift > run.bodies.size:
+        return "it rolls or slides along the floor"
+    velocities = np.abs(np.nan_to_num(recording.velocities[-1]))
+    slow = velocities[:, :3].max() < bounds.creep_speed * run.bodies.size
+    slow = slow and velocities[:, 3:].max() < bounds.creep_rate
+    engine = recording.capabilities
+    if slow and engine.creeps:
+        other = alternatives(engine.name, lambda known: not known.creeps)
+        advice = f": {other} has others" if other else ""
+        return f"it creeps, which may be the engine's contacts{advice}"
+    return "parts push against each other, or it rolls"
+
+
+def _moves(run: Run, column: int) -> bool:
+    """Tell whether a joint moves at the end."""
+    bounds = run.thresholds
+    prismatic = run.bodies.joints[column].kind == "prismatic"
+    rate = abs(float(run.recording.rates[-1, column]))
+    return rate > (bounds.moving_speed if prismatic else bounds.moving_rate)
+
+
+def _gives(run: Run, column: int) -> bool:
+    """Whether a held joint uses the effort that it may and is not where it is held."""
+    recording, joint = run.recording, run.bodies.joints[column]
+    if joint.name not in recording.targets or not joint.effort:
+        return False
+    off = float(recording.positions[-1, column]) - recording.targets[joint.name]
+    used = float(recording.efforts[-1, column])
+    bounds = run.thresholds
+    least = bounds.yield_slide if joint.kind == "prismatic" else bounds.yield_turn
+    return abs(off) > least and abs(used) > bounds.full_effort * joint.effort
+
+
+def is_swinging(run: Run, column: int) -> bool:
+    """Whether a held joint moves to and fro with all the effort that it may use, to the end."""
+    recording, joint = run.recording, run.bodies.joints[column]
+    last = np.nan_to_num(recording.efforts[len(recording.times) // 2 :, column])
+    if joint.name not in recording.targets or not joint.effort:
+        return False
+    most = run.thresholds.full_effort * joint.effort
+    return bool(_moves(run, column) and last.min() < -most and last.max() > most)

@@ -1,0 +1,114 @@
+"""Checks of a robot that tipped over, or moved along the ground."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+
+import numpy as np
+
+from ...model.elements import Robot
+from ..fault import Fault, listed
+from ..run import Run
+from .final_state import FinalState, initial_support_links
+
+
+def check_tipping(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+    """Report a free root that is tilted at the end, or else one that moved along the plane."""
+    thresholds, size = run.thresholds, max(run.bodies.size, 1e-3)
+    if state.tilt > thresholds.lean_tilt:
+        top = robot.link[run.bodies.bodies[0].name]
+        fallen = state.tilt > thresholds.tip_tilt
+        yield Fault(
+            "tipped-over" if fallen else "leans",
+            f"it {'tipped over' if fallen else 'leans'}: link '{top.name}' is tilted by "
+            f"{math.degrees(state.tilt):.0f}°",
+            top.place,
+            "link",
+            top.name,
+            _why_tilted(run, state),
+        )
+    elif state.drift > thresholds.slide_distance * size:
+        yield from _check_sliding(robot, run, state)
+
+
+def _why_tilted(run: Run, state: FinalState) -> str:
+    if _looks_like_manipulator(run):
+        return "an arm is usually bolted down: --fixed-base simulates it so"
+    names = initial_support_links(run)
+    if state.margin is not None and state.margin < 0:
+        why = "its centre of mass is not above where it touches the floor"
+    elif state.supports:
+        why = f"it lies on {listed(state.supports)}"
+    else:
+        why = "nothing under it touches the floor"
+    stood = f"it was put on {listed(names)}; " if names else ""
+    return f"{stood}{why}; a robot that is bolted down is simulated with --fixed-base"
+
+
+def _looks_like_manipulator(run: Run) -> bool:
+    """Whether a robot is one chain of turning joints on a base, as arms are, but for its hand."""
+    bodies = run.bodies.bodies
+    chain = [0]
+    while True:
+        children = [number for number, body in enumerate(bodies) if body.parent == chain[-1]]
+        if len(children) != 1:
+            break
+        chain.append(children[0])
+    joints = [bodies[number].joint for number in chain[1:]]
+    turning = [joint for joint in joints if joint is not None and joint.kind != "prismatic"]
+    return len(turning) >= run.thresholds.arm_joints
+
+
+def _check_sliding(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+    supports, drift = state.supports, state.drift
+    names = supports or (run.bodies.bodies[0].name,)
+    slope, size = run.settings.slope, max(run.bodies.size, 1e-3)
+    slick = [
+        name
+        for name in names
+        if (friction := run.bodies.bodies[run.start.body_of(name)].surface.friction) is not None
+        and friction < abs(math.tan(slope))
+    ]
+    rolled = _rolled(run, dict.fromkeys((*supports, *initial_support_links(run))))
+    name = rolled[0] if rolled else slick[0] if slick else names[0]
+    yield Fault(
+        "slid",
+        f"it moved {drift:.3g} m along the floor, {drift / size:.0%} of its size",
+        robot.link[name].place,
+        "link",
+        name,
+        _why(run, rolled, slick),
+        "implausible-friction" if slick and not rolled else "",
+        fails=bool(slope) or drift > run.thresholds.slide_failure * size,
+    )
+
+
+def _why(run: Run, rolled: Sequence[str], slick: Sequence[str]) -> str:
+    slope = run.settings.slope
+    if rolled and slope:
+        joint = run.bodies.bodies[run.start.body_of(rolled[0])].joint
+        held = joint is not None and joint.name in run.recording.targets
+        brake = "held with less effort than it takes" if held else "and nothing brakes them"
+        return f"its wheels turned, {brake}"
+    if slick:
+        return f"the file gives {listed(slick)} less friction than the slope needs"
+    if slope and run.settings.friction < abs(math.tan(slope)):
+        return "--friction is less than the slope needs"
+    return "it was pushed, or rolls"
+
+
+def _rolled(run: Run, names: Iterable[str]) -> list[str]:
+    """Those of some links that hang on a joint without end which turned."""
+    turned = np.abs(run.recording.positions[-1] - run.recording.positions[0])
+    found = []
+    for name in names:
+        number = run.start.body_of(name)
+        joint = run.bodies.bodies[number].joint
+        if (
+            joint is not None
+            and joint.kind == "continuous"
+            and turned[number - 1] > run.thresholds.wheel_turn
+        ):
+            found.append(name)
+    return found
