@@ -77,6 +77,7 @@ PLACES = {
         "formats/mjcf/verify_looks.py",
     ),
     "pybullet": ("simulation/engines/pybullet/",),
+    "matplotlib": ("simulation/plot.py",),
     "viser": ("viewer/server.py",),
     "websockets": ("viewer/server.py",),
     "pygraphviz": ("graph/draw.py",),

@@ -120,6 +120,7 @@ def test_every_version_of_python_has_a_classifier():
         (("view", ARM), "viser", "view"),
         (("simulate", ARM), "engine", "simulate"),
         (("simulate", ARM, "--engine", "mujoco"), "mujoco", "mujoco"),
+        (("simulate", ARM, "--engine", "mujoco", "--plot", "a.png"), "Matplotlib", "draw"),
         (("export", "mjcf", ARM, "-o", "OUT", "--verify"), "mujoco", "mujoco"),
     ],
     ids=lambda value: "_".join(value[:2]).rpartition("/")[0] if isinstance(value, tuple) else value,

@@ -13,6 +13,7 @@ EXTRA_OF = {
     "coacd": "mesh",
     "pygraphviz": "draw",
     "PIL": "draw",
+    "matplotlib": "draw",
     "pybullet": "simulate",
     "mujoco": "mujoco",
     "viser": "view",
@@ -20,7 +21,7 @@ EXTRA_OF = {
 }
 """The extra that installs each optional library, by the name it is imported under."""
 
-DISTRIBUTION_OF = {"collada": "pycollada", "PIL": "Pillow"}
+DISTRIBUTION_OF = {"collada": "pycollada", "PIL": "Pillow", "matplotlib": "Matplotlib"}
 """Names on the package index that are not the name of the import."""
 
 

@@ -19,7 +19,8 @@ FILES = {str(path): name for name, path in robots()}
 def work(path: str) -> Row:
     """One robot in both engines."""
     robot = load(path)
-    verdicts, differ = judged(robot, Settings(), ("pybullet", "mujoco"), Thresholds())
+    verdicts, comparison = judged(robot, Settings(), ("pybullet", "mujoco"), Thresholds())
+    differ = comparison.faults(robot) if comparison is not None else []
     row = row_of(path, robot.name, [verdict for some in verdicts for verdict in some], differ)
     ends = []
     for (verdict,) in verdicts:

@@ -67,7 +67,8 @@ class Fleet:
         )
         with keeping_in(self.cache):
             thresholds = configured_thresholds(self.console, path)
-            verdicts, differ = judged(robot, settings, self.engines, thresholds)
+            verdicts, comparison = judged(robot, settings, self.engines, thresholds)
+        differ = comparison.faults(robot) if comparison is not None else []
         return row_of(path, robot.name, [v for some in verdicts for v in some], differ)
 
 

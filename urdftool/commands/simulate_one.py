@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..model.elements import Robot
     from ..simulation.checks.thresholds import Thresholds
     from ..simulation.child import Child
-    from ..simulation.fault import Fault
+    from ..simulation.engine_comparison import EngineComparison
     from ..simulation.run import Progress as Told
     from ..simulation.settings import Settings
     from ..simulation.verdict import Verdict
@@ -40,16 +40,16 @@ def judged(
     thresholds: Thresholds,
     progress: Told = lambda *_: None,
     child: Child | None = None,
-) -> tuple[list[list[Verdict]], list[Fault]]:
-    """The verdicts of each engine, and in what two engines differ.
+) -> tuple[list[list[Verdict]], EngineComparison | None]:
+    """Simulate and judge a robot in each engine; compare two engines.
 
     ``child`` is a process of the first engine that waits for work.
 
     Raises:
         UrdftoolError: The robot cannot be simulated.
     """
-    from ..simulation.agreement import differences
     from ..simulation.checks.interpenetration import precompute_overlaps
+    from ..simulation.engine_comparison import compare_engines
     from ..simulation.run import simulate
     from ..simulation.verdict import judge
 
@@ -68,8 +68,8 @@ def judged(
     ]
     verdicts = [[judge(robot, run) for run in some] for some in runs]
     if len(engines) < 2:
-        return verdicts, []
-    return verdicts, differences(robot, settings, *verdicts)
+        return verdicts, None
+    return verdicts, compare_engines(*verdicts)
 
 
 def simulate_one(
@@ -104,27 +104,28 @@ def simulate_one(
     from ..output import check_targets, write_file
     from ..report import simulate as report
     from ..report import simulate_fleet as rows
-    from ..report.simulate_differences import differences_text, with_differences
     from ..simulation.fleet import row_of
 
     files = (junit, outputs.plot, outputs.picture, outputs.video)
     check_targets(files, inputs=sorted(sources(robot)))
     outputs.read(console, robot)
     with Progress(console, "trials", timed=True) as progress:
-        verdicts, differ = judged(robot, settings, engines, thresholds, progress, child)
+        verdicts, comparison = judged(robot, settings, engines, thresholds, progress, child)
     everything = [verdict for some in verdicts for verdict in some]
     path = robot.source.path if robot.source is not None else ""
+    differ = comparison.faults(robot) if comparison is not None else []
     row = row_of(path, robot.name, everything, differ)
     if style == "json":
-        text = report.to_json(robot, everything, timings=console.verbosity > 0)
-        click.echo(with_differences(text, differ), nl=False)
+        timings = console.verbosity > 0
+        text = report.to_json(robot, everything, timings=timings, comparison=comparison)
+        click.echo(text, nl=False)
     elif style == "junit":
         click.echo(rows.to_junit([row]), nl=False)
     else:
         for some in verdicts:
             click.echo(report.text(robot, some, colors=console.colors()), nl=False)
-        if len(engines) > 1:
-            click.echo(differences_text(differ, colors=console.colors()), nl=False)
+        if comparison is not None:
+            click.echo(report.comparison_text(comparison, colors=console.colors()), nl=False)
     if junit is not None:
         write_file(junit, rows.to_junit([row]).encode("utf-8"), inputs=sorted(sources(robot)))
     outputs.write(console, robot, [some[0].run for some in verdicts])

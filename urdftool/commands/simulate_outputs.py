@@ -46,7 +46,12 @@ class Outputs:
 
         Raises:
             UsageError: One has another ending, or no place to be written to.
+            MissingDependency: --plot requires Matplotlib.
         """
+        from ..extras import require
+
+        if self.plot is not None:
+            require("--plot", "matplotlib")
         for option, path, ending in (
             ("--plot", self.plot, ".png"),
             ("--picture", self.picture, ".png"),
@@ -93,7 +98,7 @@ class Outputs:
         from ..simulation.plot import plot
 
         if self.plot:
-            write_picture(png(plot(robot.name or "the robot", runs)), self.plot, robot)
+            write_picture(plot(robot.name or "the robot", runs), self.plot, robot)
             console.note(f"wrote {self.plot}")
         if self.picture and self.shapes is not None:
             write_picture(png(settled_picture(runs[0], self.shapes)), self.picture, robot)

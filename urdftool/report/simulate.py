@@ -13,10 +13,12 @@ from .findings import Painter, clean
 from .json_text import json_text
 
 if TYPE_CHECKING:
+    from ..simulation.engine_comparison import EngineComparison
     from ..simulation.fault import Fault
     from ..simulation.verdict import Verdict
 
 _MOST = 6
+_TABLE_WIDTH = 120
 
 
 def text(robot: Robot, verdicts: Sequence[Verdict], *, colors: bool = False) -> str:
@@ -124,13 +126,54 @@ def _several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -> Itera
     yield from _faults(sorted(faults, key=lambda fault: not fault.fails), paint)
 
 
-def to_json(robot: Robot, verdicts: Sequence[Verdict], *, timings: bool = False) -> str:
+def comparison_text(comparison: EngineComparison, *, colors: bool = False) -> str:
+    """Write the values in which two engines differ as a table, and the possible causes.
+
+    Args:
+        comparison: Of two engines.
+        colors: Whether to color it.
+    """
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    paint = Painter(colors)
+    if not comparison.differences:
+        return f"\n{paint('the engines agree', 'green')}\n"
+    several = any(part.trial for part in comparison.differences)
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    for name in (*(("trial",) if several else ()), "value", *comparison.engines, "allowed"):
+        table.add_column(name)
+    for part in comparison.differences:
+        cells = [clean(part.what), part.value(part.one), part.value(part.other)]
+        allowed = "" if part.unit == "s" else part.value(part.bound)
+        trial = [str(part.trial)] if several else []
+        table.add_row(*(Text(cell) for cell in (*trial, *cells, allowed)))
+    console = Console(width=_TABLE_WIDTH, color_system=None, force_terminal=False)
+    with console.capture() as capture:
+        console.print(table)
+    count = counted(len(comparison.differences), "value")
+    lines = ["", f"{paint('error', 'red', bold=True)}: the engines differ in {count}"]
+    lines += [line.rstrip() for line in capture.get().rstrip().splitlines()]
+    lines += [f"   {paint('=', 'cyan')} possible cause: {clean(c)}" for c in comparison.causes]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def to_json(
+    robot: Robot,
+    verdicts: Sequence[Verdict],
+    *,
+    timings: bool = False,
+    comparison: EngineComparison | None = None,
+) -> str:
     """Write everything, with the time series, as JSON; meters, radians, kilograms, seconds.
 
     Args:
         robot: The robot.
         verdicts: One for each trial.
         timings: Whether to add the wall-clock time of each trial, which differs from run to run.
+        comparison: Of two engines, if there are two.
     """
     said: dict[str, Any] = {
         "version": 1,
@@ -139,6 +182,9 @@ def to_json(robot: Robot, verdicts: Sequence[Verdict], *, timings: bool = False)
         "stands": all(verdict.stands for verdict in verdicts),
         "trials": [_trial(verdict, timings) for verdict in verdicts],
     }
+    if comparison is not None:
+        said["differences"] = [_fault(fault) for fault in comparison.faults(robot)]
+        said["stands"] = said["stands"] and not comparison.differences
     return json_text(said) + "\n"
 
 

@@ -1,30 +1,72 @@
-"""A run as curves over time."""
+"""Plot a run over time, by Matplotlib's Agg backend, which needs no screen."""
 
 from __future__ import annotations
 
+import gc
 import math
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from typing import Any
 
 import numpy as np
 
-from ..drawing.chart import COLORS, Color, Line, Panel, chart
-from ..drawing.png_file import Image
+from ..drawing.lettering import shown
 from ..drawing.raster import Indices
 from ..model.pose import rotation_of_quaternion
 from .recording import Array, Recording
 from .run import Run
 
 MOST_NAMED = 8
-"""Joints that have a colour and a name; those that move or work most."""
+"""Joints that have a color and a name; those that move or work most."""
 
-_OTHERS: Color = (190, 194, 200)
+_COLORS = (
+    *("#1f77b4", "#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#17becf"),
+)
+_OTHERS = "#bec2c8"
+_DPI = 100
 
 
-def plot(title: str, runs: Sequence[Run]) -> Image:
-    """Height, tilt, kinetic energy, positions and efforts of joints, in one figure.
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A curve over time.
+
+    Attributes:
+        label: The name in the legend; an empty one is not there.
+        times: Shape (n,) [s].
+        values: Shape (n,); NaN is a gap.
+        color: Of Matplotlib.
+        dashed: Whether it is dashed.
+    """
+
+    label: str
+    times: Array
+    values: Array
+    color: str
+    dashed: bool = False
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Curves with one axis.
+
+    Attributes:
+        title: The quantity, with its unit.
+        curves: What is drawn.
+        least: The least range of the axis, so that rounding does not fill it.
+    """
+
+    title: str
+    curves: tuple[Curve, ...]
+    least: float
+
+
+def plot(title: str, runs: Sequence[Run]) -> bytes:
+    """Plot height, tilt, kinetic energy, and positions and efforts of joints, as a PNG file.
 
     Args:
-        title: Above it.
+        title: Of the figure.
         runs: One, or the same trial in two engines; the second is dashed.
     """
     panels = [
@@ -34,12 +76,83 @@ def plot(title: str, runs: Sequence[Run]) -> Image:
     ]
     if runs[0].recording.joints:
         moved = "joints, from where they start [rad, m]"
-        panels.append(Panel(moved, _joints(runs, _moved), 1e-3))
-        panels.append(Panel("efforts of joints [N·m, N]", _joints(runs, _efforts), 1e-3))
-    still = runs[0].recording.still_since
-    mark = None if still is None else (still, "at rest")
-    size = (1200, 120 + 190 * len(panels))
-    return chart(title, panels, label="time [s]", mark=mark, size=size)
+        panels.append(Panel(moved, _joint_curves(runs, _moved), 1e-3))
+        panels.append(Panel("efforts of joints [N·m, N]", _joint_curves(runs, _efforts), 1e-3))
+    return draw_panels(title, panels, runs[0].recording.still_since)
+
+
+def draw_panels(title: str, panels: Sequence[Panel], at_rest: float | None = None) -> bytes:
+    """Draw panels one below the other over one time axis, as a PNG file.
+
+    Args:
+        title: Of the figure.
+        panels: From above.
+        at_rest: Where there is a vertical line [s], if anywhere.
+    """
+    data = _render(title, panels, at_rest)
+    # Matplotlib leaves cycles that hold the frames of its callers, and with them hulls of
+    # manifold3d, which prints a list of those that are alive when Python ends
+    gc.collect()
+    return data
+
+
+def _render(title: str, panels: Sequence[Panel], at_rest: float | None) -> bytes:
+    import matplotlib
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    with matplotlib.rc_context(), warnings.catch_warnings():
+        matplotlib.rcdefaults()  # type: ignore[no-untyped-call,unused-ignore]
+        warnings.simplefilter("ignore")  # letters that the font does not have
+        matplotlib.rcParams["text.parse_math"] = False  # a name may contain dollar signs
+        figure = Figure(figsize=(12, 1.2 + 1.9 * len(panels)), dpi=_DPI, layout="constrained")
+        FigureCanvasAgg(figure)
+        figure.suptitle(shown(title))
+        rows: Any = figure.subplots(len(panels), 1, sharex=True, squeeze=False)
+        for axes, panel in zip(rows[:, 0], panels, strict=True):
+            _draw(axes, panel, at_rest)
+        rows[-1, 0].set_xlabel("time [s]")
+        data = BytesIO()
+        figure.savefig(data, format="png", metadata={"Software": None})
+    return data.getvalue()
+
+
+def _draw(axes: Any, panel: Panel, at_rest: float | None) -> None:
+    axes.set_title(panel.title, loc="left", fontsize="medium")
+    axes.grid(visible=True, alpha=0.4)
+    named = []
+    for curve in panel.curves:
+        style = "--" if curve.dashed else "-"
+        (line,) = axes.plot(curve.times, curve.values, style, color=curve.color)
+        if curve.label:
+            named.append((line, f" {shown(curve.label)}"))  # one with _ first would be left out
+    axes.set_ylim(*_limits(panel))
+    if at_rest is not None:
+        axes.axvline(at_rest, color="gray", linestyle=":", linewidth=1)
+        spot = axes.get_xaxis_transform()
+        axes.text(at_rest, 0.97, " at rest", transform=spot, va="top", fontsize="small")
+    if named:
+        lines, labels = zip(*named, strict=True)
+        place = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.0}
+        axes.legend(lines, [_short(label) for label in labels], fontsize="small", **place)
+
+
+def _short(label: str, most: int = 28) -> str:
+    half = (most - 1) // 2
+    return label if len(label) <= most else f"{label[:half]}…{label[-half:]}"
+
+
+def _limits(panel: Panel) -> tuple[float, float]:
+    """Compute the range of an axis, with a margin."""
+    values = np.concatenate([np.zeros(0), *(curve.values for curve in panel.curves)])
+    values = values[np.isfinite(values)]
+    low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 1.0)
+    least = max(panel.least, 1e-6 * max(abs(low), abs(high)))
+    if high - low < least:
+        middle = (high + low) / 2
+        low, high = middle - least / 2, middle + least / 2
+    margin = 0.06 * (high - low)
+    return low - margin, high + margin
 
 
 def _height(run: Run) -> Array:
@@ -47,7 +160,7 @@ def _height(run: Run) -> Array:
 
 
 def _tilt(run: Run) -> Array:
-    """How far the root's upright axis is turned from where it was [°]."""
+    """Compute how far the root's upright axis is turned [°]."""
     poses = run.recording.poses[:, 0, 3:]
     ups = []
     for x, y, z, w in poses.tolist():
@@ -67,49 +180,40 @@ def _efforts(recording: Recording) -> Array:
     return recording.efforts
 
 
-def _curves(runs: Sequence[Run], of: object) -> tuple[Line, ...]:
-    assert callable(of)
+def _curves(runs: Sequence[Run], measure: Callable[[Run], Array]) -> tuple[Curve, ...]:
     return tuple(
-        Line(
+        Curve(
             run.recording.engine if len(runs) > 1 else "",
             run.recording.times,
-            np.asarray(of(run), dtype=float),
-            COLORS[number],
+            np.asarray(measure(run), dtype=float),
+            _COLORS[number],
             dashed=number > 0,
         )
         for number, run in enumerate(runs)
     )
 
 
-def _joints(runs: Sequence[Run], of: object) -> tuple[Line, ...]:
-    """The curve of each joint; of many, those that reach farthest have colours and names."""
-    assert callable(of)
+def _joint_curves(runs: Sequence[Run], measure: Callable[[Recording], Array]) -> tuple[Curve, ...]:
+    """Make a curve for each joint; of many, those that reach farthest have colors and names."""
     names = runs[0].recording.joints
     order = _by_weight(runs[0].recording)
     named = sorted(order[:MOST_NAMED].tolist())
-    colors = {column: COLORS[rank] for rank, column in enumerate(named)}
-    lines = []
+    colors = {column: _COLORS[rank] for rank, column in enumerate(named)}
+    curves = []
     for column in [*reversed(order[MOST_NAMED:].tolist()), *named]:
         for number, run in enumerate(runs):
             label = names[column] if column in colors and not number else ""
-            values = np.asarray(of(run.recording))[:, column]
-            lines.append(
-                Line(
-                    label,
-                    run.recording.times,
-                    values,
-                    colors.get(column, _OTHERS),
-                    dashed=number > 0,
-                )
-            )
+            values = np.asarray(measure(run.recording))[:, column]
+            color = colors.get(column, _OTHERS)
+            curves.append(Curve(label, run.recording.times, values, color, dashed=number > 0))
     more = len(names) - MOST_NAMED
     if more > 0:
-        lines.append(Line(f"{more} more", np.zeros(0), np.zeros(0), _OTHERS))
-    return tuple(lines)
+        curves.append(Curve(f"{more} more", np.zeros(0), np.zeros(0), _OTHERS))
+    return tuple(curves)
 
 
 def _by_weight(recording: Recording) -> Indices:
-    """The joints, first those that move or work most, of what any does."""
+    """Order the joints: first those that move or work most, of what any does."""
     weight = np.zeros(len(recording.joints))
     for values in (_moved(recording), _efforts(recording)):
         most = np.abs(np.nan_to_num(values)).max(axis=0)

@@ -107,7 +107,6 @@ def simulate(
     *,
     engine: str | None = None,
     progress: Progress = lambda *_: None,
-    alter: Callable[[Bodies], Bodies] | None = None,
     child: Child | None = None,
     look: Look = lambda *_: None,
     thresholds: Thresholds | None = None,
@@ -119,7 +118,6 @@ def simulate(
         settings: How it is spawned.
         engine: The name of an engine; None is the first of the registry.
         progress: Told before each trial: its number, how many.
-        alter: Changes the bodies before an engine has them.
         child: A process of this engine that waits for the first trial.
         look: Told of each start while the engine goes on from it, to find out what it will be
             asked for.
@@ -140,8 +138,6 @@ def simulate(
             tempfile.TemporaryDirectory(prefix="urdftool-") as folder,
         ):
             bodies = prepare(robot, trial)
-            if alter is not None:
-                bodies = alter(bodies)
             load_engine(engine).write_model(robot, bodies, trial, Path(folder))
             left = max(0.1, ends - perf_counter()) if number > 1 else settings.time_limit
             known: Known = {}

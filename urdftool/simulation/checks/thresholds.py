@@ -46,8 +46,8 @@ class Thresholds:
     fall_depth: float = 0.5
     """The least such depth [m]. Source: chosen."""
     energy_gain: float = 0.5
-    """Energy gained of a run that diverged, over what lifting the robot by its size takes [1]. Source:
-    chosen; motors that hold a pose add little energy."""
+    """Energy gained of a run that diverged, over what lifting the robot by its size takes [1].
+    Source: chosen; motors that hold a pose add little energy."""
     tip_tilt: float = math.radians(30)
     """Tilt of the root's upright axis that counts as tipped over [rad]. Source: chosen."""
     lean_tilt: float = math.radians(10)
