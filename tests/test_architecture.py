@@ -63,7 +63,7 @@ PLACES = {
     "trimesh": ("meshes/",),
     "collada": ("meshes/",),
     "scipy": ("meshes/", "inertia/", "collision/"),
-    "manifold3d": ("meshes/hull.py", "simulation/solid.py"),
+    "manifold3d": ("meshes/hull.py", "simulation/solids.py"),
     "click": ("cli.py", "console.py", "commands/", "report/findings.py"),
     "rich": ("report/", "viewer/server.py"),
     "numpy": (
@@ -177,8 +177,8 @@ KNOWN_STATE = {
             *("cross_file_references.py: _words", "formats.py: _facts", "outlines.py: _last"),
             *("scale.py: _extents", "uses.py: _last", "semantic.py: _last"),
             *("manifest.py: _texts", "sides.py: _last", "definitions.py: _last"),
-            *("definitions.py: _names", "vocabulary_table.py: census", "kept.py: _elsewhere"),
-            *("remembered.py: _last", "nearby.py: _folder", "group.py: repository"),
+            *("definitions.py: _names", "vocabulary_table.py: census", "hull_cache.py: _stores"),
+            *("mesh_cache.py: _last", "nearby.py: _folder", "group.py: repository"),
             *(
                 "targets.py: _read_manifest",
                 "cross_file_references.py: _included",

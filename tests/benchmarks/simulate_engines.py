@@ -10,7 +10,7 @@ from urdftool.commands.simulate_one import judged
 from urdftool.errors import UrdftoolError
 from urdftool.model.load import load
 from urdftool.simulation.checks.thresholds import Thresholds
-from urdftool.simulation.fleet import Row, in_parallel, row_of
+from urdftool.simulation.fleet import Row, in_parallel, make_row
 from urdftool.simulation.settings import Settings
 
 FILES = {str(path): name for name, path in robots()}
@@ -21,7 +21,7 @@ def work(path: str) -> Row:
     robot = load(path)
     verdicts, comparison = judged(robot, Settings(), ("pybullet", "mujoco"), Thresholds())
     differ = comparison.faults(robot) if comparison is not None else []
-    row = row_of(path, robot.name, [verdict for some in verdicts for verdict in some], differ)
+    row = make_row(path, robot.name, [verdict for some in verdicts for verdict in some], differ)
     ends = []
     for (verdict,) in verdicts:
         pose = verdict.run.recording.poses[-1, 0]

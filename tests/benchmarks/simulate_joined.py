@@ -24,7 +24,6 @@ from urdftool.model.elements import Origin, Robot
 from urdftool.model.kinematics import link_poses
 from urdftool.model.load import load
 from urdftool.model.pose import Pose
-from urdftool.simulation.bodies import Body
 from urdftool.simulation.checks.contact import check_contacts
 from urdftool.simulation.checks.final_state import final_state
 from urdftool.simulation.checks.interpenetration import overlap_depth
@@ -34,6 +33,7 @@ from urdftool.simulation.engines.pybullet.urdf import write_folder
 from urdftool.simulation.engines.pybullet.world import import_pybullet
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.recording import GROUND, Array
+from urdftool.simulation.rigid_bodies import RigidBody
 from urdftool.simulation.run import Run
 from urdftool.simulation.settings import Settings
 
@@ -112,7 +112,7 @@ def plantings(robot: Robot, run: Run) -> Iterator[tuple[str, float, Array]]:
                     yield link, part, part * shift
 
 
-def _middle(body: Body, pose: Pose, link: str | None = None) -> tuple[Array, float]:
+def _middle(body: RigidBody, pose: Pose, link: str | None = None) -> tuple[Array, float]:
     boxes = [shape.bounds() for shape in body.shapes if link in (None, shape.link)]
     low, high = max(boxes, key=lambda box: float(np.prod(box[1] - box[0])))
     x, y, z = ((low + high) / 2).tolist()

@@ -45,7 +45,7 @@ def row(named: tuple[str, Path]) -> str:
     name, path = named
     try:
         robot = load(path)
-        (run,) = simulate(robot, Settings(), look=precompute_overlaps)
+        (run,) = simulate(robot, Settings(), precompute=precompute_overlaps)
     except UrdftoolError as error:
         said = error.message.partition("; what it names is in")[0]  # a path
         return f"| {name} | refused | {said[:110]} |"

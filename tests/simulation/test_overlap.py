@@ -11,17 +11,17 @@ from tests.conftest import FIXTURES
 from urdftool.model.elements import Box, Collision, Sphere
 from urdftool.model.load import load
 from urdftool.model.pose import Pose
-from urdftool.simulation.moment import Moment
 from urdftool.simulation.overlap import (
     Surface,
     _distinct,
     _inside,
     _nearest_squared,
-    overlap,
+    penetration_depth,
     primitive_triangles,
 )
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
+from urdftool.simulation.state import StateSnapshot
 
 TWO = """\
 <robot name="two">
@@ -50,7 +50,7 @@ def depth(tmp_path):
         robot = load(path)
         bodies = prepare(robot, Settings())
         poses = np.array([[0, 0, 0, 0, 0, 0, 1], [*map(float, xyz.split()), *turned(rpy)]])
-        return overlap(robot, Moment(bodies, poses), "a", "b", least)
+        return penetration_depth(robot, StateSnapshot(bodies, poses), "a", "b", least)
 
     return found
 

@@ -270,12 +270,12 @@ def measure_overlap(
     """
     from ..model.elements import Mesh
     from ..model.kinematics import link_poses
-    from ..simulation.overlap import triangle_overlap
+    from ..simulation.overlap import triangle_penetration
 
     shapes = [*robot.link[one].collisions, *robot.link[other].collisions]
     if not any(isinstance(shape.geometry, Mesh) for shape in shapes):
         return None
-    return triangle_overlap(robot, link_poses(robot, positions), one, other)
+    return triangle_penetration(robot, link_poses(robot, positions), one, other)
 
 
 def _gltf_up(robot: Robot) -> GltfUp:

@@ -42,5 +42,5 @@ def simulate(
         raise ConfigError(f"there is no engine '{engine}'; there are {' and '.join(REGISTRY)}")
     check_engines((engine,))
     require("simulate", "scipy", "manifold3d")
-    runs = run(robot, settings or Settings(), engine=engine, look=precompute_overlaps)
+    runs = run(robot, settings or Settings(), engine=engine, precompute=precompute_overlaps)
     return [judge(robot, one) for one in runs]

@@ -52,14 +52,14 @@ def command(
     """  # noqa: D301 -- click reads the escape
     from ..extras import require
     from ..parallel import terminate_gracefully
-    from ..simulation.child import Child
+    from ..simulation.engine_process import EngineProcess
     from ..simulation.engines.registry import (
         check_engines,
         default_engine,
         engine_names,
         library_of,
     )
-    from ..simulation.kept import keeping_in
+    from ..simulation.hull_cache import using_cache
     from .cache_options import cache_place
     from .read_lax import read_lax
     from .simulate_control import controlled
@@ -91,8 +91,8 @@ def command(
     thresholds = configured_thresholds(console, paths[0])
     with (
         terminate_gracefully(),
-        keeping_in(cache),
-        Child(library_of(engines[0])) as child,  # which starts meanwhile
+        using_cache(cache),
+        EngineProcess(library_of(engines[0])) as child,  # which starts meanwhile
     ):
         model = read_lax(console, paths[0], arguments, package, package_path)
         settings = controlled(console, settings, model, controllers, strict=strict)

@@ -51,8 +51,8 @@ class Fleet:
         Raises:
             UrdftoolError: It cannot be.
         """
-        from ..simulation.fleet import Row, row_of
-        from ..simulation.kept import keeping_in
+        from ..simulation.fleet import Row, make_row
+        from ..simulation.hull_cache import using_cache
         from .read_lax import read_lax
         from .simulate_control import controlled
         from .simulate_one import configured_thresholds, judged
@@ -65,11 +65,11 @@ class Fleet:
         settings = controlled(
             self.console, self.settings, robot, self.controllers, strict=self.strict
         )
-        with keeping_in(self.cache):
+        with using_cache(self.cache):
             thresholds = configured_thresholds(self.console, path)
             verdicts, comparison = judged(robot, settings, self.engines, thresholds)
         differ = comparison.faults(robot) if comparison is not None else []
-        return row_of(path, robot.name, [v for some in verdicts for v in some], differ)
+        return make_row(path, robot.name, [v for some in verdicts for v in some], differ)
 
 
 def simulate_fleet(

@@ -12,8 +12,8 @@ from .progress import Progress
 if TYPE_CHECKING:
     from ..model.elements import Robot
     from ..simulation.checks.thresholds import Thresholds
-    from ..simulation.child import Child
     from ..simulation.engine_comparison import EngineComparison
+    from ..simulation.engine_process import EngineProcess
     from ..simulation.run import Progress as Told
     from ..simulation.settings import Settings
     from ..simulation.verdict import Verdict
@@ -39,7 +39,7 @@ def judged(
     engines: tuple[str, ...],
     thresholds: Thresholds,
     progress: Told = lambda *_: None,
-    child: Child | None = None,
+    child: EngineProcess | None = None,
 ) -> tuple[list[list[Verdict]], EngineComparison | None]:
     """Simulate and judge a robot in each engine; compare two engines.
 
@@ -61,7 +61,7 @@ def judged(
             engine=engine,
             progress=progress,
             child=process,
-            look=precompute_overlaps,
+            precompute=precompute_overlaps,
             thresholds=thresholds,
         )
         for engine, process in zip(engines, waiting, strict=True)
@@ -78,7 +78,7 @@ def simulate_one(
     settings: Settings,
     engines: tuple[str, ...],
     thresholds: Thresholds,
-    child: Child,
+    child: EngineProcess,
     *,
     style: str,
     outputs: Outputs,
@@ -104,7 +104,7 @@ def simulate_one(
     from ..output import check_targets, write_file
     from ..report import simulate as report
     from ..report import simulate_fleet as rows
-    from ..simulation.fleet import row_of
+    from ..simulation.fleet import make_row
 
     files = (junit, outputs.plot, outputs.picture, outputs.video)
     check_targets(files, inputs=sorted(sources(robot)))
@@ -114,7 +114,7 @@ def simulate_one(
     everything = [verdict for some in verdicts for verdict in some]
     path = robot.source.path if robot.source is not None else ""
     differ = comparison.faults(robot) if comparison is not None else []
-    row = row_of(path, robot.name, everything, differ)
+    row = make_row(path, robot.name, everything, differ)
     if style == "json":
         timings = console.verbosity > 0
         text = report.to_json(robot, everything, timings=timings, comparison=comparison)

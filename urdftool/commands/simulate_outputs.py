@@ -94,18 +94,18 @@ class Outputs:
         if not self.wanted:
             return
         from ..drawing.png_file import png
-        from ..simulation.film import film, settled_picture
+        from ..simulation.animation import render_animation, render_final_state
         from ..simulation.plot import plot
 
         if self.plot:
             write_picture(plot(robot.name or "the robot", runs), self.plot, robot)
             console.note(f"wrote {self.plot}")
         if self.picture and self.shapes is not None:
-            write_picture(png(settled_picture(runs[0], self.shapes)), self.picture, robot)
+            write_picture(png(render_final_state(runs[0], self.shapes)), self.picture, robot)
             console.note(f"wrote {self.picture}")
         if self.video and self.shapes is not None:
             with Progress(console, "pictures") as progress:
-                data = film(
+                data = render_animation(
                     runs[0], self.shapes, progress=lambda n, count: progress(n, count, robot.name)
                 )
             write_picture(data, self.video, robot)

@@ -61,7 +61,7 @@ def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
     recording, bodies = run.recording, run.bodies
     held, limp = len(recording.held), len(recording.joints) - len(recording.held)
     yield "engine", f"{recording.engine}, {recording.steps} steps of {run.settings.timestep:g} s"
-    root = "fixed to the world" if bodies.nailed else "free"
+    root = "fixed to the world" if bodies.fixed_base else "free"
     joints = "no joints"
     if recording.joints:
         joints = f"{counted(held, 'joint')} held, {limp} limp or following"
@@ -70,14 +70,14 @@ def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
         yield "at rest", f"not in {recording.times[-1]:.3g} s"
     else:
         yield "at rest", f"after {rest.settled:.2f} s"
-    if not bodies.nailed and math.isfinite(rest.drop):
+    if not bodies.fixed_base and math.isfinite(rest.drop):
         went = "sank" if rest.drop > -5e-5 else "rose"  # less is said as 0.0 mm
         yield (
             "root",
             f"{went} {1000 * abs(rest.drop):.1f} mm, moved {1000 * rest.drift:.1f} mm, "
             f"tilted {math.degrees(rest.tilt):.1f}°",
         )
-    if rest.supports and not bodies.nailed:
+    if rest.supports and not bodies.fixed_base:
         names = ", ".join(clean(name) for name in rest.supports[:6])
         yield "stands on", names + (f", {len(rest.supports) - 6} more" * (len(rest.supports) > 6))
         if rest.margin is not None:
@@ -182,9 +182,9 @@ def to_json(
         "stands": all(verdict.stands for verdict in verdicts),
         "trials": [_trial(verdict, timings) for verdict in verdicts],
     }
-    if comparison is not None:
-        said["differences"] = [_fault(fault) for fault in comparison.faults(robot)]
-        said["stands"] = said["stands"] and not comparison.differences
+    differences = [] if comparison is None else comparison.faults(robot)
+    said["differences"] = [_fault(fault) for fault in differences]
+    said["stands"] = said["stands"] and not differences
     return json_text(said) + "\n"
 
 
@@ -197,7 +197,7 @@ def _trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
         "settings": asdict(run.settings),
         "engine": recording.engine,
         "mass": run.bodies.mass,
-        "fixed": run.bodies.nailed,
+        "fixed": run.bodies.fixed_base,
         "rest": {key: _plain(value) for key, value in asdict(rest).items()},
         "held": {name: recording.targets[name] for name in recording.held},
         "bodies": list(recording.bodies),

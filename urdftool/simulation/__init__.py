@@ -1,16 +1,16 @@
-"""Does it stand? A robot spawned above a plane, left to itself, and judged.
+"""Simulate a robot above a plane, left to itself, and judge whether it stands.
 
-One module an idea, each imported on its own (this package loads nothing by itself):
+The package loads nothing by itself; its modules are imported one by one:
 
-- ``settings``: how it is spawned and for how long;
-- ``bodies``, ``shapes``: the robot as rigid bodies, plain data that any engine can be fed with;
-- ``remembered``, ``kept``: its meshes, read once for a run and for the next ones;
-- ``prepare``, ``urdf``: what is refused, and the folder an engine reads;
-- ``child``: an engine in a process of its own; ``bullet`` is one, ``mj`` another;
+- ``settings``: how the robot is spawned, and for how long;
+- ``rigid_bodies``, ``shapes``: the robot as plain data that any engine reads;
+- ``mesh_cache``, ``hull_cache``: its meshes, for one run and for the next ones;
+- ``prepare``: which robots are refused;
+- ``engines``: the physics engines; ``engine_process``: one in a process of its own;
 - ``control``, ``controllers``: what a file of controllers does to joints;
-- ``recording``: what an engine measured, whichever it was; ``moment``: one sample of that;
-- ``meanwhile``: what is found out while an engine is waited for;
-- ``verdict`` and the ``judge_…`` beside it: what the recording says of the robot;
-- ``agreement``: two engines on one robot; ``fleet``: many robots at once;
-- ``film``, ``plot``: a run to look at.
+- ``recording``: what an engine measured; ``state``: one sample of that;
+- ``prefetch``: what is computed while an engine works;
+- ``checks``, ``model_checks``: what a recording, and the description, say about the robot;
+- ``verdict``: all of these on one trial; ``engine_comparison``: two engines;
+- ``fleet``: many robots at once; ``animation``, ``plot``: pictures of a run.
 """

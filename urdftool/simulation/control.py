@@ -1,4 +1,4 @@
-"""What a controller does to a joint, as numbers: PID as ros_control's toolbox has it."""
+"""PID controllers of joints, as in ros_control's control_toolbox."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ class Pids:
         self.efforts: Array = np.zeros(len(gains))
 
     def step(self, positions: Array, rates: Array) -> Array:
-        """The effort of each joint for the next step [N·m, N].
+        """Compute the effort of each joint for the next step [N·m, N].
 
         Args:
             positions: Where each is [rad, m].
@@ -109,7 +109,7 @@ class Pids:
         return self.efforts
 
 
-def driven(controls: Mapping[str, Control] | None, name: str) -> bool:
-    """Whether a joint is driven by gains of a file."""
+def is_driven(controls: Mapping[str, Control] | None, name: str) -> bool:
+    """Tell whether gains of a controller file drive a joint."""
     control = None if controls is None else controls.get(name)
     return control is not None and control.kind in (POSITION, VELOCITY)

@@ -47,7 +47,7 @@ class Controls:
 
 
 def read_controllers(path: str, robot: Robot, *, strict: bool = False) -> Controls:
-    """The controllers of a file that are for a robot.
+    """Read the controllers of a file that are for a robot.
 
     Args:
         path: The file.
@@ -103,7 +103,7 @@ def _replaced(root: Node) -> Iterator[str]:
 
 
 def _unknown_type(controller: Controller) -> str:
-    """Why it is not known what a controller does to a joint; empty where it is."""
+    """Explain why the type of a controller is not known; empty if it is."""
     kind = controller.kind
     if kind.endswith(_SILENT) or kind in KNOWN:
         return ""
@@ -115,7 +115,7 @@ def _unknown_type(controller: Controller) -> str:
 
 
 def _simulated_gains(root: Node, robot: Robot) -> dict[str, Node]:
-    """``gazebo_ros_control/pid_gains`` by joint."""
+    """Read ``gazebo_ros_control/pid_gains`` by joint."""
     found: dict[str, Node] = {}
     for path, node in root.walk():
         if path and path[-1].rpartition("/")[2] == "pid_gains":
@@ -128,7 +128,7 @@ def _simulated_gains(root: Node, robot: Robot) -> dict[str, Node]:
 def _claims(
     controller: Controller, robot: Robot, simulated: dict[str, Node]
 ) -> Iterator[tuple[Node, Control]]:
-    """Each joint that a controller drives, and how."""
+    """Yield each joint that a controller drives, and how."""
     kind = controller.kind
     if kind.endswith(_SILENT):
         return
@@ -140,7 +140,7 @@ def _claims(
 
 
 def _joints(controller: Controller) -> Iterator[tuple[Node, str]]:
-    """The joints of a controller, each with the interface that is commanded."""
+    """List the joints of a controller, each with the interface that is commanded."""
     kind, parameters = controller.kind, controller.parameters
     if kind in DRIVES:
         wheels, steered = DRIVES[kind]
@@ -171,7 +171,7 @@ def _joints(controller: Controller) -> Iterator[tuple[Node, str]]:
 
 
 def _interface(controller: Controller) -> str:
-    """What a controller commands: position, velocity or effort."""
+    """Return the interface that a controller commands: position, velocity or effort."""
     for word in _INTERFACES:
         if controller.package == f"{word}_controllers":
             return word
@@ -282,7 +282,7 @@ def _gains(controller: Controller, joint: str) -> Node:
 
 
 def _pid(node: Node) -> Pid:
-    """The gains of a mapping, with the defaults of control_toolbox."""
+    """Read the gains of a mapping, with the defaults of control_toolbox."""
     if node.fields is None:
         raise node.wrong(f"gains are {node.said}; write {{p: …, i: …, d: …}}")
     if "p" not in node.fields:

@@ -50,7 +50,7 @@ class Difference:
 
     @property
     def excess(self) -> float:
-        """The difference over its bound."""
+        """Return the difference over its bound."""
         apart = abs(self.one - self.other)
         return apart / self.bound if math.isfinite(apart) else math.inf
 
@@ -123,7 +123,7 @@ def _differences(one: Verdict, other: Verdict, trial: int) -> Iterator[Differenc
     length = max(bounds.differ_length * max(bodies.size, 1e-3), bounds.differ_length_min)
     rows: list[tuple[str, str, str, float, float, float, str]] = []
     a, b = _last_poses(one.run), _last_poses(other.run)
-    if not bodies.nailed:
+    if not bodies.fixed_base:
         tilts = [math.degrees(verdict.rest.tilt) for verdict in (one, other)]
         angle = math.degrees(bounds.differ_angle)
         rows.append((f"height of link '{top}'", "link", top, a[0, 2], b[0, 2], length, "m"))
@@ -215,7 +215,7 @@ def _causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
     yield from _joint_causes(one, other)
     bodies, bounds = one.run.bodies, one.run.thresholds
     margins = [v.rest.margin for v in (one, other) if v.rest.margin is not None]
-    if not bodies.nailed and margins and abs(min(margins)) < bounds.differ_margin * bodies.size:
+    if not bodies.fixed_base and margins and abs(min(margins)) < bounds.differ_margin * bodies.size:
         yield _Cause(
             f"balance: the center of mass is {1000 * abs(min(margins)):.2g} mm from the edge of "
             "the support polygon, so small differences decide the outcome"
@@ -229,7 +229,9 @@ def _causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
 def _model_causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
     bodies = one.run.bodies
     first, second = (verdict.run.recording.capabilities for verdict in (one, other))
-    light = [b.name for n, b in enumerate(bodies.bodies) if not b.mass and (n or not bodies.nailed)]
+    light = [
+        b.name for n, b in enumerate(bodies.bodies) if not b.mass and (n or not bodies.fixed_base)
+    ]
     if light:
         yield _Cause(
             f"mass: {_names('link', light)} has no mass, which the engines treat differently",

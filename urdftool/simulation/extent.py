@@ -1,4 +1,4 @@
-"""How far a link's shapes reach, and how much room they take: what its mass can be held against."""
+"""Extent and volume of a link's shapes, to compare its mass and inertia with."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ import numpy as np
 from ..formats.mjcf.extent import placed, shape_points
 from ..meshes.hull import convex_hull
 from ..model.elements import Box, Capsule, Collision, Cylinder, Mesh, Robot, Sphere, Visual
+from .mesh_cache import outermost_points
 from .recording import Array
-from .remembered import mesh_points
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,18 +29,18 @@ class Extent:
 
     @cached_property
     def volume(self) -> float:
-        """Of the visual or the collision shapes, whichever is larger, and of hulls [m³]."""
+        """Return the volume of visuals or collisions, the larger one, meshes as hulls [m³]."""
         return max((sum(_volume(*shape) for shape in group) for group in self.groups), default=0.0)
 
     def reach(self, centre: Array) -> float:
-        """How far the farthest corner is from a point [m]; 0 where there is none."""
+        """Measure how far the farthest corner is from a point [m]; 0 without corners."""
         if not len(self.points):
             return 0.0
         return float(np.linalg.norm(self.points - centre, axis=1).max())
 
 
-def extent_of(robot: Robot, name: str, *, only_collisions: bool = False) -> Extent:
-    """The extent of a link; shapes that cannot be read are left out.
+def measure_extent(robot: Robot, name: str, *, only_collisions: bool = False) -> Extent:
+    """Measure the extent of a link; shapes that cannot be read are left out.
 
     Args:
         robot: The robot, read from a description.
@@ -53,25 +53,25 @@ def extent_of(robot: Robot, name: str, *, only_collisions: bool = False) -> Exte
         groups.append(link.visuals)
     read = []
     for group in groups:
-        found = [(shape, points_of(robot, shape)) for shape in group]
+        found = [(shape, shape_corners(robot, shape)) for shape in group]
         read.append(tuple((shape, corners) for shape, corners in found if corners is not None))
     points = [corners for shapes in read for _, corners in shapes]
     return Extent(np.concatenate(points), tuple(read)) if points else Extent()
 
 
-def points_of(robot: Robot, shape: Visual | Collision) -> Array | None:
-    """As :func:`shape_points`, of a mesh the outermost ones."""
+def shape_corners(robot: Robot, shape: Visual | Collision) -> Array | None:
+    """Return the points of a shape as :func:`shape_points`, of a mesh the outermost ones."""
     if not isinstance(shape.geometry, Mesh):
         return shape_points(robot, shape)
-    points = mesh_points(robot, shape.geometry)
+    points = outermost_points(robot, shape.geometry)
     return None if points is None else placed(points, shape)
 
 
-def box_of(
+def bounding_box(
     robot: Robot, shapes: Sequence[Collision] | Sequence[Visual]
 ) -> tuple[Array, Array] | None:
-    """Two corners of the box around some shapes, along the axes of their link."""
-    found = [corners for shape in shapes if (corners := points_of(robot, shape)) is not None]
+    """Compute two corners of the box around some shapes, along the axes of their link."""
+    found = [corners for shape in shapes if (corners := shape_corners(robot, shape)) is not None]
     if not found:
         return None
     points = np.concatenate(found)

@@ -1,4 +1,4 @@
-"""One thing that a verdict says of a robot."""
+"""A fault or remark of a verdict."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ FALLEN = frozenset(
         *("slid", "sank-in", "sags", "collapsed", "unstable-gains", "unsupported"),
     }
 )
-"""Kinds of what is seen to go wrong; the others are errors in the file of a robot that stands."""
+"""Kinds of failures of the run; the others are errors in the file of a robot that stands."""
 
 
 @dataclass(frozen=True)
 class Fault:
-    """What went wrong, or is to be known.
+    """Something that went wrong, or a remark.
 
     Attributes:
         kind: Such as ``fell-through``; ``docs/commands/simulate.md`` lists them.
@@ -26,8 +26,8 @@ class Fault:
         place: Where the link or joint is written.
         what: ``link``, ``joint`` or ``robot``.
         name: Of that.
-        cause: Why it probably is so; empty where the message says it.
-        rule: The lint rule that tells more; empty where there is none.
+        cause: The probable reason; empty if the message has it.
+        rule: The lint rule that explains more; empty if there is none.
         fails: Whether the robot does not stand because of it; otherwise it is a remark.
     """
 
@@ -42,16 +42,16 @@ class Fault:
 
     @property
     def fell(self) -> bool:
-        """Whether a robot with it does not stand in the plain sense."""
+        """Tell whether a robot with it does not stand in the plain sense."""
         return self.fails and self.kind in FALLEN
 
     @property
     def group(self) -> tuple[str, bool, str]:
-        """Faults of one group are alike but for their part."""
+        """Return a key that is equal for faults that differ in their part only."""
         return self.kind, self.fails, self.cause + self.name * (self.kind == "blocked")
 
 
-def listed(names: Sequence[str], most: int = 4) -> str:
-    """Names in quotes, the first few of them, and how many more there are."""
+def quote_names(names: Sequence[str], most: int = 4) -> str:
+    """List names in quotes, the first few of them, and how many more there are."""
     shown = ", ".join(f"'{name}'" for name in names[:most])
     return shown + (f" and {len(names) - most} more" if len(names) > most else "")

@@ -1,4 +1,4 @@
-"""Many robots, each in a process of its own: what breaks one leaves the others alone."""
+"""Many robots, each in a process of its own, so that a crash of one does not affect others."""
 
 from __future__ import annotations
 
@@ -49,12 +49,12 @@ class Row:
 
     @property
     def fell(self) -> bool:
-        """Whether it does not stand in the plain sense; an error in its file alone is not that."""
+        """Tell whether it does not stand in the plain sense; an error in its file is not that."""
         return any(fault.fell for fault in self.faults)
 
 
-def row_of(path: str, name: str, verdicts: Sequence[Verdict], more: Sequence[Fault] = ()) -> Row:
-    """The row of a robot that was judged.
+def make_row(path: str, name: str, verdicts: Sequence[Verdict], more: Sequence[Fault] = ()) -> Row:
+    """Make the row of a robot that was judged.
 
     Args:
         path: Of its description.
@@ -87,7 +87,7 @@ def in_parallel(
     jobs: int | None = None,
     limit: float = PATIENCE,
 ) -> Iterator[Row]:
-    """A row for each description, as they are done.
+    """Yield a row for each description, as they are done.
 
     Args:
         paths: The descriptions.
@@ -123,7 +123,7 @@ def in_parallel(
 
 
 def _row(work: Callable[[str], Row], path: str) -> Row:
-    """What became of one robot, whatever that is."""
+    """Make the row of a robot, also if that fails."""
     try:
         return work(path)
     except UrdftoolError as error:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from ..errors import UrdftoolError
 from ..model.elements import Robot
 from .fault import Fault
-from .remembered import remembered
+from .mesh_cache import cached_for
 
 RULES = {
     "impossible-inertia": (
@@ -30,7 +30,7 @@ RULES = {
 
 
 def in_lint_words(robot: Robot, faults: Iterable[Fault]) -> Iterator[Fault]:
-    """Faults with the sentence and the rule of lint's finding, where it has one of the same link.
+    """Yield faults with the message and rule of lint's finding on the same link, if any.
 
     Args:
         robot: The robot, which was read from a description.
@@ -44,7 +44,7 @@ def in_lint_words(robot: Robot, faults: Iterable[Fault]) -> Iterator[Fault]:
 
 
 def _findings(robot: Robot) -> dict[tuple[str, str], str]:
-    """The messages of lint by rule and link; none where its configuration cannot be read."""
+    """Return messages of lint by rule and link; none if its configuration cannot be read."""
 
     def run() -> dict[tuple[str, str], str]:
         from ..lint.run import check
@@ -57,4 +57,4 @@ def _findings(robot: Robot) -> dict[tuple[str, str], str]:
             return {}
         return {(finding.rule, finding.name): finding.message for finding in reversed(found)}
 
-    return remembered(robot, "lint", run)
+    return cached_for(robot, "lint", run)

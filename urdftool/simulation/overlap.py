@@ -1,4 +1,4 @@
-"""Whether parts whose hulls are in each other are so themselves: by their own triangles.
+"""Penetration depth of links by the triangles of their meshes.
 
 Engines collide the convex hull of a mesh, and a gripper's jaw or a torso's hollow is filled by it.
 Points of one surface that lie inside the other, by the winding number of its triangles, tell.
@@ -16,10 +16,10 @@ from ..errors import UrdftoolError
 from ..inertia.winding import Boxes, boxes_of, winding_numbers
 from ..model.elements import Collision, Mesh, Robot, Visual
 from ..model.pose import Pose, pose_of
-from .moment import Moment
+from .mesh_cache import cached_for, load_triangles
 from .recording import Array
-from .remembered import remembered, triangles_of
 from .shapes import hull
+from .state import StateSnapshot
 
 POINTS = 1500
 """Points of a surface that are tried."""
@@ -28,34 +28,36 @@ _AT_ONCE = 64  # points whose distances to all others fit in the cache
 _FIRST = 32  # points that are asked first whether they are inside
 
 
-def overlap(robot: Robot, moment: Moment, one: str, other: str, least: float = 0.0) -> float | None:
-    """How deep two links are in each other [m]; None where the engine's own answer is exact.
+def penetration_depth(
+    robot: Robot, snapshot: StateSnapshot, one: str, other: str, least: float = 0.0
+) -> float | None:
+    """Measure how deep two links overlap [m]; None if the engine's own answer is exact.
 
     Args:
         robot: The robot, which finds its meshes.
-        moment: Where its bodies are.
+        snapshot: Where its bodies are.
         one: A link.
         other: Another, of another body.
-        least: What is not as deep may be said to be 0 [m], which is found out sooner.
+        least: A smaller depth may be returned as 0 [m], which is faster.
     """
     pairs = [robot.link[name].collisions for name in (one, other)]
     if not any(isinstance(shape.geometry, Mesh) for shapes in pairs for shape in shapes):
         return None
-    poses = {name: moment.link_pose(name) for name in (one, other)}
-    return triangle_overlap(robot, poses, one, other, least)
+    poses = {name: snapshot.link_pose(name) for name in (one, other)}
+    return triangle_penetration(robot, poses, one, other, least)
 
 
-def triangle_overlap(
+def triangle_penetration(
     robot: Robot, poses: Mapping[str, Pose], one: str, other: str, least: float = 0.0
 ) -> float | None:
-    """How deep the triangles of two links are in each other [m]; None where some cannot be read.
+    """Measure how deep the triangles of two links overlap [m]; None if some cannot be read.
 
     Args:
         robot: The robot, which finds its meshes.
         poses: Of the two links, by name, in one frame.
         one: A link.
         other: Another.
-        least: What is not as deep may be said to be 0 [m], which is found out sooner.
+        least: A smaller depth may be returned as 0 [m], which is faster.
     """
     try:
         mine, others = (
@@ -86,12 +88,12 @@ class Surface:
 
     @cached_property
     def points(self) -> Array:
-        """Points spread over the triangles, shape (n, 3)."""
+        """Return points spread over the triangles, shape (n, 3)."""
         return _points(self.triangles)
 
     @cached_property
     def boxes(self) -> Boxes:
-        """The triangles as winding numbers are counted of them."""
+        """Return the triangles as winding numbers are computed from them."""
         return boxes_of(self.triangles)
 
 
@@ -101,14 +103,14 @@ def _surface(robot: Robot, shape: Collision) -> Surface:
         return Surface(primitive_triangles(shape))
 
     def make() -> Surface:
-        mesh = triangles_of(robot, geometry)
+        mesh = load_triangles(robot, geometry)
         return Surface(mesh.vertices[mesh.faces])
 
-    return remembered(robot, ("surface", geometry.filename, geometry.scale), make)
+    return cached_for(robot, ("surface", geometry.filename, geometry.scale), make)
 
 
 def primitive_triangles(shape: Collision | Visual) -> Array:
-    """Triangles of a box, cylinder, sphere or capsule about its own origin, shape (n, 3, 3)."""
+    """Tessellate a box, cylinder, sphere or capsule about its origin, shape (n, 3, 3)."""
     geometry = shape.geometry
     size = getattr(geometry, "size", None)
     if size is not None:
@@ -132,7 +134,7 @@ def primitive_triangles(shape: Collision | Visual) -> Array:
 
 
 def _deepest(one: Surface, at: Pose, other: Surface, there: Pose, least: float) -> float:
-    """How deep two surfaces at poses in the world are in each other [m]."""
+    """Measure how deep two surfaces at poses in the world overlap [m]."""
     return max(
         _inside(one, other, there.inverse() @ at, least),
         _inside(other, one, at.inverse() @ there, least),
@@ -140,7 +142,7 @@ def _deepest(one: Surface, at: Pose, other: Surface, there: Pose, least: float) 
 
 
 def _inside(one: Surface, other: Surface, pose: Pose, least: float) -> float:
-    """How far points of one surface get into another, in whose frame it is at a pose [m].
+    """Measure how far points of one surface are inside another, in whose frame it is placed [m].
 
     The distance to the nearest point is soon known, whether it is inside is not: so the farthest
     are asked first, and the first of them that is inside is the deepest.
@@ -163,7 +165,7 @@ def _inside(one: Surface, other: Surface, pose: Pose, least: float) -> float:
 
 
 def _nearest_squared(points: Array, others: Array) -> Array:
-    """The squared distance from each point to the nearest of others [m²], shape (n,)."""
+    """Compute the squared distance from each point to the nearest other [m²], shape (n,)."""
     middle = others.mean(axis=0)  # about which squares lose no digits
     points, others = points - middle, others - middle
     ones = np.column_stack([points, np.ones(len(points))])
@@ -178,7 +180,7 @@ def _nearest_squared(points: Array, others: Array) -> Array:
 
 
 def _distinct(points: Array) -> Array:
-    """Points in the order of their coordinates, each once; NumPy's own way takes thrice as long."""
+    """Order points by their coordinates, each once; three times as fast as NumPy's unique."""
     points = points[np.lexsort(points.T[::-1])]
     new = np.append(True, (points[1:] != points[:-1]).any(axis=1))
     distinct: Array = points[new]
@@ -186,7 +188,7 @@ def _distinct(points: Array) -> Array:
 
 
 def _points(triangles: Array) -> Array:
-    """Points spread over triangles by their area, and their corners, the same each time."""
+    """Spread points over triangles by area, and add their corners, reproducibly."""
     edges = triangles[:, 1:] - triangles[:, :1]
     areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
     corners = _distinct(triangles.reshape(-1, 3))

@@ -1,4 +1,4 @@
-"""Which robots no engine can be given, said with their places; the others as rigid bodies."""
+"""Refuse robots that no engine can simulate, with their places; make rigid bodies of others."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..formats.defects import BALL_TYPES, FATAL, defect, defects, refuse
 from ..model.elements import Robot
 from ..model.kinematics import check_positions
 from ..suggestions import did_you_mean
-from .bodies import Bodies, bodies_of
+from .rigid_bodies import RigidBodyModel, make_rigid_bodies
 from .settings import Settings
 
 _FATAL = FATAL | {
@@ -23,8 +23,8 @@ _FATAL = FATAL | {
 }
 
 
-def prepare(robot: Robot, settings: Settings) -> Bodies:
-    """A robot as rigid bodies, at the start of a run.
+def prepare(robot: Robot, settings: Settings) -> RigidBodyModel:
+    """Make rigid bodies of a robot, at the start of a run.
 
     Raises:
         ModelError: It has defects past which no engine can be given it; or the settings name what
@@ -33,7 +33,7 @@ def prepare(robot: Robot, settings: Settings) -> Bodies:
     """
     refuse([*defects(robot), *_unable(robot)], force=True, fatal=_FATAL)
     check_settings(robot, settings)
-    return bodies_of(robot, settings)
+    return make_rigid_bodies(robot, settings)
 
 
 def check_settings(robot: Robot, settings: Settings) -> None:

@@ -1,4 +1,4 @@
-"""What an engine measured, whichever engine it was; verdicts read nothing else of a run."""
+"""What an engine measured; verdicts read nothing else of a run, whichever engine it was."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Recording:
         engine: Its title and version.
         capabilities: What it does differently from other engines.
         bodies: The topmost link of each rigid body, the root first.
-        joints: Those that ``bodies[1:]`` hang on, in that order.
+        joints: Those between ``bodies[1:]`` and their parents, in that order.
         times: Shape (n,) [s].
         poses: Shape (n, b, 7): position [m] and quaternion x, y, z, w of each body's link frame.
         velocities: Shape (n, b, 6): of the centre of mass [m/s], and angular [rad/s], in the world.

@@ -1,4 +1,4 @@
-"""From a robot to recordings: prepared, given to an engine in its own process, watched."""
+"""Run the trials of a robot: prepared, and recorded by an engine in a process of its own."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ import numpy as np
 from ..errors import ModelError
 from ..model.elements import Robot
 from ..model.pose import rotation_of_quaternion
-from .bodies import Bodies
 from .checks.thresholds import Thresholds
-from .child import Child
+from .engine_process import EngineProcess
 from .engines.registry import REGISTRY, library_of, load_engine
-from .meanwhile import meanwhile
-from .moment import Moment
+from .prefetch import prefetch
 from .prepare import prepare
 from .recording import Array, Contact, Recording, Swept
+from .rigid_bodies import RigidBodyModel
 from .settings import Settings
+from .state import StateSnapshot
 
 _DRIVER = "engines.driver"
 
@@ -33,10 +33,10 @@ Progress = Callable[[int, int], None]
 
 Known = dict[Hashable, object]
 
-Look = Callable[[Robot, Moment], None]
+Precompute = Callable[[Robot, StateSnapshot], None]
 
 Start = tuple[Array, list[Contact]]
-"""Poses and contacts before the first step, as the engine's process tells them."""
+"""Poses and contacts before the first step, which the engine's process emits."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,29 +47,31 @@ class Run:
         settings: Of this trial.
         bodies: The robot as it started.
         recording: What the engine measured.
-        swept: Each joint moved through its limits; empty where that was not asked for.
-        known: What was found out of its start while the engine was waited for.
+        swept: Each joint moved through its limits; empty without ``Settings.sweep``.
+        known: Results that were precomputed of its start; see ``StateSnapshot.cached``.
         thresholds: Of the checks.
     """
 
     settings: Settings
-    bodies: Bodies
+    bodies: RigidBodyModel
     recording: Recording
     swept: list[Swept] = field(default_factory=list)
     known: Known = field(default_factory=dict)
     thresholds: Thresholds = field(default_factory=Thresholds)
 
     @cached_property
-    def start(self) -> Moment:
-        """Before the first step."""
-        told = self.recording
-        return Moment(self.bodies, told.poses[0], told.start_contacts, self.known, self.thresholds)
+    def start(self) -> StateSnapshot:
+        """Return the state before the first step."""
+        recorded = self.recording
+        return StateSnapshot(
+            self.bodies, recorded.poses[0], recorded.start_contacts, self.known, self.thresholds
+        )
 
     @cached_property
-    def end(self) -> Moment:
-        """The last sample."""
+    def end(self) -> StateSnapshot:
+        """Return the state of the last sample."""
         recorded = self.recording
-        return Moment(
+        return StateSnapshot(
             self.bodies, recorded.poses[-1], recorded.contacts, thresholds=self.thresholds
         )
 
@@ -107,8 +109,8 @@ def simulate(
     *,
     engine: str | None = None,
     progress: Progress = lambda *_: None,
-    child: Child | None = None,
-    look: Look = lambda *_: None,
+    child: EngineProcess | None = None,
+    precompute: Precompute = lambda *_: None,
     thresholds: Thresholds | None = None,
 ) -> list[Run]:
     """Spawn a robot and let it settle, as often as the settings say.
@@ -117,16 +119,16 @@ def simulate(
         robot: Any robot, read from a description, which finds its meshes.
         settings: How it is spawned.
         engine: The name of an engine; None is the first of the registry.
-        progress: Told before each trial: its number, how many.
+        progress: Receives the number of each trial before it begins, and how many there are.
         child: A process of this engine that waits for the first trial.
-        look: Told of each start while the engine goes on from it, to find out what it will be
-            asked for.
+        precompute: Receives each start while the engine runs on from it, to compute what checks
+            will need.
         thresholds: When a robot is at rest, and what is reported; None is the defaults.
 
     Raises:
-        ModelError: The robot is one that no engine can be given.
+        ModelError: No engine can simulate the robot.
         EngineDied: The engine crashed or took too long.
-        MissingDependency: It is not installed.
+        MissingDependency: The engine is not installed.
     """
     engine, bounds = engine or next(iter(REGISTRY)), thresholds or Thresholds()
     runs = []
@@ -134,7 +136,7 @@ def simulate(
     for number, trial in enumerate(trials(settings), 1):
         progress(number, settings.trials)
         with (
-            (number == 1 and child) or Child(library_of(engine)) as process,
+            (number == 1 and child) or EngineProcess(library_of(engine)) as process,
             tempfile.TemporaryDirectory(prefix="urdftool-") as folder,
         ):
             bodies = prepare(robot, trial)
@@ -142,14 +144,16 @@ def simulate(
             left = max(0.1, ends - perf_counter()) if number > 1 else settings.time_limit
             known: Known = {}
 
-            def see(start: Start, bodies: Bodies = bodies, known: Known = known) -> None:
-                look(robot, Moment(bodies, *start, known, bounds))
+            def on_start(
+                start: Start, bodies: RigidBodyModel = bodies, known: Known = known
+            ) -> None:
+                precompute(robot, StateSnapshot(bodies, *start, known, bounds))
 
-            with _placed(robot), meanwhile(robot, see) as hear:
+            with _located(robot), prefetch(robot, on_start) as on_emit:
                 recording = process.call(
                     *(_DRIVER, "run", engine, bodies, trial, Path(folder), bounds),
                     time_limit=left,
-                    hear=hear,
+                    on_emit=on_emit,
                 )
             swept = []
             if settings.sweep and number == 1:
@@ -159,8 +163,8 @@ def simulate(
 
 
 @contextmanager
-def _placed(robot: Robot) -> Iterator[None]:
-    """Say of what an engine refuses where the robot is written: it knows only the bodies."""
+def _located(robot: Robot) -> Iterator[None]:
+    """Add the place of the robot to errors of an engine, which knows only the bodies."""
     try:
         yield
     except ModelError as error:
@@ -169,9 +173,9 @@ def _placed(robot: Robot) -> Iterator[None]:
         raise ModelError(error.message, at=robot.place, notes=error.notes) from None
 
 
-def _sweep(bodies: Bodies, settings: Settings, engine: str, folder: Path) -> list[Swept]:
-    """Joints moved through their limits, in a process of its own."""
-    with Child(library_of(engine)) as child:
+def _sweep(bodies: RigidBodyModel, settings: Settings, engine: str, folder: Path) -> list[Swept]:
+    """Move joints through their limits, in a process of its own."""
+    with EngineProcess(library_of(engine)) as child:
         found: list[Swept] = child.call(
             *(_DRIVER, "sweep", engine, bodies, settings, folder),
             time_limit=settings.time_limit,
@@ -180,7 +184,7 @@ def _sweep(bodies: Bodies, settings: Settings, engine: str, folder: Path) -> lis
 
 
 def trials(settings: Settings) -> list[Settings]:
-    """The settings of each trial: the first upright, the others tilted and turned by the seed."""
+    """Make the settings of each trial: the first upright, the others tilted and turned."""
     chance = random.Random(settings.seed)
     found = [settings]
     for _ in range(settings.trials - 1):

@@ -24,11 +24,11 @@ class Settings:
         duration: The longest the robot is watched [s of the simulated world].
         timestep: Of the engine [s].
         hold: Which joints are held: ``all``; ``actuated`` are those that the file drives, by a
-            transmission, ros2_control or a plugin; ``none`` is limp.
+            transmission, ros2_control or a plugin; ``none``.
         pose: Positions of joints by name [rad, m] at the start, which are held too.
         height: Of the root's frame above the plane [m]; None puts the lowest point of what
             collides just above it.
-        fixed_base: Nail the root to the world.
+        fixed_base: Fix the root to the world.
         payloads: Further mass by link [kg], as a point in the link's centre of mass, or in its
             origin where it weighs nothing.
         friction: Of every contact where the file says nothing [–].
@@ -68,7 +68,7 @@ class Settings:
     controls: Mapping[str, Control] | None = None
 
     def gravity_at(self, time: float) -> tuple[float, float, float]:
-        """Gravity in the world [m/s²], in which the plane is level, at a time [s]."""
+        """Compute gravity [m/s²] at a time [s], in the frame in which the plane is level."""
         lean = 0.0
         if self.nudge and time < 2 * NUDGE:
             lean = self.nudge if time < NUDGE else -self.nudge

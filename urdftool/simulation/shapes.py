@@ -1,4 +1,4 @@
-"""What of a robot touches: convex pieces, in numbers."""
+"""Collision geometry of a robot as primitives and convex pieces."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from ..meshes.mesh import Faces
 from ..meshes.mesh import Mesh as Triangles
 from ..model.elements import Box, Capsule, Collision, Cylinder, Link, Mesh, Robot, Sphere
 from ..model.pose import Pose, pose_of
-from .kept import kept
+from .hull_cache import get_or_compute
+from .mesh_cache import cached_for, load_triangles, mesh_key
 from .recording import Array
-from .remembered import kept_by, remembered, triangles_of
 
 MOST_PIECES = 32
 """A mesh file of more objects than this collides as one hull."""
@@ -51,7 +51,7 @@ class Shape:
     pose: Pose = field(default_factory=Pose)
 
     def reach(self, direction: Array) -> float:
-        """How far it reaches along a unit vector of its body's frame [m]."""
+        """Compute how far it reaches along a unit vector of its body's frame [m]."""
         turn = np.array(self.pose.rotation)
         along = turn.T @ direction
         start = float(np.dot(self.pose.translation, direction))
@@ -68,7 +68,7 @@ class Shape:
         return start + ends + radius * float(np.hypot(along[0], along[1]))
 
     def corners(self) -> Array:
-        """Corners of a mesh or box in its own frame, of the box around what is round, (n, 3)."""
+        """Return corners of a mesh or box in its frame, or of a round shape's box, (n, 3)."""
         if self.kind == "mesh":
             return np.concatenate(self.pieces)
         if self.kind == "box":
@@ -83,7 +83,7 @@ class Shape:
         return corners
 
     def bounds(self) -> tuple[Array, Array]:
-        """Two corners of the box around it, along the axes of its body."""
+        """Return two corners of the box around it, along the axes of its body."""
         return self._bounds
 
     @cached_property
@@ -94,8 +94,8 @@ class Shape:
         return low, high
 
 
-def shapes_of(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shape]:
-    """The shapes of a link whose frame is at a pose in its body.
+def make_shapes(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shape]:
+    """Make the shapes of a link whose frame is at a pose in its body.
 
     Raises:
         UrdftoolError: A mesh is not found or cannot be read, or has no extent.
@@ -135,7 +135,7 @@ def shapes_of(robot: Robot, link: Link, at: Pose, first: int) -> Iterator[Shape]
 
 
 def is_without_extent(collision: Collision) -> bool:
-    """Whether a collision is a primitive with a length of zero or less: nothing can touch it."""
+    """Tell whether a collision is a primitive with a length of zero or less."""
     geometry = collision.geometry
     return isinstance(geometry, Box | Sphere | Cylinder | Capsule) and not has_extent(geometry)
 
@@ -146,12 +146,12 @@ def _pieces(
     try:
         if robot.source is None:
             raise ModelError("the robot was not read from a file, so its meshes are nowhere")
-        parts = remembered(
+        parts = cached_for(
             robot,
             ("pieces", geometry.filename, geometry.scale),
-            lambda: kept(
-                *kept_by(robot, geometry, "pieces"),
-                lambda: list(_convex_parts(triangles_of(robot, geometry))),
+            lambda: get_or_compute(
+                *mesh_key(robot, geometry, "pieces"),
+                lambda: list(_convex_parts(load_triangles(robot, geometry))),
             ),
         )
     except UrdftoolError as error:
@@ -161,7 +161,7 @@ def _pieces(
 
 
 def _convex_parts(mesh: Triangles) -> Iterator[tuple[Array, Faces]]:
-    """The hull of each object of a mesh, as engines make it."""
+    """Yield the hull of each object of a mesh, as engines make it."""
     parts = [mesh.part_faces(part) for part in mesh.parts]
     if mesh.format == "stl" or not 1 < len(parts) <= MOST_PIECES:
         parts = [mesh.faces]
@@ -172,7 +172,7 @@ def _convex_parts(mesh: Triangles) -> Iterator[tuple[Array, Faces]]:
 
 
 def hull(points: Array) -> tuple[Array, Faces]:
-    """Corners and triangles of the convex hull of points; of flat ones, the points themselves."""
+    """Compute corners and triangles of the convex hull of points; of flat ones, the points."""
     found = convex_hull(points)
     if found is not None and found.num_vert() > MOST_VERTICES:
         found = convex_hull(_thinned(hull_surface(found)[0]))
@@ -183,26 +183,26 @@ def hull(points: Array) -> tuple[Array, Faces]:
 
 
 def _fan(count: int) -> Faces:
-    """Triangles that name every one of some points."""
+    """Make triangles that name every one of some points."""
     fan: Faces = np.array([(0, i, min(i + 1, count - 1)) for i in range(max(1, count - 1))])
     return fan
 
 
 def _thinned(points: Array) -> Array:
-    """The points that reach farthest along directions spread evenly over the sphere."""
+    """Choose the points that reach farthest along directions spread evenly over the sphere."""
     steps = np.arange(MOST_VERTICES) + 0.5
     z = 1 - 2 * steps / MOST_VERTICES
     angle = steps * np.pi * (1 + 5**0.5)
     ring = np.sqrt(1 - z * z)
     directions = np.stack([ring * np.cos(angle), ring * np.sin(angle), z])
     axes = np.concatenate([np.eye(3), -np.eye(3)]).T
-    kept = np.unique((points @ np.concatenate([directions, axes], axis=1)).argmax(axis=0))
-    thinned: Array = points[kept]
+    chosen = np.unique((points @ np.concatenate([directions, axes], axis=1)).argmax(axis=0))
+    thinned: Array = points[chosen]
     return thinned
 
 
-def lowest(shapes: Sequence[Shape], turn: Array, at: Array) -> float:
-    """The height of the lowest point of shapes of a body that stands somewhere in the world.
+def lowest_height(shapes: Sequence[Shape], turn: Array, at: Array) -> float:
+    """Compute the height of the lowest point of shapes of one body in the world [m].
 
     Args:
         shapes: Of one body.

@@ -28,7 +28,7 @@ def spawn_pose(
     fixed: bool,
     at_origin: bool,
 ) -> tuple[Pose, float]:
-    """The pose of the root above the plane, and the largest extent of the robot [m].
+    """Compute the pose of the root above the plane, and the largest extent of the robot [m].
 
     A free root starts with its lowest point on the plane. A fixed one does, too, unless that is a
     moving part: the plane would carry what the joints are to hold. Then the moving parts start
@@ -58,7 +58,7 @@ def spawn_pose(
 
 
 def _bounds(parts: Iterable[tuple[Pose, Sequence[Shape]]], turn: Pose) -> tuple[Array, Array]:
-    """Two corners of the box around shapes of a turned robot; infinite where there are none."""
+    """Compute the box around shapes of a turned robot; infinite without shapes."""
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for place, shapes in parts:
         if not shapes:

@@ -1,4 +1,4 @@
-"""What a file says of its links' surfaces: Gazebo's tags, and ``<contact>`` of Bullet."""
+"""Friction and contact parameters of links: Gazebo's tags, and ``<contact>`` of Bullet."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ _WORDS = {
 }
 
 
-def surface_of(robot: Robot, links: Iterable[str]) -> Surface:
-    """The surface of a rigid body of some links.
+def read_surface(robot: Robot, links: Iterable[str]) -> Surface:
+    """Read the surface of a rigid body of some links.
 
     Where links differ, the smaller friction counts, and the softer contact.
     """

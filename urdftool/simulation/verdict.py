@@ -1,4 +1,4 @@
-"""Does it stand? What a recording says of a robot, whichever engine made it."""
+"""The verdict on a run: whether the robot stands, by the checks of its recording."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ class Verdict:
 
     @property
     def stands(self) -> bool:
-        """Whether nothing went wrong."""
+        """Tell whether nothing went wrong."""
         return not any(fault.fails for fault in self.faults)
 
     @property
     def fell(self) -> bool:
-        """Whether it does not stand in the plain sense: it fell, tipped over, slid, or moves."""
+        """Tell whether it fell, tipped over, slid, or still moves."""
         return any(fault.fell for fault in self.faults)
 
 
@@ -59,9 +59,9 @@ _CONSEQUENCES = frozenset(
 
 
 def _caused(run: Run, fault: Fault) -> Fault:
-    """The fault with the cause that is known before it: a root that has no mass."""
+    """Replace the cause of a fault that follows from a root without mass."""
     root = run.bodies.bodies[0]
-    if root.mass or run.bodies.nailed or fault.kind not in _CONSEQUENCES:
+    if root.mass or run.bodies.fixed_base or fault.kind not in _CONSEQUENCES:
         return fault
     cause = (
         f"the root, link '{root.name}', has no mass, so contacts and joints have nothing to push"

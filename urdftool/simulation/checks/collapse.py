@@ -1,4 +1,4 @@
-"""Joints that nothing holds and that gave way: what fell with them."""
+"""Checks of joints that nothing holds: what sank with them."""
 
 from __future__ import annotations
 
@@ -57,17 +57,17 @@ def check_collapse(robot: Robot, run: Run) -> Iterator[Fault]:
 
 
 def _sunk(run: Run) -> float:
-    """How much nearer to the plane the centre of mass of what joints bear is at the end [m].
+    """Measure how far the center of mass of what joints carry sank [m].
 
-    That is all of a robot but a root that is nailed: legs bear a root that is not.
+    That is the whole robot but a fixed root: legs carry a free one.
     """
-    numbers = range(int(run.bodies.nailed), len(run.bodies.bodies))
+    numbers = range(int(run.bodies.fixed_base), len(run.bodies.bodies))
     first_at, last_at = (run.center_of_mass(numbers, moment) for moment in (0, -1))
     return 0.0 if first_at is None or last_at is None else first_at[2] - last_at[2]
 
 
 def _sunk_alone(run: Run, column: int) -> float:
-    """How far what a joint bears sank, by the motion of this joint alone [m]."""
+    """Measure how far the load of a joint sank by the motion of this joint alone [m]."""
     bodies, poses = run.bodies.bodies, run.recording.poses
     child = column + 1
     beyond = {child}

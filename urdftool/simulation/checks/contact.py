@@ -1,4 +1,4 @@
-"""What touches what should not, or does not touch what should."""
+"""Checks of contacts: in the ground, with too little, or with nothing to make contact."""
 
 from __future__ import annotations
 
@@ -9,26 +9,28 @@ import numpy as np
 from ...formats.mjcf.extent import shape_points
 from ...model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere, Visual
 from ...model.pose import Pose, pose_of
-from ..extent import box_of, points_of
+from ..extent import bounding_box, shape_corners
 from ..fault import Fault
 from ..overlap import primitive_triangles
 from ..recording import GROUND, Array
 from ..run import Run
-from ..shapes import lowest
+from ..shapes import lowest_height
 from .final_state import FinalState
 from .interpenetration import check_interpenetration
 
 
 def check_contacts(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     """Report contacts that should not be, and parts that should make contact and do not."""
-    yield from _in_the_floor(robot, run)
+    yield from _starting_in_ground(robot, run)
     yield from check_interpenetration(robot, run)
     if not state.fell and run.recording.ended != "lost":
-        yield from _sunk(robot, run)
-        told = {fault.name: fault for fault in _untouching(robot, run)}
-        told |= {fault.name: fault for fault in _sunken(robot, run) if fault.name not in told}
+        yield from _ground_penetration(robot, run)
+        told = {fault.name: fault for fault in _missing_contact(robot, run)}
+        told |= {
+            fault.name: fault for fault in _submerged_visuals(robot, run) if fault.name not in told
+        }
         yield from told.values()
-        yield from (f for f in _unlike(robot, run, state) if f.name not in told)
+        yield from (f for f in _unlike_their_copies(robot, run, state) if f.name not in told)
 
 
 def _ground_depth(run: Run) -> float:
@@ -36,10 +38,10 @@ def _ground_depth(run: Run) -> float:
     return max(run.thresholds.ground_depth * run.bodies.size, run.thresholds.contact_depth)
 
 
-def _in_the_floor(robot: Robot, run: Run) -> Iterator[Fault]:
+def _starting_in_ground(robot: Robot, run: Run) -> Iterator[Fault]:
     for contact in run.recording.start_contacts:
         if contact.other == GROUND and contact.depth > _ground_depth(run):
-            if run.bodies.nailed and contact.one in run.bodies.bodies[0].links:
+            if run.bodies.fixed_base and contact.one in run.bodies.bodies[0].links:
                 continue
             yield Fault(
                 "starts-in-floor",
@@ -47,13 +49,13 @@ def _in_the_floor(robot: Robot, run: Run) -> Iterator[Fault]:
                 robot.link[contact.one].place,
                 "link",
                 contact.one,
-                "the root is nailed to the world there"
-                if run.bodies.nailed
+                "the root is fixed to the world there"
+                if run.bodies.fixed_base
                 else "--height puts it there",
             )
 
 
-def _sunk(robot: Robot, run: Run) -> Iterator[Fault]:
+def _ground_penetration(robot: Robot, run: Run) -> Iterator[Fault]:
     grounded = [contact for contact in run.recording.contacts if contact.other == GROUND]
     deepest = max(grounded, key=lambda contact: contact.depth, default=None)
     if deepest is not None and deepest.depth > _ground_depth(run):
@@ -68,14 +70,14 @@ def _sunk(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Moving bodies that are seen on the floor and have nothing to touch it with."""
+def _missing_contact(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Report visuals on or below the ground whose link has nothing to make contact with."""
     if not any(body.shapes for body in run.bodies.bodies):
         return  # nothing of it touches, which is said
     parents = {body.parent for body in run.bodies.bodies}
     for number, body in enumerate(run.bodies.bodies):
         seen = [name for name in body.links if robot.link[name].visuals]
-        if not seen or (number == 0 and run.bodies.nailed):
+        if not seen or (number == 0 and run.bodies.fixed_base):
             continue
         pose = run.end.pose(number)
         gap = run.thresholds.ground_gap
@@ -85,9 +87,11 @@ def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
             highest = -_ground_depth(run)
             if number not in parents:  # a foot on the end of a leg, of which the rest may touch
                 turn, at = np.array(pose.rotation), np.array(pose.translation)
-                highest = min(gap, lowest(body.shapes, turn, at) - run.thresholds.foot_protrusion)
+                highest = min(
+                    gap, lowest_height(body.shapes, turn, at) - run.thresholds.foot_protrusion
+                )
         for name in seen:
-            points = _seen(robot, name, shape_points)
+            points = _visual_points(robot, name, shape_points)
             if not len(points):
                 continue
             place = pose @ body.places[name]
@@ -106,23 +110,23 @@ def _untouching(robot: Robot, run: Run) -> Iterator[Fault]:
                 )
 
 
-def _sunken(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Links that are seen deep in the floor, where their own collision does not reach."""
+def _submerged_visuals(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Report visuals below the ground that the collision geometry of their link does not reach."""
     least = _ground_depth(run)
     for number, body in enumerate(run.bodies.bodies):
-        if number == 0 and run.bodies.nailed:
+        if number == 0 and run.bodies.fixed_base:
             continue
         pose = run.end.pose(number)
         turn, at = np.array(pose.rotation), np.array(pose.translation)
         for name in body.links:
             shapes = [shape for shape in body.shapes if shape.link == name]
-            if not shapes or lowest(shapes, turn, at) < -least:
+            if not shapes or lowest_height(shapes, turn, at) < -least:
                 continue  # one that is as deep sank in, which is said
             place = pose @ body.places[name]
-            box = box_of(robot, robot.link[name].visuals)
+            box = bounding_box(robot, robot.link[name].visuals)
             if box is None or _lowest_corner(box, place) >= -least:
                 continue
-            points = _seen(robot, name, points_of)
+            points = _visual_points(robot, name, shape_corners)
             heights = points @ np.array(place.rotation[2]) + place.translation[2]
             low, high = float(heights.min()), float(heights.max())
             if -low > least and -low > run.thresholds.submerged_visual * (high - low):
@@ -147,18 +151,18 @@ def _sunken(robot: Robot, run: Run) -> Iterator[Fault]:
 
 
 def _lowest_corner(box: tuple[Array, Array], place: Pose) -> float:
-    """How low a box along the axes of a frame reaches [m], which is at a place."""
+    """Compute how low a box reaches whose frame is at a pose in the world [m]."""
     up = np.array(place.rotation[2])
     middle = float(up @ (box[0] + box[1])) / 2 + place.translation[2]
     return middle - float(np.abs(up) @ (box[1] - box[0])) / 2
 
 
-def _unlike(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
-    """Links that look like one on which the robot stands, and have nothing to stand on."""
-    feet = {look: name for name in state.supports if (look := _look(robot, name)) is not None}
+def _unlike_their_copies(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+    """Report links without collision geometry whose copies carry the robot."""
+    feet = {look: name for name in state.supports if (look := _visual_key(robot, name)) is not None}
     for body in run.bodies.bodies[1:]:
         for name in body.links:
-            look = None if robot.link[name].collisions else _look(robot, name)
+            look = None if robot.link[name].collisions else _visual_key(robot, name)
             twin = None if look is None else feet.get(look)
             if twin is not None:
                 yield Fault(
@@ -173,15 +177,15 @@ def _unlike(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
                 )
 
 
-def _look(robot: Robot, name: str) -> tuple[object, ...] | None:
-    """What is seen of a link, to be compared with others; None where nothing is."""
+def _visual_key(robot: Robot, name: str) -> tuple[object, ...] | None:
+    """Return a key of a link's visuals, equal for copies; None without visuals."""
     visuals = robot.link[name].visuals
     if not visuals:
         return None
-    return tuple(_form(visual.geometry) for visual in visuals)
+    return tuple(_geometry_key(visual.geometry) for visual in visuals)
 
 
-def _form(geometry: Geometry | None) -> tuple[object, ...]:
+def _geometry_key(geometry: Geometry | None) -> tuple[object, ...]:
     if isinstance(geometry, Mesh):
         return geometry.filename, *(abs(factor) for factor in geometry.scale)
     if isinstance(geometry, Box):
@@ -193,8 +197,8 @@ def _form(geometry: Geometry | None) -> tuple[object, ...]:
     return (id(geometry),)
 
 
-def _seen(robot: Robot, name: str, read: Callable[[Robot, Visual], Array | None]) -> Array:
-    """Points of what is seen of a link, in its frame: those of round shapes lie on them.
+def _visual_points(robot: Robot, name: str, read: Callable[[Robot, Visual], Array | None]) -> Array:
+    """Collect points of a link's visuals, in its frame; round ones are sampled.
 
     ``read`` gives those of the others: all of a mesh take long to read, the outermost are known.
     """

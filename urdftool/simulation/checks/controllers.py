@@ -1,4 +1,4 @@
-"""Joints under gains of a file: too weak to hold, too strong for the timestep, or never still."""
+"""Checks of joints under gains of a file: too weak, too strong for the timestep, or undamped."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from ...model.elements import Robot
 from ...model.pose import rotation_of_quaternion
 from ...source.document import read_file
 from ...source.location import Place
-from ..bodies import JointOf
 from ..control import POSITION, VELOCITY, Control
 from ..fault import Fault
+from ..rigid_bodies import RigidBodyJoint
 from ..run import Run
 from .joints import needed_effort, sag_bound
 
@@ -23,7 +23,7 @@ def check_controllers(robot: Robot, run: Run) -> Iterator[Fault]:
     controls = run.settings.controls
     if controls is None:
         return
-    yield from _loose(robot, run)
+    yield from _not_controlled(robot, run)
     for column, joint in enumerate(run.bodies.joints):
         control = controls.get(joint.name)
         if control is None or control.pid is None or joint.name not in run.recording.targets:
@@ -38,10 +38,10 @@ def check_controllers(robot: Robot, run: Run) -> Iterator[Fault]:
                 unstable,
             )
         elif run.recording.ended != "lost":
-            yield from _weak(run, column, joint, control)
+            yield from _too_weak(run, column, joint, control)
 
 
-def _fault(kind: str, message: str, control: Control, joint: JointOf, cause: str) -> Fault:
+def _fault(kind: str, message: str, control: Control, joint: RigidBodyJoint, cause: str) -> Fault:
     return Fault(kind, message, _place(control), "joint", joint.name, cause)
 
 
@@ -53,7 +53,7 @@ def _place(control: Control) -> Place | None:
         return None
 
 
-def _loose(robot: Robot, run: Run) -> Iterator[Fault]:
+def _not_controlled(robot: Robot, run: Run) -> Iterator[Fault]:
     held = set(run.recording.held)
     names = [j.name for j in run.bodies.joints if j.name not in held and j.leader is None]
     if not names:
@@ -69,8 +69,8 @@ def _loose(robot: Robot, run: Run) -> Iterator[Fault]:
     )
 
 
-def _unstable(run: Run, column: int, joint: JointOf, control: Control) -> str:
-    """Why a joint shakes; empty where it does not, or not because of its gains."""
+def _unstable(run: Run, column: int, joint: RigidBodyJoint, control: Control) -> str:
+    """Explain why a joint shakes by its gains; empty if it does not, or not because of them."""
     pid, recording = control.pid, run.recording
     assert pid is not None
     if recording.ended != "lost" and not _shakes(run, column, joint):
@@ -99,8 +99,8 @@ def _unstable(run: Run, column: int, joint: JointOf, control: Control) -> str:
     return ""
 
 
-def _shakes(run: Run, column: int, joint: JointOf) -> bool:
-    """Whether a joint goes to and fro at the end of a run."""
+def _shakes(run: Run, column: int, joint: RigidBodyJoint) -> bool:
+    """Tell whether a joint oscillates at the end of a run."""
     recording = run.recording
     if recording.still_since is not None:
         return False
@@ -117,7 +117,7 @@ def _shakes(run: Run, column: int, joint: JointOf) -> bool:
     return turns >= bounds.shake_reversals and float(np.ptp(positions)) > least
 
 
-def _weak(run: Run, column: int, joint: JointOf, control: Control) -> Iterator[Fault]:
+def _too_weak(run: Run, column: int, joint: RigidBodyJoint, control: Control) -> Iterator[Fault]:
     pid, recording = control.pid, run.recording
     assert pid is not None
     target, now = recording.targets[joint.name], float(recording.positions[-1, column])
@@ -155,7 +155,7 @@ def _weak(run: Run, column: int, joint: JointOf, control: Control) -> Iterator[F
 
 
 def moved_inertia(run: Run, column: int) -> float:
-    """What a joint moves when it moves alone, at the start of a run [kg·m², kg]."""
+    """Compute the inertia that a joint moves alone, at the start of a run [kg·m², kg]."""
     bodies, first = run.bodies.bodies, column + 1
     beyond = {first}
     for number in range(first + 1, len(bodies)):

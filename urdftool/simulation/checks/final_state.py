@@ -10,7 +10,7 @@ import numpy as np
 from ...model.pose import IDENTITY, matrix_product, rotation_of_quaternion, transpose
 from ..recording import GROUND, Array
 from ..run import Run
-from ..shapes import Shape, lowest
+from ..shapes import Shape, lowest_height
 
 
 @dataclass(frozen=True)
@@ -64,12 +64,12 @@ def final_state(run: Run) -> FinalState:
         None if centre is None else _margin(run, centre),
         supports,
         float(gain),
-        bool(lost and not bodies.nailed),
+        bool(lost and not bodies.fixed_base),
     )
 
 
 def tilt_of(first: Array, last: Array, run: Run) -> float:
-    """By how much the way up of a root that stands upright is turned at the end [rad]."""
+    """Measure how far the root's upright axis is turned at the end [rad]."""
     x, y, z, w = last[3:]
     now = rotation_of_quaternion((w, x, y, z))
     upright = IDENTITY.rotation
@@ -78,7 +78,7 @@ def tilt_of(first: Array, last: Array, run: Run) -> float:
 
 
 def _margin(run: Run, centre: tuple[float, float, float]) -> float | None:
-    """From the centre of mass, along gravity, to the nearest edge of the support polygon [m]."""
+    """Measure from the center of mass, along gravity, to the support polygon's nearest edge [m]."""
     points = footprint(run)
     if not len(points):
         return None
@@ -87,7 +87,7 @@ def _margin(run: Run, centre: tuple[float, float, float]) -> float | None:
 
 
 def support_margin(points: Array, at: Array) -> float:
-    """How far a point of the plane is inside the convex hull of others [m]; negative is outside.
+    """Measure how far inside the hull of others a point is [m]; negative is outside.
 
     Args:
         points: Shape (n, 2), at least one.
@@ -111,7 +111,7 @@ def support_margin(points: Array, at: Array) -> float:
 
 
 def _corners(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Corners of the convex hull of sorted points, counter-clockwise, by Andrew's chains."""
+    """Compute the convex hull of sorted points, counterclockwise, by Andrew's chains."""
     found: list[tuple[float, float]] = []
     for order in (points, points[::-1]):
         chain: list[tuple[float, float]] = []
@@ -133,7 +133,7 @@ def initial_support_links(run: Run) -> list[str]:
         x, y, z, w = pose[3:].tolist()
         turn = np.array(rotation_of_quaternion((w, x, y, z)))
         for shape in body.shapes:
-            bottom = lowest([shape], turn, pose[:3])
+            bottom = lowest_height([shape], turn, pose[:3])
             bottoms[shape.link] = min(bottom, bottoms.get(shape.link, math.inf))
     least = min(bottoms.values(), default=0.0)
     return [
@@ -144,7 +144,7 @@ def initial_support_links(run: Run) -> list[str]:
 
 
 def footprint(run: Run) -> Array:
-    """Points of the plane at the end that carry the robot [m], shape (n, 2)."""
+    """Collect the points of the plane that carry the robot at the end [m], shape (n, 2)."""
     touching = run.recording.carrying
     found = [np.array([contact.point[:2] for contact in touching]).reshape(-1, 2)]
     links = {contact.one for contact in touching}
@@ -154,7 +154,9 @@ def footprint(run: Run) -> Array:
             continue
         pose = run.end.pose(number)
         turn, at = np.array(pose.rotation), np.array(pose.translation)
-        highest = lowest(shapes, turn, at) + run.thresholds.footprint_height * run.bodies.size
+        highest = (
+            lowest_height(shapes, turn, at) + run.thresholds.footprint_height * run.bodies.size
+        )
         for shape in shapes:
             corners = _placed_corners(shape) @ turn.T + at
             found.append(corners[corners[:, 2] <= highest, :2])
@@ -162,7 +164,7 @@ def footprint(run: Run) -> Array:
 
 
 def _placed_corners(shape: Shape) -> Array:
-    """Corners of a shape in its body's frame, shape (n, 3); what is round has none."""
+    """Place the corners of a shape in its body's frame, (n, 3); round shapes have none."""
     if shape.kind not in ("mesh", "box"):
         return np.zeros((0, 3))
     turned = shape.corners() @ np.array(shape.pose.rotation).T

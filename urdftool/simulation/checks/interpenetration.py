@@ -1,4 +1,4 @@
-"""Parts of a robot that are in each other, at the start and at rest."""
+"""Checks of links that overlap: at the start, at rest, and while joints are swept."""
 
 from __future__ import annotations
 
@@ -7,30 +7,30 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...model.elements import Robot
-from ..bodies import Body
 from ..fault import Fault
-from ..moment import Moment
-from ..overlap import overlap
+from ..overlap import penetration_depth
 from ..recording import GROUND, Array, Contact
+from ..rigid_bodies import RigidBody
 from ..run import Run
+from ..state import StateSnapshot
 from .mechanism import find_mechanism
 from .misplaced_collision import misplaced_collision
 
 
-def overlap_depth(start: Moment) -> float:
+def overlap_depth(start: StateSnapshot) -> float:
     """Return the depth of an overlap that is reported [m]."""
     bounds = start.thresholds
     return max(bounds.overlap_depth * start.bodies.size, bounds.contact_depth)
 
 
-def precompute_overlaps(robot: Robot, start: Moment) -> None:
+def precompute_overlaps(robot: Robot, start: StateSnapshot) -> None:
     """Compute what :func:`check_interpenetration` needs of a start, and keep it there."""
     for contact in start.contacts:
         if contact.other != GROUND and contact.depth >= overlap_depth(start):
             depth = _depth(robot, start, start, contact)
             _misplaced(robot, start, start, contact)
             if depth >= overlap_depth(start) and not _are_joined(start, contact):
-                _mechanism(robot, start, contact)
+                _mechanism_of(robot, start, contact)
 
 
 def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
@@ -42,13 +42,13 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
     contacts = [(run.start, contact) for contact in run.start.contacts]
     contacts += [(run.end, contact) for contact in new]
     blamed = set()
-    for moment, contact in contacts:
+    for snapshot, contact in contacts:
         if contact.other == GROUND or contact.depth < least:
             continue
-        depth = _depth(robot, run.start, moment, contact)
+        depth = _depth(robot, run.start, snapshot, contact)
         if depth < least:
             continue
-        beside = _misplaced(robot, run.start, moment, contact)
+        beside = _misplaced(robot, run.start, snapshot, contact)
         if beside is not None:
             if beside[0] in blamed:
                 continue  # it is in another neighbour, too, for the same reason
@@ -56,15 +56,15 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
         joined = _are_joined(run.start, contact)
         numbers = run.start.body_of(contact.one), run.start.body_of(contact.other)
         thin = min(_extents(bodies[number]).min() for number in numbers)
-        brought = "" if joined or moment is run.start else _brought(run, numbers)
+        brought = "" if joined or snapshot is run.start else _moved_by(run, numbers)
         fails = beside is not None or bool(
             not joined and depth > run.thresholds.overlap_failure * thin and not brought
         )
         mechanism = ""
         if fails and beside is None:
-            mechanism = _mechanism(robot, run.start, contact)
+            mechanism = _mechanism_of(robot, run.start, contact)
             fails = not mechanism
-        when = "at the start" if moment is run.start else "at rest"
+        when = "at the start" if snapshot is run.start else "at rest"
         named = beside[0] if beside else contact.one
         yield Fault(
             "parts-collide",
@@ -84,17 +84,17 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _mechanism(robot: Robot, start: Moment, contact: Contact) -> str:
-    """What mechanism two links belong to; empty where none is seen."""
+def _mechanism_of(robot: Robot, start: StateSnapshot, contact: Contact) -> str:
+    """Name the mechanism that two links belong to; empty if none."""
     links = contact.one, contact.other
     numbers = start.body_of(contact.one), start.body_of(contact.other)
-    return start.once(
+    return start.cached(
         ("mechanism", *links), lambda: find_mechanism(robot, start, links, _between(start, numbers))
     )
 
 
 def _why_ignored(run: Run, numbers: tuple[int, int]) -> str:
-    """Why links that overlap about their joint do not push each other in this run."""
+    """Explain why links that overlap about their joint do not push each other in this run."""
     count = len(_between(run.start, numbers))
     if count < 2:
         return "the links share a joint, so engines ignore this contact"
@@ -106,8 +106,8 @@ def _why_ignored(run: Run, numbers: tuple[int, int]) -> str:
     )
 
 
-def _brought(run: Run, numbers: tuple[int, int]) -> str:
-    """Which joint took two bodies into each other since the start; empty where none did."""
+def _moved_by(run: Run, numbers: tuple[int, int]) -> str:
+    """Say which joint took two bodies into each other since the start; empty if none did."""
     moved = run.recording.positions[-1] - run.recording.positions[0]
     columns = [number - 1 for number in _between(run.start, numbers)]
     far = [column for column in columns if abs(moved[column]) > _overlap_motion(run, column)]
@@ -126,8 +126,8 @@ def _overlap_motion(run: Run, column: int) -> float:
     return bounds.overlap_slide if joint.kind == "prismatic" else bounds.overlap_turn
 
 
-def _depth(robot: Robot, start: Moment, moment: Moment, contact: Contact) -> float:
-    """How deep two parts are in each other [m]: no deeper than their own triangles are.
+def _depth(robot: Robot, start: StateSnapshot, snapshot: StateSnapshot, contact: Contact) -> float:
+    """Measure how deep two links overlap [m], at most as deep as their triangles.
 
     Where those are not deep enough to count, it may be 0.
     """
@@ -135,38 +135,40 @@ def _depth(robot: Robot, start: Moment, moment: Moment, contact: Contact) -> flo
     if _are_joined(start, contact):
         return contact.depth
     links = contact.one, contact.other
-    depth = moment.once(("overlap", *links), lambda: overlap(robot, moment, *links, least))
+    depth = snapshot.cached(
+        ("overlap", *links), lambda: penetration_depth(robot, snapshot, *links, least)
+    )
     return contact.depth if depth is None else min(depth, contact.depth)
 
 
 def _misplaced(
-    robot: Robot, start: Moment, moment: Moment, contact: Contact
+    robot: Robot, start: StateSnapshot, snapshot: StateSnapshot, contact: Contact
 ) -> tuple[str, str] | None:
-    """Which of two joined links has a collision that is not where the link is, and why."""
+    """Choose the one of two joined links whose collision geometry is misplaced, and say why."""
     if not _are_joined(start, contact):
         return None
 
     def look() -> tuple[str, str] | None:
         for link, other in ((contact.one, contact.other), (contact.other, contact.one)):
-            why = misplaced_collision(robot, moment, link, moment.body_of(other))
+            why = misplaced_collision(robot, snapshot, link, snapshot.body_of(other))
             if why is not None:
                 return link, why
         return None
 
-    return moment.once(("misplaced", contact.one, contact.other), look)
+    return snapshot.cached(("misplaced", contact.one, contact.other), look)
 
 
-def _are_joined(start: Moment, contact: Contact) -> bool:
-    """Whether two bodies share a joint, or several in one place that make a universal or ball one.
+def _are_joined(start: StateSnapshot, contact: Contact) -> bool:
+    """Tell whether two bodies share a joint, or several at one place (universal, ball).
 
     Such parts overlap around their joint by design.
     """
     numbers = start.body_of(contact.one), start.body_of(contact.other)
-    return start.once(("joined", *numbers), lambda: _share_joint(start, numbers))
+    return start.cached(("joined", *numbers), lambda: _share_joint(start, numbers))
 
 
-def _between(start: Moment, numbers: tuple[int, int]) -> list[int]:
-    """The bodies that hang on the joints between two bodies."""
+def _between(start: StateSnapshot, numbers: tuple[int, int]) -> list[int]:
+    """List the bodies whose joints are between two bodies."""
     bodies = start.bodies.bodies
     above: list[list[int]] = []
     for number in numbers:
@@ -178,7 +180,7 @@ def _between(start: Moment, numbers: tuple[int, int]) -> list[int]:
     return [index for chain in above for index in chain[: chain.index(common)]]
 
 
-def _share_joint(start: Moment, numbers: tuple[int, int]) -> bool:
+def _share_joint(start: StateSnapshot, numbers: tuple[int, int]) -> bool:
     bodies = start.bodies.bodies
     path = _between(start, numbers)
     between = {*path, *(bodies[index].parent for index in path)} - set(numbers)
@@ -190,8 +192,8 @@ def _share_joint(start: Moment, numbers: tuple[int, int]) -> bool:
     return bool(apart < start.thresholds.compound_joint * smaller)
 
 
-def _extents(body: Body) -> Array:
-    """Edges of the box around what of a body touches [m], shape (3,)."""
+def _extents(body: RigidBody) -> Array:
+    """Measure the box around the collision geometry of a body [m], shape (3,)."""
     boxes = [shape.bounds() for shape in body.shapes]
     low = np.min([low for low, _ in boxes], axis=0)
     high = np.max([high for _, high in boxes], axis=0)

@@ -1,4 +1,4 @@
-"""Joints that sag, collapse, leave their limits, or need more than they may."""
+"""Checks of joints that leave their target or limits, or need more effort than they have."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import numpy as np
 
 from ...model.elements import Joint, Robot
 from ...model.pose import rotation_of_quaternion
-from ..bodies import JointOf
-from ..control import driven
+from ..control import is_driven
 from ..fault import Fault
 from ..model_checks.bodies import is_impossible
 from ..recording import GROUND
+from ..rigid_bodies import RigidBodyJoint
 from ..run import Run
 from .collapse import check_collapse
 from .final_state import FinalState
@@ -26,16 +26,16 @@ def check_joints(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     if not recording.joints:
         return
     if recording.ended != "lost" and not state.fell:
-        sagging = list(_sag(robot, run, state))
+        sagging = list(_sagging(robot, run, state))
         yield from sagging
-        yield from _beyond(robot, run)
-        yield from _misled(robot, run)
+        yield from _beyond_limits(robot, run)
+        yield from _misled_mimics(robot, run)
         if not sagging:
             yield from check_collapse(robot, run)
-            yield from _nearly(robot, run)
-    yield from _unlimited(robot, run)
-    yield from _unheld(robot, run)
-    yield from _capped(robot, run)
+            yield from _near_effort_limit(robot, run)
+    yield from _without_effort(robot, run)
+    yield from _not_held(robot, run)
+    yield from _capped_damping(robot, run)
     for name, value in run.bodies.moved_start.items():
         yield Fault(
             "zero-outside-limits",
@@ -47,11 +47,11 @@ def check_joints(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
             fails=False,
         )
     if not recording.capabilities.closes_loops:
-        yield from _open(robot)
+        yield from _open_loops(robot)
 
 
-def _open(robot: Robot) -> Iterator[Fault]:
-    """Joints of SDF in ``<gazebo>``, which close loops; what is simulated is the tree of URDF."""
+def _open_loops(robot: Robot) -> Iterator[Fault]:
+    """Report joints of SDF in ``<gazebo>`` that would close a loop of the URDF tree."""
     for block in robot.gazebo:
         for element in () if block.reference else block.element.all("joint"):
             yield Fault(
@@ -69,7 +69,7 @@ def _joint(robot: Robot, name: str) -> Joint:
     return robot.joint[name]
 
 
-def sag_bound(joint: JointOf, run: Run) -> float:
+def sag_bound(joint: RigidBodyJoint, run: Run) -> float:
     """Return how far a held joint may be off its target [rad, m]."""
     bounds = run.thresholds
     if joint.kind == "prismatic":
@@ -77,7 +77,7 @@ def sag_bound(joint: JointOf, run: Run) -> float:
     return bounds.sag_turn
 
 
-def _limit_bound(joint: JointOf, run: Run) -> float:
+def _limit_bound(joint: RigidBodyJoint, run: Run) -> float:
     """Return how far a joint may be beyond a limit [rad, m]."""
     bounds = run.thresholds
     if joint.kind == "prismatic":
@@ -85,20 +85,20 @@ def _limit_bound(joint: JointOf, run: Run) -> float:
     return bounds.limit_turn
 
 
-def _units(joint: JointOf) -> tuple[str, str]:
+def _units(joint: RigidBodyJoint) -> tuple[str, str]:
     return ("m", "N") if joint.kind == "prismatic" else ("rad", "N·m")
 
 
-def _sag(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
+def _sagging(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     recording = run.recording
     for column, joint in enumerate(run.bodies.joints):
-        if joint.name not in recording.targets or driven(run.settings.controls, joint.name):
+        if joint.name not in recording.targets or is_driven(run.settings.controls, joint.name):
             continue
         target, now = recording.targets[joint.name], float(recording.positions[-1, column])
         if not abs(now - target) > sag_bound(joint, run):
             continue
         if state.settled is not None and _rolls(run, column):
-            continue  # it was set down so, or slid; whether it stands does not hang on that
+            continue  # it was set down so, or slid; whether it stands does not depend on it
         need = needed_effort(run, column)
         length, force = _units(joint)
         allowed = joint.effort
@@ -131,7 +131,7 @@ def _sag(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
 
 
 def _rolls(run: Run, column: int) -> bool:
-    """Whether a joint is that of a wheel on a level floor, which asks no effort of it.
+    """Tell whether a joint is that of a wheel on a level floor, which needs no effort.
 
     A wheel turns without end, touches the floor itself, and its mass is on its axis.
     """
@@ -148,7 +148,7 @@ def _rolls(run: Run, column: int) -> bool:
 
 
 def _why_idle(run: Run, column: int) -> str:
-    """Why a joint does not go where it is held, though it could use more effort."""
+    """Explain why a joint is off its target though it could use more effort."""
     body = run.bodies.bodies[column + 1]
     if body.properties is not None and is_impossible(
         body.properties.inertia, run.thresholds.tensor_excess
@@ -158,7 +158,7 @@ def _why_idle(run: Run, column: int) -> str:
 
 
 def needed_effort(run: Run, column: int) -> float | None:
-    """What a joint needs to hold what hangs on it where the run began [N·m, N].
+    """Compute the effort that a joint needs to hold its load where the run began [N·m, N].
 
     The static balance of weights: each body beyond the joint pulls at its center of mass, and its
     spring where it is at state. None where something beyond the joint touches the plane, which then
@@ -196,8 +196,8 @@ def _rotation(pose: np.ndarray) -> np.ndarray:
     return np.array(rotation_of_quaternion((w, x, y, z)))
 
 
-def _misled(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Joints that follow another beyond a limit of their own, where they stay."""
+def _misled_mimics(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Report mimic joints that their leader takes beyond a limit of their own."""
     columns = {name: column for column, name in enumerate(run.recording.joints)}
     for joint in run.bodies.joints:
         if joint.leader not in columns:
@@ -221,7 +221,7 @@ def _misled(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _beyond(robot: Robot, run: Run) -> Iterator[Fault]:
+def _beyond_limits(robot: Robot, run: Run) -> Iterator[Fault]:
     for column, joint in enumerate(run.bodies.joints):
         now = float(run.recording.positions[-1, column])
         past = max(joint.lower - now, now - joint.upper)
@@ -243,7 +243,7 @@ def _beyond(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _nearly(robot: Robot, run: Run) -> Iterator[Fault]:
+def _near_effort_limit(robot: Robot, run: Run) -> Iterator[Fault]:
     recording = run.recording
     if run.recording.still_since is None:
         return
@@ -267,7 +267,7 @@ def _nearly(robot: Robot, run: Run) -> Iterator[Fault]:
             )
 
 
-def _unlimited(robot: Robot, run: Run) -> Iterator[Fault]:
+def _without_effort(robot: Robot, run: Run) -> Iterator[Fault]:
     names = [
         joint.name
         for joint in run.bodies.joints
@@ -289,7 +289,7 @@ def _unlimited(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _capped(robot: Robot, run: Run) -> Iterator[Fault]:
+def _capped_damping(robot: Robot, run: Run) -> Iterator[Fault]:
     for joint in run.bodies.joints:
         had = run.recording.capped.get(joint.name)
         if had is None:
@@ -311,7 +311,7 @@ def _capped(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _unheld(robot: Robot, run: Run) -> Iterator[Fault]:
+def _not_held(robot: Robot, run: Run) -> Iterator[Fault]:
     if run.settings.hold != "actuated":
         return
     held = set(run.recording.held)

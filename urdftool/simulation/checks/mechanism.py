@@ -1,4 +1,4 @@
-"""Whether two parts that overlap belong to a mechanism: a pin, a telescope, or a piston.
+"""Tell whether two parts that overlap belong to a mechanism: a pin, a telescope, or a piston.
 
 URDF is a tree, so a mechanism that closes a loop is written as branches that follow one joint.
 Where the branches meet, in a pin or a cylinder, their parts overlap by design, and they do so
@@ -14,17 +14,17 @@ import numpy as np
 
 from ...model.elements import Robot
 from ...model.kinematics import link_poses, with_mimics
-from ..bodies import Body, JointOf
-from ..moment import Moment
-from ..overlap import triangle_overlap
+from ..overlap import triangle_penetration
 from ..recording import Array
+from ..rigid_bodies import RigidBody, RigidBodyJoint
+from ..state import StateSnapshot
 
 _STEPS = 5
 _WIDE = 1.0  # rad: how far a joint is moved to each side that has no limits
 
 
 def find_mechanism(
-    robot: Robot, start: Moment, links: tuple[str, str], between: Sequence[int]
+    robot: Robot, start: StateSnapshot, links: tuple[str, str], between: Sequence[int]
 ) -> str:
     """Name the mechanism that two links which overlap at the start belong to; empty if none.
 
@@ -47,8 +47,8 @@ def find_mechanism(
     return ""
 
 
-def _is_serial(bodies: Sequence[Body], ends: tuple[int, int]) -> bool:
-    """Whether one of two bodies carries the other."""
+def _is_serial(bodies: Sequence[RigidBody], ends: tuple[int, int]) -> bool:
+    """Tell whether one of two bodies carries the other."""
     for number, other in (ends, ends[::-1]):
         while number >= 0:
             if number == other:
@@ -57,8 +57,8 @@ def _is_serial(bodies: Sequence[Body], ends: tuple[int, int]) -> bool:
     return False
 
 
-def _slides(start: Moment, between: Sequence[int]) -> bool:
-    """Whether all joints between two bodies slide along one direction."""
+def _slides(start: StateSnapshot, between: Sequence[int]) -> bool:
+    """Tell whether all joints between two bodies slide along one direction."""
     axes = []
     for number in between:
         joint = start.bodies.bodies[number].joint
@@ -70,8 +70,8 @@ def _slides(start: Moment, between: Sequence[int]) -> bool:
     )
 
 
-def _is_coaxial(start: Moment, ends: tuple[int, int]) -> bool:
-    """Whether two bodies are long, one thinner than the other, and lie on one axis."""
+def _is_coaxial(start: StateSnapshot, ends: tuple[int, int]) -> bool:
+    """Tell whether two bodies are long, one thinner than the other, and on one axis."""
     found = [_long_axis(start, number) for number in ends]
     if found[0] is None or found[1] is None:
         return False
@@ -84,8 +84,8 @@ def _is_coaxial(start: Moment, ends: tuple[int, int]) -> bool:
     return bool(off < start.thresholds.rod_offset * min(width, thickness))
 
 
-def _long_axis(start: Moment, number: int) -> tuple[Array, Array, float] | None:
-    """The middle, long axis and width of what collides of a body, in the world [m].
+def _long_axis(start: StateSnapshot, number: int) -> tuple[Array, Array, float] | None:
+    """Find center, long axis and width of a body's collision geometry, in the world [m].
 
     None where it is not clearly longer than wide.
     """
@@ -110,9 +110,9 @@ def _long_axis(start: Moment, number: int) -> tuple[Array, Array, float] | None:
 
 
 def _keeps_overlap(
-    robot: Robot, start: Moment, links: tuple[str, str], joints: Sequence[JointOf]
+    robot: Robot, start: StateSnapshot, links: tuple[str, str], joints: Sequence[RigidBodyJoint]
 ) -> bool:
-    """Whether two links are as deep in each other wherever the one joint is that moves both."""
+    """Tell whether two links overlap as deep wherever the one joint is that moves both."""
     leaders = {_leader(start, joint).name for joint in joints}
     if len(leaders) != 1:
         return False
@@ -128,7 +128,7 @@ def _keeps_overlap(
             if joint.leader is not None:
                 positions.pop(joint.name, None)  # which follow
         poses = link_poses(robot, with_mimics(robot, positions))
-        depth = triangle_overlap(robot, poses, *links)
+        depth = triangle_penetration(robot, poses, *links)
         if depth is None:
             return False
         depths.append(depth)
@@ -137,8 +137,8 @@ def _keeps_overlap(
     return min(depths) > 0 and max(depths) - min(depths) <= varies
 
 
-def _leader(start: Moment, joint: JointOf) -> JointOf:
-    """The joint at the end of a chain of mimics."""
+def _leader(start: StateSnapshot, joint: RigidBodyJoint) -> RigidBodyJoint:
+    """Find the joint at the end of a chain of mimic joints."""
     known = {one.name: one for one in start.bodies.joints}
     while joint.leader is not None and joint.leader in known:
         joint = known[joint.leader]

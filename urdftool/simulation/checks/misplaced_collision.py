@@ -1,8 +1,8 @@
-"""Whether the collision of a link is where the file puts the rest of the link.
+"""Find collision geometry that is not where the file puts the rest of its link.
 
-Links that a joint joins are in each other by design, often wholly: by how much tells nothing. What
-tells is whether it is the link that is there. Its visual, its mass and its frame say where a link
-is; a collision that is in the neighbour and away from them was misplaced.
+Links that share a joint overlap by design, often wholly, so the depth tells nothing. Visual, center
+of mass and frame of a link show where it is; collision geometry that is in the neighbor and away
+from them is misplaced.
 """
 
 from __future__ import annotations
@@ -13,50 +13,53 @@ import numpy as np
 
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...model.pose import Pose, pose_of
-from ..extent import box_of, points_of
-from ..moment import Moment
+from ..extent import bounding_box, shape_corners
+from ..mesh_cache import cached_for, outermost_points
 from ..overlap import primitive_triangles
 from ..recording import Array
-from ..remembered import mesh_points, remembered
 from ..shapes import Shape, is_without_extent
-from ..solid import Solids, hulls
+from ..solids import Solids, hulls
+from ..state import StateSnapshot
 from .thresholds import Thresholds
 
 
-def misplaced_collision(robot: Robot, moment: Moment, link: str, other: int) -> str | None:
+def misplaced_collision(robot: Robot, snapshot: StateSnapshot, link: str, other: int) -> str | None:
     """Say why collision geometry that overlaps a neighbor's is misplaced; None if it is not.
 
     Args:
         robot: The robot, which finds its meshes.
-        moment: Where its bodies are.
+        snapshot: Where its bodies are.
         link: A link.
         other: Number of the body that a joint joins to its own.
     """
-    part, bounds = robot.link[link], moment.thresholds
-    box, shown_box = box_of(robot, part.collisions), box_of(robot, visuals_with_known_pose(part))
+    part, bounds = robot.link[link], snapshot.thresholds
+    box, shown_box = (
+        bounding_box(robot, part.collisions),
+        bounding_box(robot, visuals_with_known_pose(part)),
+    )
     if box is None:
         return None
     if shown_box is not None and (moved := _copy_moved(box, shown_box, bounds)):
         return f"the collision of '{link}' is as large as what is seen of it, and {moved:.3g} m off"
-    bodies = moment.bodies.bodies
-    own = moment.body_of(link)
-    around = _is_housing(box, shown_box, moment, link, other)
+    bodies = snapshot.bodies.bodies
+    own = snapshot.body_of(link)
+    around = _is_housing(box, shown_box, snapshot, link, other)
     if around and bodies[other].parent == own:
         return None
-    there = moment.link_pose(link).inverse() @ moment.pose(other)
+    there = snapshot.link_pose(link).inverse() @ snapshot.pose(other)
     at = {name: there @ place for name, place in bodies[other].places.items()}
-    touches = _touching(robot, moment, own, link)
-    theirs = _union(_touching(robot, moment, other, name).moved(at[name]) for name in at)
+    touches = _collision_solids(robot, snapshot, own, link)
+    theirs = _union(_collision_solids(robot, snapshot, other, name).moved(at[name]) for name in at)
     smaller = min(touches.volume, theirs.volume)
     if not smaller:
         return None
 
     def share() -> float:  # the same for both of two bodies of a link each
         key = ("share", frozenset((link, *at)))
-        return moment.once(key, lambda: touches.shared(theirs)) / smaller
+        return snapshot.cached(key, lambda: touches.shared(theirs)) / smaller
 
-    seen = _seen(robot, moment, link)
-    shown = _union(_seen(robot, moment, name).moved(at[name]) for name in at)
+    seen = _visual_solids(robot, snapshot, link)
+    shown = _union(_visual_solids(robot, snapshot, name).moved(at[name]) for name in at)
     if shown_box is not None:
         off = (shown_box[0] + shown_box[1] - box[0] - box[1]) / 2
         if _may_fit_better(touches, box, off, bounds) and share() > bounds.neighbor_overlap:
@@ -82,7 +85,7 @@ def misplaced_collision(robot: Robot, moment: Moment, link: str, other: int) -> 
         return None
     if not seen:
         return None
-    unlike = moment.once(("unlike", link), lambda: _are_unlike(touches, seen, bounds))
+    unlike = snapshot.cached(("unlike", link), lambda: _are_unlike(touches, seen, bounds))
     if not (unlike or is_offset_from_com(robot, link)) or share() <= bounds.neighbor_gain:
         return None
     gain = share() - seen.shared(theirs) / smaller
@@ -99,12 +102,12 @@ def misplaced_collision(robot: Robot, moment: Moment, link: str, other: int) -> 
 
 
 def _are_unlike(touches: Solids, seen: Solids, bounds: Thresholds) -> bool:
-    """Whether less is in both than would be, if one were the other."""
+    """Tell whether less is in both solids than if one were the other."""
     return touches.shared(seen) < bounds.unlike_overlap * min(touches.volume, seen.volume)
 
 
 def _copy_moved(box: tuple[Array, Array], shown: tuple[Array, Array], bounds: Thresholds) -> float:
-    """How far a collision is from a visual of the same size [m]; 0 where it is not, or is near."""
+    """Measure how far a collision is off a visual of its size [m]; 0 if near, or not its size."""
     size, size_seen = box[1] - box[0], shown[1] - shown[0]
     largest = float(size_seen.max())
     if (np.abs(size - size_seen) > bounds.copy_size * largest).any():
@@ -117,7 +120,7 @@ def _copy_moved(box: tuple[Array, Array], shown: tuple[Array, Array], bounds: Th
 def _may_fit_better(
     touches: Solids, box: tuple[Array, Array], off: Array, bounds: Thresholds
 ) -> bool:
-    """Whether a collision can get so much further into its visual at all, when it is moved."""
+    """Tell, by boxes, whether centering a collision can bring enough into its visual."""
     size = box[1] - box[0]
     swept = float(np.abs(off) @ (np.prod(size) / np.maximum(size, 1e-12)))
     return swept > bounds.better_fit * touches.volume
@@ -126,7 +129,7 @@ def _may_fit_better(
 def _fits_better(
     touches: Solids, off: Array, seen: Solids, theirs: Solids, bounds: Thresholds
 ) -> float:
-    """How much more of a collision is in its visual when it is moved, as a part of it.
+    """Measure how much more of a collision is in its visual when it is moved, as a part of it.
 
     Args:
         touches: The collision.
@@ -144,7 +147,7 @@ def _fits_better(
 
 
 def _is_nearer_mass(part: Link, box: tuple[Array, Array], off: Array) -> bool:
-    """Whether a collision that is moved is nearer to the centre of its link's mass."""
+    """Tell whether a moved collision is nearer to the center of mass of its link."""
     if not part.mass or part.inertial is None:
         return False
     centre = np.array(part.inertial.origin.xyz if part.inertial.origin else (0.0, 0.0, 0.0))
@@ -155,33 +158,33 @@ def _is_nearer_mass(part: Link, box: tuple[Array, Array], off: Array) -> bool:
 def _is_housing(
     box: tuple[Array, Array],
     shown: tuple[Array, Array] | None,
-    moment: Moment,
+    snapshot: StateSnapshot,
     link: str,
     other: int,
 ) -> bool:
-    """Whether a collision is put around the joint between a link and a neighbour, as motors are.
+    """Tell whether a collision surrounds the joint of a link and a neighbor, as motors do.
 
     Args:
         box: Around the collision, in the link's frame.
         shown: Around what is seen of the link.
-        moment: Where the bodies are.
+        snapshot: Where the bodies are.
         link: The link.
         other: Number of the neighbour's body.
     """
-    bodies = moment.bodies.bodies
-    own = moment.body_of(link)
+    bodies = snapshot.bodies.bodies
+    own = snapshot.body_of(link)
     place = bodies[own].places[link].inverse()
     centre, size = (box[0] + box[1]) / 2, float((box[1] - box[0]).max())
     if bodies[other].parent == own:  # the joint is the neighbour's
         joint = np.array((place @ bodies[other].origin).translation)
     elif (
         shown is None
-        or (box[1] - box[0]).max() < moment.thresholds.housing_size * (shown[1] - shown[0]).max()
+        or (box[1] - box[0]).max() < snapshot.thresholds.housing_size * (shown[1] - shown[0]).max()
     ):
         joint = np.array(place.translation)
     else:  # a part as long as what is seen of it is no housing of its own joint
         return False
-    return float(np.linalg.norm(centre - joint)) < moment.thresholds.housing_offset * size
+    return float(np.linalg.norm(centre - joint)) < snapshot.thresholds.housing_offset * size
 
 
 def _union(some: Iterable[Solids]) -> Solids:
@@ -191,47 +194,49 @@ def _union(some: Iterable[Solids]) -> Solids:
     return Solids(part for solids in found for part in solids.parts)
 
 
-def _touching(robot: Robot, moment: Moment, body: int, link: str) -> Solids:
-    """The convex pieces of a link that touch, as engines have them, in its frame."""
+def _collision_solids(robot: Robot, snapshot: StateSnapshot, body: int, link: str) -> Solids:
+    """Build the convex pieces of a link's collision geometry in its frame, as engines have them."""
 
     def make() -> Solids:
-        shapes = [shape for shape in moment.bodies.bodies[body].shapes if shape.link == link]
+        shapes = [shape for shape in snapshot.bodies.bodies[body].shapes if shape.link == link]
         collisions = [c for c in robot.link[link].collisions if not is_without_extent(c)]
         return _union(
-            _solids(robot, shape, collision).moved(pose_of(collision.origin))
+            _collision_solid(robot, shape, collision).moved(pose_of(collision.origin))
             for shape, collision in zip(shapes, collisions, strict=True)
         )
 
-    return moment.once(("touching", link), make)
+    return snapshot.cached(("touching", link), make)
 
 
-def _solids(robot: Robot, shape: Shape, collision: Collision) -> Solids:
-    """The convex pieces of a collision in its own frame."""
+def _collision_solid(robot: Robot, shape: Shape, collision: Collision) -> Solids:
+    """Build the convex pieces of a collision in its own frame."""
     geometry = collision.geometry
     if isinstance(geometry, Mesh):
         counts = tuple(map(len, shape.pieces))  # what is tried on bodies may have other pieces
         key = ("solids", geometry.filename, geometry.scale, counts)
-        return remembered(robot, key, lambda: hulls(shape.pieces))
+        return cached_for(robot, key, lambda: hulls(shape.pieces))
     return hulls([primitive_triangles(collision).reshape(-1, 3)])
 
 
-def _seen(robot: Robot, moment: Moment, link: str) -> Solids:
-    """The hulls of what is seen of a link, in its frame."""
-    return moment.once(
+def _visual_solids(robot: Robot, snapshot: StateSnapshot, link: str) -> Solids:
+    """Build the hulls of a link's visuals in its frame."""
+    return snapshot.cached(
         ("seen", link),
-        lambda: _union(_look(robot, look) for look in visuals_with_known_pose(robot.link[link])),
+        lambda: _union(
+            _visual_solid(robot, look) for look in visuals_with_known_pose(robot.link[link])
+        ),
     )
 
 
-def _look(robot: Robot, look: Visual) -> Solids:
+def _visual_solid(robot: Robot, look: Visual) -> Solids:
     geometry, pose = look.geometry, pose_of(look.origin)
     if isinstance(geometry, Mesh):
-        points = mesh_points(robot, geometry)
+        points = outermost_points(robot, geometry)
         if points is None:
             return Solids([])
         key = ("look", geometry.filename, geometry.scale)
-        return remembered(robot, key, lambda: hulls([points])).moved(pose)
-    corners = points_of(robot, look)
+        return cached_for(robot, key, lambda: hulls([points])).moved(pose)
+    corners = shape_corners(robot, look)
     return Solids([]) if corners is None else hulls([corners])
 
 
@@ -245,7 +250,7 @@ def is_offset_from_visual(robot: Robot, name: str, overlap: float) -> bool:
     """
     link = robot.link[name]
     touches, seen = (
-        box_of(robot, group) for group in (link.collisions, visuals_with_known_pose(link))
+        bounding_box(robot, group) for group in (link.collisions, visuals_with_known_pose(link))
     )
     if touches is None:
         return False
@@ -257,7 +262,7 @@ def is_offset_from_visual(robot: Robot, name: str, overlap: float) -> bool:
 
 
 def visuals_with_known_pose(link: Link) -> list[Visual]:
-    """The visuals of a link that show where it is: readers differ in which way up glTF is."""
+    """List the visuals of a link without glTF, whose up axis readers differ in."""
     return [
         visual
         for visual in link.visuals
@@ -269,9 +274,9 @@ def visuals_with_known_pose(link: Link) -> list[Visual]:
 
 
 def is_offset_from_com(robot: Robot, name: str) -> bool:
-    """Whether the centre of a link's mass is further from what touches than half of that."""
+    """Tell whether a link's center of mass is more than half a box outside its collision box."""
     link = robot.link[name]
-    touches = box_of(robot, link.collisions)
+    touches = bounding_box(robot, link.collisions)
     if touches is None or not link.mass or link.inertial is None:
         return False
     centre = np.array(link.inertial.origin.xyz if link.inertial.origin else (0.0, 0.0, 0.0))

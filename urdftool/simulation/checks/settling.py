@@ -9,7 +9,7 @@ import numpy as np
 
 from ...model.elements import Robot
 from ..engines.registry import alternatives
-from ..fault import Fault, listed
+from ..fault import Fault, quote_names
 from ..recording import Array, Recording
 from ..run import Run
 from .final_state import FinalState
@@ -24,11 +24,11 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
     heavy = max(bodies.mass * run.settings.gravity * size, 1e-9)
     blew = recording.ended == "lost" or state.gain > run.thresholds.energy_gain * heavy + 1e-3
     if blew and not state.fell:
-        name = _fastest(run)
+        name = _fastest_link(run)
         gain = f"by {state.gain:.3g} J" if math.isfinite(state.gain) else "beyond all bounds"
         yield Fault(
             "blew-up",
-            f"it blew up: its energy grew {gain} at {_when(recording):.2f} s, "
+            f"it blew up: its energy grew {gain} at {_time_of_most_energy(recording):.2f} s, "
             f"most of it in link '{name}'",
             robot.link[name].place,
             "link",
@@ -53,7 +53,7 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
         )
         return
     if state.settled is None:
-        name, does = _fastest_way(run)
+        name, does = _fastest_motion(run)
         joint = _fastest_joint(recording)
         at = f"; joint '{joint[0]}' moves at {joint[1]:.3g}" if joint else ""
         yield Fault(
@@ -65,12 +65,12 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
             name,
             diagnose_motion(run, state.drift),
         )
-    if bodies.nailed:
+    if bodies.fixed_base:
         return
     yield from check_tipping(robot, run, state)
 
 
-def _when(recording: Recording) -> float:
+def _time_of_most_energy(recording: Recording) -> float:
     total = np.nan_to_num(recording.kinetic + recording.potential, nan=math.inf)
     return float(recording.times[int(total.argmax())])
 
@@ -80,12 +80,12 @@ def _speeds(run: Run) -> Array:
     return found
 
 
-def _fastest(run: Run) -> str:
+def _fastest_link(run: Run) -> str:
     return run.recording.bodies[int(_speeds(run).argmax())]
 
 
-def _fastest_way(run: Run) -> tuple[str, str]:
-    """The link that moves most at the end, and how: where none goes anywhere, one turns."""
+def _fastest_motion(run: Run) -> tuple[str, str]:
+    """Find the link that moves most at the end, and say how: it turns if none moves away."""
     speeds = _speeds(run)
     rates = np.linalg.norm(np.nan_to_num(run.recording.velocities[-1, :, 3:]), axis=1)
     turning = int(rates.argmax())
@@ -93,7 +93,7 @@ def _fastest_way(run: Run) -> tuple[str, str]:
     slow = speeds.max() * window < bounds.settle_creep * run.bodies.size
     if slow and rates[turning] * window > bounds.settle_turn:
         return run.recording.bodies[turning], f"turns at {rates[turning]:.3g} rad/s"
-    return _fastest(run), f"moves at {speeds.max():.3g} m/s"
+    return _fastest_link(run), f"moves at {speeds.max():.3g} m/s"
 
 
 def _fastest_joint(recording: Recording) -> tuple[str, float] | None:
@@ -123,12 +123,12 @@ def diagnose_motion(run: Run, drift: float) -> str:
     swinging = [joint.name for column, joint in enumerate(joints) if is_swinging(run, column)]
     if swinging:
         does = "swing about where they are" if len(swinging) > 1 else "swings about where it is"
-        return f"joint {listed(swinging)} {does} held"
-    weak = [j.name for column, j in enumerate(joints) if moves[column] and _gives(run, column)]
+        return f"joint {quote_names(swinging)} {does} held"
+    weak = [j.name for column, j in enumerate(joints) if moves[column] and _yields(run, column)]
     if weak:
         them = "them" if len(weak) > 1 else "it"
-        return f"joint {listed(weak)} may use less effort than it takes to hold {them}"
-    if not run.bodies.nailed and drift > run.bodies.size:
+        return f"joint {quote_names(weak)} may use less effort than it takes to hold {them}"
+    if not run.bodies.fixed_base and drift > run.bodies.size:
         return "it rolls or slides along the floor"
     velocities = np.abs(np.nan_to_num(recording.velocities[-1]))
     slow = velocities[:, :3].max() < bounds.creep_speed * run.bodies.size
@@ -149,8 +149,8 @@ def _moves(run: Run, column: int) -> bool:
     return rate > (bounds.moving_speed if prismatic else bounds.moving_rate)
 
 
-def _gives(run: Run, column: int) -> bool:
-    """Whether a held joint uses the effort that it may and is not where it is held."""
+def _yields(run: Run, column: int) -> bool:
+    """Tell whether a held joint is saturated and off its target."""
     recording, joint = run.recording, run.bodies.joints[column]
     if joint.name not in recording.targets or not joint.effort:
         return False
@@ -162,7 +162,7 @@ def _gives(run: Run, column: int) -> bool:
 
 
 def is_swinging(run: Run, column: int) -> bool:
-    """Whether a held joint moves to and fro with all the effort that it may use, to the end."""
+    """Tell whether a held joint oscillates, saturated in both directions, to the end."""
     recording, joint = run.recording, run.bodies.joints[column]
     last = np.nan_to_num(recording.efforts[len(recording.times) // 2 :, column])
     if joint.name not in recording.targets or not joint.effort:

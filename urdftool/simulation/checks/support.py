@@ -1,4 +1,4 @@
-"""Whether what touches the ground carries the robot, and whether it is what should."""
+"""Checks of what carries a robot at rest: enough of it, and by wheels or feet if it has some."""
 
 from __future__ import annotations
 
@@ -9,17 +9,22 @@ import numpy as np
 
 from ...model.elements import Robot
 from ...rules.gazebo.contact import contact_role
-from ..fault import Fault, listed
+from ..fault import Fault, quote_names
 from ..recording import GROUND, Contact
 from ..run import Run
-from ..shapes import lowest
+from ..shapes import lowest_height
 from .final_state import FinalState
 
 
 def check_support(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     """Report what carries a robot at rest and upright, where that cannot be or should not be."""
     bodies = run.bodies
-    if bodies.nailed or state.fell or state.settled is None or state.tilt > run.thresholds.tip_tilt:
+    if (
+        bodies.fixed_base
+        or state.fell
+        or state.settled is None
+        or state.tilt > run.thresholds.tip_tilt
+    ):
         return
     if not bodies.bodies[0].mass:
         return  # which is reported; engines hold such a root in the air
@@ -29,13 +34,13 @@ def check_support(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
 
 
 def _unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
-    """A robot at rest that nothing outside it could keep there."""
+    """Report a robot at rest that no contact with the ground could keep there."""
     bounds = run.thresholds
     weight = run.settings.gravity * math.fsum(body.weight[0] for body in run.bodies.bodies)
     carried = run.recording.carried
     least = max(bounds.support_margin * run.bodies.size, bounds.support_margin_min)
     root = robot.link[run.bodies.bodies[0].name]
-    names = listed(_carrying(run))
+    names = quote_names(_carrying(run))
     if weight > 0 and carried < bounds.carried_weight * weight:
         what = f"the ground carries {carried:.3g} N of the {weight:.3g} N that the robot weighs"
     elif state.margin is not None and state.margin < -least:
@@ -43,7 +48,7 @@ def _unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
         what += f" of {names}"
     else:
         return
-    inner = _inner(run)
+    inner = _internal_overlaps(run)
     if inner:
         pairs = ", ".join(f"'{c.one}' and '{c.other}' ({1000 * c.depth:.0f} mm)" for c in inner[:3])
         why = f"contacts inside the robot carry it: {pairs} overlap"
@@ -52,8 +57,8 @@ def _unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
     yield Fault("unsupported", what, root.place, "link", root.name, why)
 
 
-def _inner(run: Run) -> list[Contact]:
-    """Overlaps of links that push each other, the deepest first."""
+def _internal_overlaps(run: Run) -> list[Contact]:
+    """List the overlaps of links that push each other, the deepest first."""
     if not run.settings.self_collision:
         return []
     found = [c for c in run.recording.contacts if c.other != GROUND and c.depth > 0]
@@ -61,13 +66,13 @@ def _inner(run: Run) -> list[Contact]:
 
 
 def _carrying(run: Run) -> list[str]:
-    """The links that carried the robot at the end, in the order of the file."""
+    """List the links that carried the robot at the end, in the order of the file."""
     touching = {contact.one for contact in run.recording.carrying}
     return [name for body in run.bodies.bodies for name in body.links if name in touching]
 
 
 def _by_role(robot: Robot, run: Run, role: str) -> dict[int, str]:
-    """The bodies that touch the ground as a wheel or a foot, each with the link that does."""
+    """Find the bodies that are a wheel or a foot, each with the link that makes contact."""
     found: dict[int, str] = {}
     for number, body in enumerate(run.bodies.bodies):
         for name in body.links if number else ():
@@ -86,7 +91,7 @@ def _wheels_in_the_air(robot: Robot, run: Run, state: FinalState) -> Iterator[Fa
     height = min(_height(run, number) for number in wheels)
     yield Fault(
         "wheels-off-ground",
-        f"no wheel carries the robot, which rests on {listed(carrying)}",
+        f"no wheel carries the robot, which rests on {quote_names(carrying)}",
         robot.link[name].place,
         "link",
         name,
@@ -97,14 +102,14 @@ def _wheels_in_the_air(robot: Robot, run: Run, state: FinalState) -> Iterator[Fa
 
 
 def _height(run: Run, number: int) -> float:
-    """How high above the ground a body ends [m]."""
+    """Compute the height of a body's lowest point [m]."""
     pose = run.end.pose(number)
     shapes = run.bodies.bodies[number].shapes
-    return lowest(shapes, np.array(pose.rotation), np.array(pose.translation))
+    return lowest_height(shapes, np.array(pose.rotation), np.array(pose.translation))
 
 
 def _body_on_ground(robot: Robot, run: Run) -> Iterator[Fault]:
-    """The chassis or trunk of a robot that has wheels or feet to stand on."""
+    """Report a chassis or trunk on the ground, of a robot with wheels or feet."""
     wheels, feet = (_by_role(robot, run, role) for role in ("wheel", "foot"))
     carrying = set(_carrying(run))
     on_wheels = {run.start.body_of(name) for name in carrying} & set(wheels)

@@ -17,7 +17,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from ...errors import ConfigError
-from ..bodies import TENSOR_ROUNDING
+from ..rigid_bodies import TENSOR_ROUNDING
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from ...model.elements import Robot
-from ..fault import Fault, listed
+from ..fault import Fault, quote_names
 from ..run import Run
 from .final_state import FinalState, initial_support_links
 
@@ -39,15 +39,15 @@ def _why_tilted(run: Run, state: FinalState) -> str:
     if state.margin is not None and state.margin < 0:
         why = "its centre of mass is not above where it touches the floor"
     elif state.supports:
-        why = f"it lies on {listed(state.supports)}"
+        why = f"it lies on {quote_names(state.supports)}"
     else:
         why = "nothing under it touches the floor"
-    stood = f"it was put on {listed(names)}; " if names else ""
+    stood = f"it was put on {quote_names(names)}; " if names else ""
     return f"{stood}{why}; a robot that is bolted down is simulated with --fixed-base"
 
 
 def _looks_like_manipulator(run: Run) -> bool:
-    """Whether a robot is one chain of turning joints on a base, as arms are, but for its hand."""
+    """Tell whether a robot is one chain of turning joints on a base, but for its hand."""
     bodies = run.bodies.bodies
     chain = [0]
     while True:
@@ -92,14 +92,14 @@ def _why(run: Run, rolled: Sequence[str], slick: Sequence[str]) -> str:
         brake = "held with less effort than it takes" if held else "and nothing brakes them"
         return f"its wheels turned, {brake}"
     if slick:
-        return f"the file gives {listed(slick)} less friction than the slope needs"
+        return f"the file gives {quote_names(slick)} less friction than the slope needs"
     if slope and run.settings.friction < abs(math.tan(slope)):
         return "--friction is less than the slope needs"
     return "it was pushed, or rolls"
 
 
 def _rolled(run: Run, names: Iterable[str]) -> list[str]:
-    """Those of some links that hang on a joint without end which turned."""
+    """Choose the links on a continuous joint that turned."""
     turned = np.abs(run.recording.positions[-1] - run.recording.positions[0])
     found = []
     for name in names:

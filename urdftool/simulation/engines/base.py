@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ...model.elements import Robot
-    from ..bodies import Bodies
     from ..recording import Array, Contact, ReadBack
+    from ..rigid_bodies import RigidBodyModel
     from ..settings import Settings
 
 UNLIMITED_EFFORT = 1e6
@@ -66,7 +66,7 @@ class World(Protocol):
     """
 
     version: str
-    bodies: Bodies
+    bodies: RigidBodyModel
     settings: Settings
     read_back: list[ReadBack]
     capped: dict[str, float]
@@ -106,7 +106,9 @@ class Engine(ABC):
         """Tell whether the library has a wheel for this Python and machine."""
 
     @abstractmethod
-    def write_model(self, robot: Robot, bodies: Bodies, settings: Settings, folder: Path) -> None:
+    def write_model(
+        self, robot: Robot, bodies: RigidBodyModel, settings: Settings, folder: Path
+    ) -> None:
         """Write the files that :meth:`open_world` reads.
 
         Args:
@@ -120,7 +122,7 @@ class Engine(ABC):
         """
 
     @abstractmethod
-    def open_world(self, bodies: Bodies, settings: Settings, folder: Path) -> World:
+    def open_world(self, bodies: RigidBodyModel, settings: Settings, folder: Path) -> World:
         """Load the robot in this process.
 
         Args:

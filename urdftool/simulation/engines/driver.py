@@ -11,9 +11,9 @@ from time import perf_counter
 import numpy as np
 
 from ...errors import ModelError
-from ..bodies import Bodies
 from ..checks.thresholds import Thresholds
 from ..recording import Array, Contact, Hit, Recording, Swept
+from ..rigid_bodies import RigidBodyModel
 from ..settings import Settings
 from .base import Capabilities, Sample, World
 from .registry import alternatives, load_engine
@@ -32,7 +32,7 @@ Emit = Callable[[tuple[Array, list[Contact]]], None]
 
 def run(
     engine: str,
-    bodies: Bodies,
+    bodies: RigidBodyModel,
     settings: Settings,
     folder: Path,
     thresholds: Thresholds,
@@ -125,7 +125,7 @@ def settle(
     )
 
 
-def _is_sane(sample: Sample, bodies: Bodies) -> bool:
+def _is_sane(sample: Sample, bodies: RigidBodyModel) -> bool:
     poses = sample["poses"]
     far = RUNAWAY * max(1.0, bodies.size)
     return bool(
@@ -138,7 +138,7 @@ def _is_sane(sample: Sample, bodies: Bodies) -> bool:
 class Stillness:
     """Tells from samples since when a robot is at rest: by where it is, not by its velocities."""
 
-    def __init__(self, bodies: Bodies, interval: float, thresholds: Thresholds) -> None:
+    def __init__(self, bodies: RigidBodyModel, interval: float, thresholds: Thresholds) -> None:
         """Begin.
 
         Args:
@@ -179,7 +179,7 @@ class Stillness:
         return bool(moved < self.creep and turned < self.turn and bent)
 
 
-def sweep(engine: str, bodies: Bodies, settings: Settings, folder: Path) -> list[Swept]:
+def sweep(engine: str, bodies: RigidBodyModel, settings: Settings, folder: Path) -> list[Swept]:
     """Move each joint of a robot through its limits in an engine.
 
     Args:
@@ -193,7 +193,7 @@ def sweep(engine: str, bodies: Bodies, settings: Settings, folder: Path) -> list
     return sweep_world(world, bodies)
 
 
-def sweep_world(world: World, bodies: Bodies) -> list[Swept]:
+def sweep_world(world: World, bodies: RigidBodyModel) -> list[Swept]:
     """Put each joint that follows none to positions between its limits, and look for overlaps.
 
     Overlaps of the start are left out. A continuous joint, and one without limits, goes through

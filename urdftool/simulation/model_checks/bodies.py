@@ -1,4 +1,4 @@
-"""Bodies without the physics that a simulation lives on, whatever the engine made of them."""
+"""Checks of rigid bodies: collision geometry, mass, inertia and size that a run depends on."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import numpy as np
 from ...model.elements import Geometry, Link, Mesh, Robot
 from ...rules.inertia.density import mass_out_of_line
 from ...source.location import Place
-from ..bodies import Body, mass_of
-from ..extent import extent_of
+from ..extent import measure_extent
 from ..fault import Fault
+from ..mesh_cache import outermost_points
 from ..recording import Array
-from ..remembered import mesh_points
+from ..rigid_bodies import RigidBody, link_mass_properties
 from ..run import Run
 from ..shapes import is_without_extent
 from .mass_distribution import check_mass_distribution, has_shapes
@@ -29,25 +29,25 @@ def check_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
             robot.place,
             cause="give each link a <collision>",
             rule="missing-collision",
-            fails=not bodies.nailed,
+            fails=not bodies.fixed_base,
         )
     yield from _without_extent(robot, run)
-    yield from _massless(robot, run)
+    yield from _massless_bodies(robot, run)
     told = {body.name for body in bodies.bodies if not body.mass}
     for number, body in enumerate(bodies.bodies):
-        if number == 0 and bodies.nailed:
+        if number == 0 and bodies.fixed_base:
             continue
         if body.properties is not None and is_impossible(
             body.properties.inertia, run.thresholds.tensor_excess
         ):
             told.add(body.name)
-            yield from _tensor(robot, run, body)
+            yield from _inconsistent_inertia(robot, run, body)
         for name in body.links:
             yield from check_mass_distribution(robot, robot.link[name], run)
-    yield from _out_of_line(robot, run)
-    yield from _unweighed(robot, run)
-    yield from _giants(robot, run)
-    yield from _giant_looks(robot, run)
+    yield from _mass_out_of_line(robot, run)
+    yield from _massless_links(robot, run)
+    yield from _oversized_collisions(robot, run)
+    yield from _oversized_visuals(robot, run)
     for difference in run.recording.read_back:
         if difference.name in told:
             continue
@@ -63,7 +63,7 @@ def check_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
 
 
 def _without_extent(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Collisions that were left out, as the exporters leave them out."""
+    """Report collisions of length zero, which are left out, as the exporters do."""
     for name in (name for body in run.bodies.bodies for name in body.links):
         for collision in robot.link[name].collisions:
             if is_without_extent(collision):
@@ -78,13 +78,13 @@ def _without_extent(robot: Robot, run: Run) -> Iterator[Fault]:
                 )
 
 
-def _massless(robot: Robot, run: Run) -> Iterator[Fault]:
+def _massless_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
     bodies = run.bodies
     by_name = {body.name: body for body in bodies.bodies}
     loads = {body.parent for body in bodies.bodies if body.mass}
     moving = []
     for number, body in enumerate(bodies.bodies):
-        if body.mass or (number == 0 and bodies.nailed):
+        if body.mass or (number == 0 and bodies.fixed_base):
             continue
         if number == 0:
             yield Fault(
@@ -112,13 +112,13 @@ def _massless(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _out_of_line(robot: Robot, run: Run) -> Iterator[Fault]:
-    """The one link whose mass alone is several times too large, as lint finds it."""
+def _mass_out_of_line(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Report the one link whose mass alone is several times too large, as lint finds it."""
     for problem in mass_out_of_line.check(robot):
         link = problem.subject
         assert isinstance(link, Link)
         body = next((body for body in run.bodies.bodies if link.name in body.links), None)
-        if body is None or (body.parent < 0 and run.bodies.nailed):
+        if body is None or (body.parent < 0 and run.bodies.fixed_base):
             continue
         place = problem.at if isinstance(problem.at, Place) else link.place
         yield Fault(
@@ -131,33 +131,35 @@ def _out_of_line(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _unweighed(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Links that are a good part of their rigid body or the robot, and have no mass.
+def _massless_links(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Report links without mass that are a good part of their rigid body or the robot.
 
     The mass of a link without shapes counts for those of its body that have some and no mass: so
     are inertials kept out of a root. A neighbour with shapes of its own has its own mass only.
     """
     bodies, bounds = run.bodies, run.thresholds
     extents = {
-        name: extent_of(robot, name)
+        name: measure_extent(robot, name)
         for body in bodies.bodies
-        if body.mass and any(_is_hollow(robot, name) for name in body.links)
+        if body.mass and any(_is_massless_shape(robot, name) for name in body.links)
         for name in body.links
         if has_shapes(robot, name)
     }
-    if not any(_is_hollow(robot, name) for name in extents):
+    if not any(_is_massless_shape(robot, name) for name in extents):
         return
     everything = sum(
-        extents[name].volume if name in extents else extent_of(robot, name).volume
+        extents[name].volume if name in extents else measure_extent(robot, name).volume
         for body in bodies.bodies
         for name in body.links
         if has_shapes(robot, name)
     )
     for number, body in enumerate(bodies.bodies):
-        hollow = [name for name in body.links if _is_hollow(robot, name) and name in extents]
+        hollow = [
+            name for name in body.links if _is_massless_shape(robot, name) and name in extents
+        ]
         if any(robot.link[name].visuals for name in body.links):  # others only help to collide
             hollow = [name for name in hollow if robot.link[name].visuals]
-        if not hollow or (number == 0 and bodies.nailed):
+        if not hollow or (number == 0 and bodies.fixed_base):
             continue
         bare = sum(robot.link[name].mass for name in body.links if not has_shapes(robot, name))
         if bare > bounds.hollow_density * sum(extents[name].volume for name in hollow):
@@ -181,8 +183,8 @@ def _unweighed(robot: Robot, run: Run) -> Iterator[Fault]:
                 )
 
 
-def _is_hollow(robot: Robot, name: str) -> bool:
-    """Whether a link has a shape and no mass."""
+def _is_massless_shape(robot: Robot, name: str) -> bool:
+    """Tell whether a link has a shape and no mass."""
     return not robot.link[name].mass and has_shapes(robot, name)
 
 
@@ -198,16 +200,16 @@ def is_impossible(tensor: Array, excess: float) -> bool:
     return not possible
 
 
-def _tensor(robot: Robot, run: Run, body: Body) -> Iterator[Fault]:
-    """The link that makes the tensor of its body impossible."""
+def _inconsistent_inertia(robot: Robot, run: Run, body: RigidBody) -> Iterator[Fault]:
+    """Report the link that makes the tensor of its body physically inconsistent."""
     bad = [
         link
         for link in (robot.link[name] for name in body.links)
-        if (own := mass_of(link)) is not None
+        if (own := link_mass_properties(link)) is not None
         and is_impossible(own.inertia, run.thresholds.tensor_excess)
     ]
     link = max(bad, key=lambda link: link.mass) if bad else robot.link[body.name]
-    own = mass_of(link)
+    own = link_mass_properties(link)
     tensor = own.inertia if bad and own is not None else np.zeros((3, 3))
     low, middle, high = np.linalg.eigvalsh(tensor).tolist()
     taken = _tensor_taken(run, body)
@@ -235,8 +237,8 @@ def _tensor(robot: Robot, run: Run, body: Body) -> Iterator[Fault]:
     )
 
 
-def _mass_taken(run: Run, body: Body) -> str:
-    """What the engine that ran did with a body without mass."""
+def _mass_taken(run: Run, body: RigidBody) -> str:
+    """Say what the engine that ran did with a body without mass."""
     engine = run.recording.capabilities
     for part in run.recording.read_back:
         if part.name == body.name and part.what == "mass":
@@ -246,8 +248,8 @@ def _mass_taken(run: Run, body: Body) -> str:
     return f"{engine.title} simulated it with none, or next to none"
 
 
-def _tensor_taken(run: Run, body: Body) -> str:
-    """What the engine that ran took instead of an impossible tensor."""
+def _tensor_taken(run: Run, body: RigidBody) -> str:
+    """Say what the engine that ran took instead of an inconsistent tensor."""
     engine = run.recording.capabilities.title
     for part in run.recording.read_back:
         if part.name == body.name and part.what == "principal moments":
@@ -255,7 +257,7 @@ def _tensor_taken(run: Run, body: Body) -> str:
     return f"{engine} simulated it as written"
 
 
-def _giants(robot: Robot, run: Run) -> Iterator[Fault]:
+def _oversized_collisions(robot: Robot, run: Run) -> Iterator[Fault]:
     bodies, bounds = run.bodies, run.thresholds
     sizes: dict[str, list[float]] = {}
     for body in bodies.bodies:
@@ -266,7 +268,7 @@ def _giants(robot: Robot, run: Run) -> Iterator[Fault]:
     for name, size in largest.items():
         others = [value for other, value in largest.items() if other != name]
         link = robot.link[name]
-        volume = extent_of(robot, name, only_collisions=True).volume
+        volume = measure_extent(robot, name, only_collisions=True).volume
         thin = link.mass and volume and link.mass / volume < bounds.thinnest_density
         ratio = bounds.largest_part_ratio
         far = others and size > ratio * float(np.median(others))
@@ -277,12 +279,12 @@ def _giants(robot: Robot, run: Run) -> Iterator[Fault]:
                 link.collisions[0].place,
                 "link",
                 name,
-                *_in_metres(link.collisions[0].geometry),
+                *_scale_advice(link.collisions[0].geometry),
             )
 
 
-def _giant_looks(robot: Robot, run: Run) -> Iterator[Fault]:
-    """Meshes that are seen in millimetres on a robot that touches in metres."""
+def _oversized_visuals(robot: Robot, run: Run) -> Iterator[Fault]:
+    """Report visual meshes in millimeters on a robot that collides in meters."""
     bodies, bounds = run.bodies, run.thresholds
     least = max(bounds.largest_part, bounds.largest_part_ratio * bodies.size)
     if not bodies.size:
@@ -292,7 +294,7 @@ def _giant_looks(robot: Robot, run: Run) -> Iterator[Fault]:
             mesh = visual.geometry
             if not isinstance(mesh, Mesh):
                 continue
-            points = mesh_points(robot, mesh)
+            points = outermost_points(robot, mesh)
             if points is None:
                 continue  # what is only seen need not be there
             edges = points.max(axis=0) - points.min(axis=0)
@@ -304,13 +306,13 @@ def _giant_looks(robot: Robot, run: Run) -> Iterator[Fault]:
                     mesh.place,
                     "link",
                     name,
-                    *_in_metres(mesh),
+                    *_scale_advice(mesh),
                 )
                 break
 
 
-def _in_metres(geometry: Geometry | None) -> tuple[str, str]:
-    """What would make a shape in millimetres right, and the lint rule that tells more, if any."""
+def _scale_advice(geometry: Geometry | None) -> tuple[str, str]:
+    """Explain how to correct a shape in millimeters; return the lint rule, too."""
     if not isinstance(geometry, Mesh):
         return "it is in millimetres; sizes are in metres", ""
     right = " ".join(f"{factor / 1000:g}" for factor in geometry.scale)

@@ -1,4 +1,4 @@
-"""Mass and inertia that no shape of a link's size could have."""
+"""Checks of mass and inertia against the size of a link's shapes."""
 
 from __future__ import annotations
 
@@ -10,47 +10,47 @@ import numpy as np
 
 from ...inertia.tensor import MassProperties
 from ...model.elements import Link, Robot
-from ..bodies import mass_of
 from ..checks.thresholds import Thresholds
-from ..extent import Extent, extent_of
+from ..extent import Extent, measure_extent
 from ..fault import Fault
 from ..recording import Array
+from ..rigid_bodies import link_mass_properties
 from ..run import Run
 
 TOO_LARGE = "a tensor of ones, or of other units; the link turns far too slowly"
 
 
 def has_shapes(robot: Robot, name: str) -> bool:
-    """Whether a link is seen or touches; one that is not is a frame."""
+    """Tell whether a link has visual or collision geometry; one without is a frame."""
     return bool(robot.link[name].collisions or robot.link[name].visuals)
 
 
 def check_mass_distribution(robot: Robot, link: Link, run: Run) -> Iterator[Fault]:
     """Report mass and inertia that no shape of a link's size could have."""
     bounds = run.thresholds
-    own = mass_of(link)
+    own = link_mass_properties(link)
     if own is None or link.inertial is None:
         return
     share = own.mass / run.bodies.mass
     spread = math.sqrt(max(0.0, float(np.trace(own.inertia)) / 2 / own.mass))
     if not has_shapes(robot, link.name) and share < bounds.heavy_link:
-        yield from _bare(robot, link, own, spread, run)
+        yield from _frame_inertia(robot, link, own, spread, run)
         return
-    extent = _around(robot, link, run, only_collisions=True)
+    extent = _extent_around(robot, link, run, only_collisions=True)
     if _fits(extent, own, spread, bounds):
         return
-    if not (share > bounds.light_link or _rules(own.inertia, link.name, run)):
+    if not (share > bounds.light_link or _dominates(own.inertia, link.name, run)):
         return
-    extent = _around(robot, link, run)
+    extent = _extent_around(robot, link, run)
     reach = extent.reach(own.com)
     heavy = share > bounds.light_link
     if reach and spread > (bounds.gyration_reach if heavy else bounds.light_gyration_reach) * reach:
         said = f"that of mass {spread:.3g} m from its centre; its shapes reach {reach:.3g} m"
     elif share > bounds.light_link and reach:
-        said = _made_up(own.inertia, own.mass, extent, bounds)
+        said = _placeholder(own.inertia, own.mass, extent, bounds)
         if not said and _too_wide(own.inertia, own.mass, extent, bounds):  # or in what is fixed
             said = _too_wide(
-                own.inertia, own.mass, _around(robot, link, run, all_links=True), bounds
+                own.inertia, own.mass, _extent_around(robot, link, run, all_links=True), bounds
             )
     else:
         said = ""
@@ -77,21 +77,21 @@ def check_mass_distribution(robot: Robot, link: Link, run: Run) -> Iterator[Faul
         )
 
 
-def _bare(
+def _frame_inertia(
     robot: Robot, link: Link, own: MassProperties, spread: float, run: Run
 ) -> Iterator[Fault]:
-    """The tensor of a link without shapes, which no part of so large a robot could have."""
+    """Report the tensor of a link without shapes that no part of the robot's size could have."""
     bodies = run.bodies.bodies
     if not run.bodies.size:  # nothing says how large it is
         return
     body = next(body for body in bodies if link.name in body.links)
-    if any(has_shapes(robot, name) for name in body.links) or not _rules(
+    if any(has_shapes(robot, name) for name in body.links) or not _dominates(
         own.inertia, link.name, run
     ):
         return
     centre = np.array(body.places[link.name].transform(tuple(own.com.tolist())))
     at = np.array(run.start.pose(bodies.index(body)).transform(tuple(centre.tolist())))
-    reach = float(np.linalg.norm(_frames(run) - at, axis=1).max())
+    reach = float(np.linalg.norm(_frame_origins(run) - at, axis=1).max())
     if spread > reach:  # on average, where not even the farthest corner is
         yield Fault(
             "inertia-too-large",
@@ -105,8 +105,8 @@ def _bare(
         )
 
 
-def _frames(run: Run) -> Array:
-    """Frames of bodies and corners of their shapes at the start, shape (n, 3)."""
+def _frame_origins(run: Run) -> Array:
+    """Collect frames of bodies and corners of their shapes at the start, shape (n, 3)."""
     found = []
     for number, body in enumerate(run.bodies.bodies):
         pose = run.start.pose(number)
@@ -119,7 +119,7 @@ def _frames(run: Run) -> Array:
 
 
 def _too_wide(tensor: Array, mass: float, extent: Extent, bounds: Thresholds) -> str:
-    """What a tensor is that spreads its mass beyond the shapes along an axis; empty if none."""
+    """Describe a tensor whose mass is spread beyond the shapes along an axis; empty if none."""
     moments, half = _halves(tensor, extent, bounds)
     spread = np.sqrt(np.maximum(0.0, moments.sum() / 2 - moments) / mass)
     worst = int((spread / half).argmax())
@@ -131,8 +131,8 @@ def _too_wide(tensor: Array, mass: float, extent: Extent, bounds: Thresholds) ->
     )
 
 
-def _made_up(tensor: Array, mass: float, extent: Extent, bounds: Thresholds) -> str:
-    """What a tensor is that is a power of ten about every axis, and too large; empty if not."""
+def _placeholder(tensor: Array, mass: float, extent: Extent, bounds: Thresholds) -> str:
+    """Describe a placeholder: a power of ten about every axis, and too large; empty if none."""
     moment = float(tensor[0, 0])
     power = math.log10(moment) if moment > 0 else 0.5
     if abs(power - round(power)) > 1e-9 or not np.array_equal(tensor, moment * np.eye(3)):
@@ -148,15 +148,15 @@ def _made_up(tensor: Array, mass: float, extent: Extent, bounds: Thresholds) -> 
 
 
 def _halves(tensor: Array, extent: Extent, bounds: Thresholds) -> tuple[Array, Array]:
-    """Principal moments, and half of what the shapes reach along each axis [m]."""
+    """Compute principal moments, and half the extent of the shapes along each axis [m]."""
     moments, axes = np.linalg.eigh(tensor)
     along = extent.points @ axes
     half = (along.max(axis=0) - along.min(axis=0)) / 2
     return moments, np.maximum(half, bounds.sheet_thickness * half.max())
 
 
-def _rules(tensor: Array, name: str, run: Run) -> bool:
-    """Whether a light link's tensor is most of its rigid body's all the same."""
+def _dominates(tensor: Array, name: str, run: Run) -> bool:
+    """Tell whether a light link's tensor dominates that of its rigid body."""
     body = next(body for body in run.bodies.bodies if name in body.links)
     assert body.properties is not None
     return bool(
@@ -164,17 +164,17 @@ def _rules(tensor: Array, name: str, run: Run) -> bool:
     )
 
 
-def _around(
+def _extent_around(
     robot: Robot, link: Link, run: Run, *, only_collisions: bool = False, all_links: bool = False
 ) -> Extent:
-    """The extent of a link; of one without shapes, that of its rigid body, in its own frame."""
+    """Measure the extent of a link; without shapes, that of its rigid body, in its frame."""
     if has_shapes(robot, link.name) and not all_links:
-        return extent_of(robot, link.name, only_collisions=only_collisions)
+        return measure_extent(robot, link.name, only_collisions=only_collisions)
     body = next(body for body in run.bodies.bodies if link.name in body.links)
     back = body.places[link.name].inverse()
     found = []
     for name in body.links:
-        extent = extent_of(robot, name, only_collisions=only_collisions)
+        extent = measure_extent(robot, name, only_collisions=only_collisions)
         pose = back @ body.places[name]
         points = extent.points @ np.array(pose.rotation).T + np.array(pose.translation)
         found.append((points, extent.groups))
@@ -190,6 +190,6 @@ def _fits(extent: Extent, own: MassProperties, spread: float, bounds: Thresholds
     return bool(
         spread <= bounds.gyration_reach * reach
         and own.mass <= bounds.density * extent.volume
-        and not (reach and _made_up(own.inertia, own.mass, extent, bounds))
+        and not (reach and _placeholder(own.inertia, own.mass, extent, bounds))
         and not (reach and _too_wide(own.inertia, own.mass, extent, bounds))
     )

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ....model.elements import Robot
-    from ...bodies import Bodies
+    from ...rigid_bodies import RigidBodyModel
     from ...settings import Settings
 
 _MACHINES = {
@@ -48,14 +48,16 @@ class MuJoCo(Engine):
         """Tell whether MuJoCo has a wheel for this machine, which it has for every Python."""
         return platform.machine() in _MACHINES.get(sys.platform, ())
 
-    def write_model(self, robot: Robot, bodies: Bodies, settings: Settings, folder: Path) -> None:
+    def write_model(
+        self, robot: Robot, bodies: RigidBodyModel, settings: Settings, folder: Path
+    ) -> None:
         """Write the MJCF export of the robot, in a scene with a plane."""
         from .scene import write_model
 
         write_model(robot, bodies, settings, folder)
 
-    def open_world(self, bodies: Bodies, settings: Settings, folder: Path) -> World:
-        """Compile the scene."""
+    def open_world(self, bodies: RigidBodyModel, settings: Settings, folder: Path) -> World:
+        """Load the scene, which compiles it."""
         from .world import MuJoCoWorld, import_mujoco
 
         return MuJoCoWorld(import_mujoco(), bodies, settings, folder)

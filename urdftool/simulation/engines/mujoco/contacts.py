@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ...bodies import Bodies
 from ...recording import GROUND, Contact
+from ...rigid_bodies import RigidBodyModel
 
 _TOUCH = 1e-6  # m: bodies that touch are not in each other
 
 
-class Touches:
+class ContactReader:
     """Contacts of one robot."""
 
     def __init__(
@@ -21,7 +21,7 @@ class Touches:
         mj: Any,
         model: Any,
         data: Any,
-        bodies: Bodies,
+        bodies: RigidBodyModel,
         number_of: dict[str, int],
         plane: int,
     ) -> None:
@@ -37,18 +37,18 @@ class Touches:
         self._solid = [int(g) for g in solid if int(model.geom_bodyid[g]) in self._rigid]
 
     def link(self, geom: int) -> str:
-        """The link of a geom."""
+        """Return the link of a geom."""
         return GROUND if geom == self.plane else self._name[int(self.model.geom_bodyid[geom])]
 
     def deepest(self) -> float:
-        """The depth of the deepest contact with the plane [m]; -inf without one."""
+        """Measure the depth of the deepest contact with the plane [m]; -inf without one."""
         touching = self.data.contact
         one, other = touching.geom1, touching.geom2
         depths = -touching.dist[(one == self.plane) | (other == self.plane)]
         return float(depths.max()) if len(depths) else -math.inf
 
     def contacts(self) -> list[Contact]:
-        """What touches the plane now."""
+        """List the contacts with the plane."""
         found, force = [], np.zeros(6)
         for number in range(self.data.ncon):
             contact = self.data.contact[number]
@@ -70,7 +70,7 @@ class Touches:
         return found
 
     def overlaps(self, *, ground: bool = True) -> list[Contact]:
-        """The deepest place of each two bodies that are in each other, whether they push or not."""
+        """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
         deepest: dict[tuple[int, int], Contact] = {}
         model, data = self.model, self.data
         others = [*self._solid, self.plane] if ground else self._solid

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from ...bodies import Bodies
-from ...control import Pids, driven
+from ...control import Pids, is_driven
 from ...recording import Array
+from ...rigid_bodies import RigidBodyModel
 from ...settings import Settings
 from ..base import UNLIMITED_EFFORT
 
@@ -36,7 +36,7 @@ class Motors:
         mj: Any,
         model: Any,
         data: Any,
-        bodies: Bodies,
+        bodies: RigidBodyModel,
         settings: Settings,
         motors: dict[str, int],
     ) -> None:
@@ -46,7 +46,7 @@ class Motors:
         model.actuator_biasprm[:, :] = 0.0
         joints = {joint.name: joint for joint in bodies.joints}
         controls = settings.controls or {}
-        gained = [name for name in bodies.held if name in motors and driven(controls, name)]
+        gained = [name for name in bodies.held if name in motors and is_driven(controls, name)]
         names = [name for name in bodies.held if name in motors and name not in gained]
         self._pids = Pids(
             [controls[name] for name in gained],
@@ -55,9 +55,9 @@ class Motors:
             [joints[name].kind == "continuous" for name in gained],
             settings.timestep,
         )
-        self._driven, self._driven_at, self._driven_dofs = self._found(gained, motors)
+        self._driven, self._driven_at, self._driven_dofs = self._addresses(gained, motors)
         model.actuator_gainprm[self._driven, 0] = 1.0
-        self._held, self._at, self._dofs = self._found(names, motors)
+        self._held, self._at, self._dofs = self._addresses(names, motors)
         self._target = np.array([bodies.positions[name] for name in names])
         self._bound = np.array([joints[name].effort or UNLIMITED_EFFORT for name in names])
         self._friction = np.array(model.dof_frictionloss[self._dofs])
@@ -67,15 +67,15 @@ class Motors:
         model.dof_solimp[self._dofs] = _IMPEDANCE
         self._brake()
 
-    def _found(self, names: list[str], motors: dict[str, int]) -> tuple[Any, Any, Any]:
-        """The motors of joints, and where position and rate of each are."""
+    def _addresses(self, names: list[str], motors: dict[str, int]) -> tuple[Any, Any, Any]:
+        """Find the motors of joints, and the addresses of position and rate of each."""
         numbers = np.array([motors[name] for name in names], dtype=int)
         joints = self._model.actuator_trnid[numbers, 0]
         return numbers, self._model.jnt_qposadr[joints], self._model.jnt_dofadr[joints]
 
     def _make_servos(self, timestep: float) -> None:
         model = self._model
-        inertia = _felt(self._mj, model, self._data, self._dofs)
+        inertia = _felt_inertias(self._mj, model, self._data, self._dofs)
         fast = _STIFF / timestep
         self._stiffness = inertia * fast**2
         # the implicit Euler method's spring: its force is that of the position after the step
@@ -88,7 +88,7 @@ class Motors:
         model.actuator_forcerange[self._held] = np.outer(self._bound, [-1, 1])
 
     def _brake(self) -> None:
-        """Tighten the brakes of joints that are held by one, and loosen the others."""
+        """Set the dry friction of joints that are held by it, and release the others."""
         tight = np.where(self._braked, self._bound, 0.0)
         self._model.dof_frictionloss[self._dofs] = self._friction + tight
         self._model.actuator_biasprm[self._held, 2] = np.where(self._braked, 0.0, -self._damping)
@@ -119,7 +119,7 @@ class Motors:
         data.ctrl[self._held] = np.where(braked, 0.0, self._stiffness * error + self._sum)
 
     def efforts(self, dofs: Any) -> Array:
-        """What drives or holds each degree of freedom now [N·m, N]."""
+        """Return the effort that drives or holds each degree of freedom [N·m, N]."""
         data = self._data
         whole = np.array(data.qfrc_actuator)
         kind = self._mj.mjtConstraint.mjCNSTR_FRICTION_DOF
@@ -134,8 +134,8 @@ class Motors:
         return found
 
 
-def _felt(mj: Any, model: Any, data: Any, dofs: Any) -> Any:
-    """The inertia that a motor moves when every other joint is free [kg·m², kg]."""
+def _felt_inertias(mj: Any, model: Any, data: Any, dofs: Any) -> Any:
+    """Compute the inertia that a motor moves when every other joint is free [kg·m², kg]."""
     found = np.zeros(len(dofs))
     for row, dof in enumerate(dofs):
         unit, answer = np.zeros((1, model.nv)), np.zeros((1, model.nv))

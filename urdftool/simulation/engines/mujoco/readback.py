@@ -11,16 +11,16 @@ import numpy as np
 from ....inertia.lump import placed
 from ....inertia.tensor import MassProperties, combine
 from ....model.pose import rotation_of_quaternion
-from ...bodies import TENSOR_ROUNDING, Bodies, Body
 from ...recording import ReadBack
+from ...rigid_bodies import TENSOR_ROUNDING, RigidBody, RigidBodyModel
 
 _CLOSE = 1e-5
 
 
 def read_back(
-    model: Any, bodies: Bodies, number_of: Mapping[str, int], joints: Sequence[int]
+    model: Any, bodies: RigidBodyModel, number_of: Mapping[str, int], joints: Sequence[int]
 ) -> list[ReadBack]:
-    """Each difference in mass, centre, principal moments, joint and shapes.
+    """List the differences in mass, center of mass, principal moments, joint and shapes.
 
     Args:
         model: MuJoCo's model.
@@ -31,7 +31,7 @@ def read_back(
     found: list[ReadBack] = []
     number = 0
     for row, body in enumerate(bodies.bodies):
-        if row or not bodies.nailed:
+        if row or not bodies.fixed_base:
             found += _mass(model, body, number_of)
         if body.joint is not None:
             found += _joint(model, body, joints[number])
@@ -44,7 +44,7 @@ def read_back(
     return found
 
 
-def _mass(model: Any, body: Body, number_of: Mapping[str, int]) -> Iterator[ReadBack]:
+def _mass(model: Any, body: RigidBody, number_of: Mapping[str, int]) -> Iterator[ReadBack]:
     parts = []
     for link, pose in body.places.items():
         number = number_of[link]
@@ -79,7 +79,7 @@ def _mass(model: Any, body: Body, number_of: Mapping[str, int]) -> Iterator[Read
 _KINDS = {0: "floating", 1: "spherical", 2: "prismatic", 3: "revolute"}
 
 
-def _joint(model: Any, body: Body, number: int) -> Iterator[ReadBack]:
+def _joint(model: Any, body: RigidBody, number: int) -> Iterator[ReadBack]:
     joint = body.joint
     assert joint is not None
     if number < 0:

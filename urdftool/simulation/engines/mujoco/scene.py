@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element, ElementTree, SubElement
 from ....formats.mjcf.options import Options
 from ....formats.mjcf.write import write
 from ....model.elements import Inertial, Joint, Link, Robot
-from ...bodies import ROOTED, Bodies
+from ...rigid_bodies import ROOTED, RigidBodyModel
 from ...settings import Settings
 
 SCENE = "scene.xml"
@@ -19,7 +19,7 @@ MOTOR = "motor of "
 """What the motor of each held joint is called, before the joint's name."""
 
 
-def write_model(robot: Robot, bodies: Bodies, settings: Settings, folder: Path) -> Path:
+def write_model(robot: Robot, bodies: RigidBodyModel, settings: Settings, folder: Path) -> Path:
     """Write the MJCF of a robot, its meshes and the scene around it; the path of the scene.
 
     Args:
@@ -33,8 +33,8 @@ def write_model(robot: Robot, bodies: Bodies, settings: Settings, folder: Path) 
     """
     root = robot.tree.root
     assert root is not None
-    held = bodies.nailed or bodies.bodies[0].name != root.name
-    model = _to_collide(robot, settings, rename=not held)
+    held = bodies.fixed_base or bodies.bodies[0].name != root.name
+    model = _without_visuals(robot, settings, rename=not held)
     written = write(
         model,
         Options(
@@ -57,7 +57,7 @@ def write_model(robot: Robot, bodies: Bodies, settings: Settings, folder: Path) 
     return path
 
 
-def _scene(main: str, bodies: Bodies) -> Element:
+def _scene(main: str, bodies: RigidBodyModel) -> Element:
     scene = Element("mujoco", model="scene")
     SubElement(scene, "include", file=main)
     world = SubElement(scene, "worldbody")
@@ -69,25 +69,25 @@ def _scene(main: str, bodies: Bodies) -> Element:
     return scene
 
 
-def _to_collide(robot: Robot, settings: Settings, *, rename: bool) -> Robot:
-    """A robot without visuals, with its payloads; a link that moves is not called world."""
-    links = [_loaded(link, settings.payloads.get(link.name, 0.0)) for link in robot.links]
-    joints = [_braked(joint) for joint in robot.joints]
+def _without_visuals(robot: Robot, settings: Settings, *, rename: bool) -> Robot:
+    """Remove visuals, add payloads, and rename a moving link that is called world."""
+    links = [_with_payload(link, settings.payloads.get(link.name, 0.0)) for link in robot.links]
+    joints = [_without_negative_losses(joint) for joint in robot.joints]
     root = robot.tree.root
     if rename or root is None or root.name != ROOTED:
         name = moving_name(ROOTED)
         links = [replace(link, name=name) if link.name == ROOTED else link for link in links]
-        joints = [_hung(joint, name) for joint in joints]
+        joints = [_renamed_ends(joint, name) for joint in joints]
     return replace(robot, links=links, joints=joints)
 
 
 def moving_name(name: str) -> str:
-    """The name of the body of a link, where MuJoCo keeps the link's to itself."""
+    """Return the name of a link's body, if MuJoCo reserves the link's own name."""
     return f"{name} (moving)"  # which no other link is called
 
 
-def _braked(joint: Joint) -> Joint:
-    """A joint that nothing drives on: damping and friction below zero are none."""
+def _without_negative_losses(joint: Joint) -> Joint:
+    """Set damping and friction below zero to zero, which would drive a joint."""
     loss = joint.dynamics
     if loss is None:
         return joint
@@ -97,15 +97,15 @@ def _braked(joint: Joint) -> Joint:
     return replace(joint, dynamics=replace(loss, damping=damping, friction=friction))
 
 
-def _hung(joint: Joint, name: str) -> Joint:
+def _renamed_ends(joint: Joint, name: str) -> Joint:
     if ROOTED not in (joint.parent, joint.child):
         return joint
     parent, child = (name if end == ROOTED else end for end in (joint.parent, joint.child))
     return replace(joint, parent=parent, child=child)
 
 
-def _loaded(link: Link, payload: float) -> Link:
-    """A link without visuals and with a point mass [kg] in its centre, as ``Settings`` has it."""
+def _with_payload(link: Link, payload: float) -> Link:
+    """Remove visuals, and add a point mass [kg] at the center of mass."""
     inertial = link.inertial
     if payload:
         mass = link.mass + payload

@@ -10,12 +10,12 @@ import numpy as np
 
 from ....errors import ModelError
 from ....extras import missing
-from ...bodies import Bodies
 from ...recording import Array, Contact
+from ...rigid_bodies import RigidBodyModel
 from ...settings import Settings
 from ..base import Sample
 from ..registry import alternatives
-from .contacts import Touches
+from .contacts import ContactReader
 from .motors import Motors
 from .readback import read_back
 from .scene import MOTOR, PLANE, SCENE, moving_name
@@ -50,7 +50,7 @@ class MuJoCoWorld:
         number_of: Its body of each link.
     """
 
-    def __init__(self, mj: Any, bodies: Bodies, settings: Settings, folder: Path) -> None:
+    def __init__(self, mj: Any, bodies: RigidBodyModel, settings: Settings, folder: Path) -> None:
         """Set the scene; nothing moves yet."""
         self.mj, self.bodies, self.settings = mj, bodies, settings
         self.version = str(mj.__version__)
@@ -73,7 +73,7 @@ class MuJoCoWorld:
         self._set_forces()
         self._make_contacts()
         self._place()
-        self.touches = Touches(mj, self.model, self.data, bodies, self.number_of, self.plane)
+        self.touches = ContactReader(mj, self.model, self.data, bodies, self.number_of, self.plane)
         motors = {
             joint.name: number
             for joint in bodies.joints
@@ -85,7 +85,7 @@ class MuJoCoWorld:
         return int(self.mj.mj_name2id(self.model, getattr(self.mj.mjtObj, f"mjOBJ_{kind}"), name))
 
     def _body(self, link: str) -> int:
-        """The body of a link; 0, the world, where it is no body of its own."""
+        """Return the number of a link's body; 0, the world, if it has no body of its own."""
         number = self._id("BODY", moving_name(link))
         return number if number >= 0 else max(0, self._id("BODY", link))
 
@@ -113,7 +113,7 @@ class MuJoCoWorld:
                 self.model.jnt_stiffness[number] = joint.stiffness
 
     def _make_contacts(self) -> None:
-        """Friction as the file or the settings say; who touches whom."""
+        """Set friction by the file or the settings, and which geoms may make contact."""
         model, settings = self.model, self.settings
         solid = np.flatnonzero((model.geom_contype != 0) | (model.geom_conaffinity != 0))
         model.geom_solref[:] = (max(_SOFT * settings.timestep, 1e-4), 1.0)
@@ -159,7 +159,7 @@ class MuJoCoWorld:
         mj.mj_forward(model, data)
 
     def _move_world(self, at: Array, turn: Array) -> None:
-        """Move all that hangs on a root which is the world itself."""
+        """Move the children of a root that is the world itself."""
         mj, model = self.mj, self.model
         tops = np.flatnonzero(model.body_parentid == 0)[1:]
         geoms = np.flatnonzero(model.geom_bodyid == 0)
@@ -186,15 +186,15 @@ class MuJoCoWorld:
         """Do nothing: overlaps are measured with the bodies that are asked for."""
 
     def overlaps(self, *, ground: bool = True) -> list[Contact]:
-        """The deepest place of each two bodies that are in each other, whether they push or not."""
+        """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
         return self.touches.overlaps(ground=ground)
 
     def contacts(self) -> list[Contact]:
-        """What touches the plane now."""
+        """List the contacts with the plane."""
         return self.touches.contacts()
 
     def is_broken(self) -> bool:
-        """Whether the engine warned of numbers that are none."""
+        """Tell whether the engine warned of numbers that are not finite."""
         bad = self.mj.mjtWarning
         numbers = (bad.mjWARN_BADQPOS, bad.mjWARN_BADQVEL, bad.mjWARN_BADQACC)
         return any(self.data.warning[int(number)].number for number in numbers)
@@ -204,12 +204,12 @@ class MuJoCoWorld:
         self.model.opt.gravity = gravity
 
     def step(self) -> None:
-        """One timestep."""
+        """Advance by one timestep."""
         self.motors.drive()
         self.mj.mj_step(self.model, self.data)
 
     def sample(self, time: float) -> Sample:
-        """What there is to measure."""
+        """Measure one value for each column of the recording at a time [s]."""
         mj, model, data = self.mj, self.model, self.data
         mj.mj_forward(model, data)
         mj.mj_energyVel(model, data)
@@ -258,7 +258,7 @@ def _too_deep() -> str:
 
 
 def _quaternion(rotation: Any) -> Array:
-    """The quaternion w, x, y, z of a rotation matrix."""
+    """Convert a rotation matrix to a quaternion w, x, y, z."""
     from ....model.pose import quaternion_of_rotation
 
     return np.array(quaternion_of_rotation(rotation))

@@ -2,8 +2,8 @@
 
 ``world`` steps it, on the URDF that ``urdf`` writes. Switched off are: tensors computed from shapes
 instead of read, a motor on every joint, damping that the file does not have, cylinders of flat
-sides, a base without mass that is fixed silently (``Bodies.nailed`` decides), joints without limits
-that are locked, and limits that yield to a heavy load.
+sides, a base without mass that is fixed silently, joints without limits that are locked, and limits
+that yield to a heavy load.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ....model.elements import Robot
-    from ...bodies import Bodies
+    from ...rigid_bodies import RigidBodyModel
     from ...settings import Settings
 
 
@@ -44,13 +44,15 @@ class PyBullet(Engine):
         is_linux = sys.platform == "linux" and platform.machine() == "x86_64"
         return is_linux and sys.version_info[:2] < (3, 12)
 
-    def write_model(self, robot: Robot, bodies: Bodies, settings: Settings, folder: Path) -> None:
+    def write_model(
+        self, robot: Robot, bodies: RigidBodyModel, settings: Settings, folder: Path
+    ) -> None:
         """Write the rigid bodies as URDF, and their hulls as OBJ."""
         from .urdf import write_folder
 
         write_folder(bodies, folder)
 
-    def open_world(self, bodies: Bodies, settings: Settings, folder: Path) -> World:
+    def open_world(self, bodies: RigidBodyModel, settings: Settings, folder: Path) -> World:
         """Load the URDF."""
         from .world import PyBulletWorld, import_pybullet
 

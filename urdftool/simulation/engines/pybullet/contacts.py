@@ -13,17 +13,17 @@ from typing import Any
 
 import numpy as np
 
-from ...bodies import Bodies, Body
 from ...recording import GROUND, Array, Contact
+from ...rigid_bodies import RigidBody, RigidBodyModel
 
 _NEAR = 1e-4  # m; of two boxes it finds nothing when it is asked for a distance of zero
 
 
-class Touches:
+class ContactReader:
     """Contacts of one robot."""
 
     def __init__(
-        self, p: Any, robot: int, plane: int, bodies: Bodies, link_of: Mapping[int, int]
+        self, p: Any, robot: int, plane: int, bodies: RigidBodyModel, link_of: Mapping[int, int]
     ) -> None:
         """Take the engine's numbers of a robot and a plane, and its link of each body."""
         self.p, self.robot, self.plane = p, robot, plane
@@ -31,7 +31,7 @@ class Touches:
         self.body_of = {link: body for body, link in link_of.items()}
 
     def contacts(self) -> list[Contact]:
-        """What touches the plane now."""
+        """List the contacts with the plane."""
         return [
             self._contact(point, GROUND)
             for point in self.p.getContactPoints(bodyA=self.robot, bodyB=self.plane)
@@ -48,7 +48,7 @@ class Touches:
         )
 
     def _link(self, number: int, at: tuple[float, float, float]) -> str:
-        """Which link of a body has the shape that is nearest to a point in the world."""
+        """Find the link of a body whose shape is nearest to a point in the world."""
         body = self.bodies.bodies[number]
         if len({shape.link for shape in body.shapes}) < 2:
             return body.shapes[0].link if body.shapes else body.name
@@ -63,7 +63,7 @@ class Touches:
         return min(body.shapes, key=distance).link
 
     def frame(self, number: int) -> tuple[Any, Any]:
-        """The position [m] and quaternion x, y, z, w of a body's link frame in the world."""
+        """Return position [m] and quaternion x, y, z, w of a body's link frame in the world."""
         if number:
             state = self.p.getLinkState(self.robot, self.link_of[number])
             return state[4], state[5]
@@ -75,7 +75,7 @@ class Touches:
         return where
 
     def overlaps(self, *, ground: bool = True) -> list[Contact]:
-        """The deepest place of each two bodies that are in each other, whether they push or not."""
+        """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
         p, found = self.p, []
         solid = [n for n, body in enumerate(self.bodies.bodies) if body.shapes]
         boxes = {n: np.array(p.getAABB(self.robot, self.link_of[n])) for n in solid}
@@ -108,8 +108,8 @@ NEARING = 0.05
 """How near to the plane a body is that may touch it before it is looked at again [m]."""
 
 
-def round_part(body: Body) -> tuple[Array, float] | None:
-    """The axes of a body's round shapes in its frame, shape (n, 3), and how far they reach [m].
+def round_part(body: RigidBody) -> tuple[Array, float] | None:
+    """Find the axes of a body's round shapes in its frame, (n, 3), and their reach [m].
 
     None where shapes that are not round touch, too.
     """
@@ -123,7 +123,7 @@ def round_part(body: Body) -> tuple[Array, float] | None:
 
 
 def is_lying(axes: Array, turn: Array) -> bool:
-    """Whether all axes of a body lie along the plane.
+    """Tell whether all axes of a body lie along the plane.
 
     Args:
         axes: In the body's frame, shape (n, 3).
@@ -135,7 +135,7 @@ def is_lying(axes: Array, turn: Array) -> bool:
 
 
 def forget_contacts(p: Any, robot: int, plane: int, links: Sequence[int]) -> None:
-    """Forget where links touched the plane.
+    """Clear the points where links touched the plane.
 
     Args:
         p: PyBullet.

@@ -1,19 +1,23 @@
-"""What holds and drives joints in PyBullet: motors within their effort, damping, gains."""
+"""Motors, damping, gains and springs of joints in PyBullet, and bodies without gravity."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from ...bodies import Bodies, JointOf
-from ...control import Pids, driven
+from ...control import Pids, is_driven
+from ...rigid_bodies import RigidBodyJoint, RigidBodyModel
 from ...settings import Settings
 from ..base import UNLIMITED_EFFORT
 
+Frame = Callable[[int], tuple[Any, Any]]
+"""The position [m] and quaternion x, y, z, w of a body's link frame in the world, by its number."""
+
 
 class Motors:
-    """Of one robot.
+    """The motors of a robot's joints.
 
     Attributes:
         followers: The link of each joint that mimics another, that one's, and the joint.
@@ -24,7 +28,7 @@ class Motors:
     """
 
     def __init__(
-        self, p: Any, robot: int, bodies: Bodies, settings: Settings, indices: list[int]
+        self, p: Any, robot: int, bodies: RigidBodyModel, settings: Settings, indices: list[int]
     ) -> None:
         """Take the engine's number of a robot and of the link of each joint, and set them up."""
         self.p, self.robot, self.indices = p, robot, indices
@@ -34,7 +38,7 @@ class Motors:
     def _make(self) -> None:
         p = self.p
         held = set(self.bodies.held)
-        self.followers: list[tuple[int, int, JointOf]] = []
+        self.followers: list[tuple[int, int, RigidBodyJoint]] = []
         numbers = {
             joint.name: link for link, joint in zip(self.indices, self.bodies.joints, strict=True)
         }
@@ -43,7 +47,7 @@ class Motors:
         for link, joint in zip(self.indices, self.bodies.joints, strict=True):
             if joint.leader is not None and joint.leader in numbers:
                 self.followers.append((link, numbers[joint.leader], joint))
-            elif joint.name in held and not driven(self.settings.controls, joint.name):
+            elif joint.name in held and not is_driven(self.settings.controls, joint.name):
                 p.setJointMotorControl2(
                     self.robot,
                     link,
@@ -62,12 +66,12 @@ class Motors:
         self._make_pids()
 
     def _make_pids(self) -> None:
-        """The joints that gains of a file drive, by their torque."""
+        """Make the PID loops of the joints that gains of a file drive."""
         controls = self.settings.controls or {}
         some = [
             (link, joint)
             for link, joint in zip(self.indices, self.bodies.joints, strict=True)
-            if joint.name in self.bodies.held and driven(controls, joint.name)
+            if joint.name in self.bodies.held and is_driven(controls, joint.name)
         ]
         self.driven = [link for link, _ in some]
         self.pids = Pids(
@@ -79,7 +83,7 @@ class Motors:
         )
 
     def drive(self) -> None:
-        """What is to be done before each step."""
+        """Set the motors for the next step."""
         if self.followers:
             self._follow()
         if self.driven:
@@ -96,7 +100,7 @@ class Motors:
             )
 
     def _stable_damping(self) -> dict[str, float]:
-        """The damping of each joint, no more than its explicit integration bears.
+        """Limit the damping of each joint to what its explicit integration allows.
 
         Beyond half of inertia over timestep it would drive the joint instead of braking it; what is
         left still stops it within two steps.
@@ -113,14 +117,14 @@ class Motors:
         }
 
     def _inertias(self) -> list[float]:
-        """What each joint moves, at the start [kg·m², kg]: the diagonal of the mass matrix."""
+        """Return the diagonal of the mass matrix at the start [kg·m², kg], by joint."""
         starts = [self.bodies.positions[joint.name] for joint in self.bodies.joints]
         matrix = np.array(self.p.calculateMassMatrix(self.robot, self._in_order(starts)))
         first = len(matrix) - len(starts)
         return [float(matrix[first + r, first + r]) for r in np.argsort(np.argsort(self.indices))]
 
     def _added_inertias(self) -> list[float]:
-        """The same, added up from the bodies below each joint."""
+        """Compute the same from the bodies below each joint."""
         p, bodies = self.p, self.bodies.bodies
         states = [p.getLinkState(self.robot, n, computeForwardKinematics=1) for n in self.indices]
         found = [0.0] * len(states)
@@ -142,7 +146,7 @@ class Motors:
         return found
 
     def _in_order(self, values: list[float]) -> list[float]:
-        """Values by joint as the engine numbers its links."""
+        """Order values of joints as the engine numbers its links."""
         return [value for _, value in sorted(zip(self.indices, values, strict=True))]
 
     def _follow(self) -> None:
@@ -164,3 +168,44 @@ class Motors:
                 for _, _, joint in self.followers
             ],
         )
+
+
+class Forces:
+    """Forces that Gazebo's extensions ask for, and for which PyBullet has no setting.
+
+    Gravity acts on the world as a whole, so a link without gravity is pushed up by its own weight.
+    A spring of a joint is an effort in addition to that of its motor.
+    """
+
+    def __init__(
+        self, p: Any, robot: int, bodies: RigidBodyModel, indices: list[int], frame: Frame
+    ) -> None:
+        """Take the engine's number of a robot and of the link of each joint, and its frames."""
+        self.p, self.robot, self._frame = p, robot, frame
+        self._lifted = [
+            (number, indices[number - 1] if number else -1, body.weightless)
+            for number, body in enumerate(bodies.bodies)
+            if body.weightless is not None and not (number == 0 and bodies.fixed_base)
+        ]
+        springs = [
+            (link, joint.stiffness, joint.spring_rest)
+            for link, joint in zip(indices, bodies.joints, strict=True)
+            if joint.stiffness
+        ]
+        self._sprung = [link for link, _, _ in springs]
+        self._stiffness = np.array([stiffness for _, stiffness, _ in springs])
+        self._rest = np.array([rest for _, _, rest in springs])
+
+    def apply(self, gravity: tuple[float, float, float]) -> None:
+        """Apply what acts in the next step, under gravity [m/s²]."""
+        p = self.p
+        for number, link, part in self._lifted:
+            center, _ = p.multiplyTransforms(*self._frame(number), tuple(part.com), (0, 0, 0, 1))
+            force = [-part.mass * along for along in gravity]
+            p.applyExternalForce(self.robot, link, force, center, p.WORLD_FRAME)
+        if self._sprung:
+            states = p.getJointStates(self.robot, self._sprung)
+            away = self._rest - np.array([state[0] for state in states])
+            p.setJointMotorControlArray(
+                self.robot, self._sprung, p.TORQUE_CONTROL, forces=(self._stiffness * away).tolist()
+            )

@@ -8,15 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from ...bodies import Bodies, Body
 from ...recording import ReadBack
+from ...rigid_bodies import RigidBody, RigidBodyModel
 from .urdf import principal_frame
 
 _CLOSE = 1e-5
 
 
-def read_back(p: Any, robot: int, bodies: Bodies, link_of: Mapping[int, int]) -> list[ReadBack]:
-    """Each difference in mass, centre, principal moments, joint and shapes.
+def read_back(
+    p: Any, robot: int, bodies: RigidBodyModel, link_of: Mapping[int, int]
+) -> list[ReadBack]:
+    """List the differences in mass, center of mass, principal moments, joint and shapes.
 
     Args:
         p: PyBullet.
@@ -30,7 +32,7 @@ def read_back(p: Any, robot: int, bodies: Bodies, link_of: Mapping[int, int]) ->
             found.append(ReadBack("link", body.name, "link", "a body", "nothing"))
             continue
         link = link_of[number]
-        found += _mass(p.getDynamicsInfo(robot, link), body, bodies.nailed and number == 0)
+        found += _mass(p.getDynamicsInfo(robot, link), body, bodies.fixed_base and number == 0)
         if body.joint is not None:
             found += _joint(p.getJointInfo(robot, link), body)
         count = sum(len(shape.pieces) or 1 for shape in body.shapes)
@@ -42,9 +44,9 @@ def read_back(p: Any, robot: int, bodies: Bodies, link_of: Mapping[int, int]) ->
     return found
 
 
-def _mass(info: Any, body: Body, nailed: bool) -> Iterator[ReadBack]:
+def _mass(info: Any, body: RigidBody, fixed_base: bool) -> Iterator[ReadBack]:
     frame, moments = principal_frame(body)
-    if nailed:
+    if fixed_base:
         return
     if not math.isclose(info[0], body.mass, rel_tol=_CLOSE, abs_tol=1e-12):
         yield ReadBack("link", body.name, "mass", f"{body.mass:g} kg", f"{info[0]:g} kg")
@@ -59,7 +61,7 @@ def _mass(info: Any, body: Body, nailed: bool) -> Iterator[ReadBack]:
         yield ReadBack("link", body.name, "centre of mass", f"{said} m", f"{got} m")
 
 
-def _joint(info: Any, body: Body) -> Iterator[ReadBack]:
+def _joint(info: Any, body: RigidBody) -> Iterator[ReadBack]:
     joint = body.joint
     assert joint is not None
     kind = 1 if joint.kind == "prismatic" else 0

@@ -10,13 +10,13 @@ import numpy as np
 
 from ....inertia.tensor import principal
 from ....model.pose import Pose, rpy_of_rotation
-from ...bodies import TENSOR_ROUNDING, Bodies, Body, JointOf
+from ...rigid_bodies import TENSOR_ROUNDING, RigidBody, RigidBodyJoint, RigidBodyModel
 from ...shapes import Shape
 
 NAME = "robot.urdf"
 
 
-def write_folder(robot: Bodies, folder: Path) -> Path:
+def write_folder(robot: RigidBodyModel, folder: Path) -> Path:
     """Write a robot and its meshes; the path of the URDF.
 
     Body number i is link ``b{i}`` on joint ``j{i}``: no name of the user's file can be too long,
@@ -32,7 +32,7 @@ def write_folder(robot: Bodies, folder: Path) -> Path:
     return path
 
 
-def _link(number: int, body: Body, folder: Path) -> Iterator[str]:
+def _link(number: int, body: RigidBody, folder: Path) -> Iterator[str]:
     yield f'<link name="b{number}">'
     yield from _inertial(body)
     for index, shape in enumerate(body.shapes):
@@ -41,8 +41,8 @@ def _link(number: int, body: Body, folder: Path) -> Iterator[str]:
     yield "</link>"
 
 
-def principal_frame(body: Body) -> tuple[Pose, tuple[float, float, float]]:
-    """The frame of a body's centre of mass and principal axes, and its moments [kg·m²]."""
+def principal_frame(body: RigidBody) -> tuple[Pose, tuple[float, float, float]]:
+    """Compute the frame of a body's center of mass and principal axes, and its moments [kg·m²]."""
     if body.properties is None:
         return Pose(), (0.0, 0.0, 0.0)
     moments, axes = principal(body.properties.inertia)
@@ -55,7 +55,7 @@ def principal_frame(body: Body) -> tuple[Pose, tuple[float, float, float]]:
     return Pose(rows, (x, y, z)), (a, b, c)  # type: ignore[arg-type]
 
 
-def _inertial(body: Body) -> Iterator[str]:
+def _inertial(body: RigidBody) -> Iterator[str]:
     pose, (ixx, iyy, izz) = principal_frame(body)
     yield f'<inertial>{_origin(pose)}<mass value="{body.mass:.17g}"/>'
     yield (
@@ -64,7 +64,7 @@ def _inertial(body: Body) -> Iterator[str]:
     )
 
 
-def _joint(number: int, body: Body, joint: JointOf) -> Iterator[str]:
+def _joint(number: int, body: RigidBody, joint: RigidBodyJoint) -> Iterator[str]:
     limited = math.isfinite(joint.lower) and math.isfinite(joint.upper)
     kind = joint.kind if limited or joint.kind == "prismatic" else "continuous"
     yield f'<joint name="j{number}" type="{kind}">{_origin(body.origin)}'

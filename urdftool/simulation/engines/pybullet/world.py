@@ -10,13 +10,12 @@ import numpy as np
 
 from ....errors import ModelError
 from ....extras import missing
-from ...bodies import Bodies
 from ...recording import Array, Contact, ReadBack
+from ...rigid_bodies import RigidBodyModel
 from ...settings import Settings
 from ..base import Sample
-from .contacts import NEARING, Touches, forget_contacts, is_lying, round_part
-from .forces import Forces
-from .motors import Motors
+from .contacts import NEARING, ContactReader, forget_contacts, is_lying, round_part
+from .motors import Forces, Motors
 from .readback import read_back
 from .urdf import NAME, principal_frame
 
@@ -52,7 +51,7 @@ class PyBulletWorld:
         gravity: In the world [m/s²].
     """
 
-    def __init__(self, p: Any, bodies: Bodies, settings: Settings, folder: Path) -> None:
+    def __init__(self, p: Any, bodies: RigidBodyModel, settings: Settings, folder: Path) -> None:
         """Set the scene; nothing moves yet."""
         self.p, self.bodies, self.settings = p, bodies, settings
         p.connect(p.DIRECT)
@@ -69,7 +68,7 @@ class PyBulletWorld:
         self.read_back = read_back(p, self.robot, bodies, self.link_of)
         self._place()
         self._make_dynamics()
-        self.touches = Touches(p, self.robot, self.plane, bodies, self.link_of)
+        self.touches = ContactReader(p, self.robot, self.plane, bodies, self.link_of)
         self.motors = Motors(p, self.robot, bodies, settings, self.indices)
         self.forces = Forces(p, self.robot, bodies, self.indices, self.touches.frame)
         self.gravity = settings.gravity_at(0.0)
@@ -85,7 +84,7 @@ class PyBulletWorld:
             flags |= p.URDF_USE_SELF_COLLISION | p.URDF_USE_SELF_COLLISION_EXCLUDE_PARENT
         try:
             number: int = p.loadURDF(
-                str(folder / NAME), flags=flags, useFixedBase=self.bodies.nailed
+                str(folder / NAME), flags=flags, useFixedBase=self.bodies.fixed_base
             )
         except p.error as error:
             raise ModelError(f"PyBullet does not read the robot: {error}") from None
@@ -152,15 +151,15 @@ class PyBulletWorld:
         self.p.performCollisionDetection()
 
     def contacts(self) -> list[Contact]:
-        """What touches the plane now."""
+        """List the contacts with the plane."""
         return self.touches.contacts()
 
     def overlaps(self, *, ground: bool = True) -> list[Contact]:
-        """The deepest place of each two bodies that are in each other, whether they push or not."""
+        """Find the deepest point of each two interpenetrating bodies, contacts enabled or not."""
         return self.touches.overlaps(ground=ground)
 
     def is_broken(self) -> bool:
-        """Never said by this engine: its numbers are looked at."""
+        """Return False: this engine reports nothing, and the driver checks its numbers."""
         return False
 
     def set_gravity(self, gravity: tuple[float, float, float], poses: Array) -> None:
@@ -170,14 +169,14 @@ class PyBulletWorld:
         self.gravity = gravity
 
     def step(self) -> None:
-        """One timestep."""
+        """Advance by one timestep."""
         self.motors.drive()
         self.forces.apply(self.gravity)
         forget_contacts(self.p, self.robot, self.plane, self._rolling)
         self.p.stepSimulation()
 
     def _round_links(self, poses: Array) -> list[int]:
-        """The links that may roll, at these poses of all bodies."""
+        """Find the links that may roll, at these poses of all bodies."""
         if not hasattr(self, "_round"):
             found = [(number, round_part(body)) for number, body in enumerate(self.bodies.bodies)]
             self._round = [(number, part) for number, part in found if part is not None]
@@ -188,7 +187,7 @@ class PyBulletWorld:
         ]
 
     def sample(self, time: float) -> Sample:
-        """What there is to measure."""
+        """Measure one value for each column of the recording at a time [s]."""
         p = self.p
         bodies = self.bodies.bodies
         poses, velocities = np.zeros((len(bodies), 7)), np.zeros((len(bodies), 6))
@@ -231,7 +230,7 @@ class PyBulletWorld:
         }
 
     def _energy(self, coms: Array, velocities: Array) -> tuple[float, float]:
-        """Kinetic and potential energy [J] from the frames of the centres of mass."""
+        """Compute kinetic and potential energy [J] from the frames of the centers of mass."""
         if not hasattr(self, "_masses"):
             frames = [principal_frame(body) for body in self.bodies.bodies]
             self._masses = np.array([body.mass for body in self.bodies.bodies])
@@ -246,7 +245,7 @@ class PyBulletWorld:
         return kinetic, float(self._masses @ (coms[:, :3] @ self._up))
 
     def _weightless_energy(self, poses: Array) -> float:
-        """The potential energy [J] that bodies do not have because gravity does not act on them."""
+        """Compute the potential energy [J] of the mass on which gravity does not act."""
         up, total = -np.array(self.settings.gravity_at(math.inf)), 0.0
         for body, pose in zip(self.bodies.bodies, poses, strict=True):
             part = body.weightless
@@ -259,7 +258,7 @@ class PyBulletWorld:
 
 
 def quaternion(rotation: Any) -> tuple[float, float, float, float]:
-    """The quaternion x, y, z, w of a rotation matrix."""
+    """Convert a rotation matrix to a quaternion x, y, z, w."""
     from ....model.pose import quaternion_of_rpy, rpy_of_rotation
 
     w, x, y, z = quaternion_of_rpy(rpy_of_rotation(rotation))

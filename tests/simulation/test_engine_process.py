@@ -11,18 +11,18 @@ import pytest
 
 from tests.conftest import ROOT
 from urdftool.errors import ModelError
-from urdftool.simulation.child import Child, EngineDied
+from urdftool.simulation.engine_process import EngineDied, EngineProcess
 
 
 def call(function, *arguments, time_limit=20.0):
-    with Child("json") as child:
-        return child.call("child_deeds", function, *arguments, time_limit=time_limit)
+    with EngineProcess("json") as child:
+        return child.call("process_jobs", function, *arguments, time_limit=time_limit)
 
 
 @pytest.fixture(autouse=True)
 def _deeds(monkeypatch):
     """The module with what a child is made to do lies beside this test."""
-    monkeypatch.setattr("urdftool.simulation.child.MODULES", "tests.simulation")
+    monkeypatch.setattr("urdftool.simulation.engine_process.MODULES", "tests.simulation")
 
 
 def test_an_answer():
@@ -36,24 +36,24 @@ def test_what_the_engine_prints_is_swallowed(capfd):
 
 def test_what_is_told_is_heard_before_the_answer():
     heard = []
-    with Child("json") as child:
-        assert child.call("child_deeds", "report", 1, time_limit=20, hear=heard.append) == 3
+    with EngineProcess("json") as child:
+        assert child.call("process_jobs", "report", 1, time_limit=20, on_emit=heard.append) == 3
     assert heard == [1, 2]
 
 
 def test_a_crash_after_telling_is_one_message():
     heard = []
-    with Child("json") as child, pytest.raises(EngineDied, match="SIGSEGV"):
-        child.call("child_deeds", "die_telling", time_limit=20, hear=heard.append)
+    with EngineProcess("json") as child, pytest.raises(EngineDied, match="SIGSEGV"):
+        child.call("process_jobs", "die_telling", time_limit=20, on_emit=heard.append)
     assert heard == ["on my way"]
 
 
 def test_a_process_that_dies_before_its_job_is_one_message():
-    with Child("json") as child:
+    with EngineProcess("json") as child:
         child._process.kill()
         child._process.wait()
         with pytest.raises(EngineDied, match="SIGKILL"):
-            child.call("child_deeds", "double", b"x" * 10_000_000, time_limit=20)
+            child.call("process_jobs", "double", b"x" * 10_000_000, time_limit=20)
 
 
 def test_an_error_of_ours_comes_through():
@@ -74,9 +74,9 @@ def test_a_crash_is_one_message():
 
 def test_a_hang_ends_in_time_and_leaves_nobody():
     began = time.monotonic()
-    with Child("json") as child:
+    with EngineProcess("json") as child:
         with pytest.raises(EngineDied, match="was not done after 1 s"):
-            child.call("child_deeds", "hang", time_limit=1.0)
+            child.call("process_jobs", "hang", time_limit=1.0)
         number = child._process.pid
     assert time.monotonic() - began < 5
     with pytest.raises(ProcessLookupError):
@@ -107,9 +107,10 @@ def test_time_may_have_no_limit():
 def test_a_lower_limit_of_the_system_stays():
     line = (
         "import resource; resource.setrlimit(resource.RLIMIT_CPU, (9, 9)); "
-        "from urdftool.simulation import child; child.MODULES = 'tests.simulation'; "
-        "process = child.Child('json'); "
-        "print(process.call('child_deeds', 'double', 21, time_limit=60)); process.__exit__()"
+        "from urdftool.simulation import engine_process as child; "
+        "child.MODULES = 'tests.simulation'; "
+        "process = child.EngineProcess('json'); "
+        "print(process.call('process_jobs', 'double', 21, time_limit=60)); process.__exit__()"
     )
     done = subprocess.run(
         [sys.executable, "-c", line], cwd=ROOT, capture_output=True, text=True, timeout=60
@@ -118,15 +119,15 @@ def test_a_lower_limit_of_the_system_stays():
 
 
 def test_a_system_without_threads_is_one_message():
-    with Child("json") as child, mock.patch("urdftool.isolated.Thread.start") as start:
+    with EngineProcess("json") as child, mock.patch("urdftool.isolated.Thread.start") as start:
         start.side_effect = RuntimeError("can't start new thread")
         with pytest.raises(EngineDied, match="can't start new thread"):
-            child.call("child_deeds", "double", 21, time_limit=20)
+            child.call("process_jobs", "double", 21, time_limit=20)
 
 
 def test_it_ends_where_nobody_holds_its_input():
-    with Child("json") as child:
+    with EngineProcess("json") as child:
         with pytest.raises(EngineDied, match="was not done"):
-            child.call("child_deeds", "hang", time_limit=1.0)
+            child.call("process_jobs", "hang", time_limit=1.0)
         child._process.stdin.close()
         assert child._process.wait(5) == 1

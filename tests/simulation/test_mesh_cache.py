@@ -11,7 +11,7 @@ import pytest
 from tests.conftest import FIXTURES
 from urdftool.errors import UrdftoolError
 from urdftool.model.load import load
-from urdftool.simulation import remembered
+from urdftool.simulation import mesh_cache
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
 
@@ -38,7 +38,7 @@ def robot(tmp_path):
 
 
 def test_a_mesh_is_read_once_for_all_trials(robot):
-    with mock.patch.object(remembered, "load_named", wraps=remembered.load_named) as read:
+    with mock.patch.object(mesh_cache, "load_named", wraps=mesh_cache.load_named) as read:
         one, other = (prepare(robot, Settings(height=height)) for height in (0.0, 1.0))
     assert read.call_count == 1
     assert [len(shape.pieces[0]) for body in one.bodies for shape in body.shapes] == [8, 8]
@@ -47,17 +47,17 @@ def test_a_mesh_is_read_once_for_all_trials(robot):
 
 def test_another_robot_is_read_anew(robot, tmp_path):
     geometry = robot.link["a"].visuals[0].geometry
-    points = remembered.mesh_points(robot, geometry)
+    points = mesh_cache.outermost_points(robot, geometry)
     assert np.ptp(points, axis=0) == pytest.approx([2, 2, 2])
     (tmp_path / "two.urdf").write_text(TWO.replace('"2 2 2"', '"3 3 3"'))
     again = load(tmp_path / "two.urdf")
-    points = remembered.mesh_points(again, again.link["a"].visuals[0].geometry)
+    points = mesh_cache.outermost_points(again, again.link["a"].visuals[0].geometry)
     assert np.ptp(points, axis=0) == pytest.approx([3, 3, 3])
 
 
 def test_a_missing_mesh_is_said_to_who_needs_it(robot, tmp_path):
     (tmp_path / "cube.stl").unlink()
     geometry = robot.link["a"].visuals[0].geometry
-    assert remembered.mesh_points(robot, geometry) is None
+    assert mesh_cache.outermost_points(robot, geometry) is None
     with pytest.raises(UrdftoolError, match=r"cube\.stl"):
         prepare(robot, Settings())

@@ -1,4 +1,4 @@
-"""A run to look at: the robot where an engine measured it, once or many times."""
+"""Pictures and animations of a run."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ Progress = Callable[[int, int], None]
 
 
 def link_poses(run: Run, poses: Array) -> dict[str, Pose]:
-    """Where each link is in the world.
+    """Compute the pose of each link in the world.
 
     Args:
         run: A run.
@@ -49,10 +49,10 @@ def link_poses(run: Run, poses: Array) -> dict[str, Pose]:
     return found
 
 
-def settled_picture(
+def render_final_state(
     run: Run, shapes: Shapes, *, camera: Camera | None = None, size: tuple[int, int] = SIZE
 ) -> Image:
-    """The robot on the plane where a run ended.
+    """Draw the robot on the plane where a run ended.
 
     Args:
         run: A run.
@@ -64,7 +64,7 @@ def settled_picture(
     return draw(shapes, link_poses(run, last), camera=camera, size=size, ground=_floor(run, last))
 
 
-def film(
+def render_animation(
     run: Run,
     shapes: Shapes,
     *,
@@ -72,7 +72,7 @@ def film(
     size: tuple[int, int] = FILM,
     progress: Progress = lambda *_: None,
 ) -> bytes:
-    """A run as a GIF, from a camera that stands still.
+    """Render a run as a GIF, from a fixed camera.
 
     Args:
         run: A run.
@@ -99,19 +99,19 @@ def film(
 
 
 def _sane(recording: Recording) -> Indices:
-    """The rows whose poses are numbers."""
+    """Find the samples whose poses are finite."""
     rows: Indices = np.flatnonzero(np.isfinite(recording.poses).all(axis=(1, 2)))
     return rows
 
 
 def _floor(run: Run, poses: Array) -> float | bool:
-    """The plane, but where the robot is under it all the same."""
+    """Return the height of the plane, or False if the robot is below it."""
     reach = max(run.bodies.size, 0.1)
     return False if float(poses[:, 2].max()) < -reach else 0.0
 
 
 def _moments(recording: Recording) -> Iterator[tuple[Array, float]]:
-    """Poses of the bodies at even steps of time, and how long each is shown [s]."""
+    """Yield poses of the bodies at even steps of time, and how long each is shown [s]."""
     rows = _sane(recording)
     times = recording.times[rows]
     length = float(times[-1])
@@ -127,7 +127,7 @@ def _moments(recording: Recording) -> Iterator[tuple[Array, float]]:
 
 
 def _between(one: Array, two: Array, part: float) -> Array:
-    """Poses between two others that are close to each other."""
+    """Interpolate between two poses that are near each other."""
     turns = np.where((one[:, 3:] * two[:, 3:]).sum(axis=1, keepdims=True) < 0, -1.0, 1.0)
     poses = one * (1 - part)
     poses[:, :3] += part * two[:, :3]
@@ -143,7 +143,7 @@ def _alike(run: Run, one: Array, two: Array) -> bool:
 
 
 def _view(run: Run, shapes: Shapes, camera: Camera, size: tuple[int, int]) -> View:
-    """A camera that has the whole run in its sight, as far as the robot stays near."""
+    """Place a camera that sees the whole run, as far as the robot stays near."""
     recording = run.recording
     rows = _sane(recording)
     apart = np.linalg.norm(recording.poses[rows, 0, :3] - recording.poses[0, 0, :3], axis=1)

@@ -10,7 +10,7 @@ import pytest
 
 from tests.conftest import FIXTURES
 from urdftool.model.load import load
-from urdftool.simulation.kept import keeping_in, kept
+from urdftool.simulation.hull_cache import get_or_compute, using_cache
 from urdftool.simulation.prepare import prepare
 from urdftool.simulation.settings import Settings
 from urdftool.storage import cache_folder
@@ -53,7 +53,7 @@ def entries():
 
 def test_what_is_kept_is_what_was_made_to_the_bit(mesh):
     make = Maker()
-    one, other = (kept(mesh, ["pieces"], make) for _ in range(2))
+    one, other = (get_or_compute(mesh, ["pieces"], make) for _ in range(2))
     assert make.times == 1
     for (a, b), (c, d) in zip(one, other, strict=True):
         assert a.tobytes() == c.tobytes()
@@ -64,23 +64,23 @@ def test_what_is_kept_is_what_was_made_to_the_bit(mesh):
 
 def test_another_file_scale_or_kind_is_made_anew(mesh):
     make = Maker()
-    kept(mesh, ["pieces", (1, 1, 1)], make)
-    kept(mesh, ["pieces", (2, 1, 1)], make)
-    kept(mesh, ["points", (1, 1, 1)], make)
+    get_or_compute(mesh, ["pieces", (1, 1, 1)], make)
+    get_or_compute(mesh, ["pieces", (2, 1, 1)], make)
+    get_or_compute(mesh, ["points", (1, 1, 1)], make)
     with open(mesh, "ab") as stream:
         stream.write(b" ")
-    kept(mesh, ["pieces", (1, 1, 1)], make)
+    get_or_compute(mesh, ["pieces", (1, 1, 1)], make)
     assert make.times == 4
 
 
 @pytest.mark.parametrize("harm", ["cut", "empty", "foreign"])
 def test_a_damaged_entry_is_made_anew(mesh, harm):
     make = Maker()
-    kept(mesh, [], make)
+    get_or_compute(mesh, [], make)
     (entry,) = entries()
     data = entry.read_bytes()
     entry.write_bytes({"cut": data[:-8], "empty": b"", "foreign": b"x" * 200}[harm])
-    assert len(kept(mesh, [], make)) == 2
+    assert len(get_or_compute(mesh, [], make)) == 2
     assert make.times == 2
 
 
@@ -88,11 +88,11 @@ def test_what_is_whole_and_not_ours_is_made_anew(mesh):
     from urdftool.storage import DiskCache
 
     make = Maker()
-    kept(mesh, [], make)
+    get_or_compute(mesh, [], make)
     (entry,) = entries()
     for data in (b"[[5, 2]]\n", b"nothing", b"[5]\n", b'{"a": 1}\n', b"[[1, 0]]\n" + bytes(25)):
         DiskCache(cache_folder("simulate")).put(entry.name, data)
-        assert len(kept(mesh, [], make)) == 2
+        assert len(get_or_compute(mesh, [], make)) == 2
     assert make.times == 6
 
 
@@ -100,8 +100,8 @@ def test_what_is_whole_and_not_ours_is_made_anew(mesh):
 def test_a_pipe_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "pipe.stl")
     make = Maker()
-    kept(tmp_path / "pipe.stl", [], make)
-    kept(tmp_path / "none.stl", [], make)
+    get_or_compute(tmp_path / "pipe.stl", [], make)
+    get_or_compute(tmp_path / "none.stl", [], make)
     assert make.times == 2
     assert not entries()
 
@@ -129,15 +129,15 @@ def test_where_nothing_can_be_kept_work_goes_on(mesh, monkeypatch, tmp_path):
 
 def test_where_it_is_kept_can_be_said(mesh, tmp_path):
     make = Maker()
-    with keeping_in(tmp_path / "here"):
-        kept(mesh, ["pieces"], make)
-        kept(mesh, ["pieces"], make)
+    with using_cache(tmp_path / "here"):
+        get_or_compute(mesh, ["pieces"], make)
+        get_or_compute(mesh, ["pieces"], make)
     assert make.times == 1
     assert [path for path in (tmp_path / "here").rglob("*") if len(path.name) == 64]
     assert not entries()
-    with keeping_in(None):
-        kept(mesh, ["pieces"], make)
-        kept(mesh, ["pieces"], make)
+    with using_cache(None):
+        get_or_compute(mesh, ["pieces"], make)
+        get_or_compute(mesh, ["pieces"], make)
     assert make.times == 3
     assert not entries()
 

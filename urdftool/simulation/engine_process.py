@@ -1,4 +1,4 @@
-"""An engine in a process of its own: it may crash or hang, and the tool goes on."""
+"""An engine in a process of its own, which may crash or hang."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ class EngineDied(UrdftoolError):  # noqa: N818 -- reads as what happened
     """The engine ended without an answer, or took too long."""
 
 
-class Child(IsolatedProcess):
-    """A process that waits for a job; made early, it starts while the parent still prepares.
+class EngineProcess(IsolatedProcess):
+    """A process that waits for a job; it starts while the parent still prepares.
 
     Use it in a ``with``: however that ends, the process has ended, too.
     """
@@ -31,16 +31,17 @@ class Child(IsolatedProcess):
         function: str,
         *arguments: Any,
         time_limit: float,
-        hear: Callable[[Any], None] | None = None,
+        on_emit: Callable[[Any], None] | None = None,
     ) -> Any:
-        """Call a function of this package in the process.
+        """Call a function of this package in the process, and return its result.
 
         Args:
             module: Of this package, such as ``engines.driver``.
             function: In it.
             arguments: Anything that pickles.
             time_limit: The longest it may take [s].
-            hear: Is given what the function emits before it returns; it is then given ``emit``.
+            on_emit: Receives what the function emits before it returns; the function then takes
+                ``emit`` as its last argument.
 
         Raises:
             EngineDied: It took longer, or the process ended.
@@ -49,7 +50,7 @@ class Child(IsolatedProcess):
         try:
             return super().call(
                 f"{MODULES}.{module}", function, *arguments,
-                time_limit=time_limit, on_message=hear,
+                time_limit=time_limit, on_message=on_emit,
             )  # fmt: skip
         except ProcessTimeout as error:
             raise EngineDied(

@@ -12,7 +12,7 @@ from urdftool.drawing.gif_file import gif
 from urdftool.drawing.shapes import robot_shapes
 from urdftool.model.kinematics import link_poses as poses_at
 from urdftool.model.load import load
-from urdftool.simulation.film import MOST, film, link_poses, settled_picture
+from urdftool.simulation.animation import MOST, link_poses, render_animation, render_final_state
 from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 
@@ -41,18 +41,18 @@ def test_links_are_where_the_joints_put_them(collapse):
 
 def test_a_picture_shows_where_it_ended(collapse):
     _, run, shapes = collapse
-    image = settled_picture(run, shapes, size=(160, 120))
+    image = render_final_state(run, shapes, size=(160, 120))
     assert image.shape == (120, 160, 3)
     blue = (image[..., 2].astype(int) - image[..., 0] > 60).any(axis=1)
     assert blue[30:].any()
     assert not blue.all()
-    assert (image == settled_picture(run, shapes, size=(160, 120))).all()
+    assert (image == render_final_state(run, shapes, size=(160, 120))).all()
 
 
 def test_a_film_moves_and_ends_where_the_run_does(collapse):
     _, run, shapes = collapse
     told = []
-    data = film(run, shapes, size=(48, 36), progress=lambda *n: told.append(n))
+    data = render_animation(run, shapes, size=(48, 36), progress=lambda *n: told.append(n))
     with Image.open(io.BytesIO(data)) as seen:
         assert seen.size == (48, 36)
         assert seen.info["loop"] == 0
@@ -70,7 +70,7 @@ def test_a_film_moves_and_ends_where_the_run_does(collapse):
 def test_what_stands_still_is_drawn_once():
     robot = load(MIRA)
     (run,) = simulate(robot, Settings(duration=1.0), engine="mujoco")
-    data = film(run, robot_shapes(robot), size=(96, 72))
+    data = render_animation(run, robot_shapes(robot), size=(96, 72))
     with Image.open(io.BytesIO(data)) as seen:
         assert seen.n_frames < 8
 

@@ -1,8 +1,4 @@
-"""What has been read of a robot's meshes, kept as long as that robot is looked at.
-
-Engines are given hulls of what touches, and verdicts hold what is seen against them, trial after
-trial; a mesh is read once for all of that, and for all links that use it.
-"""
+"""Meshes of a robot, read once for all trials, checks and links that use them."""
 
 from __future__ import annotations
 
@@ -19,44 +15,44 @@ from ..meshes.mesh import Mesh as Triangles
 from ..meshes.mesh import Points
 from ..meshes.outline import outline
 from ..model.elements import Mesh, Robot
-from .kept import Cloud, kept
+from .hull_cache import Cloud, get_or_compute
 
 T = TypeVar("T")
 
 _last: tuple[Robot, dict[Hashable, object]] | None = None
 
 
-def remembered(robot: Robot, key: Hashable, make: Callable[[], T]) -> T:
-    """What ``make`` returns, made once for a robot and a key; errors are not kept."""
+def cached_for(robot: Robot, key: Hashable, make: Callable[[], T]) -> T:
+    """Return the result for a robot and a key, computed once; errors are not cached."""
     global _last
-    kept = _last  # another thread may put its own robot there
-    if kept is None or kept[0] is not robot:
-        kept = _last = robot, {}
-    known = kept[1]
+    memo = _last  # another thread may put its own robot there
+    if memo is None or memo[0] is not robot:
+        memo = _last = robot, {}
+    known = memo[1]
     if key not in known:
         known[key] = make()
     return cast(T, known[key])
 
 
-def triangles_of(robot: Robot, geometry: Mesh) -> Triangles:
-    """The mesh of a geometry [m].
+def load_triangles(robot: Robot, geometry: Mesh) -> Triangles:
+    """Load the mesh of a geometry [m].
 
     Raises:
         UrdftoolError: It is not found or cannot be read.
     """
     source = robot.source
     assert source is not None
-    return remembered(
+    return cached_for(
         robot,
         ("triangles", geometry.filename, geometry.scale),
         lambda: load_named(source, geometry.filename, geometry.scale),
     )
 
 
-def mesh_points(robot: Robot, geometry: Mesh) -> Points | None:
-    """The outermost points of a mesh [m], shape (n, 3); None where it is not found or not read.
+def outermost_points(robot: Robot, geometry: Mesh) -> Points | None:
+    """Return the outermost points of a mesh [m], shape (n, 3); None if it cannot be read.
 
-    The box around them is that around the mesh, and their hull all but as large.
+    Their bounding box is that of the mesh, and their hull almost as large.
     """
 
     def make() -> list[Cloud]:
@@ -65,23 +61,23 @@ def mesh_points(robot: Robot, geometry: Mesh) -> Points | None:
         if found is not None:
             points = np.array(found.points) * geometry.scale
         else:
-            points = extreme_points(triangles_of(robot, geometry).vertices)
+            points = extreme_points(load_triangles(robot, geometry).vertices)
         return [(points, np.zeros((0, 3), dtype=np.int64))]
 
     def read() -> Points | None:
         if robot.source is None:
             return None
         try:
-            ((points, _),) = kept(*kept_by(robot, geometry, "points"), make)
+            ((points, _),) = get_or_compute(*mesh_key(robot, geometry, "points"), make)
         except UrdftoolError:
             return None
         return points
 
-    return remembered(robot, ("points", geometry.filename, geometry.scale), read)
+    return cached_for(robot, ("points", geometry.filename, geometry.scale), read)
 
 
-def kept_by(robot: Robot, geometry: Mesh, what: str) -> tuple[Path, tuple[object, ...]]:
-    """The file of a mesh, and what else that hangs on which is kept of it.
+def mesh_key(robot: Robot, geometry: Mesh, what: str) -> tuple[Path, tuple[object, ...]]:
+    """Return the file of a mesh, and what else the cached result depends on.
 
     Raises:
         UrdftoolError: It is not found.

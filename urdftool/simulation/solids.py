@@ -25,15 +25,15 @@ class Solids:
         self.parts = list(parts)
 
     def __bool__(self) -> bool:
-        """Whether there is any."""
+        """Tell whether there is any part."""
         return bool(self.parts)
 
     def __or__(self, other: Solids) -> Solids:
-        """Both."""
+        """Return the parts of both."""
         return Solids([*self.parts, *other.parts])
 
     def moved(self, pose: Pose) -> Solids:
-        """The same in the frame in which ``pose`` is that of its present one."""
+        """Return the same in the frame in which ``pose`` is that of its present one."""
         if not self.parts:
             return self
         there = np.column_stack([np.array(pose.rotation), np.array(pose.translation)])
@@ -43,11 +43,11 @@ class Solids:
 
     @cached_property
     def volume(self) -> float:
-        """Of the union [m³]."""
+        """Compute the volume of the union [m³]."""
         return float(self._union.volume())
 
     def shared(self, other: Solids) -> float:
-        """The volume that two unions share [m³]."""
+        """Compute the volume that two unions share [m³]."""
         return float((self._union ^ other._union).volume())
 
     @cached_property
@@ -60,7 +60,7 @@ class Solids:
 
 
 def hulls(clouds: Iterable[Array]) -> Solids:
-    """The convex hulls of clouds of points, without those that are flat, which have no volume.
+    """Compute the convex hulls of clouds of points; flat ones, without volume, are left out.
 
     Of many points, the outermost have all but the same hull, at a fraction of the time.
     """

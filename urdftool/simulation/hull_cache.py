@@ -1,7 +1,6 @@
-"""What simulations need of mesh files, kept for the next one: the hulls, and the outermost points.
+"""Convex hulls and outermost points of mesh files, cached on disk by the content of the file.
 
-Both are small beside the files, and reading these is what a simulation of a robot with meshes waits
-for. They are kept by the bytes of the file, so a changed one is read again.
+Both are small, and reading the files is most of the time of a short simulation.
 """
 
 from __future__ import annotations
@@ -22,28 +21,30 @@ Cloud = tuple[Points, Faces]
 _VERSION = 1
 """To be raised whenever the same file gives something else."""
 
-_elsewhere: list[DiskCache] = []
+_stores: list[DiskCache] = []
 
 
 @contextmanager
-def keeping_in(folder: str | Path | None) -> Iterator[None]:
+def using_cache(folder: str | Path | None) -> Iterator[None]:
     """Keep it in a folder, and not in the user's cache; None keeps nothing."""
-    _elsewhere.append(DiskCache(folder))
+    _stores.append(DiskCache(folder))
     try:
         yield
     finally:
-        _elsewhere.pop()
+        _stores.pop()
 
 
-def kept(path: Path, facts: Sequence[object], make: Callable[[], list[Cloud]]) -> list[Cloud]:
-    """What ``make`` makes of a file, or made of the same bytes before.
+def get_or_compute(
+    path: Path, facts: Sequence[object], make: Callable[[], list[Cloud]]
+) -> list[Cloud]:
+    """Return the cached result for the bytes of a file, or compute and cache it.
 
     Args:
-        path: The mesh file; one that cannot be read is left to ``make``.
-        facts: What else the result hangs on.
+        path: The mesh file; ``make`` reports one that cannot be read.
+        facts: What else the result depends on.
         make: Reads the file.
     """
-    store = _elsewhere[-1] if _elsewhere else DiskCache(cache_folder("simulate"))
+    store = _stores[-1] if _stores else DiskCache(cache_folder("simulate"))
     key = None if store.folder is None else _key(path, facts)
     if key is None:
         return make()
@@ -75,7 +76,7 @@ def _encoded(clouds: list[Cloud]) -> bytes:
 
 
 def _decoded(data: bytes) -> list[Cloud] | None:
-    """None of what this version did not write."""
+    """Decode what this version encoded; None for anything else."""
     head, _, body = data.partition(b"\n")
     clouds, at = [], 0
     try:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from urdftool.model.pose import Pose, rotation_of_rpy
-from urdftool.simulation.solid import Solids, hulls
+from urdftool.simulation.solids import Solids, hulls
 
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 

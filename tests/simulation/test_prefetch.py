@@ -9,10 +9,10 @@ import pytest
 
 from tests.conftest import FIXTURES
 from urdftool.model.load import load
-from urdftool.simulation import remembered
+from urdftool.simulation import mesh_cache
 from urdftool.simulation.checks import interpenetration
 from urdftool.simulation.checks.interpenetration import precompute_overlaps
-from urdftool.simulation.meanwhile import meanwhile
+from urdftool.simulation.prefetch import prefetch
 from urdftool.simulation.run import simulate
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
@@ -56,7 +56,7 @@ def robot(tmp_path):
 
 def test_the_verdict_is_the_same_whether_one_looked_before(robot):
     settings = Settings(duration=0.3)
-    (looked,) = simulate(robot, settings, look=precompute_overlaps)
+    (looked,) = simulate(robot, settings, precompute=precompute_overlaps)
     (plain,) = simulate(robot, settings)
     assert looked.known
     assert not plain.known
@@ -70,29 +70,29 @@ def test_the_verdict_is_the_same_whether_one_looked_before(robot):
 
 
 def test_what_is_seen_is_read(robot):
-    with meanwhile(robot, lambda _: None):
+    with prefetch(robot, lambda _: None):
         pass
-    with mock.patch.object(remembered, "outline", side_effect=AssertionError):
-        assert len(remembered.mesh_points(robot, robot.links[0].visuals[0].geometry)) == 8
+    with mock.patch.object(mesh_cache, "outline", side_effect=AssertionError):
+        assert len(mesh_cache.outermost_points(robot, robot.links[0].visuals[0].geometry)) == 8
 
 
 def test_what_fails_is_left_to_who_asks(robot):
     def fail(_):
         raise ValueError
 
-    with meanwhile(robot, fail) as tell:
+    with prefetch(robot, fail) as tell:
         tell(1)
 
 
 def test_a_system_without_threads_does_it_later(robot):
     no_more = mock.patch.object(threading.Thread, "start", side_effect=RuntimeError)
-    with no_more, meanwhile(robot, print) as tell:
+    with no_more, prefetch(robot, print) as tell:
         tell(1)
 
 
 def test_nothing_waits_where_the_engine_dies(robot):
     before = threading.active_count()
-    with pytest.raises(RuntimeError), meanwhile(robot, print):
+    with pytest.raises(RuntimeError), prefetch(robot, print):
         raise RuntimeError
     for thread in threading.enumerate():
         if thread.daemon and thread is not threading.current_thread():

@@ -1,4 +1,4 @@
-"""The robot as rigid bodies: plain data that any engine can be fed with, and sent to a process."""
+"""A robot as rigid bodies, in plain data that any engine reads and that a process can receive."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from ..model.start import start_positions
 from .control import NONE
 from .recording import Array
 from .settings import Settings
-from .shapes import Shape, shapes_of
+from .shapes import Shape, make_shapes
 from .spawn import spawn_pose
-from .surface import Surface, surface_of
+from .surface import Surface, read_surface
 
 TENSOR_ROUNDING = 0.01
 """How far a tensor may exceed the triangle inequality by rounding [1]; engines get its edge."""
 
 ROOTED = "world"
-"""The name of a root link that Gazebo nails to the world."""
+"""The name of a root link that Gazebo fixes to the world."""
 
 
 @dataclass(frozen=True)
-class JointOf:
-    """The joint a body hangs on.
+class RigidBodyJoint:
+    """The joint between a body and its parent.
 
     Attributes:
         name: Its name.
@@ -66,20 +66,20 @@ class JointOf:
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
+class RigidBody:
     """Links joined by fixed joints; their frame is that of the topmost.
 
     Attributes:
         name: The topmost link.
         links: All of them.
         places: The pose of each in the body's frame.
-        properties: Mass, centre and tensor in the body's frame; None where nothing weighs.
-        shapes: What touches.
-        joint: What it hangs on; None for the root.
+        properties: Mass, center of mass and tensor in the body's frame; None without mass.
+        shapes: The collision geometry.
+        joint: To its parent; None for the root.
         parent: Index of the body above; -1 for the root.
         origin: The joint's frame in the parent's body frame.
-        surface: How it touches.
-        weightless: Of that, the part on which gravity does not act; None where it acts on all.
+        surface: Friction and contact parameters.
+        weightless: The part of ``properties`` on which gravity does not act; None without one.
     """
 
     name: str
@@ -87,7 +87,7 @@ class Body:
     places: Mapping[str, Pose]
     properties: MassProperties | None
     shapes: tuple[Shape, ...]
-    joint: JointOf | None
+    joint: RigidBodyJoint | None
     parent: int
     origin: Pose
     surface: Surface
@@ -95,12 +95,12 @@ class Body:
 
     @property
     def mass(self) -> float:
-        """What it weighs [kg]."""
+        """Return the mass [kg]."""
         return self.properties.mass if self.properties else 0.0
 
     @property
     def weight(self) -> tuple[float, Array]:
-        """The mass on which gravity acts [kg], and its center in the body's frame [m].
+        """Return the mass on which gravity acts [kg], and its center in the body's frame [m].
 
         The center is zero where that mass is.
         """
@@ -116,12 +116,12 @@ class Body:
 
 
 @dataclass(frozen=True, eq=False)
-class Bodies:
-    """A robot's rigid bodies, each after the one it hangs on, and where they start.
+class RigidBodyModel:
+    """The rigid bodies of a robot, each after its parent, and where they start.
 
     Attributes:
         bodies: The root first.
-        nailed: Whether the root is fixed to the world.
+        fixed_base: Whether the root is fixed to the world.
         start: The pose of the root in the world.
         positions: Where each joint starts [rad, m], by name, mimics followed.
         held: Joints that are held, by name.
@@ -129,8 +129,8 @@ class Bodies:
         moved_start: Joints that cannot be at zero and start at a limit, by name [rad, m].
     """
 
-    bodies: tuple[Body, ...]
-    nailed: bool
+    bodies: tuple[RigidBody, ...]
+    fixed_base: bool
     start: Pose
     positions: Mapping[str, float]
     held: tuple[str, ...]
@@ -138,51 +138,51 @@ class Bodies:
     moved_start: Mapping[str, float] = field(default_factory=dict)
 
     @property
-    def joints(self) -> list[JointOf]:
-        """The joints, in the order of their bodies."""
+    def joints(self) -> list[RigidBodyJoint]:
+        """List the joints, in the order of their bodies."""
         return [body.joint for body in self.bodies if body.joint is not None]
 
     @property
     def mass(self) -> float:
-        """Of the whole robot [kg]."""
+        """Return the mass of the whole robot [kg]."""
         return math.fsum(body.mass for body in self.bodies)
 
     def spring_energy(self, positions: Array) -> float:
-        """What the springs of the joints store [J], with each joint at a position, shape (j,)."""
+        """Compute the energy in the springs of the joints [J], at positions of shape (j,)."""
         joints = self.joints
         stiffness = np.array([joint.stiffness for joint in joints])
         rest = np.array([joint.spring_rest for joint in joints])
         return 0.5 * float(stiffness @ (positions - rest) ** 2)
 
 
-def bodies_of(robot: Robot, settings: Settings) -> Bodies:
-    """A sound robot as rigid bodies, put above the plane.
+def make_rigid_bodies(robot: Robot, settings: Settings) -> RigidBodyModel:
+    """Make rigid bodies of a robot without defects, placed above the plane.
 
     Raises:
         UrdftoolError: A mesh cannot be read, a shape has no extent, a mass is below zero.
     """
     top = _top(robot)
     made = _lumps(robot, settings, top)
-    nailed = settings.fixed_base or _is_world(robot.link[top])
+    fixed_base = settings.fixed_base or _is_world(robot.link[top])
     positions, clamped = start_positions(robot, settings.pose)
     positions = {b.joint.name: positions[b.joint.name] for b in made if b.joint is not None}
     poses = link_poses(robot, positions)
     back = poses[top].inverse()
     shapes = [(back @ poses[body.name], body.shapes) for body in made]
-    at_origin = nailed and _is_world(robot.link[top])
-    start, size = spawn_pose(shapes, settings, fixed=nailed, at_origin=at_origin)
-    return Bodies(
-        tuple(made), nailed, start, positions, held_joints(robot, made, settings), size, clamped
+    at_origin = fixed_base and _is_world(robot.link[top])
+    start, size = spawn_pose(shapes, settings, fixed=fixed_base, at_origin=at_origin)
+    return RigidBodyModel(
+        tuple(made), fixed_base, start, positions, held_joints(robot, made, settings), size, clamped
     )
 
 
 def _is_world(link: Link) -> bool:
-    """Whether a root is the world itself, as Gazebo takes it."""
+    """Tell whether a root is the world itself, as in Gazebo."""
     return link.name == ROOTED and not link.mass and not link.collisions
 
 
 def _top(robot: Robot) -> str:
-    """The root; below a frame from which the robot floats freely, the link that floats."""
+    """Find the root; below a frame from which the robot floats, the floating link."""
     assert robot.tree.root is not None
     name = robot.tree.root.name
     joints = robot.tree.child_joints(name)
@@ -190,7 +190,7 @@ def _top(robot: Robot) -> str:
     return joints[0].child if free else name
 
 
-def _lumps(robot: Robot, settings: Settings, top: str) -> list[Body]:
+def _lumps(robot: Robot, settings: Settings, top: str) -> list[RigidBody]:
     poses = link_poses(robot)
     order = [name for name in robot.tree.order if name == top or _below(robot, name, top)]
     members: dict[str, list[str]] = {}
@@ -201,14 +201,14 @@ def _lumps(robot: Robot, settings: Settings, top: str) -> list[Body]:
         owner[name] = owner[joint.parent] if joint is not None and fixed else name
         members.setdefault(owner[name], []).append(name)
     index = {name: number for number, name in enumerate(members)}
-    bodies: list[Body] = []
+    bodies: list[RigidBody] = []
     shape_count = 0
     for name, links in members.items():
         back = poses[name].inverse()
         places = {link: back @ poses[link] if link != name else IDENTITY for link in links}
         shapes: list[Shape] = []
         for link in links:
-            shapes += shapes_of(robot, robot.link[link], places[link], shape_count)
+            shapes += make_shapes(robot, robot.link[link], places[link], shape_count)
             shape_count += len(robot.link[link].collisions)
         joint = robot.tree.parent_joint(name) if name != top else None
         parent, origin = -1, IDENTITY
@@ -216,16 +216,16 @@ def _lumps(robot: Robot, settings: Settings, top: str) -> list[Body]:
             parent = index[owner[joint.parent]]
             origin = bodies[parent].places[joint.parent] @ pose_of(joint.origin)
         bodies.append(
-            Body(
+            RigidBody(
                 name,
                 tuple(links),
                 places,
                 _properties(robot, places, settings.payloads),
                 tuple(shapes),
-                None if joint is None else joint_of(joint, robot),
+                None if joint is None else make_joint(joint, robot),
                 parent,
                 origin,
-                surface_of(robot, links),
+                read_surface(robot, links),
                 _properties(
                     robot,
                     {n: at for n, at in places.items() if link_is_weightless(robot, n)},
@@ -241,8 +241,8 @@ def _below(robot: Robot, name: str, top: str) -> bool:
     return root is not None and (top == root.name or name != root.name)
 
 
-def mass_of(link: Link) -> MassProperties | None:
-    """Mass, centre and tensor of a link in its own frame, as written; None if it weighs nothing."""
+def link_mass_properties(link: Link) -> MassProperties | None:
+    """Return mass, center of mass and tensor of a link in its frame; None without mass."""
     inertial = link.inertial
     if inertial is None or not link.mass:
         return None
@@ -260,7 +260,7 @@ def _properties(
 ) -> MassProperties | None:
     parts = []
     for name, pose in places.items():
-        own = mass_of(robot.link[name])
+        own = link_mass_properties(robot.link[name])
         if payloads.get(name):
             centre = np.zeros(3) if own is None else own.com
             point = MassProperties(payloads[name], centre, np.zeros((3, 3)))
@@ -270,8 +270,8 @@ def _properties(
     return combine(parts) if parts else None
 
 
-def joint_of(joint: Joint, robot: Robot) -> JointOf:
-    """What an engine needs to know of a joint that has one position."""
+def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:
+    """Collect what an engine needs of a joint with one position."""
     axis = np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
     x, y, z = (float(part) for part in axis / np.linalg.norm(axis))
     lower, upper = limits_of(joint)
@@ -281,7 +281,7 @@ def joint_of(joint: Joint, robot: Robot) -> JointOf:
     dynamics = joint.dynamics
     mimic = joint.mimic
     stiffness, spring_rest = joint_spring(robot, joint.name) or (0.0, 0.0)
-    return JointOf(
+    return RigidBodyJoint(
         joint.name,
         joint.type,
         (x, y, z),
@@ -298,8 +298,8 @@ def joint_of(joint: Joint, robot: Robot) -> JointOf:
     )
 
 
-def held_joints(robot: Robot, bodies: list[Body], settings: Settings) -> tuple[str, ...]:
-    """The joints that are held; those that mimic another follow it anyway."""
+def held_joints(robot: Robot, bodies: list[RigidBody], settings: Settings) -> tuple[str, ...]:
+    """List the joints that are held; mimic joints follow anyway."""
     joints = [body.joint for body in bodies if body.joint is not None]
     names = [joint.name for joint in joints if joint.leader is None]
     if settings.controls is not None:
@@ -308,6 +308,6 @@ def held_joints(robot: Robot, bodies: list[Body], settings: Settings) -> tuple[s
     if settings.hold == "none":
         return ()
     if settings.hold == "actuated":
-        driven = actuated_joints(robot)
-        return tuple(name for name in names if name in driven)
+        actuated = actuated_joints(robot)
+        return tuple(name for name in names if name in actuated)
     return tuple(names)

@@ -1,0 +1,57 @@
+"""Compute in a thread what checks need, while an engine runs in its process."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from queue import SimpleQueue
+from threading import Thread
+from typing import TypeVar
+
+from ..model.elements import Mesh, Robot
+from .mesh_cache import outermost_points
+
+T = TypeVar("T")
+
+
+@contextmanager
+def prefetch(robot: Robot, precompute: Callable[[T], object]) -> Iterator[Callable[[T], None]]:
+    """Read the visual meshes of a robot in a thread, then precompute from the first message.
+
+    Errors are ignored here: whoever needs the result computes it again, and reports them.
+
+    Args:
+        robot: The robot, which finds its meshes.
+        precompute: Receives the message.
+
+    Yields:
+        A function that takes the message, once; at the end of the ``with`` the thread has ended,
+        unless that ended in an error.
+    """
+    messages: SimpleQueue[tuple[T] | None] = SimpleQueue()
+
+    def work() -> None:
+        with suppress(Exception):
+            prefetch_visuals(robot)
+        first = messages.get()
+        if first is not None:
+            with suppress(Exception):
+                precompute(*first)
+
+    thread = Thread(target=work, daemon=True)
+    with suppress(RuntimeError):  # the system may give no more threads
+        thread.start()
+    try:
+        yield lambda first: messages.put((first,))
+    finally:
+        messages.put(None)
+    if thread.ident is not None:
+        thread.join()
+
+
+def prefetch_visuals(robot: Robot) -> None:
+    """Read the meshes of the visuals."""
+    for link in robot.links:
+        for visual in link.visuals:
+            if isinstance(visual.geometry, Mesh):
+                outermost_points(robot, visual.geometry)
