@@ -11,6 +11,7 @@ from ..model.elements import Robot
 from .counted import counted
 from .findings import Painter, clean
 from .json_text import json_text
+from .tables import Cell, render_table
 
 if TYPE_CHECKING:
     from ..simulation.engine_comparison import EngineComparison
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from ..simulation.verdict import Verdict
 
 _MOST = 6
-_TABLE_WIDTH = 120
 
 
 def text(robot: Robot, verdicts: Sequence[Verdict], *, colors: bool = False) -> str:
@@ -133,29 +133,20 @@ def comparison_text(comparison: EngineComparison, *, colors: bool = False) -> st
         comparison: Of two engines.
         colors: Whether to color it.
     """
-    from rich.box import SIMPLE_HEAD
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
-
     paint = Painter(colors)
     if not comparison.differences:
         return f"\n{paint('the engines agree', 'green')}\n"
     several = any(part.trial for part in comparison.differences)
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for name in (*(("trial",) if several else ()), "value", *comparison.engines, "allowed"):
-        table.add_column(name)
+    heads = (*(("trial",) if several else ()), "value", *comparison.engines, "allowed")
+    rows: list[tuple[Cell, ...]] = [tuple((head, "cyan") for head in heads)]
     for part in comparison.differences:
-        cells = [clean(part.what), part.value(part.one), part.value(part.other)]
+        trial = (str(part.trial),) if several else ()
         allowed = "" if part.unit == "s" else part.value(part.bound)
-        trial = [str(part.trial)] if several else []
-        table.add_row(*(Text(cell) for cell in (*trial, *cells, allowed)))
-    console = Console(width=_TABLE_WIDTH, color_system=None, force_terminal=False)
-    with console.capture() as capture:
-        console.print(table)
+        rows.append((*trial, part.what, part.value(part.one), part.value(part.other), allowed))
+    table = render_table(rows, left=range(len(heads)), colors=colors)
     count = counted(len(comparison.differences), "value")
     lines = ["", f"{paint('error', 'red', bold=True)}: the engines differ in {count}"]
-    lines += [line.rstrip() for line in capture.get().rstrip().splitlines()]
+    lines += [f"  {line}" for line in table.splitlines()]
     lines += [f"   {paint('=', 'cyan')} possible cause: {clean(c)}" for c in comparison.causes]
     return "".join(f"{line}\n" for line in lines)
 

@@ -17,6 +17,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from ...errors import ConfigError
+from ...suggestions import did_you_mean
 from ..rigid_bodies import TENSOR_ROUNDING
 
 
@@ -286,7 +287,5 @@ def read_thresholds(table: Mapping[str, Any], path: str | None = None) -> Thresh
 
 
 def _hint(key: str, names: Mapping[str, type]) -> str:
-    from ...lint.settings import nearest
-
     known = [name.replace("_", "-") for name in names]
-    return nearest(key, known) or "; docs/configuration.md lists them"
+    return did_you_mean(key, known, 0.5) or "; docs/configuration.md lists them"
