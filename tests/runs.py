@@ -17,8 +17,8 @@ from functools import partial
 from pathlib import Path
 
 from urdftool.errors import UrdftoolError
+from urdftool.formats.common.directory import write_directory
 from urdftool.formats.defects import Refused
-from urdftool.formats.directory import write_directory
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify_runs import TIMESTEPS, run_at_home
 from urdftool.formats.mjcf.write import write

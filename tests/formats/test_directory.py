@@ -5,7 +5,7 @@ import os
 import pytest
 
 from urdftool.errors import OutputError
-from urdftool.formats.directory import is_ours, mark, write_beside, write_directory
+from urdftool.formats.common.directory import is_ours, mark, write_beside, write_directory
 
 MODEL = mark(b"<a/>\n", "r.urdf")
 

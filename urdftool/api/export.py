@@ -8,13 +8,13 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from ..formats.written import Written
+from ..formats.common.written import Written
 from ..model.elements import Robot
 from ..source.description import GltfUp
 
 if TYPE_CHECKING:
     from ..finding import Finding
-    from ..formats.mended import FixInertia
+    from ..formats.common.inertia_repair import FixInertia
     from ..formats.mjcf.cut import Cut
     from ..formats.mjcf.options import Actuators, Base, Exclude
 
@@ -247,7 +247,7 @@ def _put(
     more: Sequence[str] = (),
 ) -> None:
     """Write the files, over none that was read."""
-    from ..formats.directory import write_export
+    from ..formats.common.directory import write_export
     from ..model.files import sources
 
     inputs = [*sorted(sources(robot)), *more]

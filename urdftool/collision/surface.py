@@ -66,7 +66,7 @@ def read_surface(
         MeshError: It cannot be read, or has no face with an area.
     """
     mesh = load_mesh(path, scale, gltf_up=gltf_up)
-    prepared = prepare(mesh.vertices, mesh.faces, notes=mesh.notes)
+    prepared = prepare(mesh.vertices, mesh.faces, notes=mesh.note_texts)
     if prepared is None:
         raise MeshError("all faces of the mesh are degenerate; none has an area", path=path)
     return prepared

@@ -10,7 +10,7 @@ import click
 
 from ..console import Console
 from .export_options import export_options, fix_inertia_option
-from .export_report import put_files, say_refused, say_written
+from .export_report import report_refused, report_written, write_files
 from .options import gltf_option, name_numbers, package_options, robot_argument
 from .read_strict import read_strict, say_gltf
 
@@ -139,10 +139,10 @@ def command(
         urdftool export mjcf quadruped.urdf.xacro -o q/ --scene --actuators position
     """  # noqa: D301 -- click's mark for lines it must not wrap
     from ..api.export import cut_meshes, measure_overlap
-    from ..formats import said
+    from ..formats.common.loss_report import losses_as_errors
     from ..formats.defects import Refused
-    from ..formats.mjcf.announced import NOT_COMPARED
     from ..formats.mjcf.compiled import compile_copy
+    from ..formats.mjcf.declared_losses import NOT_COMPARED
     from ..formats.mjcf.options import FILES, Options
     from ..formats.mjcf.verify import verify_copy
     from ..formats.mjcf.write import write
@@ -166,17 +166,19 @@ def command(
     )
     try:
         written = write(model, options)
-        if strict and (lost := said.strict(written.losses)):
+        if strict and (lost := losses_as_errors(written.losses)):
             raise Refused(lost)
     except Refused as refused:
-        return say_refused(refused.findings, as_json=as_json)
+        return report_refused(refused.findings, as_json=as_json)
     checks = verify_copy(model, options, written) if verified else []
     if not verified:
         compile_copy(written)
     inputs = sorted(sources(model))
     inputs += [str(path) for path in (options.srdf, options.actuator_config) if path is not None]
     target = output or "-"
-    put_files(
+    write_files(
         written, target, single=bool(file), overwrite=overwrite, inputs=inputs, as_json=as_json
     )
-    return say_written(console, written, checks, target, as_json=as_json, not_compared=NOT_COMPARED)
+    return report_written(
+        console, written, checks, target, as_json=as_json, not_compared=NOT_COMPARED
+    )

@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 import click
 
-from ..formats.mended import REPAIRS
+from ..formats.common.inertia_repair import REPAIRS
 
 F = TypeVar("F", bound=Callable[..., Any])
 

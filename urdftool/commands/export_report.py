@@ -14,25 +14,25 @@ from ..terminal import visible
 if TYPE_CHECKING:
     from ..finding import Finding
     from ..formats.check import Check
-    from ..formats.written import Written
+    from ..formats.common.written import Written
 
 
-def say_refused(findings: Sequence[Finding], *, as_json: bool) -> int:
+def report_refused(findings: Sequence[Finding], *, as_json: bool) -> int:
     """Every defect, one a line; nothing is written."""
-    from ..formats.said import lines
+    from ..formats.common.loss_report import format_lines
 
     if as_json:
         from ..report.exports import to_json
 
         click.echo(to_json(None, (), findings, ()), nl=False)
-    said = list(lines(findings))
-    for line in said:
+    report = list(format_lines(findings))
+    for line in report:
         click.echo(visible(line), err=True)
-    click.echo(f"urdftool: nothing is written: {counted(len(said), 'error')}", err=True)
+    click.echo(f"urdftool: nothing is written: {counted(len(report), 'error')}", err=True)
     return 2
 
 
-def put_files(
+def write_files(
     written: Written,
     output: str,
     *,
@@ -47,7 +47,7 @@ def put_files(
         OutputError: They cannot be written there; what was there is as it was.
     """
     from ..errors import OutputError
-    from ..formats.directory import write_export
+    from ..formats.common.directory import write_export
 
     if output == "-":
         if len(written.files) > 1:
@@ -59,7 +59,7 @@ def put_files(
     write_export(output, written, single=single, overwrite=overwrite, inputs=inputs)
 
 
-def say_written(
+def report_written(
     console: Console,
     written: Written,
     checks: Sequence[Check],
@@ -82,17 +82,17 @@ def say_written(
         The exit code: 1 where something differs that was not announced.
     """
     from ..finding import Severity
-    from ..formats import said
     from ..formats.check import is_faithful
+    from ..formats.common.loss_report import format_lines, merge_instances
 
     shown = [f for f in written.losses if f.severity > Severity.INFO or console.verbosity > 0]
-    hidden = len(said.merged(written.losses)) - len(said.merged(shown))
+    hidden = len(merge_instances(written.losses)) - len(merge_instances(shown))
     if as_json:
         from ..report.exports import to_json
 
         click.echo(to_json(output, written.files, written.losses, checks, not_compared), nl=False)
     else:
-        for line in said.lines(shown):
+        for line in format_lines(shown):
             console.note(line)
         if checks:
             from ..report.exports import check_table
@@ -102,6 +102,6 @@ def say_written(
         more = f", {counted(hidden, 'note')} (-v shows them)" if hidden else ""
         for sentence in written.advice:
             console.note(f"{output}: warning: {sentence}")
-        said_of_it = [written.main, counted(len(written.files), "file"), *written.summary]
-        console.note(f"{output}: {', '.join(said_of_it)}{more}")
+        facts = [written.main, counted(len(written.files), "file"), *written.summary]
+        console.note(f"{output}: {', '.join(facts)}{more}")
     return 0 if is_faithful(checks) else 1

@@ -14,8 +14,8 @@ from .read_strict import read_strict, say_gltf
 
 if TYPE_CHECKING:
     from ..formats.check import Check
+    from ..formats.common.written import Written
     from ..formats.sdf.options import Options
-    from ..formats.written import Written
     from ..model.elements import Robot
 
 
@@ -92,13 +92,13 @@ def command(
         urdftool export sdf mira.urdf -o mira.sdf --target gazebo-classic
     """  # noqa: D301 -- click reads the escape
     from ..api.export import check_plugins
-    from ..formats import said
+    from ..formats.common.loss_report import losses_as_errors
     from ..formats.defects import Refused
     from ..formats.sdf.verify import NOT_COMPARED
     from ..formats.sdf.write import write
     from ..model.files import sources
     from ..model.load import robot_of
-    from .export_report import put_files, say_refused, say_written
+    from .export_report import report_refused, report_written, write_files
 
     place = output or "-"
     options = _options(place, choices)
@@ -109,11 +109,11 @@ def command(
     try:
         written = write(model, options)
         written.losses += check_plugins(model, options.target)
-        if strict and (lost := said.strict(written.losses)):
+        if strict and (lost := losses_as_errors(written.losses)):
             raise Refused(lost)
     except Refused as refused:
-        return say_refused(refused.findings, as_json=as_json)
-    put_files(
+        return report_refused(refused.findings, as_json=as_json)
+    write_files(
         written,
         place,
         single=bool(options.file),
@@ -122,7 +122,9 @@ def command(
         as_json=as_json,
     )
     checks = _verified(model, options, written, place) if verified else []
-    return say_written(console, written, checks, place, as_json=as_json, not_compared=NOT_COMPARED)
+    return report_written(
+        console, written, checks, place, as_json=as_json, not_compared=NOT_COMPARED
+    )
 
 
 def _options(output: str, choices: dict[str, Any]) -> Options:

@@ -123,7 +123,7 @@ def mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> Me
 
         shell = shell_moments(mesh.vertices, mesh.faces).with_density(1.0)
         return MeshBody(
-            path, shell, *box, "surface", True, 0.0, None, 1, count, mesh.notes, surface=True
+            path, shell, *box, "surface", True, 0.0, None, 1, count, mesh.note_texts, surface=True
         )
     from .estimate import estimate_mass_properties
 
@@ -143,7 +143,7 @@ def mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> Me
         found.hull_volume,
         found.bodies,
         count,
-        (*mesh.notes, *found.notes),
+        (*mesh.note_texts, *found.notes),
     )
 
 

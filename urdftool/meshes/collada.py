@@ -22,7 +22,7 @@ import numpy as np
 
 from ..errors import MeshError
 from ..extras import missing
-from .mesh import Piece, Points, Reading
+from .mesh import MeshNote, Piece, Points, Reading
 
 MAX_DEPTH = 256
 """Nodes within nodes; deeper files are refused, instances may form a circle."""
@@ -37,7 +37,7 @@ def read(path: Path) -> Reading:
     Args:
         path: The file.
     """
-    notes: list[str] = []
+    notes: list[MeshNote] = []
     document = _parse(path, notes)
     unit = 1.0 if document.assetInfo.unitmeter is None else float(document.assetInfo.unitmeter)
     if not (math.isfinite(unit) and unit > 0):
@@ -46,11 +46,13 @@ def read(path: Path) -> Reading:
             path=path,
         )
     if not math.isclose(unit, 1.0):
-        notes.append(f"The COLLADA file is in units of {unit:g} m, which is applied.")
+        message = f"The COLLADA file is in units of {unit:g} m, which is applied."
+        notes.append(MeshNote("collada-unit", message))
     up = str(document.assetInfo.upaxis or "Y_UP")
     if up != "Z_UP" and "up_axis" in _asset_children(document):
         done = "not turned: RViz and Gazebo do not, PyBullet does"
-        notes.append(f"The up_axis of the COLLADA file is {up}, {done}.")
+        message = f"The up_axis of the COLLADA file is {up}, {done}."
+        notes.append(MeshNote("collada-up-axis", message))
     matrix = np.diag([unit, unit, unit, 1.0])
     if document.scene is None:
         raise MeshError(
@@ -62,7 +64,7 @@ def read(path: Path) -> Reading:
     return Reading(pieces, list(dict.fromkeys(notes)))
 
 
-def _parse(path: Path, notes: list[str]) -> Any:
+def _parse(path: Path, notes: list[MeshNote]) -> Any:
     try:
         import collada
     except ModuleNotFoundError as error:
@@ -78,7 +80,8 @@ def _parse(path: Path, notes: list[str]) -> Any:
         with open(path, "rb") as file:
             document = collada.Collada(file, ignore=[collada.common.DaeError])
         if document.errors and _drop_broken_materials(document):
-            notes.append("A material of the COLLADA file is broken; its colour is lost.")
+            message = "A material of the COLLADA file is broken; its colour is lost."
+            notes.append(MeshNote("collada-broken-material", message, lossy=True))
             mended = BytesIO()
             document.xmlnode.write(mended)
             mended.seek(0)
@@ -117,7 +120,7 @@ def _asset_children(document: Any) -> set[str]:
 
 
 def _node_pieces(
-    node: Any, matrix: Points, path: Path, notes: list[str], depth: int
+    node: Any, matrix: Points, path: Path, notes: list[MeshNote], depth: int
 ) -> Iterator[Piece]:
     import collada
 
@@ -137,9 +140,8 @@ def _node_pieces(
         geometry = getattr(node.controller, "geometry", None)
         bind = getattr(node.controller, "bind_shape_matrix", None)
         if geometry is not None:
-            notes.append(
-                "A skin of the COLLADA file is read in its bind shape, without its joints."
-            )
+            message = "A skin of the COLLADA file is read in its bind shape, without its joints."
+            notes.append(MeshNote("collada-skin", message))
             inner = matrix if bind is None else matrix @ np.asarray(bind, dtype=np.float64)
             yield from _geometry_pieces(geometry, node.materials, inner, path)
 

@@ -21,7 +21,7 @@ from urllib.parse import unquote
 import numpy as np
 
 from ..errors import MeshError
-from .mesh import Piece, Reading
+from .mesh import MeshNote, Piece, Reading
 
 if TYPE_CHECKING:
     from ..source.description import GltfUp
@@ -81,7 +81,7 @@ def read(path: Path, *, gltf_up: GltfUp = "y") -> Reading:
         if points is not None and len(points) == len(vertices) and whole:
             uv = np.asarray(points, dtype=np.float64)[faces]
         pieces.append(Piece(vertices, faces, str(name), _rgba(material), texture, image, uv))
-    return Reading(pieces, [_NOTES[gltf_up]])
+    return Reading(pieces, [MeshNote("gltf-axes", _NOTES[gltf_up])])
 
 
 def _rgba(material: Any) -> tuple[float, float, float, float] | None:

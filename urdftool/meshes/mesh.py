@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -33,6 +34,20 @@ class Part:
     is 0 0, to its upper right one, which is 1 1. None where the file does not say."""
 
 
+class MeshNote(NamedTuple):
+    """Something a user should know of how a mesh file was read or converted.
+
+    Attributes:
+        code: What kind of thing, such as ``obj-without-materials``. Code reads this.
+        message: A complete sentence for people.
+        lossy: Whether something of the file is lost or changed.
+    """
+
+    code: str
+    message: str
+    lossy: bool = False
+
+
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """Triangles in the frame of the URDF ``<geometry>``, scaled."""
@@ -47,8 +62,13 @@ class Mesh:
     """Suffix of the format in lower case, without its dot: ``"stl"``, ``"dae"`` …"""
     path: Path
     """The file it was read from."""
-    notes: tuple[str, ...] = ()
-    """What a reader should know of how the file was understood; complete sentences."""
+    notes: tuple[MeshNote, ...] = ()
+    """What a user should know of how the file was read."""
+
+    @property
+    def note_texts(self) -> tuple[str, ...]:
+        """Return the messages of the notes."""
+        return tuple(note.message for note in self.notes)
 
     def part_faces(self, part: Part) -> Faces:
         """The faces of one of ``parts``."""
@@ -73,4 +93,4 @@ class Reading:
     """All that a reader of one format found: pieces in metres, and what should be said of them."""
 
     pieces: list[Piece]
-    notes: list[str]
+    notes: list[MeshNote]

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import MeshError
 from .facts import HEADER_BYTES, StlFacts, stl_facts
-from .mesh import Piece, Points, Reading
+from .mesh import MeshNote, Piece, Points, Reading
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
@@ -21,13 +21,13 @@ def read(path: Path) -> Reading:
     A binary file with bytes after its last triangle is read, with a note, as RViz and Gazebo do.
     """
     facts = stl_facts(path)
-    notes: list[str] = []
+    notes: list[MeshNote] = []
     corners = _text_corners(path) if facts.kind == "ascii" else _binary_corners(path, facts, notes)
     faces = np.arange(len(corners), dtype=np.int64).reshape(-1, 3)
     return Reading([Piece(corners, faces)], notes)
 
 
-def _binary_corners(path: Path, facts: StlFacts, notes: list[str]) -> Points:
+def _binary_corners(path: Path, facts: StlFacts, notes: list[MeshNote]) -> Points:
     claimed, expected = facts.triangles, facts.expected_bytes
     if claimed is None or expected is None:
         raise MeshError(
@@ -42,10 +42,11 @@ def _binary_corners(path: Path, facts: StlFacts, notes: list[str]) -> Points:
             path=path,
         )
     if facts.bytes > expected:
-        notes.append(
+        message = (
             f"{facts.bytes - expected} bytes after the {claimed} triangles the header of the STL "
             "file claims are not read."
         )
+        notes.append(MeshNote("stl-trailing-bytes", message))
     # the count is trusted only now that the file is known to be long enough for it
     records = np.fromfile(path, dtype=_RECORD, count=claimed, offset=HEADER_BYTES)
     return records["corners"].reshape(-1, 3).astype(np.float64)

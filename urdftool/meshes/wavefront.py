@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import MeshError
-from .mesh import Piece, Points, Reading
+from .mesh import MeshNote, Piece, Points, Reading
 from .wavefront_text import Run, logical_lines, parse
 
 Rgba = tuple[float, float, float, float]
@@ -36,7 +36,7 @@ def read(path: Path) -> Reading:
     triangles add up to it even where it is not convex. Lines, points and curves are left out.
     """
     written = parse(path)
-    notes: list[str] = []
+    notes: list[MeshNote] = []
     materials = _materials(path, written.libraries, notes)
     vertices = _vertices(written.points, path)
     texture_points = _texture_points(written.texels)
@@ -91,14 +91,13 @@ def _vertices(points: list[str], path: Path) -> Points:
         ) from error
 
 
-def _materials(path: Path, libraries: list[str], notes: list[str]) -> dict[str, Material]:
+def _materials(path: Path, libraries: list[str], notes: list[MeshNote]) -> dict[str, Material]:
     materials: dict[str, Material] = {}
     for library in dict.fromkeys(libraries):
         file = path.parent / library
         if not os.path.isfile(file):
-            notes.append(
-                f"The material file {library} is not beside the OBJ file; colours are lost."
-            )
+            message = f"The material file {library} is not beside the OBJ file; colours are lost."
+            notes.append(MeshNote("obj-without-materials", message, lossy=True))
             continue
         current = Material()
         for _, line in logical_lines(file):

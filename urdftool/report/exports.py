@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from ..finding import Finding
 from ..formats.check import Check, is_faithful
-from ..formats.said import merged
+from ..formats.common.loss_report import merge_instances
 from .findings_json import finding_record
 from .json_text import json_text
 from .tables import render_table
@@ -32,7 +32,7 @@ def to_json(
         "version": 1,
         "output": output,
         "files": sorted(files),
-        "findings": [finding_record(finding) for finding in merged(findings)],
+        "findings": [finding_record(finding) for finding in merge_instances(findings)],
         "checks": [check.as_dict() for check in checks],
         "not_compared": list(not_compared) if checks else [],
         "faithful": is_faithful(checks) if checks else None,

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from urdftool.errors import ConfigError
-from urdftool.formats.actuator_config import read_actuator_config
+from urdftool.formats.common.actuator_config import read_actuator_config
 from urdftool.formats.mjcf.gains import PART, TIMESTEP, position_gain
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify import verify_copy

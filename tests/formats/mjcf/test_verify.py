@@ -5,7 +5,7 @@ import re
 import pytest
 
 from urdftool.formats.check import Check
-from urdftool.formats.directory import write_directory
+from urdftool.formats.common.directory import write_directory
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load

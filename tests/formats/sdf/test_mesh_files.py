@@ -4,7 +4,7 @@ import struct
 
 import pytest
 
-from urdftool.formats.directory import is_ours, write_export
+from urdftool.formats.common.directory import is_ours, write_export
 from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import compare, pair_of
 from urdftool.formats.sdf.write import write as export

@@ -13,8 +13,8 @@ from lxml import etree
 
 from ...finding import Severity
 from ...model.elements import Joint, Robot
-from ..actuator_config import JointSettings
-from ..written import Written
+from ..common.actuator_config import JointSettings
+from ..common.written import Written
 from .digits import number_text, numbers_text
 from .drives import plugin_drives
 from .equality import follows
@@ -60,7 +60,7 @@ def actuator_section(
         own = settings.get(drive.joint.name, JointSettings())
         section.append(_element(structure, drive, inertias, own, assumed))
     if assumed:
-        _say_assumed(structure.robot, assumed, written)
+        _report_assumed_gains(structure.robot, assumed, written)
     return section, drives
 
 
@@ -86,7 +86,7 @@ def _drives(
             continue
         if follows(structure, joint):
             if actuators == "auto":
-                _say_follower(joint, written)
+                _report_follower(joint, written)
             continue
         yield drive
 
@@ -103,9 +103,9 @@ def _chosen(joint: Joint, drive: Drive | None, settings: JointSettings) -> Drive
     return Drive(joint, kind) if drive is None else replace(drive, kind=kind, reduction=1.0)
 
 
-def _say_follower(joint: Joint, written: Written) -> None:
+def _report_follower(joint: Joint, written: Written) -> None:
     assert joint.mimic is not None
-    written.lose(
+    written.report_loss(
         "mimic-actuator",
         f"joint '{joint.name}' mimics '{joint.mimic.joint}' and gets no actuator of its own",
         joint.place,
@@ -115,7 +115,7 @@ def _say_follower(joint: Joint, written: Written) -> None:
     )
 
 
-def _say_assumed(robot: Robot, assumed: Mapping[str, Gain], written: Written) -> None:
+def _report_assumed_gains(robot: Robot, assumed: Mapping[str, Gain], written: Written) -> None:
     """Report the gains that stand nowhere, and those that the inertia bounds."""
     bounded = [f"'{name}'" for name, gain in assumed.items() if gain.is_bounded]
     text = f"gains of {len(assumed)} servos are assumed, because URDF has none: 10 times the effort"
@@ -125,7 +125,7 @@ def _say_assumed(robot: Robot, assumed: Mapping[str, Gain], written: Written) ->
             f", and at most {PART:g} M/Δt² of the inertia M at home at Δt = "
             f"{TIMESTEP * 1000:g} ms, which bounds {', '.join(bounded[:3])}{more}"
         )
-    written.lose(
+    written.report_loss(
         "gains",
         f"{text}; --actuator-config sets others",
         robot.element.place,
@@ -142,7 +142,7 @@ def _described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple[str,
         reduction = next((r for r in reductions if r), 1.0)
         for joint in transmission.joints:
             if joint.name not in robot.joint:
-                written.lose(
+                written.report_loss(
                     "transmission",
                     f"transmission '{transmission.name}' is of joint '{joint.name}', which "
                     "does not exist",
@@ -155,7 +155,7 @@ def _described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple[str,
             names += [name for a in transmission.actuators for name in a.hardware_interfaces]
             kind = _kind(names)
             if "simple" not in transmission.type.lower() and transmission.type:
-                written.lose(
+                written.report_loss(
                     "transmission",
                     f"transmission '{transmission.name}' of type {transmission.type} is written as "
                     "one actuator a joint",

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from ...finding import Severity
-from ..written import Written
+from ..common.written import Written
 from .drives import drive_plugins
 from .options import Base
 from .shape_box import ShapeBoxes
@@ -37,7 +37,7 @@ def with_base(
         standing = free_reason(structure, boxes, home)
         free, reason = standing is not None, standing or "nothing says that it moves"
         if free:
-            written.lose(
+            written.report_loss(
                 "free-base",
                 f"root link '{structure.root.name}' is free: {reason}; --base fixed holds it",
                 structure.root.place,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ..written import Written
+from ..common.naming import Names
+from ..common.written import Written
 from .body import Bodies
 from .joint import SITE
-from .names import Names
 from .sensor import put_before_bodies, site_sensor
 from .structure import Structure
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from lxml import etree
 
 from ...model.elements import Joint, Link
-from ..written import Written
+from ..common.naming import Names
+from ..common.written import Written
 from .digits import numbers_text
 from .frame import set_origin, set_pose
 from .gazebo import link_friction, link_is_weightless
@@ -16,7 +17,6 @@ from .joint import joint_elements, locked_site
 from .link_inertia import LinkInertia, inertial_element
 from .material import Materials
 from .meshes import Assets
-from .names import Names
 from .structure import Structure
 
 Bodies = dict[str, etree._Element]
@@ -51,7 +51,7 @@ def body_tree(
             set_pose(body, home.start @ structure.pose_at_zero(joint.child))
             world.append(body)
             if not structure.is_static(joint.parent):
-                _say_torn(joint, written)
+                _report_detached_body(joint, written)
         else:
             if structure.locked.get(joint.name):
                 set_pose(body, structure.joint_pose(joint))
@@ -80,7 +80,7 @@ def fill_bodies(
         parts: list[etree._Element] = []
         if name in masses:
             if body.tag == "worldbody":
-                _say_massless_world(link, written)
+                _report_world_mass(link, written)
             else:
                 parts.append(inertial_element(masses[name]))
         parts.extend(_joints(structure, name, leaves, written))
@@ -110,8 +110,8 @@ def _joints(
     return joint_elements(structure, joint, written, leaf=structure.group[link] in leaves)
 
 
-def _say_torn(joint: Joint, written: Written) -> None:
-    written.lose(
+def _report_detached_body(joint: Joint, written: Written) -> None:
+    written.report_loss(
         "floating",
         f"link '{joint.child}' floats, and its parent '{joint.parent}' moves; free bodies of "
         "MuJoCo hang on the world, so it starts where it is with every joint at zero",
@@ -121,9 +121,9 @@ def _say_torn(joint: Joint, written: Written) -> None:
     )
 
 
-def _say_massless_world(link: Link, written: Written) -> None:
+def _report_world_mass(link: Link, written: Written) -> None:
     place = link.place if link.inertial is None else link.inertial.place
-    written.lose(
+    written.report_loss(
         "world-mass",
         f"link '{link.name}' is MuJoCo's world, which has no mass; it does not move",
         place,

@@ -8,12 +8,13 @@ from collections.abc import Iterable, Sequence
 from io import BytesIO
 from pathlib import Path
 
+from ...meshes.mesh import MeshNote
 from ...parallel import cores, in_order, map_tasks
 from ...source.description import GltfUp
 from ...storage import DiskCache, cache_folder, cache_key
 from .convert import Converted, Piece, conversion
 
-_VERSION = 7
+_VERSION = 8
 _BIG = 400_000
 
 
@@ -87,7 +88,8 @@ def _decoded(entry: bytes | None, path: Path) -> Converted | None:
             if facts["image"] is not None:
                 texture = stream.read(facts["image"])
             pieces.append(Piece(data, rgba, texture, facts["shell"]))
-        return Converted(pieces, head["hull"], head["notes"], head["thick"])
+        notes = [MeshNote(*note) for note in head["notes"]]
+        return Converted(pieces, head["hull"], notes, head["thick"])
     except (ValueError, KeyError, TypeError):
         return None
 

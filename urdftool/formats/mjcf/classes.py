@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from lxml import etree
 
-from .names import Names
+from ..common.naming import Names
 
 SIDES = (
     "l", "r", "left", "right", "fl", "fr", "rl", "rr", "hl", "hr", "lf", "rf", "lh", "rh", "lr",

@@ -6,7 +6,7 @@ from collections import Counter
 
 from lxml import etree
 
-from .names import Names
+from ..common.naming import Names
 
 PLAIN: dict[tuple[float, ...], str] = {
     (0, 0, 0): "black",

@@ -13,9 +13,9 @@ import numpy as np
 
 from ...errors import MissingDependency, OutputError
 from ...extras import missing
-from ..directory import write_directory
+from ..common.directory import write_directory
+from ..common.written import Written
 from ..mechanics import GRAVITY, Array
-from ..written import Written
 from .options import FILES
 
 _PLAIN = (

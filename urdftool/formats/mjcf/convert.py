@@ -17,7 +17,7 @@ from ...errors import MeshError
 from ...meshes.facts import stl_facts
 from ...meshes.hull import convex_hull
 from ...meshes.load import load_mesh
-from ...meshes.mesh import Faces, Mesh, Part, Points
+from ...meshes.mesh import Faces, Mesh, MeshNote, Part, Points
 from ...source.description import GltfUp
 from .obj import obj_bytes
 
@@ -60,13 +60,13 @@ class Converted:
     Attributes:
         pieces: One for what collides; one for each material of what is seen.
         hull: Volume of the convex hull over that of the mesh; None where the mesh has none.
-        notes: What should be said of it, in sentences.
+        notes: What a user should know of the conversion.
         thick: Whether it was flat, and is thickened.
     """
 
     pieces: list[Piece]
     hull: float | None = None
-    notes: list[str] = field(default_factory=list)
+    notes: list[MeshNote] = field(default_factory=list)
     thick: bool = False
 
 
@@ -89,9 +89,11 @@ def convert(path: Path, *, collides: bool, gltf_up: GltfUp = "y") -> Converted:
         data = None
         image = part_image(part)
         if image is None and not (part.texture is None and part.image is None):
-            notes.append("An image has no texture coordinates in the file, so it is lost.")
+            message = "An image has no texture coordinates in the file, so it is lost."
+            notes.append(MeshNote("image-without-coordinates", message, lossy=True))
         if _points(vertices[faces]) < 4:
-            notes.append("A part has fewer than four points, MuJoCo's least; it is thickened.")
+            message = "A part has fewer than four points, MuJoCo's least; it is thickened."
+            notes.append(MeshNote("few-points", message, lossy=True))
             data, image = _thick_obj(vertices[faces]), None
         elif not (copied and len(groups) == 1):
             # without a look of its own it may get an image from the material of the visual
@@ -101,13 +103,14 @@ def convert(path: Path, *, collides: bool, gltf_up: GltfUp = "y") -> Converted:
     return Converted(pieces, None, list(dict.fromkeys(notes)))
 
 
-def _collision(mesh: Mesh, copied: bool, notes: list[str]) -> Converted:
+def _collision(mesh: Mesh, copied: bool, notes: list[MeshNote]) -> Converted:
     corners = mesh.vertices[mesh.faces]
     if _points(corners) < 4 or _thickness(corners.reshape(-1, 3)) < FLAT:
-        notes.append(
+        message = (
             "The mesh is flat, and MuJoCo collides bodies with volume; it is thickened to "
             f"{THICKENED:.1%} of its size."
         )
+        notes.append(MeshNote("flat-mesh", message, lossy=True))
         return Converted([Piece(_thick_obj(corners))], None, notes, thick=True)
     data = None if copied else obj_bytes(mesh.vertices, mesh.faces)
     shell = _is_shell(mesh.vertices, mesh.faces)

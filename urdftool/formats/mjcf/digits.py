@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from .. import numbers
+from ..common import numbers
 
 DIGITS = 10
 """The most digits of a number that somebody wrote."""

@@ -6,7 +6,7 @@ from lxml import etree
 
 from ...finding import Severity
 from ...model.elements import Joint
-from ..written import Written
+from ..common.written import Written
 from .digits import numbers_text
 from .loops import STIFF, loop_equalities
 from .structure import Structure, locked_at
@@ -40,11 +40,11 @@ def _follow(structure: Structure, joint: Joint, section: etree._Element, written
     assert mimic is not None
     leader = structure.robot.joint.get(mimic.joint)
     if leader is None or leader is joint or structure.kind(joint) not in ("hinge", "slide"):
-        _lose(joint, "it is free to move", written)
+        _report_mimic_loss(joint, "it is free to move", written)
     elif structure.kind(leader) == "weld":
         held = mimic.offset + mimic.multiplier * structure.locked.get(leader.name, 0.0)
         _hold(joint, held, section)
-        written.lose(
+        written.report_loss(
             "mimic-fixed",
             f"joint '{joint.name}' mimics '{mimic.joint}', which is fixed; it is held at {held:g}",
             mimic.place,
@@ -53,7 +53,9 @@ def _follow(structure: Structure, joint: Joint, section: etree._Element, written
             severity=Severity.INFO,
         )
     elif structure.kind(leader) not in ("hinge", "slide"):
-        _lose(joint, f"'{mimic.joint}' of type {leader.type} cannot lead it in MuJoCo", written)
+        _report_mimic_loss(
+            joint, f"'{mimic.joint}' of type {leader.type} cannot lead it in MuJoCo", written
+        )
     else:
         coefficients = (mimic.offset, mimic.multiplier, 0, 0, 0)
         section.append(_equality(joint, coefficients, joint2=leader.name))
@@ -68,9 +70,9 @@ def _equality(joint: Joint, coefficients: tuple[float, ...], **leader: str) -> e
     return etree.Element("joint", attributes)
 
 
-def _lose(joint: Joint, why: str, written: Written) -> None:
+def _report_mimic_loss(joint: Joint, why: str, written: Written) -> None:
     assert joint.mimic is not None
-    written.lose(
+    written.report_loss(
         "mimic",
         f"mimic of joint '{joint.name}' is not carried: {why}",
         joint.mimic.place,

@@ -10,8 +10,8 @@ from ...finding import Finding, Severity
 from ...model.elements import Robot
 from ...model.read import numbers
 from ...source.document import Element
+from ..common.written import Written
 from ..defects import defect
-from ..written import Written
 
 OURS = frozenset(
     ("angle", "meshdir", "texturedir", "assetdir", "strippath", "discardvisual", "fusestatic",
@@ -136,7 +136,7 @@ def apply_extension(robot: Robot, sections: dict[str, etree._Element], written: 
                 target = sections.setdefault(child.tag, etree.Element(child.tag))
                 _merge(child, target)
             else:
-                written.lose(
+                written.report_loss(
                     "mujoco",
                     f"<{child.tag}> in <mujoco> is not carried; of it there are compiler, "
                     + ", ".join(SECTIONS),
@@ -153,7 +153,7 @@ def _compiler(element: Element, sections: dict[str, etree._Element], written: Wr
                 sections["compiler"].set(name, value)
             continue
         changes = name in ("balanceinertia", "boundmass", "boundinertia", "settotalmass")
-        written.lose(
+        written.report_loss(
             "mujoco",
             f"{name}={value!r} of <compiler> is not carried: it "
             + ("would change the robot" if changes else "speaks of how MuJoCo reads URDF"),

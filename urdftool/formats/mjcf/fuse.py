@@ -16,13 +16,13 @@ from lxml import etree
 from ...finding import Severity
 from ...model.elements import Vector
 from ...model.pose import Pose, rotate, rotation_of_quaternion
-from ..written import Written
+from ..common.naming import Names
+from ..common.written import Written
 from .body import Bodies
 from .digits import numbers_text
 from .frame import set_pose
 from .joint import SITE
 from .link_inertia import LinkInertia, inertial_element
-from .names import Names
 from .structure import Structure
 
 REFERENCES = ("body", "body1", "body2", "objname", "refname", "target")
@@ -80,7 +80,7 @@ def fuse_links(
         _write_inertia(bodies[top], links, poses, masses)
     _rename_exclusions(sections.get("contact"), owner, bodies)
     if owner:
-        written.lose(
+        written.report_loss(
             "fused",
             f"{len(owner)} links that are fixed to another are merged into it; their frames are "
             "sites of their names",

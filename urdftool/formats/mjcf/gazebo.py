@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from ...finding import Finding, Severity
 from ...model.elements import GazeboExtension, Robot
 from ...model.read import number
+from ..common.written import Written
 from ..defects import defect
-from ..written import Written
 from .digits import number_text
 
 DEFAULT_FRICTION = "1 0.005 0.0001"
@@ -122,7 +122,7 @@ def gazebo_losses(robot: Robot, written: Written) -> None:
     for block in robot.gazebo:
         reference = block.reference
         if reference is not None and reference not in robot.link and reference not in robot.joint:
-            written.lose(
+            written.report_loss(
                 "gazebo",
                 f"<gazebo reference='{reference}'> names no link or joint; it is not carried",
                 block.place,
@@ -133,7 +133,7 @@ def gazebo_losses(robot: Robot, written: Written) -> None:
         _keyword_losses(block, written)
         _unequal_friction(block, written)
     for plugin in robot.plugins:
-        written.lose(
+        written.report_loss(
             "plugin",
             f"plugin {plugin.filename or plugin.name} belongs to Gazebo and is not carried",
             plugin.place,
@@ -150,7 +150,7 @@ def _keyword_losses(block: GazeboExtension, written: Written) -> None:
         if lost is None and child.tag in KNOWN:
             continue
         why, severity = lost or ("nothing is known of it", Severity.INFO)
-        written.lose(
+        written.report_loss(
             "gazebo",
             f"<{child.tag}>{about} is not carried: {why}",
             child.place,
@@ -163,7 +163,7 @@ def _keyword_losses(block: GazeboExtension, written: Written) -> None:
 def _unequal_friction(block: GazeboExtension, written: Written) -> None:
     one, two = number(block.value("mu1")), number(block.value("mu2"))
     if one is not None and two is not None and one != two:
-        written.lose(
+        written.report_loss(
             "friction",
             f"friction of '{block.reference}' is {one:g} and {two:g} by direction; MuJoCo's geoms "
             f"have one, {one:g}",

@@ -18,12 +18,12 @@ from ...model.elements import (
     Visual,
 )
 from ...model.read import number
-from ..written import Written
+from ..common.naming import Names
+from ..common.written import Written
 from .digits import numbers_text
 from .frame import set_origin
 from .material import Materials
 from .meshes import Assets, MeshPiece
-from .names import Names
 
 SIZELESS = "dropped: it has no size"
 
@@ -90,7 +90,7 @@ def _geoms(
             set_origin(geom, shape.origin)
             yield geom, piece
         if id(shape.geometry) not in assets.pieces:
-            _lose(
+            _report_shape_loss(
                 link,
                 shape,
                 f"a {what} of link '{link.name}' is dropped: its mesh is missing",
@@ -100,22 +100,28 @@ def _geoms(
     simple = shape_size(shape.geometry)
     if simple is None:
         tag = f"<{shape.geometry.element.tag}>" if shape.geometry is not None else "nothing"
-        _lose(link, shape, f"a {what} of link '{link.name}' is dropped: it is {tag}", written)
+        _report_shape_loss(
+            link, shape, f"a {what} of link '{link.name}' is dropped: it is {tag}", written
+        )
         return
     if not min(simple[1]) > 0:
         if simple[0] == "capsule" and simple[1][0] > 0 and simple[1][1] == 0:
             simple = "sphere", simple[1][:1]
         else:
-            _lose(link, shape, f"a {what} of link '{link.name}' is {SIZELESS}", written)
+            _report_shape_loss(
+                link, shape, f"a {what} of link '{link.name}' is {SIZELESS}", written
+            )
             return
     geom = etree.Element("geom", type=simple[0], size=numbers_text(simple[1]))
     set_origin(geom, shape.origin)
     yield geom, None
 
 
-def _lose(link: Link, shape: Visual | Collision, message: str, written: Written) -> None:
+def _report_shape_loss(
+    link: Link, shape: Visual | Collision, message: str, written: Written
+) -> None:
     kind = "visual" if isinstance(shape, Visual) else "collision"
-    written.lose(kind, message, shape.place, kind="link", name=link.name)
+    written.report_loss(kind, message, shape.place, kind="link", name=link.name)
 
 
 def _set_name(

@@ -12,7 +12,7 @@ from ...model.kinematics import check_positions, link_poses, movable_joints
 from ...model.pose import Pose, pose_of
 from ...model.read import number, numbers
 from ...model.start import allowed_positions, start_positions
-from ..written import Written
+from ..common.written import Written
 from .shape_box import ShapeBoxes
 from .srdf import Srdf
 from .standing import ground_of
@@ -131,7 +131,7 @@ def _within(robot: Robot, joint: Joint, value: float, source: str, written: Writ
     if lower > upper or lower <= value <= upper:
         return value
     near = min(max(value, lower), upper)
-    written.lose(
+    written.report_loss(
         "home",
         f"position {value:g} of joint '{joint.name}' in {source} is beyond its limits; the "
         f"home position has {near:g}",

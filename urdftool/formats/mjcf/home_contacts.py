@@ -17,7 +17,7 @@ from pathlib import Path
 from lxml import etree
 
 from ...errors import MissingDependency
-from ..written import Written
+from ..common.written import Written
 from .body import Bodies
 from .compiled import compile_file, mujoco_module
 from .meshes import Assets
@@ -190,7 +190,7 @@ def _report(structure: Structure, pairs: list[Pair], options: Options, written: 
         hints.append("--decompose collides such meshes as convex pieces")
     if authored:
         hints.append("'urdftool collision --check' shows where the geometry is too large")
-    written.lose(
+    written.report_loss(
         "overlap",
         f"{count} at home{does}: {'; '.join(parts)}",
         structure.robot.element.place,

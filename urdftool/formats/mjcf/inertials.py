@@ -13,11 +13,11 @@ import numpy as np
 
 from ...finding import Finding, Severity
 from ...model.elements import Link
+from ..common.extent import link_size
+from ..common.inertia_repair import FixInertia
+from ..common.written import Written
 from ..defects import defect
-from ..mended import FixInertia
-from ..written import Written
 from . import inertia as tensors
-from .extent import link_size
 from .inertia import Array
 from .link_inertia import LinkInertia, inertia_of
 from .structure import Structure
@@ -109,7 +109,7 @@ def _compose(
             if taker.mass > 0 and taker.is_possible and tensors.is_possible(tensor):
                 group[other] = taker.changed(tensor)
                 group[name] = source.changed(kept)
-                written.lose(
+                written.report_loss(
                     "inertia-moved",
                     f"no rigid body has the inertia of link '{name}' (principal moments "
                     f"{tensors.moments_text(source.tensor)} kg·m²); what is too much of it is "
@@ -149,7 +149,7 @@ def _unite(
     group.clear()
     group[top] = LinkInertia.about(mass, com, tensor, next(iter(places.values())))
     for name in bad:
-        written.lose(
+        written.report_loss(
             "inertia-moved",
             f"no rigid body has the inertia of link '{name}'; it and the links welded to it "
             f"({', '.join(n for n in names if n != name)}) are one body, whose mass is written to "
@@ -193,7 +193,7 @@ def _mend(
         group[name] = read.changed(tensor)
         what = f"{how} to {tensors.moments_text(tensor)} kg·m²"
     held = "; it is held by the world and does not move" if static else ""
-    written.lose(
+    written.report_loss(
         "inertia",
         f"link '{name}' has principal moments {before} kg·m², which no rigid body has: "
         f"{what}{held}",
@@ -251,7 +251,7 @@ def _give_weight(
         heaviest = max(group, key=lambda name: group[name].mass)
         part = _part_of_tiny(structure, top, group)
         group[heaviest] = group[heaviest].changed(group[heaviest].tensor + TINY * np.eye(3))
-        written.lose(
+        written.report_loss(
             "point-mass",
             f"link '{heaviest}' is a point mass; MuJoCo requires inertia, so it has {TINY:g} kg·m²"
             + (f", {part:.1g} of what its joint moves" if part > NEGLIGIBLE else ""),
@@ -267,7 +267,7 @@ def _give_weight(
     root = top == structure.root.name
     least = LEAST if leaf else TINY
     group[top] = LinkInertia.about(least, np.zeros(3), least * np.eye(3), link.place)
-    written.lose(
+    written.report_loss(
         "massless",
         f"link '{top}' moves and has no mass; MuJoCo wants some, so it has {least:g} kg"
         + (f", and its joint an armature of {LEAF_ARMATURE:g}" if leaf else ""),

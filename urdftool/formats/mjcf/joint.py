@@ -9,7 +9,7 @@ from lxml import etree
 from ...finding import Severity
 from ...model.elements import Joint, Limit, Vector
 from ...model.pose import cross, norm
-from ..written import Written
+from ..common.written import Written
 from .digits import number_text, numbers_text
 from .gazebo import joint_spring
 from .inertials import LEAF_ARMATURE
@@ -62,7 +62,7 @@ def locked_site(joint: Joint, written: Written) -> etree._Element:
     assert joint.limit is not None
     for what, text, severity in _bound_losses(joint, joint.limit, welded=True):
         place = joint.limit.place
-        written.lose(what, text, place, kind="joint", name=joint.name, severity=severity)
+        written.report_loss(what, text, place, kind="joint", name=joint.name, severity=severity)
     return etree.Element("site", {"name": joint.name, **SITE})
 
 
@@ -85,7 +85,7 @@ def _single(joint: Joint, kind: str, written: Written) -> etree._Element:
         element.set("actuatorfrcrange", numbers_text((-effort, effort)))
     for what, text, severity in _limit_losses(joint):
         place = joint.place if joint.limit is None else joint.limit.place
-        written.lose(what, text, place, kind="joint", name=joint.name, severity=severity)
+        written.report_loss(what, text, place, kind="joint", name=joint.name, severity=severity)
     return element
 
 
@@ -158,7 +158,7 @@ def _planar(joint: Joint, written: Written) -> list[etree._Element]:
     """
     x, y, normal = plane(axis_of(joint))
     if joint.limit is not None:
-        written.lose(
+        written.report_loss(
             "planar-limit",
             f"limits of planar joint '{joint.name}' are not written; it moves without bounds",
             joint.limit.place,

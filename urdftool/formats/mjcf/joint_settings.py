@@ -7,8 +7,8 @@ from dataclasses import replace
 from lxml import etree
 
 from ...finding import Severity
-from ..actuator_config import JointSettings, read_actuator_config
-from ..written import Written
+from ..common.actuator_config import JointSettings, read_actuator_config
+from ..common.written import Written
 from .body import Bodies
 from .digits import number_text
 from .options import Options
@@ -76,7 +76,7 @@ def _apply(
             changed.append(f"force {low:g} to {high:g} instead of {before.replace(' ', ' to ')}")
     if changed:
         joint = structure.robot.joint[element.get("name", "")]
-        written.lose(
+        written.report_loss(
             "actuator-config",
             f"joint '{joint.name}' has, from --actuator-config, {', '.join(changed)}",
             joint.place,

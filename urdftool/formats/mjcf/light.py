@@ -10,10 +10,10 @@ from ...model.elements import Robot, Vector
 from ...model.pose import IDENTITY, Pose, rotate, rotation_of_rpy
 from ...model.read import number, numbers
 from ...source.document import Element
-from ..written import Written
+from ..common.naming import Names
+from ..common.written import Written
 from .body import Bodies
 from .digits import number_text, numbers_text
-from .names import Names
 
 DOWN: Vector = (0.0, 0.0, -1.0)
 TYPES = ("point", "directional", "spot")
@@ -25,7 +25,7 @@ def put_lights(robot: Robot, bodies: Bodies, written: Written) -> None:
     for block in robot.gazebo:
         for light in block.element.all("light"):
             if block.reference not in bodies:
-                written.lose("light", "a light on no link is not carried", light.place)
+                written.report_loss("light", "a light on no link is not carried", light.place)
                 continue
             body = bodies[block.reference]
             first = body.find("body")

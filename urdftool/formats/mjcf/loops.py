@@ -12,10 +12,10 @@ from ...model.elements import GazeboExtension, Robot, Vector
 from ...model.pose import IDENTITY, Pose, add, dot, norm, rotate, rotation_of_rpy
 from ...model.read import number, numbers
 from ...source.document import Element
+from ..common.naming import Names
+from ..common.written import Written
 from ..defects import defect
-from ..written import Written
 from .digits import numbers_text
-from .names import Names
 from .structure import WORLD, Structure
 
 KINDS = {"revolute": "connect", "continuous": "connect", "ball": "connect", "fixed": "weld"}
@@ -93,7 +93,7 @@ def loop_equalities(structure: Structure, written: Written) -> Iterator[etree._E
                 _bounds_losses(loop, written)
                 yield from _equalities(structure, loop, names)
             else:
-                written.lose(
+                written.report_loss(
                     "loop",
                     f"joint '{element.get('name') or ''}' of <gazebo> is not carried: {loop}",
                     element.place,
@@ -218,7 +218,7 @@ def _bounds_losses(loop: Loop, written: Written) -> None:
         ("dynamics", any(rubs), dynamics),
     ):
         if lost and part is not None:
-            written.lose(
+            written.report_loss(
                 "loop",
                 f"{what} of joint '{loop.name}', which closes a loop, are not carried: MuJoCo "
                 "closes it by an equality, which has none",

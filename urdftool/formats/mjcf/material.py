@@ -9,12 +9,12 @@ from lxml import etree
 
 from ...errors import SourceError
 from ...model.elements import Material, Robot, Visual
-from ..written import Written
+from ..common.naming import Names, file_name
+from ..common.written import Written
 from .convert import Image, Rgba
 from .digits import numbers_text
 from .gazebo_colors import gazebo_color
 from .meshes import MeshPiece
-from .names import Names, file_name
 from .texture import png
 
 
@@ -82,12 +82,12 @@ class Materials:
         if isinstance(image, Path) and not os.path.isfile(image):
             if image not in self._textures:
                 self._textures[image] = None
-                self._lose_image(f"image {image} of {mesh} is not there", visual, mesh)
+                self._report_image_loss(f"image {image} of {mesh} is not there", visual, mesh)
             return None
         return self._material(stem, None, image, visual, mesh)
 
-    def _lose_image(self, message: str, visual: Visual, name: str) -> None:
-        self._written.lose("texture", message, visual.place, kind="material", name=name)
+    def _report_image_loss(self, message: str, visual: Visual, name: str) -> None:
+        self._written.report_loss("texture", message, visual.place, kind="material", name=name)
 
     def _definition(self, visual: Visual) -> Material | None:
         material = visual.material
@@ -95,7 +95,7 @@ class Materials:
             return material
         found = self._defined.get(material.name) if material.name else None
         if found is None:
-            self._written.lose(
+            self._written.report_loss(
                 "material",
                 f"material '{material.name}' is defined nowhere; the visual has no colour",
                 material.place,
@@ -111,15 +111,15 @@ class Materials:
         try:
             path = self._robot.source.resolve(material.texture)
         except SourceError as error:
-            self._lose_texture(material, error.message)
+            self._report_texture_loss(material, error.message)
             return None
         if not os.path.isfile(path):
-            self._lose_texture(material, f"{path} is not there")
+            self._report_texture_loss(material, f"{path} is not there")
             return None
         return path
 
-    def _lose_texture(self, material: Material, why: str) -> None:
-        self._written.lose(
+    def _report_texture_loss(self, material: Material, why: str) -> None:
+        self._written.report_loss(
             "texture",
             f"texture '{material.texture}' of material '{material.name}' is lost: {why}",
             material.place,
@@ -153,7 +153,7 @@ class Materials:
         data = png(image)
         if data is None:
             named = visual.material.name if visual.material is not None else ""
-            self._lose_image(
+            self._report_image_loss(
                 f"texture {file} is lost: it is no PNG, and Pillow, which converts others, is not "
                 "there or cannot read it",
                 visual,

@@ -12,14 +12,15 @@ from lxml import etree
 
 from ...errors import SourceError
 from ...finding import Finding, Severity
+from ...meshes.mesh import MeshNote
 from ...model.elements import Collision, Mesh, Robot, Vector, Visual
+from ..common.missing_files import explain_missing_file
+from ..common.naming import Names, file_name
+from ..common.written import Written
 from ..defects import defect
-from ..missing import why_missing
-from ..written import Written
 from .convert import Converted, Image, Piece, Rgba
 from .cut import Cut, Cutter
 from .digits import numbers_text
-from .names import Names, file_name
 from .obj import obj_bytes
 from .options import Options
 
@@ -70,7 +71,7 @@ def mesh_assets(robot: Robot, written: Written, options: Options) -> tuple[Asset
                 wrong.extend(_unreadable(uses, job, result))
     if options.cutter is not None:
         _cut(options.cutter, uses, made, written)
-    _say_notes(uses, made, written)
+    _report_notes(uses, made, written)
     files = _Files(written, options.mesh_dir)
     pieces: dict[int, list[MeshPiece]] = {}
     known: dict[tuple[str, Vector], str] = {}
@@ -115,7 +116,7 @@ def _uses(robot: Robot) -> tuple[list[_Use], list[Finding]]:
             with suppress(SourceError):
                 path = Path(os.path.realpath(robot.source.resolve(mesh.filename)))
         if path is None or not os.path.isfile(path):
-            why, hint = why_missing(robot, mesh.filename)
+            why, hint = explain_missing_file(robot, mesh.filename)
             text = f"mesh '{mesh.filename}' of link '{link.name}' {why}"
             wrong.append(defect("mesh-not-found", text, place, "link", link.name, hint))
         elif not all(mesh.scale):
@@ -160,7 +161,7 @@ def _cut(
         else:
             text = f"is not cut into convex pieces: {result}"
             severity = Severity.WARNING
-        written.lose(
+        written.report_loss(
             "convex",
             f"{path.name} {text}",
             places[path].attribute_place("filename"),
@@ -170,31 +171,31 @@ def _cut(
         )
 
 
-def _say_notes(
+def _report_notes(
     uses: list[_Use], made: dict[tuple[Path, bool], Converted], written: Written
 ) -> None:
-    said: set[tuple[Path, str]] = set()
+    """Report the notes of each conversion and each mesh that is not convex, once a file."""
+    reported: set[tuple[Path, MeshNote | None]] = set()
     for path, collides, shape in uses:
         result = made.get((path, collides))
         if result is None:
             continue
         place = _mesh(shape).element.attribute_place("filename")
         for note in result.notes:
-            if (path, note) not in said:
-                said.add((path, note))
-                lossy = "lost" in note or "thickened" in note
-                severity = Severity.WARNING if lossy else Severity.INFO
-                written.lose(
+            if (path, note) not in reported:
+                reported.add((path, note))
+                written.report_loss(
                     "mesh",
-                    f"{path.name}: {note}",
+                    f"{path.name}: {note.message}",
                     place,
                     kind="mesh",
                     name=path.name,
-                    severity=severity,
+                    severity=Severity.WARNING if note.lossy else Severity.INFO,
+                    data={"note": note.code},
                 )
-        if result.hull is not None and result.hull > HULL and (path, "hull") not in said:
-            said.add((path, "hull"))
-            written.lose(
+        if result.hull is not None and result.hull > HULL and (path, None) not in reported:
+            reported.add((path, None))
+            written.report_loss(
                 "nonconvex",
                 f"{path.name}: MuJoCo collides its convex hull, whose volume is {result.hull:.2f} "
                 "times the mesh's",
@@ -202,6 +203,7 @@ def _say_notes(
                 kind="mesh",
                 name=path.name,
                 hint="--decompose cuts it into convex pieces",
+                data={"hull_ratio": result.hull},
             )
 
 

@@ -6,7 +6,7 @@ from lxml import etree
 
 from ...finding import Severity
 from ...model.elements import Robot
-from ..written import Written
+from ..common.written import Written
 from .actuator import actuator_section
 from .base_sensors import add_base_sensors
 from .body import body_tree, fill_bodies
@@ -116,7 +116,7 @@ def _rename_world(structure: Structure, written: Written) -> None:
     if new == WORLD or WORLD not in structure.robot.link:
         return
     written.renamed["link", WORLD] = new
-    written.lose(
+    written.report_loss(
         "name",
         f"link '{WORLD}' is not the root, and MuJoCo keeps its name to itself; its body is called "
         f"'{new}'",
@@ -186,7 +186,7 @@ def _controller_losses(robot: Robot, written: Written) -> None:
             (joint.calibration, "calibration"),
         ):
             if part is not None:
-                written.lose(
+                written.report_loss(
                     what.replace("_", "-"),
                     f"<{what}> of joint '{joint.name}' belongs to a controller and is not carried",
                     part.place,

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from ...model.elements import Robot
-from ..mended import FixInertia
+from ..common.inertia_repair import FixInertia
 from .cut import Cutter
 
 Actuators = Literal["auto", "none", "position", "velocity", "motor"]

@@ -8,11 +8,11 @@ from lxml import etree
 
 from ...finding import Severity
 from ...model.elements import Vector
-from ..written import Written
+from ..common.naming import Names
+from ..common.written import Written
 from .digits import number_text
 from .document import serialise
 from .home import Home
-from .names import Names
 from .shape_box import ShapeBoxes
 from .standing import Ground, ground_of
 from .structure import Structure
@@ -79,7 +79,7 @@ def scene_file(
     if low < -FLUSH:
         low = math.floor(low * 1e4) / 1e4 if low > -1e9 else low
         floor.set("pos", f"0 0 {number_text(low)}")
-        written.lose(
+        written.report_loss(
             "floor",
             f"the held robot reaches below the height of its root; the floor of the scene is at "
             f"z = {low:g} m",

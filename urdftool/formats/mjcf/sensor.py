@@ -11,12 +11,12 @@ from ...model.elements import ControlComponent, Robot, Sensor
 from ...model.pose import Pose, rotation_of_quaternion, rotation_of_rpy
 from ...model.read import number, numbers
 from ...source.document import Element
-from ..written import Written
+from ..common.naming import Names
+from ..common.written import Written
 from .body import Bodies
 from .digits import number_text, numbers_text
 from .frame import set_pose
 from .joint import SITE
-from .names import Names
 
 MAX_RAYS = 36
 """Rays of a scanner up to which each becomes a rangefinder."""
@@ -47,7 +47,7 @@ def sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Ele
         link = _link_of(robot, block.reference)
         for sensor in block.sensors:
             if link is None:
-                _lose(sensor, "it is on no link", written)
+                _report_sensor_loss(sensor, "it is on no link", written)
                 continue
             body = bodies[link]
             if sensor.type in CAMERAS:
@@ -63,7 +63,9 @@ def sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Ele
             elif sensor.type in SCANNERS:
                 _scanner(sensor, link, body, section, sites, taken, written)
             else:
-                _lose(sensor, f"MuJoCo has nothing like type '{sensor.type}'", written)
+                _report_sensor_loss(
+                    sensor, f"MuJoCo has nothing like type '{sensor.type}'", written
+                )
     for control in robot.ros2_controls:
         for component in control.components:
             if component.kind == "sensor":
@@ -134,7 +136,7 @@ def _camera(
     horizontal = (number(fov.text) if fov is not None else None) or 1.047
     width, height = (_whole(image, name, size) for name, size in (("width", 320), ("height", 240)))
     if not 0 < horizontal < math.pi:
-        written.lose(
+        written.report_loss(
             "camera",
             f"camera '{sensor.name}' sees {horizontal:g} rad wide, which no flat image shows; "
             "it sees 2.8 rad",
@@ -171,7 +173,9 @@ def _touch(
     geoms = [g for g in body.iterchildren("geom") if g.get("class") == "collision"]
     sized = [g for g in geoms if g.get("size")]
     if not sized:
-        _lose(sensor, "its link has no simple collision that a site could cover", written)
+        _report_sensor_loss(
+            sensor, "its link has no simple collision that a site could cover", written
+        )
         return
     own = sites.take(name)
     size = (float(part) for part in sized[0].get("size", "").split())
@@ -183,7 +187,7 @@ def _touch(
     put_before_bodies(body, site)
     etree.SubElement(section, "touch", name=taken.take(name), site=own)
     if len(geoms) > 1:
-        _lose(sensor, "it covers only the first collision of its link", written)
+        _report_sensor_loss(sensor, "it covers only the first collision of its link", written)
 
 
 def _scanner(
@@ -203,7 +207,9 @@ def _scanner(
     pose = _pose(sensor.element)
     if not 0 < count <= MAX_RAYS:
         _site(name, pose, body, sites)
-        _lose(sensor, f"its {count} rays are too many for rangefinders; its site is there", written)
+        _report_sensor_loss(
+            sensor, f"its {count} rays are too many for rangefinders; its site is there", written
+        )
         return
     low, high = read("min_angle", 0.0), read("max_angle", 0.0)
     for index in range(count):
@@ -238,7 +244,7 @@ def _control_sensor(
     frame = component.params.get("frame_id", "")
     if frame not in robot.link or not kinds:
         why = "its frame_id names no link" if kinds else "its interfaces are unknown to MuJoCo"
-        written.lose(
+        written.report_loss(
             "sensor",
             f"sensor '{component.name}' of ros2_control is not carried: {why}",
             component.place,
@@ -262,8 +268,8 @@ def _control_kinds(interfaces: set[str]) -> Iterator[tuple[str, str]]:
             yield kind, suffix
 
 
-def _lose(sensor: Sensor, why: str, written: Written) -> None:
-    written.lose(
+def _report_sensor_loss(sensor: Sensor, why: str, written: Written) -> None:
+    written.report_loss(
         "sensor",
         f"sensor '{sensor.name}' is not carried whole: {why}",
         sensor.place,

@@ -11,7 +11,7 @@ from ...model.read import number
 from ...source.description import read_description
 from ...source.document import Element
 from ...source.packages import Packages
-from ..written import Written
+from ..common.written import Written
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def read_srdf(path: Path, robot: Robot, written: Written, packages: Packages | N
         one, other = element.get("link1") or "", element.get("link2") or ""
         unknown = [name for name in (one, other) if name not in robot.link]
         if unknown:
-            written.lose(
+            written.report_loss(
                 "srdf",
                 f"the SRDF disables a collision of link '{unknown[0]}', which does not exist",
                 element.place,
@@ -73,7 +73,7 @@ def _states(root: Element, robot: Robot, written: Written) -> dict[str, dict[str
             name, value = joint.get("name") or "", number(joint.get("value"))
             if name not in robot.joint or value is None:
                 why = "which does not exist" if name not in robot.joint else "without one number"
-                written.lose(
+                written.report_loss(
                     "srdf",
                     f"group state '{element.get('name') or ''}' of the SRDF has joint '{name}', "
                     f"{why}",

@@ -10,7 +10,7 @@ from ...finding import Severity
 from ...model.elements import Robot
 from ...source.document import parse, read_file
 from ...source.packages import own_package, shown_path
-from ..written import Written
+from ..common.written import Written
 
 
 def offer_srdf(robot: Robot, written: Written) -> None:
@@ -18,7 +18,7 @@ def offer_srdf(robot: Robot, written: Written) -> None:
     found = srdf_files(robot)
     if found:
         names = " or ".join(shown_path(path) for path in found)
-        written.lose(
+        written.report_loss(
             "srdf-not-used",
             f"robot '{robot.name}' has an SRDF, which is not used: --srdf {names} takes over its "
             "disabled collisions, group states and virtual joint",

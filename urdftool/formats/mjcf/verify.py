@@ -17,10 +17,11 @@ from ...model.elements import Joint, Robot
 from ...model.load import read_again
 from ...model.world import with_world
 from ..check import Check
+from ..common.losses import DeclaredLosses
+from ..common.written import Written
 from ..mechanics import Mechanics
-from ..written import Written
-from .announced import EFFORT, FREE, INERTIA, LIMITS, TORN, TREE, Said
 from .compiled import Compiled, compile_all, copied
+from .declared_losses import EFFORT, FREE, INERTIA, LIMITS, TORN, TREE
 from .options import Options
 from .verify_contact import contact_check, surface_check
 from .verify_drives import actuator_check
@@ -101,36 +102,36 @@ def verify(
         OutputError: MuJoCo does not compile it.
     """
     robot, _ = with_world(read_again(robot))
-    said = Said.by(written.losses)
+    declared = DeclaredLosses.from_findings(written.losses)
     mechanics = Mechanics(robot)
     compiled = Compiled(model, mechanics.root, written.renamed)
     configurations = list(_configurations(mechanics, compiled))
-    source = Source(robot, options or Options(), said.of((FREE,), robot.tree.roots[0].name))
+    source = Source(robot, options or Options(), declared.of((FREE,), robot.tree.roots[0].name))
     meshes = SourceMeshes(robot)
     checks = [
         base_check(source, compiled),
-        _tree(robot, compiled, said),
-        _frames(mechanics, compiled, configurations, said),
-        *_dynamics(mechanics, compiled, configurations, said),
-        _centroid(mechanics, compiled, configurations, said),
+        _tree(robot, compiled, declared),
+        _frames(mechanics, compiled, configurations, declared),
+        *_dynamics(mechanics, compiled, configurations, declared),
+        _centroid(mechanics, compiled, configurations, declared),
         gravity_flag_check(source, compiled),
-        _limits(mechanics, compiled, said),
-        joint_physics_check(source, compiled, said),
-        option_check(source, compiled, said),
-        collision_check(robot, meshes, mechanics, compiled, configurations, said),
-        contact_check(source, compiled, said),
-        surface_check(source, compiled, said),
-        actuator_check(source, compiled, said),
-        home_check(source, compiled, said),
-        sensor_check(source, mechanics, compiled, configurations[0], said),
-        visual_check(robot, meshes, mechanics, compiled, configurations, said),
-        material_check(source, meshes, compiled, said),
-        runs_check(stepped or model, said, excluded=source.options.exclude == "touching"),
+        _limits(mechanics, compiled, declared),
+        joint_physics_check(source, compiled, declared),
+        option_check(source, compiled, declared),
+        collision_check(robot, meshes, mechanics, compiled, configurations, declared),
+        contact_check(source, compiled, declared),
+        surface_check(source, compiled, declared),
+        actuator_check(source, compiled, declared),
+        home_check(source, compiled, declared),
+        sensor_check(source, mechanics, compiled, configurations[0], declared),
+        visual_check(robot, meshes, mechanics, compiled, configurations, declared),
+        material_check(source, meshes, compiled, declared),
+        runs_check(stepped or model, declared, excluded=source.options.exclude == "touching"),
         _repeats(written, again),
     ]
     clean = Check("loads", "MuJoCo compiles and poses it without a warning", 0)
     for warning in compiled.warnings:
-        clean.compare(math.inf, warning, known=said.any("lossy-massless"))
+        clean.compare(math.inf, warning, known=declared.any("lossy-massless"))
     if source.options.scene:
         name = f"{Path(source.options.file).stem}_scene.xml" if source.options.file else "scene.xml"
         checks.append(scene_check(source, compiled, model.parent / name))
@@ -172,7 +173,7 @@ def _locked(joint: Joint) -> float | None:
     return lower if lower == upper else None
 
 
-def _tree(robot: Robot, compiled: Compiled, said: Said) -> Check:
+def _tree(robot: Robot, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Joints by name: type, parent, child, and whom they follow."""
     check = Check("tree", "joints, their types, parents and children, mimics", 0)
     kinds = {
@@ -186,7 +187,7 @@ def _tree(robot: Robot, compiled: Compiled, said: Said) -> Check:
     model = compiled.model
     freedom = 6 if compiled.id("JOINT", f"{robot.tree.roots[0].name}_freejoint") >= 0 else 0
     for joint in robot.joints:
-        known = said.of(TREE, joint.name)
+        known = declared.of(TREE, joint.name)
         body = compiled.body(joint.child)
         if body < 0:
             check.compare(math.inf, f"link '{joint.child}' is missing", known=known)
@@ -214,11 +215,11 @@ def _tree(robot: Robot, compiled: Compiled, said: Said) -> Check:
         if joint.mimic is not None:
             same = _follows(joint, compiled)
             check.compare(0 if same else math.inf, f"mimic of joint '{joint.name}'", known=known)
-    compare_loops(robot, compiled, said, check)
+    compare_loops(robot, compiled, declared, check)
     _unasked(robot, compiled, check)
     if freedom != model.nv:
         text = f"{model.nv} degrees of freedom instead of {freedom}"
-        check.compare(math.inf, text, known=said.any(*TREE))
+        check.compare(math.inf, text, known=declared.any(*TREE))
     return check
 
 
@@ -262,10 +263,13 @@ def _follows(joint: Joint, compiled: Compiled) -> bool:
 
 
 def _frames(
-    mechanics: Mechanics, compiled: Compiled, configurations: list[dict[str, float]], said: Said
+    mechanics: Mechanics,
+    compiled: Compiled,
+    configurations: list[dict[str, float]],
+    declared: DeclaredLosses,
 ) -> Check:
     check = Check("frames", f"pose of every link, {len(configurations)} configurations", POSE)
-    torn = said.any(*TORN)
+    torn = declared.any(*TORN)
     for positions in configurations:
         compiled.pose(positions)
         for link, expected in mechanics.frames(positions).items():
@@ -276,7 +280,10 @@ def _frames(
 
 
 def _dynamics(
-    mechanics: Mechanics, compiled: Compiled, configurations: list[dict[str, float]], said: Said
+    mechanics: Mechanics,
+    compiled: Compiled,
+    configurations: list[dict[str, float]],
+    declared: DeclaredLosses,
 ) -> Iterator[Check]:
     """Mass matrix and gravity over the joints, with the root held."""
     inertia = Check("mass matrix", "over all joints, the root held", compiled.tensor_rounding)
@@ -295,20 +302,27 @@ def _dynamics(
         heaviest = float(np.diag(expected).max())
         floor = 1e-6 * heaviest if heaviest > 0 else 1.0  # nothing to relate it to: as it is
         difference = abs(found - expected) / np.maximum(np.outer(scale, scale), floor)
-        inertia.compare(float(difference.max()), "the mass matrix", known=said.any(*INERTIA, *TORN))
+        inertia.compare(
+            float(difference.max()),
+            "the mass matrix",
+            known=declared.any(*INERTIA, *TORN),
+        )
         force = mechanics.gravity(positions)[present]
         bias = compiled.gravity([dofs[index] for index in present])
         mass = mechanics.centroid(positions)[0]
         weight = max(float(abs(force).max()), 1e-6 * 9.81 * mass, 0.0) or 1.0
         gravity.compare(
-            float(abs(bias - force).max()) / weight, "gravity", known=said.any(*INERTIA)
+            float(abs(bias - force).max()) / weight, "gravity", known=declared.any(*INERTIA)
         )
     yield inertia
     yield gravity
 
 
 def _centroid(
-    mechanics: Mechanics, compiled: Compiled, configurations: list[dict[str, float]], said: Said
+    mechanics: Mechanics,
+    compiled: Compiled,
+    configurations: list[dict[str, float]],
+    declared: DeclaredLosses,
 ) -> Check:
     bound = compiled.tensor_rounding
     check = Check("centroid", "total mass, centre of mass and inertia about it", bound)
@@ -317,9 +331,13 @@ def _centroid(
         mass, com, tensor = mechanics.centroid(positions)
         found_mass, found_com, found_tensor = compiled.centroid()
         if mass == 0:
-            check.compare(found_mass, "mass where there is none", known=said.any(*INERTIA, *TORN))
+            check.compare(
+                found_mass,
+                "mass where there is none",
+                known=declared.any(*INERTIA, *TORN),
+            )
             continue
-        known = said.any(*INERTIA, *TORN)
+        known = declared.any(*INERTIA, *TORN)
         # the tolerances of the three are brought to that of the row
         check.compare(abs(found_mass - mass) / mass * bound / MASS, "total mass", known=known)
         check.compare(
@@ -330,7 +348,7 @@ def _centroid(
     return check
 
 
-def _limits(mechanics: Mechanics, compiled: Compiled, said: Said) -> Check:
+def _limits(mechanics: Mechanics, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Bounds, damping and friction of each joint; a locked one is an equality."""
     check = Check("limits", "lower, upper, effort, velocity, damping, friction", POSE)
     model = compiled.model
@@ -351,14 +369,14 @@ def _limits(mechanics: Mechanics, compiled: Compiled, said: Said) -> Check:
             backward, found["effort"] = (float(bound) for bound in model.jnt_actfrcrange[number])
             if backward != -found["effort"]:
                 text = f"lower bound of the effort of joint '{joint.name}' is {backward:g}"
-                check.compare(math.inf, text, known=said.of(EFFORT, joint.name))
+                check.compare(math.inf, text, known=declared.of(EFFORT, joint.name))
         for held in _held(compiled, number):
             found["lower"] = found["upper"] = held
         for what, expected in _expected(joint).items():
             both = abs(found[what]) >= 1e15 and abs(expected) >= 1e15
             scale = max(abs(expected), 1.0) if math.isfinite(expected) else 1.0
             difference = 0.0 if both else abs(found[what] - expected) / scale
-            known = said.of(EFFORT if what == "effort" else LIMITS, joint.name)
+            known = declared.of(EFFORT if what == "effort" else LIMITS, joint.name)
             check.compare(difference, f"{what} of joint '{joint.name}'", known=known)
     return check
 

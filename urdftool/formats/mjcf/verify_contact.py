@@ -10,8 +10,9 @@ import numpy as np
 
 from ...model.elements import Link
 from ..check import Check
-from .announced import CUT, SHAPES, Said
+from ..common.losses import DeclaredLosses
 from .compiled import Compiled
+from .declared_losses import CUT, SHAPES
 from .verify_shapes import loss_names
 from .verify_source import Source
 
@@ -31,7 +32,7 @@ MANY = 12
 """Pairs that are named one by one."""
 
 
-def contact_check(source: Source, compiled: Compiled, said: Said) -> Check:
+def contact_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare which links can touch each other and a ground of MuJoCo's default class."""
     check = Check("contact", "which links can touch each other and the ground", 0)
     model, flags = compiled.model, compiled.mujoco.mjtDisableBit
@@ -40,7 +41,7 @@ def contact_check(source: Source, compiled: Compiled, said: Said) -> Check:
             check.compare(math.inf, f'<flag {what}="disable"/>: nothing touches anything')
     if model.npair:
         check.compare(math.inf, f"{model.npair} <pair> that the description does not ask for")
-    touching = [link for link in source.robot.links if _count(link, compiled, check, said)]
+    touching = [link for link in source.robot.links if _count(link, compiled, check, declared)]
     _foreign(source, compiled, check)
     apart, together = [], []
     excluded = {int(signature) for signature in model.exclude_signature}
@@ -80,11 +81,11 @@ def _overlapping(source: Source, compiled: Compiled) -> set[frozenset[int]]:
     }
 
 
-def _count(link: Link, compiled: Compiled, check: Check, said: Said) -> int:
+def _count(link: Link, compiled: Compiled, check: Check, declared: DeclaredLosses) -> int:
     """Compare how many geoms of a link touch; return how many do."""
     model, body = compiled.model, compiled.body(link.name)
     solid = [g for g in compiled.geoms(body) if model.geom_contype[g] or model.geom_conaffinity[g]]
-    known = said.of((*SHAPES, *CUT), *loss_names(link))
+    known = declared.of((*SHAPES, *CUT), *loss_names(link))
     if len(solid) != len(link.collisions):
         text = f"link '{link.name}': {len(solid)} geoms touch, of {len(link.collisions)} collisions"
         check.compare(math.inf, text, known=known)
@@ -133,7 +134,7 @@ def _can_touch(compiled: Compiled, one: int, other: int, excluded: set[int]) -> 
     return True
 
 
-def surface_check(source: Source, compiled: Compiled, said: Said) -> Check:
+def surface_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare friction and softness of what touches."""
     check = Check("surface", "friction of every collision; MuJoCo's softness, margin, condim", 1e-9)
     plain = compiled.reference()

@@ -9,10 +9,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...model.elements import Joint
-from ..actuator_config import JointSettings
 from ..check import Check
-from .announced import LIMITS, TREE, Said
+from ..common.actuator_config import JointSettings
+from ..common.losses import DeclaredLosses
 from .compiled import Compiled
+from .declared_losses import LIMITS, TREE
 from .verify_source import Source, is_locked
 
 EXACT = 1e-9
@@ -51,7 +52,7 @@ class Wanted:
     chosen: bool = False
 
 
-def actuator_check(source: Source, compiled: Compiled, said: Said) -> Check:
+def actuator_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare what drives each joint with what the description and the options ask for."""
     check = Check("actuators", "joint, kind, gear, gain, range of control and force", EXACT)
     model = compiled.model
@@ -68,7 +69,7 @@ def actuator_check(source: Source, compiled: Compiled, said: Said) -> Check:
         else:
             _compare(number, joint, one, compiled, check)
     for joint in wanted:
-        known = said.of((*TREE, *LIMITS), joint)
+        known = declared.of((*TREE, *LIMITS), joint)
         check.compare(math.inf, f"joint '{joint}' has no actuator", known=known)
     return check
 

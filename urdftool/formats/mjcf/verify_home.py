@@ -11,8 +11,8 @@ from ...model.elements import Joint
 from ...model.read import number, numbers
 from ...source.document import Element
 from ..check import Check
+from ..common.losses import DeclaredLosses
 from ..mechanics import Array, turn
-from .announced import Said
 from .compiled import Compiled
 from .verify_source import Source, is_locked
 
@@ -51,7 +51,7 @@ def base_check(source: Source, compiled: Compiled) -> Check:
     return check
 
 
-def home_check(source: Source, compiled: Compiled, said: Said) -> Check:
+def home_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare the key ``home``: limits, mimics, positions that are asked for, controls, floor."""
     check = Check("home", "limits, mimics, positions asked for, controls, floor", EXACT)
     model = compiled.model
@@ -65,7 +65,7 @@ def home_check(source: Source, compiled: Compiled, said: Said) -> Check:
         if joint.name not in positions:
             continue
         found = positions[joint.name]
-        known = said.of(("lossy-home", "lossy-limit-inverted", "lossy-mimic"), joint.name)
+        known = declared.of(("lossy-home", "lossy-limit-inverted", "lossy-mimic"), joint.name)
         lower, upper = _limits(joint)
         if lower <= upper:
             beyond = max(lower - found, found - upper, 0.0)

@@ -16,9 +16,10 @@ from ...errors import UrdftoolError
 from ...meshes.mesh import Part
 from ...model.elements import Link, Material, Mesh, Robot, Visual
 from ..check import Check
+from ..common.losses import DeclaredLosses
 from ..sdf.colors import COLORS
-from .announced import LOOKS, SHAPES, Said
 from .compiled import Compiled
+from .declared_losses import LOOKS, SHAPES
 from .verify_meshes import SourceMeshes
 from .verify_shapes import has_size, link_geoms, loss_names
 from .verify_source import Source
@@ -44,13 +45,15 @@ class Look:
     image: Image | None = None
 
 
-def material_check(source: Source, meshes: SourceMeshes, compiled: Compiled, said: Said) -> Check:
+def material_check(
+    source: Source, meshes: SourceMeshes, compiled: Compiled, declared: DeclaredLosses
+) -> Check:
     """Compare the color and the image of every geom that is seen."""
     check = Check("materials", "color, image and gloss of all that is seen", SINGLE)
     model, pictures = compiled.model, Pictures(compiled)
     plain = compiled.reference()
     for link in source.robot.links:
-        known = said.of((*LOOKS, *SHAPES), *loss_names(link))
+        known = declared.of((*LOOKS, *SHAPES), *loss_names(link))
         looks = list(_looks(source, meshes, link))
         geoms = list(link_geoms(compiled, link, VISUAL_GROUP))
         if len(looks) != len(geoms):

@@ -11,19 +11,20 @@ from ...model.elements import Robot
 from ...model.read import numbers
 from ...source.document import Element
 from ..check import Check
-from .announced import LOOPS, Said
+from ..common.losses import DeclaredLosses
 from .compiled import Compiled
+from .declared_losses import LOOPS
 
 HELD = {"revolute": "CONNECT", "continuous": "CONNECT", "ball": "CONNECT", "fixed": "WELD"}
 
 
-def compare_loops(robot: Robot, compiled: Compiled, said: Said, check: Check) -> None:
+def compare_loops(robot: Robot, compiled: Compiled, declared: DeclaredLosses, check: Check) -> None:
     """Each joint of a ``<gazebo>`` without reference has its equality, at its place."""
     for block in robot.extensions.get(None, ()):
         for joint in block.element.all("joint"):
             held = _holds(joint, compiled)
             name = joint.get("name") or ""
-            known = said.of(LOOPS, block.reference or "", name)
+            known = declared.of(LOOPS, block.reference or "", name)
             check.compare(0 if held else math.inf, f"joint '{name}' of a loop", known=known)
 
 

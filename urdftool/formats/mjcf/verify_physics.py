@@ -9,7 +9,7 @@ import numpy as np
 
 from ...model.elements import Joint
 from ..check import Check
-from .announced import Said
+from ..common.losses import DeclaredLosses
 from .compiled import Compiled
 from .verify_source import Source
 
@@ -38,7 +38,7 @@ def gravity_flag_check(source: Source, compiled: Compiled) -> Check:
     return check
 
 
-def joint_physics_check(source: Source, compiled: Compiled, said: Said) -> Check:
+def joint_physics_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare springs, armature, stops, and the dynamics of joints of several coordinates."""
     check = Check("joint physics", "springs, armature, stiffness of limits, lower effort", EXACT)
     model, plain = compiled.model, compiled.reference()
@@ -125,12 +125,12 @@ def _apart(found: float, expected: float) -> float:
     return abs(found - expected) / max(1.0, abs(expected))
 
 
-def option_check(source: Source, compiled: Compiled, said: Said) -> Check:
+def option_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare gravity and the other options of the physics with what ``<mujoco>`` asks for."""
     check = Check("options", "gravity, medium, solver, flags, as <mujoco> says", EXACT)
     written = dict(compiled.written_options)
     asked = compiled.options_of(_asked(source))
-    known = said.any("lossy-mujoco", "bad-extension-number")
+    known = declared.any("lossy-mujoco", "bad-extension-number")
     for name, value in asked.items():
         off = float(np.max(abs(np.subtract(written[name], value))))
         check.compare(off, f"{name} is {written[name]}, not {value}", known=known)

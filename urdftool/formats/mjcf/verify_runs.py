@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from ..check import Check
+from ..common.losses import DeclaredLosses
 from ..mechanics import Array
-from .announced import Said
 from .compiled import mujoco_module
 
 TIMESTEPS = (0.002, 0.005)
@@ -86,12 +86,12 @@ class Trial:
         ]
 
 
-def runs_check(path: Path, said: Said, *, excluded: bool) -> Check:
+def runs_check(path: Path, declared: DeclaredLosses, *, excluded: bool) -> Check:
     """Step a model at each time step.
 
     Args:
         path: The MJCF file.
-        said: The losses that were reported.
+        declared: The losses that were reported.
         excluded: Whether links that overlap at home are excluded from contact.
 
     Returns:
@@ -103,7 +103,7 @@ def runs_check(path: Path, said: Said, *, excluded: bool) -> Check:
     )
     for timestep in TIMESTEPS:
         trial = run_at_home(path, timestep)
-        known = said.any("lossy-massless") or (not excluded and said.any("lossy-overlap"))
+        known = declared.any("lossy-massless") or (not excluded and declared.any("lossy-overlap"))
         check.compare(0.0 if trial.faults() else trial.drift, "")
         for fault in trial.instabilities():
             check.compare(math.inf, fault, known=known)

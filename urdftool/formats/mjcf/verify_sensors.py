@@ -13,8 +13,8 @@ from ...model.read import number as read_number
 from ...model.read import numbers
 from ...source.document import Element
 from ..check import Check
+from ..common.losses import DeclaredLosses
 from ..mechanics import Array, Mechanics, origin_matrix
-from .announced import Said
 from .compiled import Compiled
 from .verify_source import Source, read_pose
 
@@ -72,7 +72,7 @@ def sensor_check(
     mechanics: Mechanics,
     compiled: Compiled,
     positions: Mapping[str, float],
-    said: Said,
+    declared: DeclaredLosses,
 ) -> Check:
     """Compare sensors, cameras and lights: link, pose, type and view.
 
@@ -81,7 +81,7 @@ def sensor_check(
         mechanics: Where its links are.
         compiled: The model.
         positions: Of the joints [rad or m], at which places are compared.
-        said: What the export announced.
+        declared: What the export announced.
     """
     what = "sensors, cameras, lights: link, pose, type, view"
     check = Check("sensors", what, EXACT)
@@ -91,7 +91,7 @@ def sensor_check(
     left = list(range(model.nsensor))
     asked = list(_wanted(source))
     for wanted in (*asked, *_of_base(source, asked)):
-        known = said.of(("lossy-sensor",), wanted.name)
+        known = declared.of(("lossy-sensor",), wanted.name)
         place = frames.get(wanted.link, np.eye(4)) @ wanted.pose
         number = _find(wanted, place, left, compiled)
         text = f"sensor '{wanted.name}' ({wanted.kind.lower()})"
@@ -103,8 +103,8 @@ def sensor_check(
     for number in left:
         name = compiled.name("SENSOR", number)
         check.compare(math.inf, f"sensor '{name}' is not in the description")
-    _cameras(source, frames, compiled, said, check)
-    _lights(source, frames, compiled, said, check)
+    _cameras(source, frames, compiled, declared, check)
+    _lights(source, frames, compiled, declared, check)
     return check
 
 
@@ -215,7 +215,11 @@ def _compare_sensor(
 
 
 def _cameras(
-    source: Source, frames: dict[str, Array], compiled: Compiled, said: Said, check: Check
+    source: Source,
+    frames: dict[str, Array],
+    compiled: Compiled,
+    declared: DeclaredLosses,
+    check: Check,
 ) -> None:
     model = compiled.model
     left = list(range(model.ncam))
@@ -232,7 +236,7 @@ def _cameras(
                 check.compare(math.inf, f"camera '{name}' is missing")
                 continue
             left.remove(named[0])
-            known = said.of(("lossy-camera",), element.get("name") or "")
+            known = declared.of(("lossy-camera",), element.get("name") or "")
             _compare_camera(named[0], camera, place, link, compiled, check, known)
     for number in left:
         name = compiled.name("CAMERA", number)
@@ -274,7 +278,11 @@ def _pixels(camera: Element, tag: str, usual: int) -> int:
 
 
 def _lights(
-    source: Source, frames: dict[str, Array], compiled: Compiled, said: Said, check: Check
+    source: Source,
+    frames: dict[str, Array],
+    compiled: Compiled,
+    declared: DeclaredLosses,
+    check: Check,
 ) -> None:
     model, data = compiled.model, compiled.data
     root = compiled.body(source.root)

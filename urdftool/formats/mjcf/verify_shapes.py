@@ -22,9 +22,10 @@ from ...model.elements import (
     Visual,
 )
 from ..check import Check
+from ..common.losses import DeclaredLosses
 from ..mechanics import Array, Mechanics, origin_matrix
-from .announced import CUT, SHAPES, TORN, Said
 from .compiled import Compiled
+from .declared_losses import CUT, SHAPES, TORN
 from .verify_meshes import SourceMeshes
 
 SIMPLE, MESH = 1e-9, 1e-6
@@ -44,7 +45,7 @@ def collision_check(
     mechanics: Mechanics,
     compiled: Compiled,
     configurations: list[dict[str, float]],
-    said: Said,
+    declared: DeclaredLosses,
 ) -> Check:
     """Each collision's box in the root's frame, at zero and at one other configuration."""
     check = Check("collision", "number, kind, box and surface of every shape", MESH)
@@ -53,7 +54,7 @@ def collision_check(
         compiled.pose(positions)
         for link in robot.links:
             geoms = list(link_geoms(compiled, link, 3))
-            known = said.of((*SHAPES, *CUT), *loss_names(link)) or said.any(*TORN)
+            known = declared.of((*SHAPES, *CUT), *loss_names(link)) or declared.any(*TORN)
             if len(geoms) != len(link.collisions):
                 text = f"link '{link.name}': {len(geoms)} collisions of {len(link.collisions)}"
                 check.compare(math.inf, text, known=known)
@@ -81,14 +82,14 @@ def visual_check(
     mechanics: Mechanics,
     compiled: Compiled,
     configurations: list[dict[str, float]],
-    said: Said,
+    declared: DeclaredLosses,
 ) -> Check:
     """Compare the box of all that is seen of a link."""
     check = Check("visual", "box and surface of what is seen of every link", MESH)
     frames = mechanics.frames(configurations[0])
     compiled.pose(configurations[0])
     for link in robot.links:
-        known = said.of(SHAPES, *loss_names(link)) or said.any(*TORN)
+        known = declared.of(SHAPES, *loss_names(link)) or declared.any(*TORN)
         geoms = list(link_geoms(compiled, link, 2))
         frame = frames.get(link.name, np.eye(4))
         boxes = [box for v in link.visuals if (box := _bounds(meshes, v, frame)) is not None]

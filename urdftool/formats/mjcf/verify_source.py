@@ -18,7 +18,7 @@ from ...model.elements import Joint, Robot
 from ...model.read import number, numbers
 from ...source.description import read_description
 from ...source.document import Element
-from ..actuator_config import JointSettings, read_actuator_config
+from ..common.actuator_config import JointSettings, read_actuator_config
 from ..mechanics import Array, turn
 from .options import Options
 

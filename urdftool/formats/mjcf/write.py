@@ -7,9 +7,10 @@ from pathlib import Path
 
 from ...finding import Finding
 from ...model.elements import Mesh, Robot
+from ..common.directory import mark
+from ..common.naming import file_name
+from ..common.written import Written
 from ..defects import FATAL, defect, defects, refuse, taken_world
-from ..directory import mark
-from ..written import Written
 from .base import with_base
 from .extension import extension_defects
 from .gazebo import gazebo_defects
@@ -19,7 +20,6 @@ from .inertials import inertials
 from .loops import loop_defects
 from .meshes import mesh_assets
 from .model import model_text
-from .names import file_name
 from .options import Options
 from .scene import scene_file
 from .shape_box import ShapeBoxes

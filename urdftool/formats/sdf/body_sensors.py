@@ -8,8 +8,8 @@ from ...model.elements import Joint, Link
 from ...model.gazebo_plugins import SENSOR_PLUGINS, library
 from ...model.read import number, numbers
 from ...source.document import Element
-from ..numbers import number_text, numbers_text
-from .blobs import move
+from ..common.numbers import number_text, numbers_text
+from .raw_sdf import move_to_owner
 from .sensor_plugins import sensor_plugin
 from .translation import Translation
 from .xml import Node, add, at
@@ -100,7 +100,7 @@ def _sensor(model: Node, t: Translation, element: Element) -> None:
         tag, name = "joint", t.names.joint(part.name)
     node = next((e for e in model.findall(tag) if e.get("name") == name), None)
     if node is None:  # a joint that is none in SDF
-        t.lose(
+        t.report_loss(
             "plugin",
             f"plugin '{library(element)}' senses '{part.name}', which is no {tag} in "
             "SDF; it is left out",
@@ -118,11 +118,11 @@ def _sensor(model: Node, t: Translation, element: Element) -> None:
     if library(element) in SENSOR_PLUGINS:
         sensor_plugin(made, t, part, element)
     if isinstance(part, Link):
-        move(made, t, part)
+        move_to_owner(made, t, part)
     left = [tag for tag in said if tag not in _CARRIED | {*kind.noises, *kind.offsets}]
     if left:
         text = f"plugin '{library(element)}' is sensor '{made.get('name')}' in gz; it has no "
-        t.lose("plugin", text + ", ".join(dict.fromkeys(left)), element, part)
+        t.report_loss("plugin", text + ", ".join(dict.fromkeys(left)), element, part)
 
 
 def _free_name(node: Node, element: Element) -> str:

@@ -18,7 +18,7 @@ def collision(node: Node, t: Translation, link: Link, part: Collision, name: str
     if not writable(t, link, part):
         return
     if isinstance(part.geometry, Capsule) and not t.options.since("1.8"):
-        t.note(
+        t.report_note(
             "capsule",
             f"SDF {t.options.sdf_version} has no capsule; a cylinder and two spheres stand in",
             part.geometry,

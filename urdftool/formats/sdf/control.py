@@ -18,7 +18,7 @@ def control(model: Node, t: Translation) -> None:
     for transmission in t.robot.transmissions:
         comment(model, _spoken(transmission))
         joints = ", ".join(f"'{joint.name}'" for joint in transmission.joints) or "no joint"
-        t.lose(
+        t.report_loss(
             "transmission",
             f"transmission '{transmission.name}' of {joints} has no counterpart; it stays as a "
             "comment, and "
@@ -52,7 +52,7 @@ def _ros2_control(model: Node, t: Translation, system: Ros2Control) -> None:
     right = HARDWARE[t.options.target]
     at = system.element.child("hardware") or system.element
     if system.plugin and system.plugin not in right and "azebo" in system.plugin:
-        t.lose(
+        t.report_loss(
             "ros2-control",
             f"hardware '{system.plugin}' of <ros2_control> '{system.name}' is for another Gazebo",
             at,
@@ -60,7 +60,7 @@ def _ros2_control(model: Node, t: Translation, system: Ros2Control) -> None:
         )
     plugins = {plugin.filename for plugin in t.robot.plugins}
     if not any("ros2_control" in name or "ros_control" in name for name in plugins):
-        t.lose(
+        t.report_loss(
             "ros2-control",
             f"<ros2_control> '{system.name}' is read from robot_description by a plugin of Gazebo, "
             "and the robot has none",
@@ -71,4 +71,4 @@ def _ros2_control(model: Node, t: Translation, system: Ros2Control) -> None:
         text = (
             f"<ros2_control> '{system.name}' stays in robot_description, where its plugin reads it"
         )
-        t.note("ros2-control", text, system)
+        t.report_note("ros2-control", text, system)

@@ -8,8 +8,8 @@ from ...finding import Finding
 from ...model.elements import Collision, Joint, Link, Mesh, Robot, UnknownShape, Visual
 from ...model.read import numbers
 from ...source.document import Element
+from ..common.missing_files import explain_missing_file
 from ..defects import defect
-from ..missing import why_missing
 from .block_numbers import wanted
 from .extensions import read_value, said_of, value_of
 from .keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS, LINK_KEYWORDS
@@ -52,7 +52,7 @@ def mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
             if refused:
                 wrong, hint = f"cannot be used: {refused}", ""
             else:
-                wrong, hint = why_missing(robot, mesh.filename)
+                wrong, hint = explain_missing_file(robot, mesh.filename)
             yield defect(
                 "corrupt-mesh" if refused else "mesh-not-found",
                 f"mesh '{mesh.filename}' of link '{link.name}' {wrong}",

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from ...model.elements import Joint, Link, Robot
 from ...model.read import number, numbers
 from ...source.document import Element
-from ..numbers import number_text, numbers_text
-from .blobs import blob, prune
+from ..common.numbers import number_text, numbers_text
 from .body_sensors import is_body_sensor
 from .keywords import (
     COLLISION_KEYWORDS,
@@ -22,6 +21,7 @@ from .keywords import (
     is_true,
 )
 from .plugins import plugin
+from .raw_sdf import copy_raw_element, remove_invalid
 from .translation import Translation
 from .xml import Node, add, at, copied, merge
 
@@ -81,7 +81,7 @@ def merged(node: Node, t: Translation, link: Link, tag: str) -> None:
     for element in said_of(t.robot, link):
         if element.tag == tag:
             made = copied(node, element)
-            prune(made, t, element, link)
+            remove_invalid(made, t, element, link)
             node.remove(made)
             merge(node, made)
 
@@ -99,11 +99,11 @@ def link_extensions(node: Node, t: Translation, link: Link) -> None:
         tag = element.tag
         if tag in LINK_ELEMENTS and own:
             existing = node.find(tag)
-            if blob(node, t, element, link) is not None and existing is not None:
+            if copy_raw_element(node, t, element, link) is not None and existing is not None:
                 node.remove(existing)
         elif tag in LINK_ELEMENTS or tag in LINK_KEYWORDS:
             if not own:
-                t.lose(
+                t.report_loss(
                     "link-flag",
                     f"<{tag}> is said of link '{link.name}', which became a part of "
                     f"'{t.plan.owner[link.name]}'; it would hold for all of it and is left out",
@@ -117,9 +117,9 @@ def link_extensions(node: Node, t: Translation, link: Link) -> None:
         elif tag in JOINT_KEYWORDS or tag in LUMPING_KEYWORDS:
             if link.name not in t.robot.joint:
                 text = f"<{tag}> is said of link '{link.name}', and is of joints"
-                t.lose("extension", f"{text}; it is left out", element, link)
+                t.report_loss("extension", f"{text}; it is left out", element, link)
         elif tag not in ELSEWHERE and tag not in COLLISION_KEYWORDS and tag not in IGNORED:
-            blob(node, t, element, link)
+            copy_raw_element(node, t, element, link)
 
 
 def _set_flag(node: Node, tag: str, text: str) -> None:
@@ -140,7 +140,7 @@ def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
         path, also = JOINT_KEYWORDS[tag].path, JOINT_KEYWORDS[tag].also
         if path.startswith("axis/") and node.find("axis") is None:
             text = f"<{tag}> is said of joint '{joint.name}', which has no axis; it is left out"
-            t.lose("extension", text, t.robot.extensions[joint.name][0], joint)
+            t.report_loss("extension", text, t.robot.extensions[joint.name][0], joint)
             continue
         at(node, path).text = text
         if also:
@@ -155,9 +155,9 @@ def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
                 continue  # of the link of that name
             if tag in COLLISION_KEYWORDS or tag in LINK_KEYWORDS or tag in ELSEWHERE:
                 text = f"<{tag}> is said of joint '{joint.name}', and is of links; it is left out"
-                t.lose("extension", text, element, joint)
+                t.report_loss("extension", text, element, joint)
             else:
-                blob(node, t, element, joint)
+                copy_raw_element(node, t, element, joint)
 
 
 def note_dissolved_joint(t: Translation, joint: Joint) -> None:
@@ -165,7 +165,7 @@ def note_dissolved_joint(t: Translation, joint: Joint) -> None:
     lost = [e for e in said_of(t.robot, joint) if e.tag not in (*LUMPING_KEYWORDS, *IGNORED)]
     if lost and joint.name not in t.robot.link:
         tags = ", ".join(dict.fromkeys(f"<{e.tag}>" for e in lost))
-        t.lose(
+        t.report_loss(
             "joint-extension",
             f"fixed joint '{joint.name}' became a frame, so {tags} said of it is left out",
             lost[0],
@@ -186,7 +186,7 @@ def _note_repeated(t: Translation, part: Link | Joint, table: dict[str, Keyword]
                 "count": "a whole number",
                 "flag": "true or false",
             }
-            t.lose(
+            t.report_loss(
                 "extension",
                 f"<{element.tag}> of '{part.name}' is '{value_of(element)}', not "
                 f"{wanted.get(table[element.tag].holds, 'three numbers')}; it is left out",
@@ -195,7 +195,7 @@ def _note_repeated(t: Translation, part: Link | Joint, table: dict[str, Keyword]
             )
             continue
         if seen.get(element.tag, text) != text:
-            t.lose(
+            t.report_loss(
                 "repeated",
                 f"<{element.tag}> of '{part.name}' is set twice; the last, {text}, holds",
                 element,
@@ -211,4 +211,4 @@ def _note_untouchable(t: Translation, link: Link) -> None:
     if given and not link.collisions:
         first = next(e for e in said_of(t.robot, link) if e.tag in given)
         text = f"link '{link.name}' has no collision, so its {', '.join(given)} mean nothing"
-        t.note("contact", text, first, link)
+        t.report_note("contact", text, first, link)

@@ -26,7 +26,7 @@ def in_file_axes(t: Translation, link: Link, shape: S) -> S:
     source = t.robot.source
     if not isinstance(mesh, Mesh) or not is_gltf(shape) or source is None or source.gltf_up != "y":
         return shape
-    t.note(
+    t.report_note(
         "gltf-axes",
         f"mesh '{mesh.filename}' of link '{link.name}' has Y up, and Gazebo keeps the axes of a "
         "glTF file; its pose turns it (not with --gltf-up z)",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...finding import Severity
 from ...model.elements import Link, Part
 from ...model.pose import Pose, Rotation
-from ..numbers import number_text
+from ..common.numbers import number_text
 from .mass import CLEAR, ROUNDING, lifted, shortfall, tensor_of
 from .mended import mended, moments_text
 from .plan import EXACT
@@ -41,7 +41,7 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
     add(node, "mass", number_text(mass.mass))
     if short > ROUNDING:
         tensor, how = mended(t, link.name)
-        t.lose(
+        t.report_loss(
             "inertia",
             f"link '{link.name}' has principal moments {moments_text(mass.tensor)} kg·m², which no "
             f"rigid body has: {how} to {moments_text(tensor)} kg·m²",
@@ -49,7 +49,7 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
             link,
         )
     elif short > EXACT:
-        t.lose(
+        t.report_loss(
             "inertia",
             f"link '{link.name}' has an inertia that is possible but for rounding: the largest "
             f"moment exceeds the sum of the others by {short:.2g} of itself; the nearest possible "
@@ -84,7 +84,7 @@ def _weightless(node: Node, t: Translation, link: Link, tensor: Rotation) -> Non
         tensor = (tiny, 0.0, 0.0), (0.0, tiny, 0.0), (0.0, 0.0, tiny)
     _tensor(node, tensor)
     below = any(t.robot.link[name].mass > 0 for name in t.robot.tree.descendants(link.name))
-    t.lose(
+    t.report_loss(
         "mass",
         f"link '{link.name}' has no mass{'' if below else ', nor has what hangs on it'}; a link of "
         f"SDF needs one, and gets {WEIGHTLESS:g} kg",
@@ -105,7 +105,7 @@ def _note_dissolved(t: Translation, link: Link) -> None:
             continue
         bad = member.mass > 0 and member.inertial is not None
         why = "has an inertia that no body has" if bad else "has no mass"
-        t.note(
+        t.report_note(
             "link",
             f"link '{name}' {why} and is joined to '{link.name}' by a fixed joint; it is a "
             "frame of that link, with its shapes and sensors",

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from ...finding import Severity
 from ...model.elements import Robot
-from ..actuator_config import JointSettings, read_actuator_config
-from ..numbers import number_text
-from ..written import Written
+from ..common.actuator_config import JointSettings, read_actuator_config
+from ..common.numbers import number_text
+from ..common.written import Written
 from .options import Options
 
 _TYPES = ("revolute", "continuous", "prismatic")
@@ -38,7 +38,7 @@ def joint_settings(robot: Robot, options: Options, written: Written) -> dict[str
                 f"force range of joint '{name}' is {low:g} to {high:g}; SDF gets {most} both ways"
             )
         if texts:
-            _lose(robot, name, "; ".join(texts), written)
+            _report_settings(robot, name, "; ".join(texts), written)
     return found
 
 
@@ -47,6 +47,8 @@ def effort_of(force_range: tuple[float, float] | None) -> float:
     return max(map(abs, force_range or (0.0,)))
 
 
-def _lose(robot: Robot, name: str, text: str, written: Written) -> None:
+def _report_settings(robot: Robot, name: str, text: str, written: Written) -> None:
     place = robot.joint[name].place
-    written.lose("actuator-config", text, place, kind="joint", name=name, severity=Severity.INFO)
+    written.report_loss(
+        "actuator-config", text, place, kind="joint", name=name, severity=Severity.INFO
+    )

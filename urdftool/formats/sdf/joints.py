@@ -5,9 +5,9 @@ from __future__ import annotations
 from ...finding import Severity
 from ...model.elements import Joint
 from ...model.pose import norm
-from ..actuator_config import JointSettings
+from ..common.actuator_config import JointSettings
+from ..common.numbers import number_text, numbers_text
 from ..defects import BALL_TYPES
-from ..numbers import number_text, numbers_text
 from .extensions import joint_extensions, note_dissolved_joint
 from .joint_base import axis_of, start
 from .joint_settings import effort_of
@@ -35,19 +35,19 @@ def joint(model: Node, t: Translation, part: Joint) -> None:
         text = (
             f"joint '{part.name}' is floating; in SDF '{part.child}' is a free link without a joint"
         )
-        t.note("floating", text, part, part)
-        _lose_mimic(t, part)
+        t.report_note("floating", text, part, part)
+        _report_mimic_loss(t, part)
         return
     if part.type == "planar":
         planar(model, t, part)
-        _lose_mimic(t, part)
+        _report_mimic_loss(t, part)
         return
     kind = _type(t, part)
     node = start(model, t, part, t.names.joint(part.name), kind)
     if kind in ("revolute", "prismatic"):
         _axis(node, t, part)
     elif kind == "ball":
-        _lose_mimic(t, part)
+        _report_mimic_loss(t, part)
     _note_unspoken(node, t, part)
     joint_sensors(node, t, part)
     joint_extensions(node, t, part)
@@ -56,11 +56,11 @@ def joint(model: Node, t: Translation, part: Joint) -> None:
 def _type(t: Translation, part: Joint) -> str:
     if part.has_axis and part.axis is not None and norm(part.axis.xyz) < 1e-6:
         text = f"axis of joint '{part.name}' is zero, so nothing says how it moves; it is fixed"
-        t.lose("axis", text, part.axis, part)
+        t.report_loss("axis", text, part.axis, part)
         return "fixed"
     if part.type not in SDF_TYPES:
         text = f"joint '{part.name}' has the unknown type '{part.type}'; it is fixed"
-        t.lose("joint-type", text, part, part)
+        t.report_loss("joint-type", text, part, part)
     return SDF_TYPES.get(part.type, "fixed")
 
 
@@ -88,19 +88,19 @@ def _bounds(node: Node, t: Translation, part: Joint) -> None:
     if part.type == "continuous":
         if limit is not None and (limit.lower is not None or limit.upper is not None):
             text = f"joint '{part.name}' is continuous; its lower and upper mean nothing"
-            t.note("limit", text, limit, part)
+            t.report_note("limit", text, limit, part)
         return
     if limit is None:
         text = f"joint '{part.name}' has no limits; it moves without bounds"
-        t.lose("limit", text, part, part)
+        t.report_loss("limit", text, part, part)
         return
     if limit.lower is None and limit.upper is None:
         text = f"limit of joint '{part.name}' has no bounds, which are 0 then; it cannot move"
-        t.note("limit", text, limit, part)
+        t.report_note("limit", text, limit, part)
     lower, upper = limit.lower or 0.0, limit.upper or 0.0
     if lower > upper:
         text = f"lower limit of joint '{part.name}' is above its upper limit; they are exchanged"
-        t.lose("limit", text, limit, part)
+        t.report_loss("limit", text, limit, part)
         lower, upper = upper, lower
     add(node, "lower", number_text(lower))
     add(node, "upper", number_text(upper))
@@ -119,17 +119,17 @@ def _most(node: Node, t: Translation, part: Joint) -> None:
             continue
         if value < 0:
             text = f"{name} limit of joint '{part.name}' is negative; its size is written"
-            t.lose("limit", text, limit, part)
+            t.report_loss("limit", text, limit, part)
         elif value == 0 and part.mimic is None:
             text = f"{name} limit of joint '{part.name}' is 0, so Gazebo will not move it"
-            t.note("limit", text, limit, part)
+            t.report_note("limit", text, limit, part)
         add(node, name, number_text(abs(value)))
 
 
-def _lose_mimic(t: Translation, part: Joint) -> None:
+def _report_mimic_loss(t: Translation, part: Joint) -> None:
     if part.mimic is not None:
         text = f"joint '{part.name}' is {part.type}; only an axis can mimic in SDF, so it is free"
-        t.lose("mimic", text, part.mimic, part)
+        t.report_loss("mimic", text, part.mimic, part)
 
 
 def _mimic(axis: Node, t: Translation, part: Joint) -> None:
@@ -140,10 +140,10 @@ def _mimic(axis: Node, t: Translation, part: Joint) -> None:
     can_lead = leader is not None and leader.type in ("revolute", "continuous", "prismatic")
     if not can_lead or leader is part:
         text = f"joint '{part.name}' mimics '{mimic.joint}', which does not move; it is free"
-        t.lose("mimic", text, mimic, part)
+        t.report_loss("mimic", text, mimic, part)
         return
     if not t.options.since("1.11"):
-        t.lose(
+        t.report_loss(
             "mimic",
             f"joint '{part.name}' mimics '{mimic.joint}', which SDF {t.options.sdf_version} cannot "
             "say; it is free",
@@ -166,7 +166,7 @@ def _note_unspoken(node: Node, t: Translation, part: Joint) -> None:
         element = said.element
         text = " ".join(f'{k}="{v}"' for k, v in element.attributes.items())
         comment(node, f"{element.tag} {text}")
-        t.lose(
+        t.report_loss(
             what,
             f"<{element.tag}> of joint '{part.name}' has no counterpart; it stays as a comment",
             said,

@@ -6,10 +6,10 @@ from decimal import Decimal
 
 from ...model.elements import Link, Material, Robot, Visual
 from ...source.document import Element
-from ..numbers import number_text, numbers_text
-from .blobs import blob
+from ..common.numbers import number_text, numbers_text
 from .colors import COLORS, PICTURED, Color
 from .extensions import said_of, value_of
+from .raw_sdf import copy_raw_element
 from .translation import Translation
 from .xml import Node, add
 
@@ -29,7 +29,7 @@ def material(node: Node, t: Translation, link: Link, part: Visual) -> None:
     if own.texture and not there:
         why = t.meshes.refused.get(own.texture, "it is missing")
         text = f"texture '{own.texture}' of material '{own.name}' is left out: {why}"
-        t.lose("texture", text, own, link)
+        t.report_loss("texture", text, own, link)
     if color is None and not there:
         return
     rgba = color or (1.0, 1.0, 1.0, 1.0)
@@ -62,7 +62,7 @@ def _texture(made: Node, t: Translation, link: Link, own: Material, filename: st
     if found is None:
         text = f"texture '{filename}' needs a script of Ogre beside the model; it is left out"
         hint = "write a folder, or give --uri model"
-        t.lose("texture", text, own, link, hint=hint)
+        t.report_loss("texture", text, own, link, hint=hint)
         return
     name, folders = found
     script = add(made, "script")
@@ -76,7 +76,7 @@ def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Ele
     if said.children:
         made = add(node, "material")
         for child in said.children:
-            blob(made, t, child, link)
+            copy_raw_element(made, t, child, link)
         return True
     name = value_of(said)
     if not name:
@@ -91,14 +91,14 @@ def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Ele
     if color is None:
         if first:
             text = f"material '{name}' of link '{link.name}' is a script, which gz cannot run"
-            t.lose("material", f"{text}; URDF's own colour stays", said, link)
+            t.report_loss("material", f"{text}; URDF's own colour stays", said, link)
         return False
     if first and name not in PICTURED and part.material is not None:
         text = f"link '{link.name}' has the colour of '{name}', not URDF's"
-        t.note("material", f"{text}; gz cannot run the script of that name", said, link)
+        t.report_note("material", f"{text}; gz cannot run the script of that name", said, link)
     if first and name in PICTURED:
         text = f"material '{name}' of link '{link.name}' has a picture; only its colour is written"
-        t.lose("material", text, said, link)
+        t.report_loss("material", text, said, link)
     _colored(node, color)
     return True
 

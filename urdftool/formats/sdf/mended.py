@@ -46,7 +46,7 @@ def _edges(t: Translation, name: str) -> tuple[float, float, float] | None:
     """Edges [m] of the box around what touches of a body, or else around what is seen of it."""
     import numpy as np
 
-    from ..mjcf.extent import shape_points
+    from ..common.extent import shape_points
 
     members = [t.robot.link[member] for member in t.plan.members[name]]
     for kind in ("collisions", "visuals"):

@@ -10,7 +10,7 @@ from pathlib import Path, PurePosixPath
 from ...errors import UrdftoolError
 from ...model.elements import Mesh, Robot
 from ...source.packages import own_package
-from ..copied import is_companion, is_image, why_no_mesh
+from ..common.asset_filter import explain_invalid_mesh, is_companion, is_image
 from .names import model_name
 from .options import Options
 from .scripts import SCRIPTS, TEXTURES, material_name, picture_names, plain, script
@@ -139,7 +139,7 @@ def _find(robot: Robot, name: str) -> Path | None:
 def _refusal(path: Path, *, mesh: bool) -> str:
     """Why a file is not what it is named as; empty where it is."""
     if mesh:
-        return why_no_mesh(path)
+        return explain_invalid_mesh(path)
     return "" if is_image(path) else "it is no image"
 
 

@@ -8,7 +8,6 @@ from itertools import count
 from ...model.elements import ZERO, GazeboExtension, Origin
 from ...model.read import numbers
 from ...source.document import Element
-from .blobs import blob, is_frame
 from .body_sensors import body_sensors, is_body_sensor
 from .control import control
 from .frames import frames
@@ -19,6 +18,7 @@ from .names import model_name
 from .plan import WORLD, links_of
 from .plugins import plugin
 from .pose import set_origin
+from .raw_sdf import copy_raw_element, is_frame
 from .translation import Translation
 from .xml import Node, add, copied
 
@@ -88,7 +88,7 @@ def _parts(node: Node, t: Translation) -> None:
                     node.remove(old)
                 node.insert(0, copied(node, element))
             elif element.tag not in ("static", "canonicalBody"):
-                blob(node, t, element)
+                copy_raw_element(node, t, element)
     body_sensors(node, t)
     _note_dangling(t)
 
@@ -97,9 +97,9 @@ def _closing_joint(node: Node, t: Translation, element: Element) -> None:
     """A joint of SDF in a block, which closes a loop: its links by the names they have now."""
     if why := _why_not(t, _ends(element)):
         text = f"<joint> '{element.get('name')}' of a <gazebo> block is left out: {why}"
-        t.lose("reference", text, element)
+        t.report_loss("reference", text, element)
         return
-    made = blob(node, t, element)
+    made = copy_raw_element(node, t, element)
     if made is None:
         return
     name = made.get("name") or "joint"
@@ -107,7 +107,7 @@ def _closing_joint(node: Node, t: Translation, element: Element) -> None:
     if name in taken:
         new = next(f"{name}_{number}" for number in count(2) if f"{name}_{number}" not in taken)
         made.set("name", new)
-        t.lose(
+        t.report_loss(
             "name",
             f"<joint> '{name}' of a <gazebo> block is '{new}' in SDF, since the name is taken",
             element,
@@ -145,7 +145,7 @@ def _note_dangling(t: Translation) -> None:
         if name and name not in t.robot.link and name not in t.robot.joint:
             shapes = {s.name: link for link, s in t.robot.shapes if s.name}
             of = f"; it is a shape of link '{shapes[name].name}'" if name in shapes else ""
-            t.lose(
+            t.report_loss(
                 "reference",
                 f"<gazebo> refers to '{name}', which is no link and no joint{of}; it is left out",
                 block,
@@ -167,7 +167,7 @@ def _note_world(t: Translation) -> None:
     ]
     if has:
         text = f"the root link is the world itself, so its {' and '.join(has)} are left out"
-        t.lose("world", text, world, world)
+        t.report_loss("world", text, world, world)
 
 
 def _note_frames(t: Translation) -> None:
@@ -177,4 +177,4 @@ def _note_frames(t: Translation) -> None:
             text = (
                 f"link '{name}' is a part of '{t.plan.owner[name]}' now, and SDF 1.6 has no frames"
             )
-            t.note("frame", f"{text}; its name is gone", link_, link_)
+            t.report_note("frame", f"{text}; its name is gone", link_, link_)

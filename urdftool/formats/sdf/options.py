@@ -6,7 +6,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..mended import FixInertia
+from ..common.inertia_repair import FixInertia
 
 VERSIONS: dict[str, tuple[str, ...]] = {
     "gz": ("1.9", "1.10", "1.11", "1.12"),

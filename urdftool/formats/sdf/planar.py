@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...model.elements import Joint, Vector
 from ...model.pose import cross, norm
-from ..numbers import number_text, numbers_text
+from ..common.numbers import number_text, numbers_text
 from .inertials import WEIGHTLESS
 from .joint_base import axis_of, start
 from .pose import set_pose
@@ -18,7 +18,7 @@ def planar(model: Node, t: Translation, part: Joint) -> None:
     ``NAME_x`` and ``NAME_y`` slide along the plane, ``NAME`` turns about the axis, its normal.
     """
     name = t.names.joint(part.name)
-    t.lose(
+    t.report_loss(
         "planar",
         f"joint '{part.name}' is planar; '{name}_x' and '{name}_y' slide, and '{name}' turns",
         part,

@@ -17,7 +17,7 @@ from ...model.gazebo_plugins import (
 from ...model.pose import Pose, rotation_of_rpy, rpy_of_rotation
 from ...model.read import numbers
 from ...source.document import Element
-from ..numbers import numbers_text
+from ..common.numbers import numbers_text
 from .translation import Translation
 from .xml import Node, add, at, comment, copied, spoken
 
@@ -32,11 +32,13 @@ def plugin(node: Node, t: Translation, element: Element) -> None:
     name = library(element)
     if not name:
         comment(node, spoken(element))
-        _lose(t, element, "names no library; it stays as a comment")
+        _report_plugin(t, element, "names no library; it stays as a comment")
     elif t.options.classic:
         _kept(node, t, element)
         if is_for_gz(element):
-            _lose(t, element, "is one of gz, which Gazebo Classic cannot load; it stays as it is")
+            _report_plugin(
+                t, element, "is one of gz, which Gazebo Classic cannot load; it stays as it is"
+            )
     elif name in CONTROL_PLUGINS:
         _control(node, t, element)
     elif name in MIMIC_PLUGINS:
@@ -48,9 +50,9 @@ def plugin(node: Node, t: Translation, element: Element) -> None:
         _kept(node, t, element)
         if name in SENSOR_PLUGINS:
             where = "and is neither in one nor names a link or joint of SDF; it stays as it is"
-            _lose(t, element, f"is of a sensor, {where}")
+            _report_plugin(t, element, f"is of a sensor, {where}")
         elif is_for_classic(element):
-            _lose(
+            _report_plugin(
                 t, element, "is one of Gazebo Classic without a successor in gz; it stays as it is"
             )
 
@@ -108,7 +110,7 @@ def _system(node: Node, t: Translation, element: Element, system: System) -> Non
         text += f"; it has no {', '.join(left)}"
     if system.missing:
         text += f"; fill in {', '.join(system.missing)}"
-    (t.lose if left or system.missing else t.note)("plugin", text, element)
+    (t.report_loss if left or system.missing else t.report_note)("plugin", text, element)
 
 
 def _control(node: Node, t: Translation, element: Element) -> None:
@@ -133,7 +135,7 @@ def _control(node: Node, t: Translation, element: Element) -> None:
     said = bool(t.robot.ros2_controls)
     needs = "" if said else "; it needs a <ros2_control> in robot_description, which there is not"
     text = f"plugin '{library(element)}' is '{names['filename']}' in gz{needs}"
-    (t.note if said else t.lose)("plugin", text, element)
+    (t.report_note if said else t.report_loss)("plugin", text, element)
 
 
 def _mimic(node: Node, t: Translation, element: Element) -> None:
@@ -142,15 +144,15 @@ def _mimic(node: Node, t: Translation, element: Element) -> None:
     name = follower.text.strip() if follower is not None else ""
     joint = t.robot.joint.get(name)
     if joint is not None and joint.mimic is not None and t.options.since("1.11"):
-        t.note(
+        t.report_note(
             "plugin", f"plugin '{library(element)}' is <mimic> of joint '{name}' in SDF", element
         )
         return
     _kept(node, t, element)
-    _lose(
+    _report_plugin(
         t, element, f"has no successor in gz, and joint '{name}' has no <mimic>; it stays as it is"
     )
 
 
-def _lose(t: Translation, element: Element, what: str) -> None:
-    t.lose("plugin", f"plugin '{library(element) or element.get('name')}' {what}", element)
+def _report_plugin(t: Translation, element: Element, what: str) -> None:
+    t.report_loss("plugin", f"plugin '{library(element) or element.get('name')}' {what}", element)

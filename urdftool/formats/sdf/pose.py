@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...model.elements import Origin
 from ...model.pose import Pose, rotation_of_quaternion, rpy_of_rotation
-from ..numbers import numbers_text
+from ..common.numbers import numbers_text
 from .xml import Node, add
 
 

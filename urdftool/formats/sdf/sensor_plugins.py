@@ -31,7 +31,7 @@ def sensor_plugin(made: Node, t: Translation, part: Link | Joint, element: Eleme
     frame = next((settings[tag] for tag in known.frame if tag in settings), "")
     _name_frame(made, t, part, element, frame)
     on = f" on topic '{topic}'" if topic else ""
-    t.note(
+    t.report_note(
         "plugin",
         f"plugin '{name}' is not needed in gz: sensor '{made.get('name')}' publishes{on} itself, "
         f"where the world has gz-sim-{known.system}-system; ros_gz_bridge brings it to ROS",
@@ -62,7 +62,7 @@ def _name_frame(
         if camera.find("optical_frame_id") is None:
             add(camera, "optical_frame_id", frame)
     else:
-        t.lose(
+        t.report_loss(
             "frame-id",
             f"messages of sensor '{made.get('name')}' are in frame '{frame}', which SDF "
             f"{t.options.sdf_version} cannot say; in gz their frame is MODEL/LINK/SENSOR",

@@ -7,10 +7,10 @@ from copy import deepcopy
 from ...finding import Severity
 from ...model.elements import Joint, Link
 from ...source.document import Element
-from .blobs import blob, move, rename_frames
 from .extensions import said_of
 from .imu import imu_noise
 from .plugins import plugin
+from .raw_sdf import copy_raw_element, move_to_owner, rename_frames
 from .sensor_plugins import sensor_plugin
 from .sensor_types import KNOWN, TO_CLASSIC, TO_GZ
 from .shape_names import shape_names
@@ -28,10 +28,10 @@ def sensors(node: Node, t: Translation, link: Link) -> None:
                 text = (
                     f"force_torque sensor '{element.get('name')}' is said of link '{link.name}'; "
                 )
-                t.lose("sensor", text + "it senses joints, and is left out", element, link)
+                t.report_loss("sensor", text + "it senses joints, and is left out", element, link)
                 continue
             for made in _made(node, t, link, element):
-                move(made, t, link)
+                move_to_owner(made, t, link)
 
 
 def joint_sensors(node: Node, t: Translation, joint: Joint) -> None:
@@ -47,16 +47,16 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
     kind = (element.get("type") or "").strip()
     if kind not in KNOWN:
         text = f"sensor '{element.get('name')}' is of no type that Gazebo has; it is left out"
-        t.lose("sensor", text, element, part)
+        t.report_loss("sensor", text, element, part)
         return []
     types = TO_CLASSIC if t.options.classic else TO_GZ
-    made = blob(node, t, element, about=None)
+    made = copy_raw_element(node, t, element, about=None)
     assert made is not None  # a link and a joint may have sensors
     imu_noise(made, element)
     _name_once(node, t, part, made, element)
     other = types.get(kind)
     if other is not None and not other.type:
-        t.lose(
+        t.report_loss(
             "sensor",
             f"sensor '{element.get('name')}' is of type '{kind}', which {t.options.target} does "
             "not have; it stays as it is",
@@ -70,7 +70,7 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
                 holder.tag = new
         note = f" ({other.note})" if other.note else ""
         text = f"sensor '{element.get('name')}' of type '{kind}' is of type '{other.type}'{note}"
-        t.note("sensor", text, element, part)
+        t.report_note("sensor", text, element, part)
     _plugins(made, t, part, element)
     _contacts(made, t, part, element)
     if kind == "multicamera" and not t.options.classic:
@@ -87,7 +87,9 @@ def _name_once(
     new = next(n for n in (name, *(f"{name}_{i}" for i in range(2, 1000))) if n not in taken)
     if new != made.get("name"):
         made.set("name", new)
-        t.lose("name", f"sensor '{name}' is '{new}' in SDF, since the name is taken", element, part)
+        t.report_loss(
+            "name", f"sensor '{name}' is '{new}' in SDF, since the name is taken", element, part
+        )
 
 
 def _plugins(made: Node, t: Translation, part: Link | Joint, element: Element) -> None:
@@ -132,7 +134,7 @@ def _contacts(made: Node, t: Translation, part: Link | Joint, element: Element) 
             if short in by_link:
                 tag.text = by_link[short]
                 continue
-            t.lose(
+            t.report_loss(
                 "contact-sensor",
                 f"contact sensor '{element.get('name')}' watches collision '{name}', which link "
                 f"'{part.name}' does not have",

@@ -19,7 +19,7 @@ from ...model.elements import (
 )
 from ...model.mesh_formats import READ_BY
 from ...model.pose import IDENTITY, pose_of
-from ..numbers import number_text, numbers_text
+from ..common.numbers import number_text, numbers_text
 from .pose import set_origin, set_pose
 from .translation import Translation
 from .xml import Node, add
@@ -49,7 +49,7 @@ def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
             what = f"has <{geometry.element.tag}>, which cannot be written"
         else:
             what = f"has a <{geometry.element.tag}> without extent"
-        t.lose(
+        t.report_loss(
             "shape",
             f"a {shape.element.tag} of link '{link.name}' {what}; it is left out",
             geometry or shape,
@@ -57,7 +57,7 @@ def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
         )
         return False
     if isinstance(geometry, Mesh) and not t.meshes.known(geometry):
-        t.lose(
+        t.report_loss(
             "mesh",
             f"mesh '{geometry.filename}' of link '{link.name}' is "
             f"{'no mesh' if geometry.filename in t.meshes.refused else 'missing'}; the "
@@ -77,7 +77,7 @@ def _check_format(t: Translation, link: Link, mesh: Mesh) -> None:
     name = mesh.filename.rpartition("/")[2]
     if name.rpartition(".")[2].lower() not in known:
         reader = "Gazebo Classic" if t.options.classic else "gz"
-        t.lose(
+        t.report_loss(
             "mesh-format",
             f"mesh '{mesh.filename}' of link '{link.name}' is a format that {reader} does not read",
             mesh,

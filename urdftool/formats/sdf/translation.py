@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from ...finding import Severity
 from ...model.elements import Joint, Link, Part, Robot
 from ...source.document import Element
-from ..actuator_config import JointSettings
-from ..written import Written
+from ..common.actuator_config import JointSettings
+from ..common.written import Written
 from .mesh_files import MeshFiles
 from .names import Names
 from .options import Options
@@ -28,7 +28,7 @@ class Translation:
     written: Written
     settings: Mapping[str, JointSettings] = field(default_factory=dict)
 
-    def lose(
+    def report_loss(
         self,
         what: str,
         message: str,
@@ -38,15 +38,15 @@ class Translation:
         severity: Severity = Severity.WARNING,
         hint: str = "",
     ) -> None:
-        """Say what could not be carried, and of which link or joint."""
+        """Report what SDF does not carry, and of which link or joint."""
         kind = "" if about is None else "link" if isinstance(about, Link) else "joint"
         name = "" if about is None else about.name
-        self.written.lose(
+        self.written.report_loss(
             what, message, at.place, kind=kind, name=name, severity=severity, hint=hint
         )
 
-    def note(
+    def report_note(
         self, what: str, message: str, at: Part | Element, about: Link | Joint | None = None
     ) -> None:
-        """Say what is different, where the robot behaves the same."""
-        self.lose(what, message, at, about, severity=Severity.INFO)
+        """Report a difference after which the robot behaves the same."""
+        self.report_loss(what, message, at, about, severity=Severity.INFO)

@@ -22,7 +22,7 @@ def visual(node: Node, t: Translation, link: Link, part: Visual, name: str) -> N
     set_place(made, t, link, part.origin)
     shape = part.geometry
     if isinstance(shape, Capsule) and not t.options.since("1.8"):
-        t.lose(
+        t.report_loss(
             "capsule",
             f"SDF {t.options.sdf_version} has no capsule; a cylinder of its full length is seen",
             shape,

@@ -9,13 +9,13 @@ from lxml import etree
 
 from ...finding import Finding
 from ...model.elements import Robot
+from ..common.directory import mark
+from ..common.force_fallbacks import FATAL, INSTEAD, drop_invalid_parts, tree_defects
+from ..common.written import Written
 from ..defects import FATAL as STRUCTURAL
 from ..defects import refuse
-from ..directory import mark
-from ..written import Written
 from .config import config
 from .defects import inertia_defects, mesh_defects, written_defects
-from .forced import FATAL, INSTEAD, left_of, tree_defects
 from .joint_settings import joint_settings
 from .mesh_files import find_meshes
 from .model import model
@@ -41,7 +41,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         Refused: Its defects forbid it; the message has a place, and the findings are with it.
     """
     options = options or Options()
-    left = left_of(robot)
+    left = drop_invalid_parts(robot)
     found = [*tree_defects(robot, left, options.force), *written_defects(robot)]
     if options.force:
         robot = left
@@ -105,14 +105,14 @@ def _note_names(t: Translation) -> None:
         both = old in t.robot.link and old in t.robot.joint
         why = "a joint has that name too" if both else "SDF does not allow the name"
         text = f"{kind} '{old}' is '{new}' in SDF, since {why}"
-        t.lose("name", text, part, part)
+        t.report_loss("name", text, part, part)
 
 
 def _note_forced(t: Translation, found: list[Finding]) -> None:
     """Say which defects were passed; what stands in their place is said where it was written."""
     for finding in found:
         instead = INSTEAD.get(finding.rule)
-        t.written.lose(
+        t.written.report_loss(
             finding.rule,
             finding.message,
             finding.place,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ...formats.mjcf.extent import shape_points
+from ...formats.common.extent import shape_points
 from ...model.elements import Box, Capsule, Cylinder, Geometry, Mesh, Robot, Sphere, Visual
 from ...model.pose import Pose, pose_of
 from ..extent import bounding_box, shape_corners

@@ -12,8 +12,8 @@ import numpy as np
 from ....model.elements import Robot
 from ....model.load import read_again
 from ...check import Check
-from ...written import Written
-from ..forced import left_of
+from ...common.force_fallbacks import drop_invalid_parts
+from ...common.written import Written
 from ..options import Options
 from ..write import write
 from .dynamics import centroidal, mass_matrix, poses
@@ -88,7 +88,7 @@ def verify(robot: Robot, written: Written, options: Options, output: str | Path)
     place = Path(output) if options.file else Path(output) / written.main
     anew = read_again(robot)
     try:
-        pair = pair_of(left_of(anew) if options.force else anew, written, place, options)
+        pair = pair_of(drop_invalid_parts(anew) if options.force else anew, written, place, options)
     except (ElementTree.ParseError, OSError, LookupError, StopIteration, ValueError) as error:
         return [Check("file", "can be read back", 0.0, differing=[f"{place}: {error!r}"])]
     checks = compare(pair)
@@ -149,10 +149,10 @@ def _tree(pair: Pair) -> Check:
     expected = [joint for joint in pair.source.joints if joint.kind not in ("fixed", "free")]
     for joint in expected:
         other = made.pop(pair.joint(joint.name), None)
-        text = _tree_difference(pair, joint, other)
+        aspect, text = _tree_difference(pair, joint, other)
         if text:
             excused = joint.name in pair.excuses.motion or (
-                text.startswith("leader") and joint.name in pair.excuses.mimic
+                aspect == "mimic" and joint.name in pair.excuses.mimic
             )
             (check.announced if excused else check.differing).append(f"{joint.name}: {text}")
     planar = {f"{name}{end}" for name in pair.excuses.motion for end in ("_x", "_y")}
@@ -164,20 +164,21 @@ def _tree(pair: Pair) -> Check:
     return check
 
 
-def _tree_difference(pair: Pair, joint: Hinge, other: Hinge | None) -> str:
+def _tree_difference(pair: Pair, joint: Hinge, other: Hinge | None) -> tuple[str, str]:
+    """Compare a joint with its counterpart: which aspect differs, and how; empty if none does."""
     if other is None:
-        return "is missing"
+        return "joint", "is missing"
     if joint.kind != other.kind:
-        return f"is {other.kind}, not {joint.kind}"
+        return "kind", f"is {other.kind}, not {joint.kind}"
     for end in ("parent", "child"):
         name = getattr(joint, end)
         body = _body_of(pair, name)
         if body != getattr(other, end):
-            return f"its {end} is '{getattr(other, end)}', not '{name}'"
-    said = joint.mimic and (pair.joint(joint.mimic[0]), *joint.mimic[1:])
-    if said != other.mimic:
-        return f"leader, multiplier and offset are {other.mimic}, not {said}"
-    return ""
+            return end, f"its {end} is '{getattr(other, end)}', not '{name}'"
+    expected = joint.mimic and (pair.joint(joint.mimic[0]), *joint.mimic[1:])
+    if expected != other.mimic:
+        return "mimic", f"leader, multiplier and offset are {other.mimic}, not {expected}"
+    return "", ""
 
 
 def _body_of(pair: Pair, link: str) -> str:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from ....finding import Finding, Severity
 from ....model.elements import Joint, Robot
+from ...common.losses import DeclaredLosses
 
 MASS = frozenset(("lossy-inertia", "lossy-mass", "lossy-world", "lossy-negative-mass"))
 MOTION = frozenset(("lossy-axis", "lossy-joint-type", "lossy-planar"))
@@ -41,7 +42,7 @@ class Excuses:
         mimic: Joints that follow otherwise.
         shapes: Links with other shapes.
         colors: Links with other colours.
-        said: Every loss, as its rule and the name of the link or joint it is of.
+        declared: Every loss that changes how the robot behaves.
     """
 
     heavy: set[str] = field(default_factory=set)
@@ -52,11 +53,7 @@ class Excuses:
     mimic: set[str] = field(default_factory=set)
     shapes: set[str] = field(default_factory=set)
     colors: set[str] = field(default_factory=set)
-    said: set[tuple[str, str]] = field(default_factory=set)
-
-    def of(self, rules: Iterable[str], *names: str) -> bool:
-        """Whether one of some rules was announced of one of some names."""
-        return any((rule, name) in self.said for rule in rules for name in names)
+    declared: DeclaredLosses = field(default_factory=DeclaredLosses)
 
 
 def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
@@ -64,12 +61,13 @@ def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
     blocks = (block.element for block in robot.gazebo if not block.reference)
     more = any(block.child(tag) for block in blocks for tag in ("link", "model", "include"))
     made = Excuses(massy=more)
+    declared: set[tuple[str, str]] = set()
     for loss in losses:
         rule, name = loss.rule, loss.name
         if loss.severity > Severity.INFO:  # with a note the robot behaves the same
-            made.said.add((rule, name))
+            declared.add((rule, name))
             if rule in BLOCKS and not name:
-                made.said |= {(rule, block) for block in _blocks_at(robot, loss)}
+                declared |= {(rule, block) for block in _blocks_at(robot, loss)}
         if rule in MASS:
             made.massy = True
             made.heavy |= {joint.name for joint in _above(robot, name)}
@@ -92,6 +90,7 @@ def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
             made.shapes.add(name)
         if rule in COLORS:
             made.colors.add(name)
+    made.declared = DeclaredLosses(frozenset(declared))
     return made
 
 

@@ -42,14 +42,14 @@ def compare_base(pair: Pair) -> Check:
     for tag in ("placement_frame",):
         if model.get(tag):
             found[tag] = value_of(model.get(tag))
-    known = pair.excuses.of(BLOCKS, "")
+    known = pair.excuses.declared.of(BLOCKS, "")
     compare_facts(check, "the model", found, expected, known=known)
     off = float(np.abs(read_pose(model) - _place(pair)).max())
     check.compare(off, "the model is elsewhere", known=known)
     for link, node in own_links(pair):
         flags = {k: v for k, v in flags_said(pair.robot, link).items() if k == "kinematic"}
         said = {k: v for k, v in facts_of(node).items() if k == "kinematic"}
-        excused = pair.excuses.of(BLOCKS, link.name)
+        excused = pair.excuses.declared.of(BLOCKS, link.name)
         compare_facts(check, f"link '{link.name}'", said, flags, known=excused)
     _compare_held(pair, check)
     return check
@@ -110,7 +110,7 @@ def compare_flags(pair: Pair) -> Check:
     for link, element in own_links(pair):
         expected = {k: v for k, v in flags_said(pair.robot, link).items() if k in tags}
         found = {k: v for k, v in facts_of(element).items() if k in tags}
-        known = pair.excuses.of(BLOCKS, link.name)
+        known = pair.excuses.declared.of(BLOCKS, link.name)
         compare_facts(check, f"link '{link.name}'", found, expected, known=known)
     return check
 
@@ -129,6 +129,6 @@ def compare_joint_physics(pair: Pair) -> Check:
         found = facts_of(element, without=("pose", "parent", "child", "sensor", "plugin"))
         found = {k: v for k, v in found.items() if k not in NUMBERS and "/mimic" not in k}
         expected = {k: v for k, v in expected.items() if k not in NUMBERS}
-        known = pair.excuses.of(BLOCKS, joint.name)
+        known = pair.excuses.declared.of(BLOCKS, joint.name)
         compare_facts(check, f"joint '{joint.name}'", found, expected, known=known)
     return check

@@ -41,12 +41,14 @@ def compare_others(pair: Pair) -> Check:
     left = list(_written(pair))
     for owner, name, element in _expected(pair):
         about = f"<{element.tag}> of '{name}'" if name else f"<{element.tag}>"
-        known = pair.excuses.of(BLOCKS, name)
+        known = pair.excuses.declared.of(BLOCKS, name)
         alike = [one for one in left if one[0] == owner and one[1].tag == element.tag]
         wanted = facts_of(element, without=("pose",))
         alike.sort(key=lambda one: _unlike(one[1], wanted))
         if not alike:
-            check.compare(np.inf, f"{about} is missing", known=known or pair.excuses.of(BLOCKS, ""))
+            check.compare(
+                np.inf, f"{about} is missing", known=known or pair.excuses.declared.of(BLOCKS, "")
+            )
             continue
         left.remove(alike[0])
         found = facts_of(alike[0][1], without=("pose",))
@@ -132,7 +134,7 @@ def _compare_loops(pair: Pair, check: Check) -> None:
         if block.tag != "joint":
             continue
         name = block.get("name") or ""
-        known = pair.excuses.of(BLOCKS, "")
+        known = pair.excuses.declared.of(BLOCKS, "")
         names = [n for n in elements if n not in own and (n == name or n.startswith(f"{name}_"))]
         if not names:
             check.compare(np.inf, f"joint '{name}' of a loop is missing", known=known)

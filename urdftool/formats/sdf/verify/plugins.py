@@ -70,7 +70,7 @@ def compare_plugins(pair: Pair) -> Check:
         left.remove(alike[0])
         if owner != wanted.owner:
             # of sensors of one name in one link all but one get another
-            renamed = any(rule == "lossy-name" for rule, _ in pair.excuses.said)
+            renamed = pair.excuses.declared.any("lossy-name")
             known = renamed and owner.startswith(f"{wanted.owner}_")
             check.compare(np.inf, f"{about} is in '{owner}'", known=known)
         if wanted.name and element.get("name") != wanted.name:

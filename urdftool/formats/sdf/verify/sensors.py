@@ -73,7 +73,7 @@ def compare_sensors(pair: Pair) -> Check:
     here = poses(pair.source, {}, pair.source.in_order())
     for sensor in expected_sensors(pair):
         part = sensor.part
-        known = pair.excuses.of(RESTING, part.name)
+        known = pair.excuses.declared.of(RESTING, part.name)
         about = f"sensor '{sensor.name}' of '{part.name}'"
         element = _find(pair, sensor, left)
         if element is None:

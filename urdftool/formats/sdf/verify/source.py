@@ -25,7 +25,7 @@ from ....model.elements import (
     Visual,
 )
 from ....model.gltf_axes import is_gltf
-from ...actuator_config import JointSettings, read_actuator_config
+from ...common.actuator_config import JointSettings, read_actuator_config
 from .mechanism import Array, Body, Hinge, Mechanism, Shape, by_quaternion, matrix, turned
 
 KINDS = {

@@ -38,12 +38,12 @@ def compare_contact(pair: Pair) -> Check:
         link = pair.robot.link[source.link]
         expected, found = surface_said(pair.robot, link), _collision_facts(made)
         about = f"collision '{made.part.get('name')}' of '{source.link}'"
-        known = pair.excuses.of(BLOCKS, source.link)
+        known = pair.excuses.declared.of(BLOCKS, source.link)
         compare_facts(check, about, _only(found, MASKS), _only(expected, MASKS), known=known)
     for link, element in own_links(pair):
         flags = _only(flags_said(pair.robot, link), ("self_collide",))
         found = _only(facts_of(element), ("self_collide",))
-        known = pair.excuses.of(BLOCKS, link.name)
+        known = pair.excuses.declared.of(BLOCKS, link.name)
         compare_facts(check, f"link '{link.name}'", found, flags, known=known)
     return check
 
@@ -56,7 +56,7 @@ def compare_surface(pair: Pair) -> Check:
         link = pair.robot.link[source.link]
         expected = surface_said(pair.robot, link)
         about = f"collision '{made.part.get('name')}' of '{source.link}'"
-        known = pair.excuses.of(BLOCKS, source.link)
+        known = pair.excuses.declared.of(BLOCKS, source.link)
         found = _without(_collision_facts(made), MASKS)
         compare_facts(check, about, found, _without(expected, MASKS), known=known)
     return check
@@ -68,7 +68,7 @@ def compare_looks(pair: Pair) -> Check:
     for source, made in matched(pair, "visuals"):
         link = pair.robot.link[source.link]
         about = f"visual '{made.part.get('name')}' of '{source.link}'"
-        known = pair.excuses.of(BLOCKS, source.link) or source.link in pair.excuses.colors
+        known = pair.excuses.declared.of(BLOCKS, source.link) or source.link in pair.excuses.colors
         found = facts_of(made.part, without=("geometry", "pose"))
         expected = _look(pair, link, source)
         compare_facts(

@@ -28,7 +28,7 @@ INSTEAD = {
 """What stands in the place of each error that can be passed, where a table can say it."""
 
 
-def left_of(robot: Robot) -> Robot:
+def drop_invalid_parts(robot: Robot) -> Robot:
     """The robot without links and joints that nothing can refer to or that refer to nothing.
 
     Args:

@@ -1,18 +1,20 @@
-"""What an exporter gives back: files, and what could not be carried."""
+"""The result of a writer: files, and the losses of the export."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ..finding import Finding, Severity
-from ..source.location import Place
-from .check import Check
+from ...finding import Finding, Severity
+from ...source.location import Place
+from ..check import Check
+from .losses import Loss
 
 
 @dataclass
 class Written:
-    """A robot in another language, not yet on disk.
+    """A robot in another format, not yet on disk.
 
     Attributes:
         files: Content by path relative to the output: bytes, or a file to copy.
@@ -38,7 +40,7 @@ class Written:
         content = self.files[self.main]
         return (content if isinstance(content, bytes) else content.read_bytes()).decode("utf-8")
 
-    def lose(
+    def report_loss(
         self,
         what: str,
         message: str,
@@ -48,18 +50,21 @@ class Written:
         name: str = "",
         severity: Severity = Severity.WARNING,
         hint: str = "",
+        data: Mapping[str, object] | None = None,
     ) -> None:
-        """Say what could not be carried.
+        """Add a loss to the record.
 
         Args:
-            what: The name of the loss after ``lossy-``, such as ``mimic``.
+            what: The code of the loss after ``lossy-``, such as ``mimic``.
             message: A sentence: what is lost, and what stands in its place.
             place: Where it is written in the source.
             kind: ``link``, ``joint``, …
             name: The name of that link or joint.
             severity: ``INFO`` where the robot behaves the same in the target.
             hint: What would carry it.
+            data: The values of the loss by name, for code that reads it.
         """
-        self.losses.append(
-            Finding(f"lossy-{what}", severity, message, place, kind, name, hint=hint)
+        loss = Loss(
+            f"lossy-{what}", severity, message, place, kind, name, hint=hint, data=dict(data or {})
         )
+        self.losses.append(loss)

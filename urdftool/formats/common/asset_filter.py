@@ -12,8 +12,8 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
-from ..errors import MeshError
-from ..meshes.facts import is_lfs_pointer, stl_facts
+from ...errors import MeshError
+from ...meshes.facts import is_lfs_pointer, stl_facts
 
 _HEAD = 65536
 _TGA_KINDS = (1, 2, 3, 9, 10, 11)
@@ -26,7 +26,7 @@ _FACE = re.compile(rb"(?m)^\s*f[ \t]+[-\d]")
 _MATERIAL = re.compile(rb"(?m)^\s*newmtl\s")
 
 
-def why_no_mesh(path: Path) -> str:
+def explain_invalid_mesh(path: Path) -> str:
     """Why a file is no mesh of the format that its name says; empty where it is one."""
     suffix = path.suffix.lower()
     looks = _MESHES.get(suffix)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from ..errors import SourceError
-from ..model.elements import Robot
+from ...errors import SourceError
+from ...model.elements import Robot
 
 
-def why_missing(robot: Robot, filename: str) -> tuple[str, str]:
+def explain_missing_file(robot: Robot, filename: str) -> tuple[str, str]:
     """What is wrong with the name of a file that is not found, and what would help.
 
     Args:

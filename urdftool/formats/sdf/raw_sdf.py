@@ -30,7 +30,7 @@ BEFORE_SDF = frozenset(
 """Prefixes of Gazebo's own XML before there was SDF, which nothing reads any more."""
 
 
-def blob(
+def copy_raw_element(
     node: Node, t: Translation, element: Element, about: Link | Joint | None = None
 ) -> Node | None:
     """Copy an element of a block, if SDF has it; what SDF has not becomes a comment.
@@ -45,22 +45,22 @@ def blob(
         The copy; None where it is not SDF.
     """
     if not _is_known(str(node.tag), element):
-        _lose(node, t, element, about)
+        _keep_as_comment(node, t, element, about)
         return None
     if element.tag in NAMED and not (element.get("name") or "").strip():
         text = f"<{element.tag}> of a <gazebo> block has no name; it is left out"
-        t.lose("element", text, element, about)
+        t.report_loss("element", text, element, about)
         return None
     if wanted(element):
         text = f"<{element.tag}> is '{element.text.strip()}', not {wanted(element)}"
-        t.lose("extension", f"{text}; it is left out", element, about)
+        t.report_loss("extension", f"{text}; it is left out", element, about)
         return None
     made = copied(node, element)
-    prune(made, t, element, about)
+    remove_invalid(made, t, element, about)
     if element.tag in ("light", "projector"):
         _name_once(node, made)
     if isinstance(about, Link) and element.tag in PLACED:
-        move(made, t, about)
+        move_to_owner(made, t, about)
     return made
 
 
@@ -81,7 +81,9 @@ def _is_known(parent: str, element: Element) -> bool:
     return known is None or element.tag in known or element.tag in DE_FACTO
 
 
-def prune(made: Node, t: Translation, element: Element, about: Link | Joint | None) -> None:
+def remove_invalid(
+    made: Node, t: Translation, element: Element, about: Link | Joint | None
+) -> None:
     """Take out what is not SDF, or not a value that it could have.
 
     Args:
@@ -100,19 +102,21 @@ def prune(made: Node, t: Translation, element: Element, about: Link | Joint | No
             text = (
                 f"<{source.tag}> of <{made.tag}> is '{source.text.strip()}', not {wanted(source)}"
             )
-            t.lose("extension", f"{text}; it is left out", source, about)
+            t.report_loss("extension", f"{text}; it is left out", source, about)
         elif _is_known(element.tag, source):
-            prune(child, t, source, about)
+            remove_invalid(child, t, source, about)
         else:
-            _lose(made, t, source, about)
+            _keep_as_comment(made, t, source, about)
             made.replace(child, made[-1])
 
 
-def _lose(node: Node, t: Translation, element: Element, about: Link | Joint | None) -> None:
+def _keep_as_comment(
+    node: Node, t: Translation, element: Element, about: Link | Joint | None
+) -> None:
     """Keep what is not SDF as a comment, the last child, and say so."""
     comment(node, spoken(element))
     what = f"<{element.tag}>"
-    t.lose(
+    t.report_loss(
         "element",
         f"{what} in <{node.tag}> is no element of SDF; it stays as a comment",
         element,
@@ -120,7 +124,7 @@ def _lose(node: Node, t: Translation, element: Element, about: Link | Joint | No
     )
 
 
-def move(made: Node, t: Translation, link: Link) -> None:
+def move_to_owner(made: Node, t: Translation, link: Link) -> None:
     """Let the pose of something in a link mean the same in the link's owner."""
     rename_frames(made, t, link)
     pose = made.find("pose")
@@ -154,7 +158,9 @@ def rename_frames(node: Node, t: Translation, part: Link | Joint) -> None:
         if not is_frame(t, frame):
             del pose.attrib["relative_to"]
             text = f"a pose of <{node.tag}> '{node.get('name')}' is relative to '{frame}'"
-            t.lose("reference", f"{text}, which does not exist; that is left out", part, part)
+            t.report_loss(
+                "reference", f"{text}, which does not exist; that is left out", part, part
+            )
         elif ("link", frame) in t.names.renamed:
             pose.set("relative_to", t.names.link(frame))
 

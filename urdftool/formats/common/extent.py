@@ -21,7 +21,7 @@ from ...model.elements import (
     Visual,
 )
 from ...model.pose import pose_of
-from .inertia import Array
+from ..mjcf.inertia import Array
 
 
 def link_size(robot: Robot, link: Link) -> Array | None:

@@ -23,8 +23,8 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
-from ..errors import ConfigError
-from ..suggestions import did_you_mean
+from ...errors import ConfigError
+from ...suggestions import did_you_mean
 
 KEYS = ("kp", "kd", "armature", "damping", "friction", "force-range", "type")
 TYPES = ("position", "velocity", "motor")

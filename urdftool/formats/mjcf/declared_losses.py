@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
-
-from ...finding import Finding
-
 INERTIA = (
     "lossy-inertia", "lossy-massless", "lossy-point-mass", "lossy-world-mass", "negative-mass",
     "inertia-triangle-inequality",
@@ -57,23 +52,3 @@ NOT_COMPARED = (
     "comments",
 )
 """What a model holds and no row compares."""
-
-
-@dataclass(frozen=True)
-class Said:
-    """The losses of an export: pairs of what was lost, and the name of what it was of."""
-
-    losses: frozenset[tuple[str, str]]
-
-    @classmethod
-    def by(cls, findings: Iterable[Finding]) -> Said:
-        """The losses among findings."""
-        return cls(frozenset((finding.rule, finding.name) for finding in findings))
-
-    def any(self, *rules: str) -> bool:
-        """Whether one of these was lost anywhere."""
-        return any(rule in rules for rule, _ in self.losses)
-
-    def of(self, rules: Iterable[str], *names: str) -> bool:
-        """Whether one of these was lost of a thing with one of these names."""
-        return any((rule, name) in self.losses for rule in rules for name in names)

@@ -13,10 +13,10 @@ from collections.abc import Iterable, Mapping
 from hashlib import sha256
 from pathlib import Path
 
-from .. import __version__
-from ..errors import OutputError
-from ..output import check_folder
-from ..storage import write_files, write_folder
+from ... import __version__
+from ...errors import OutputError
+from ...output import check_folder
+from ...storage import write_files, write_folder
 from .written import Written
 
 _MARK = re.compile(rb"<!-- Exported by urdftool [^;]*; ([0-9a-f]{12}) -->\n?")

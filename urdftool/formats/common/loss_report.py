@@ -1,0 +1,44 @@
+"""Losses and defects of an export as text, one line each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from ...finding import Finding, Severity
+
+
+def merge_instances(findings: Iterable[Finding]) -> list[Finding]:
+    """Merge findings of one rule at one place: the instances of a macro are one finding."""
+    found: dict[tuple[str, str, int], Finding] = {}
+    for finding in findings:
+        key = finding.rule, finding.place.path, finding.place.start
+        if key in found:
+            found[key].expansions += 1
+        else:
+            found[key] = replace(finding)
+    return list(found.values())
+
+
+def format_lines(findings: Iterable[Finding]) -> Iterator[str]:
+    """Yield a line for each finding, with its remedy; files missing for one reason are one line."""
+    for finding, more in _merge_missing_files(merge_instances(findings)):
+        hint = f" (and {more} more)" if more else ""
+        hint += f" ({finding.hint})" if finding.hint else ""
+        times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
+        label = "note" if finding.severity is Severity.INFO else finding.severity.label
+        yield f"{finding.place}: {label}: {finding.message}{hint}{times} [{finding.rule}]"
+
+
+def _merge_missing_files(findings: Iterable[Finding]) -> Iterator[tuple[Finding, int]]:
+    """Yield the first of the files that are missing for one reason, and how many more there are."""
+    groups: dict[tuple[str, str] | int, list[Finding]] = {}
+    for index, finding in enumerate(findings):
+        same = finding.rule == "mesh-not-found" and bool(finding.hint)
+        groups.setdefault((finding.rule, finding.hint) if same else index, []).append(finding)
+    yield from ((some[0], len(some) - 1) for some in groups.values())
+
+
+def losses_as_errors(findings: Iterable[Finding]) -> list[Finding]:
+    """Return the losses with severity error, without notes, where the robot behaves the same."""
+    return [replace(f, severity=Severity.ERROR) for f in findings if f.severity > Severity.INFO]
