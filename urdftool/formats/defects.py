@@ -6,7 +6,7 @@ others an exporter can go on if it is told to, and says what it did instead.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 
 from ..errors import ModelError
@@ -101,10 +101,16 @@ def taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
 
 
 def defect(
-    rule: str, message: str, place: Place, kind: str = "", name: str = "", hint: str = ""
+    rule: str,
+    message: str,
+    place: Place,
+    kind: str = "",
+    name: str = "",
+    hint: str = "",
+    data: Mapping[str, object] | None = None,
 ) -> Finding:
-    """A finding of severity error."""
-    return Finding(rule, Severity.ERROR, message, place, kind, name, hint=hint)
+    """Make a finding of severity error."""
+    return Finding(rule, Severity.ERROR, message, place, kind, name, hint=hint, data=data or {})
 
 
 def _names(robot: Robot) -> Iterator[Finding]:

@@ -9,6 +9,7 @@ from ...finding import Finding
 from ...model.elements import Joint, Link, Robot
 from ...model.world import with_world
 from ..defects import defects
+from .naming import free_name
 
 FATAL = frozenset(("no-links", "no-root", "multiple-parents", "detached-cycle", "immense-number"))
 """Errors past which there is no robot that one could mean."""
@@ -45,9 +46,7 @@ def drop_invalid_parts(robot: Robot) -> Robot:
         if joint.parent in links and joint.child in links:
             name = joint.name
             if not name or name in joints:
-                base = name or f"{joint.child}_joint"
-                free = (base, *(f"{base}_{number}" for number in range(2, len(names) + 3)))
-                name = next(one for one in free if one not in names)
+                name = free_name(name or f"{joint.child}_joint", names)
                 names.add(name)
             joints[name] = joint if name == joint.name else replace(joint, name=name)
     return replace(robot, links=list(links.values()), joints=list(joints.values()))

@@ -32,10 +32,10 @@ def format_lines(findings: Iterable[Finding]) -> Iterator[str]:
 
 def _merge_missing_files(findings: Iterable[Finding]) -> Iterator[tuple[Finding, int]]:
     """Yield the first of the files that are missing for one reason, and how many more there are."""
-    groups: dict[tuple[str, str] | int, list[Finding]] = {}
+    groups: dict[object, list[Finding]] = {}
     for index, finding in enumerate(findings):
-        same = finding.rule == "mesh-not-found" and bool(finding.hint)
-        groups.setdefault((finding.rule, finding.hint) if same else index, []).append(finding)
+        cause = finding.data.get("missing")
+        groups.setdefault((finding.rule, cause) if cause else index, []).append(finding)
     yield from ((some[0], len(some) - 1) for some in groups.values())
 
 

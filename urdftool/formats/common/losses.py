@@ -1,27 +1,11 @@
-"""Losses of an export as records, and the question whether one was declared."""
+"""The losses that an export declared, for those who compare the result with the source."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from ...finding import Finding
-
-
-@dataclass(slots=True)
-class Loss(Finding):
-    """One thing of a robot that the target format does not carry, or carries changed.
-
-    Attributes:
-        data: The values of the loss by name. Code reads these, never the message.
-    """
-
-    data: dict[str, object] = field(default_factory=dict)
-
-    @property
-    def code(self) -> str:
-        """Return the name of the kind of loss, such as ``lossy-mimic``."""
-        return self.rule
 
 
 @dataclass(frozen=True)

@@ -1,31 +1,69 @@
-"""Why a file that a robot names cannot be had: one reason, however many files it keeps away."""
+"""Why a file that a robot names is not found: one reason, however many files have it."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import NamedTuple
 
 from ...errors import SourceError
-from ...model.elements import Robot
+from ...finding import Finding
+from ...model.elements import Link, Mesh, Robot
+from ..defects import defect
 
 
-def explain_missing_file(robot: Robot, filename: str) -> tuple[str, str]:
-    """What is wrong with the name of a file that is not found, and what would help.
+class MissingFile(NamedTuple):
+    """Why a file is not found.
+
+    Attributes:
+        message: The predicate of a sentence about it: ``is not there``.
+        hint: A remedy or the path that was looked at; empty where nothing is known.
+        cause: The package, folder or file that is missing: the same for all files that are
+            missing for one reason. Empty where nothing is known.
+    """
+
+    message: str
+    hint: str = ""
+    cause: str = ""
+
+
+def explain_missing_file(robot: Robot, filename: str) -> MissingFile:
+    """Find out why a file cannot be read.
+
+    Args:
+        robot: The robot that names it.
+        filename: The URI or path as it is written.
+    """
+    if not filename or robot.source is None:
+        return MissingFile("names no file")
+    try:
+        path = Path(robot.source.resolve(filename))
+    except SourceError as error:
+        scheme, separator, rest = filename.partition("://")
+        package = scheme + separator + rest.lstrip("/").partition("/")[0]
+        return MissingFile("is not found", error.message, package)
+    except ValueError:
+        return MissingFile("is not found")
+    if not os.path.isdir(path.parent):
+        return MissingFile("is not there", f"there is no folder {path.parent}", str(path.parent))
+    return MissingFile("is not there", f"there is no file {path}", str(path))
+
+
+def missing_mesh(robot: Robot, link: Link, mesh: Mesh) -> Finding:
+    """Make the finding of a mesh file that is not found.
 
     Args:
         robot: The robot.
-        filename: The URI or path as it is written.
-
-    Returns:
-        What follows "the mesh …" in a sentence, and a hint, the same for all files that are kept
-        away by the same thing.
+        link: The link that has the mesh.
+        mesh: The mesh.
     """
-    if not filename or robot.source is None:
-        return "names no file", ""
-    try:
-        path = Path(robot.source.resolve(filename))
-    except (SourceError, ValueError) as error:
-        return "is not found", error.message if isinstance(error, SourceError) else ""
-    if not os.path.isdir(path.parent):
-        return "is not there", f"there is no folder {path.parent}"
-    return "is not there", f"there is no file {path}"
+    missing = explain_missing_file(robot, mesh.filename)
+    return defect(
+        "mesh-not-found",
+        f"mesh '{mesh.filename}' of link '{link.name}' {missing.message}",
+        mesh.element.attribute_place("filename"),
+        "link",
+        link.name,
+        missing.hint,
+        {"missing": missing.cause},
+    )

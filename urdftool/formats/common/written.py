@@ -9,7 +9,6 @@ from pathlib import Path
 from ...finding import Finding, Severity
 from ...source.location import Place
 from ..check import Check
-from .losses import Loss
 
 
 @dataclass
@@ -64,7 +63,6 @@ class Written:
             hint: What would carry it.
             data: The values of the loss by name, for code that reads it.
         """
-        loss = Loss(
-            f"lossy-{what}", severity, message, place, kind, name, hint=hint, data=dict(data or {})
-        )
+        code, values = f"lossy-{what}", dict(data or {})
+        loss = Finding(code, severity, message, place, kind, name, hint=hint, data=values)
         self.losses.append(loss)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ..common.naming import Names
+from ..common.naming import UniqueNames
 from ..common.written import Written
 from .body import Bodies
 from .joint import SITE
@@ -49,12 +49,12 @@ def add_base_sensors(
     }
     wanted = [(kind, suffix) for kind, suffix in KINDS if kind not in there]
     if wanted:
-        sites = Names(
+        sites = UniqueNames(
             s.get("name", "") for body in bodies.values() for s in body.iterchildren("site")
         )
         site = etree.Element("site", {"name": sites.take(f"{base}_imu"), **SITE})
         put_before_bodies(bodies[base], site)
-        names = Names(sensor.get("name", "") for sensor in section)
+        names = UniqueNames(sensor.get("name", "") for sensor in section)
         for kind, suffix in wanted:
             section.append(site_sensor(kind, names.take(base + suffix), site.get("name", "")))
     return section

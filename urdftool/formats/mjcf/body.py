@@ -5,7 +5,7 @@ from __future__ import annotations
 from lxml import etree
 
 from ...model.elements import Joint, Link
-from ..common.naming import Names
+from ..common.naming import UniqueNames
 from ..common.written import Written
 from .digits import numbers_text
 from .frame import set_origin, set_pose
@@ -73,7 +73,7 @@ def fill_bodies(
     written: Written,
 ) -> None:
     """Put into each body what belongs to its link, before the bodies below it."""
-    names = Names()
+    names = UniqueNames()
     leaves = massless_leaves(structure)
     for name, body in bodies.items():
         link = structure.robot.link[name]

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from lxml import etree
 
-from ..common.naming import Names
+from ..common.naming import UniqueNames
 
 SIDES = (
     "l", "r", "left", "right", "fl", "fr", "rl", "rr", "hl", "hr", "lf", "rf", "lh", "rh", "lr",
@@ -46,7 +46,7 @@ def add_joint_classes(
             tuple((str(actuator.tag), _signature(actuator, _OWN)) for actuator in own),
         )
         groups.setdefault(key, []).append(joint)
-    names = Names(("main", "visual", "collision", "foot", model))
+    names = UniqueNames(("main", "visual", "collision", "foot", model))
     for number, (key, joints) in enumerate(groups.items(), 1):
         shared, drives = key
         if len(joints) < 2 or len(drives) > 1 or len(shared) + sum(len(d[1]) for d in drives) < 2:

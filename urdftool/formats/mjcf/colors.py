@@ -6,7 +6,7 @@ from collections import Counter
 
 from lxml import etree
 
-from ..common.naming import Names
+from ..common.naming import UniqueNames
 
 PLAIN: dict[tuple[float, ...], str] = {
     (0, 0, 0): "black",
@@ -29,7 +29,7 @@ def share_colors(world: etree._Element, materials: list[etree._Element]) -> None
     """
     geoms = [g for g in world.iter("geom") if g.get("class") == "visual" and g.get("rgba")]
     counts = Counter(geom.get("rgba", "") for geom in geoms)
-    names = Names(tuple(m.get("name", "") for m in materials if m.tag == "material"))
+    names = UniqueNames(tuple(m.get("name", "") for m in materials if m.tag == "material"))
     named: dict[str, str] = {}
     for geom in geoms:
         rgba = geom.get("rgba", "")

@@ -16,7 +16,7 @@ from lxml import etree
 from ...finding import Severity
 from ...model.elements import Vector
 from ...model.pose import Pose, rotate, rotation_of_quaternion
-from ..common.naming import Names
+from ..common.naming import UniqueNames
 from ..common.written import Written
 from .body import Bodies
 from .digits import numbers_text
@@ -50,7 +50,7 @@ def fuse_links(
     """
     kept = _kept(sections)
     apart = _apart(sections.get("contact"))
-    sites = Names(tuple(site.get("name", "") for site in sections["worldbody"].iter("site")))
+    sites = UniqueNames(tuple(site.get("name", "") for site in sections["worldbody"].iter("site")))
     owner: dict[str, str] = {}
     contacts: dict[str, set[str]] = {}
     poses: dict[str, Pose] = {}
@@ -141,7 +141,7 @@ def _collides(body: etree._Element) -> bool:
     return any(geom.get("class") != "visual" for geom in body.iterchildren("geom"))
 
 
-def _merge(body: etree._Element, into: etree._Element, sites: Names) -> None:
+def _merge(body: etree._Element, into: etree._Element, sites: UniqueNames) -> None:
     """Move what a body has into another, at the same place."""
     at = pose_of_element(body)
     where = into.index(body)

@@ -18,7 +18,7 @@ from ...model.elements import (
     Visual,
 )
 from ...model.read import number
-from ..common.naming import Names
+from ..common.naming import UniqueNames
 from ..common.written import Written
 from .digits import numbers_text
 from .frame import set_origin
@@ -29,7 +29,7 @@ SIZELESS = "dropped: it has no size"
 
 
 def visual_geoms(
-    link: Link, assets: Assets, materials: Materials, names: Names, written: Written
+    link: Link, assets: Assets, materials: Materials, names: UniqueNames, written: Written
 ) -> Iterator[etree._Element]:
     """The geoms of a link's visuals, one for each material of a mesh."""
     for visual in link.visuals:
@@ -41,7 +41,7 @@ def visual_geoms(
 
 
 def collision_geoms(
-    link: Link, assets: Assets, names: Names, written: Written, friction: dict[str, str]
+    link: Link, assets: Assets, names: UniqueNames, written: Written, friction: dict[str, str]
 ) -> Iterator[etree._Element]:
     """The geoms of a link's collisions, with attributes for their friction."""
     for collision in link.collisions:
@@ -125,7 +125,7 @@ def _report_shape_loss(
 
 
 def _set_name(
-    geom: etree._Element, link: Link, shape: Visual | Collision, names: Names, index: int
+    geom: etree._Element, link: Link, shape: Visual | Collision, names: UniqueNames, index: int
 ) -> None:
     """Keep a name that is written; geoms of several links may not share one."""
     if not shape.name:

@@ -10,7 +10,7 @@ from ...model.elements import Robot, Vector
 from ...model.pose import IDENTITY, Pose, rotate, rotation_of_rpy
 from ...model.read import number, numbers
 from ...source.document import Element
-from ..common.naming import Names
+from ..common.naming import UniqueNames
 from ..common.written import Written
 from .body import Bodies
 from .digits import number_text, numbers_text
@@ -21,7 +21,7 @@ TYPES = ("point", "directional", "spot")
 
 def put_lights(robot: Robot, bodies: Bodies, written: Written) -> None:
     """Put the lights of each link into its body."""
-    names = Names()
+    names = UniqueNames()
     for block in robot.gazebo:
         for light in block.element.all("light"):
             if block.reference not in bodies:
@@ -32,7 +32,7 @@ def put_lights(robot: Robot, bodies: Bodies, written: Written) -> None:
             body.insert(len(body) if first is None else body.index(first), _light(light, names))
 
 
-def _light(light: Element, names: Names) -> etree._Element:
+def _light(light: Element, names: UniqueNames) -> etree._Element:
     kind = light.get("type") or "point"
     element = etree.Element("light", name=names.take(light.get("name") or "light"))
     element.set("type", kind if kind in TYPES else "point")

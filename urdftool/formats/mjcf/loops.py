@@ -12,7 +12,7 @@ from ...model.elements import GazeboExtension, Robot, Vector
 from ...model.pose import IDENTITY, Pose, add, dot, norm, rotate, rotation_of_rpy
 from ...model.read import number, numbers
 from ...source.document import Element
-from ..common.naming import Names
+from ..common.naming import UniqueNames
 from ..common.written import Written
 from ..defects import defect
 from .digits import numbers_text
@@ -85,7 +85,7 @@ def loop_defects(robot: Robot) -> Iterator[Finding]:
 
 def loop_equalities(structure: Structure, written: Written) -> Iterator[etree._Element]:
     """``<connect>`` and ``<weld>`` for each joint, and what is lost of it."""
-    names = Names()
+    names = UniqueNames()
     for block in structure.robot.gazebo:
         for element in block.element.all("joint"):
             loop = _read(structure, block, element)
@@ -138,7 +138,7 @@ def _pose(structure: Structure, joint: Element, child: str) -> Pose | str:
     return structure.pose_at_zero(child).inverse() @ start @ pose
 
 
-def _equalities(structure: Structure, loop: Loop, names: Names) -> Iterator[etree._Element]:
+def _equalities(structure: Structure, loop: Loop, names: UniqueNames) -> Iterator[etree._Element]:
     bodies = {"body1": structure.body_name(loop.child)}
     if loop.parent in structure.robot.link and loop.parent != WORLD:
         bodies["body2"] = loop.parent

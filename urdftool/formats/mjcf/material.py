@@ -9,7 +9,7 @@ from lxml import etree
 
 from ...errors import SourceError
 from ...model.elements import Material, Robot, Visual
-from ..common.naming import Names, file_name
+from ..common.naming import UniqueNames, file_name
 from ..common.written import Written
 from .convert import Image, Rgba
 from .digits import numbers_text
@@ -37,8 +37,8 @@ class Materials:
             if material is not None and (material.color or material.texture):
                 self._defined.setdefault(material.name, material)
         self._robot = robot
-        self._names = Names()
-        self._files = Names(fold=True)
+        self._names = UniqueNames()
+        self._files = UniqueNames(fold=True)
         self._used: dict[tuple[str, Rgba | None, Image | None], str] = {}
         self._textures: dict[Image, str | None] = {}
         self.elements: list[etree._Element] = []

@@ -14,8 +14,8 @@ from ...errors import SourceError
 from ...finding import Finding, Severity
 from ...meshes.mesh import MeshNote
 from ...model.elements import Collision, Mesh, Robot, Vector, Visual
-from ..common.missing_files import explain_missing_file
-from ..common.naming import Names, file_name
+from ..common.missing_files import missing_mesh
+from ..common.naming import UniqueNames, file_name
 from ..common.written import Written
 from ..defects import defect
 from .convert import Converted, Image, Piece, Rgba
@@ -76,7 +76,7 @@ def mesh_assets(robot: Robot, written: Written, options: Options) -> tuple[Asset
     pieces: dict[int, list[MeshPiece]] = {}
     known: dict[tuple[str, Vector], str] = {}
     elements: dict[bool, list[etree._Element]] = {True: [], False: []}
-    names = Names()
+    names = UniqueNames()
     for path, collides, shape in sorted(uses, key=lambda use: use[1]):
         if (path, collides) not in made:
             continue
@@ -110,15 +110,12 @@ def _uses(robot: Robot) -> tuple[list[_Use], list[Finding]]:
         mesh = shape.geometry
         if not isinstance(mesh, Mesh):
             continue
-        place = mesh.element.attribute_place("filename")
         path: Path | None = None
         if mesh.filename and robot.source is not None:
             with suppress(SourceError):
                 path = Path(os.path.realpath(robot.source.resolve(mesh.filename)))
         if path is None or not os.path.isfile(path):
-            why, hint = explain_missing_file(robot, mesh.filename)
-            text = f"mesh '{mesh.filename}' of link '{link.name}' {why}"
-            wrong.append(defect("mesh-not-found", text, place, "link", link.name, hint))
+            wrong.append(missing_mesh(robot, link, mesh))
         elif not all(mesh.scale):
             text = f"scale of mesh '{mesh.filename}' of link '{link.name}' has a zero in it"
             place = mesh.element.attribute_place("scale")
@@ -213,7 +210,7 @@ class _Files:
     def __init__(self, written: Written, mesh_dir: str) -> None:
         self._written = written
         self._folder = mesh_dir
-        self._names = Names(fold=True)
+        self._names = UniqueNames(fold=True)
         self._known: dict[tuple[Path, bytes | None], str] = {}
         self._seen: set[str] = set()
 

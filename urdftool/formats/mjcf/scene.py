@@ -8,7 +8,7 @@ from lxml import etree
 
 from ...finding import Severity
 from ...model.elements import Vector
-from ..common.naming import Names
+from ..common.naming import UniqueNames
 from ..common.written import Written
 from .digits import number_text
 from .document import serialise
@@ -47,7 +47,9 @@ def scene_file(
     center, extent = _around(ground, home)
     main = written.main
     deep = etree.XMLParser(huge_tree=True)  # without it, 256 bodies in each other at most
-    names = Names(element.get("name", "") for element in etree.fromstring(text, deep).iter("*"))
+    names = UniqueNames(
+        element.get("name", "") for element in etree.fromstring(text, deep).iter("*")
+    )
     plane, pattern = names.take("floor"), names.take("groundplane")
     root = etree.Element("mujoco", model=f"{model} scene")
     etree.SubElement(root, "include", file=main)

@@ -11,7 +11,7 @@ from ...model.elements import ControlComponent, Robot, Sensor
 from ...model.pose import Pose, rotation_of_quaternion, rotation_of_rpy
 from ...model.read import number, numbers
 from ...source.document import Element
-from ..common.naming import Names
+from ..common.naming import UniqueNames
 from ..common.written import Written
 from .body import Bodies
 from .digits import number_text, numbers_text
@@ -42,7 +42,7 @@ def sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Ele
     """``<sensor>``, or None where nothing is measured; sites and cameras go into the bodies."""
     section = etree.Element("sensor")
     there = (site.get("name", "") for body in bodies.values() for site in body.iterchildren("site"))
-    sites, cameras, taken = Names(there), Names(), Names()
+    sites, cameras, taken = UniqueNames(there), UniqueNames(), UniqueNames()
     for block in robot.gazebo:
         link = _link_of(robot, block.reference)
         for sensor in block.sensors:
@@ -94,7 +94,7 @@ def _pose(element: Element) -> Pose:
     )
 
 
-def _site(name: str, pose: Pose, body: etree._Element, sites: Names) -> str:
+def _site(name: str, pose: Pose, body: etree._Element, sites: UniqueNames) -> str:
     element = etree.Element("site", {"name": sites.take(name), **SITE})
     set_pose(element, pose)
     put_before_bodies(body, element)
@@ -112,7 +112,7 @@ def _measure(
     name: str,
     kinds: tuple[tuple[str, str], ...],
     site: str,
-    taken: Names,
+    taken: UniqueNames,
 ) -> None:
     for kind, suffix in kinds:
         section.append(site_sensor(kind, taken.take(name + suffix), site))
@@ -130,7 +130,7 @@ def site_sensor(kind: str, name: str, site: str) -> etree._Element:
 
 
 def _camera(
-    sensor: Sensor, camera: Element, body: etree._Element, cameras: Names, written: Written
+    sensor: Sensor, camera: Element, body: etree._Element, cameras: UniqueNames, written: Written
 ) -> None:
     image, fov = camera.child("image"), camera.child("horizontal_fov")
     horizontal = (number(fov.text) if fov is not None else None) or 1.047
@@ -164,8 +164,8 @@ def _touch(
     link: str,
     body: etree._Element,
     section: etree._Element,
-    sites: Names,
-    taken: Names,
+    sites: UniqueNames,
+    taken: UniqueNames,
     written: Written,
 ) -> None:
     """Contact forces on a link, added up inside a site that is as large as its first geom."""
@@ -195,8 +195,8 @@ def _scanner(
     link: str,
     body: etree._Element,
     section: etree._Element,
-    sites: Names,
-    taken: Names,
+    sites: UniqueNames,
+    taken: UniqueNames,
     written: Written,
 ) -> None:
     """One rangefinder a ray, along the z axis of a site."""
@@ -234,8 +234,8 @@ def _control_sensor(
     robot: Robot,
     bodies: Bodies,
     section: etree._Element,
-    sites: Names,
-    taken: Names,
+    sites: UniqueNames,
+    taken: UniqueNames,
     written: Written,
 ) -> None:
     """A sensor of ros2_control, by the names of its state interfaces and its ``frame_id``."""

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...model.elements import Joint, Link, Robot
-from ...model.kinematics import motion_of
-from ...model.pose import IDENTITY, Pose, norm, pose_of
+from ...model.kinematics import link_poses, motion_of
+from ...model.pose import Pose, norm, pose_of
+from ..common.lumping import LumpingPlan, plan_lumping
 
 WORLD = "world"
 """The root link of this name is MuJoCo's world itself."""
@@ -80,43 +81,38 @@ class Structure:
         return [joint for joint in self.joints if self.kind(joint) != "weld"]
 
     @cached_property
+    def _lumping(self) -> LumpingPlan:
+        links = (self.root.name, *(joint.child for joint in self.joints))
+        return plan_lumping(
+            self.robot, links, lambda joint: self.kind(joint) == "weld", self.joint_pose
+        )
+
+    @property
     def group(self) -> dict[str, str]:
-        """For each link the topmost link of the rigid body it belongs to."""
-        owner: dict[str, str] = {self.root.name: self.root.name}
-        for joint in self.joints:
-            welded = self.kind(joint) == "weld"
-            owner[joint.child] = owner[joint.parent] if welded else joint.child
-        return owner
+        """Return for each link the topmost link of the rigid body it belongs to."""
+        return self._lumping.top
 
     @cached_property
     def members(self) -> dict[str, list[Link]]:
-        """The links of each rigid body, by its topmost link, which is the first."""
-        found: dict[str, list[Link]] = {}
-        for name, owner in self.group.items():
-            found.setdefault(owner, []).append(self.robot.link[name])
-        return found
+        """Return the links of each rigid body, by its topmost link, which is the first."""
+        bodies = self._lumping.members.items()
+        return {top: [self.robot.link[name] for name in names] for top, names in bodies}
 
     def is_static(self, link: str) -> bool:
         """Whether a link is held by the world."""
         return not self.free and self.group[link] == self.root.name
 
     def pose_in_group(self, link: str) -> Pose:
-        """The pose of a link in the frame of its rigid body's topmost link."""
-        pose, top = IDENTITY, self.group[link]
-        while link != top:
-            joint = self.robot.tree.parent_joint(link)
-            assert joint is not None
-            pose, link = self.joint_pose(joint) @ pose, joint.parent
-        return pose
+        """Return the pose of a link in the frame of its rigid body's topmost link."""
+        return self._lumping.pose[link]
+
+    @cached_property
+    def _poses(self) -> dict[str, Pose]:
+        return link_poses(self.robot, self.locked)
 
     def pose_at_zero(self, link: str) -> Pose:
-        """The pose of a link in the root's frame with every joint at zero."""
-        pose = IDENTITY
-        joint = self.robot.tree.parent_joint(link)
-        while joint is not None:
-            pose = self.joint_pose(joint) @ pose
-            joint = self.robot.tree.parent_joint(joint.parent)
-        return pose
+        """Return the pose of a link in the root's frame with every joint at zero or its lock."""
+        return self._poses[link]
 
     def body_name(self, link: str) -> str:
         """The name of a link's body: MuJoCo keeps that of its world to itself."""

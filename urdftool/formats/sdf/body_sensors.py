@@ -8,6 +8,7 @@ from ...model.elements import Joint, Link
 from ...model.gazebo_plugins import SENSOR_PLUGINS, library
 from ...model.read import number, numbers
 from ...source.document import Element
+from ..common.naming import free_name
 from ..common.numbers import number_text, numbers_text
 from .raw_sdf import move_to_owner
 from .sensor_plugins import sensor_plugin
@@ -128,7 +129,7 @@ def _sensor(model: Node, t: Translation, element: Element) -> None:
 def _free_name(node: Node, element: Element) -> str:
     name = element.get("name") or library(element)
     taken = {other.get("name") for other in node}
-    return next(n for n in (name, *(f"{name}_{i}" for i in range(2, 1000))) if n not in taken)
+    return free_name(name, taken)
 
 
 def _pose(made: Node, element: Element) -> None:

@@ -8,7 +8,7 @@ from ...finding import Finding
 from ...model.elements import Collision, Joint, Link, Mesh, Robot, UnknownShape, Visual
 from ...model.read import numbers
 from ...source.document import Element
-from ..common.missing_files import explain_missing_file
+from ..common.missing_files import missing_mesh
 from ..defects import defect
 from .block_numbers import wanted
 from .extensions import read_value, said_of, value_of
@@ -49,18 +49,12 @@ def mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
         if isinstance(mesh, Mesh) and not meshes.known(mesh) and mesh.filename not in seen:
             seen.add(mesh.filename)
             refused = meshes.refused.get(mesh.filename)
-            if refused:
-                wrong, hint = f"cannot be used: {refused}", ""
-            else:
-                wrong, hint = explain_missing_file(robot, mesh.filename)
-            yield defect(
-                "corrupt-mesh" if refused else "mesh-not-found",
-                f"mesh '{mesh.filename}' of link '{link.name}' {wrong}",
-                mesh.element.attribute_place("filename"),
-                "link",
-                link.name,
-                hint,
-            )
+            if not refused:
+                yield missing_mesh(robot, link, mesh)
+                continue
+            text = f"mesh '{mesh.filename}' of link '{link.name}' cannot be used: {refused}"
+            place = mesh.element.attribute_place("filename")
+            yield defect("corrupt-mesh", text, place, "link", link.name)
 
 
 def inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 import re
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path, PurePosixPath
 
 from ...errors import UrdftoolError
 from ...model.elements import Mesh, Robot
 from ...source.packages import own_package
 from ..common.asset_filter import explain_invalid_mesh, is_companion, is_image
+from ..common.naming import first_free, numbered
 from .names import model_name
 from .options import Options
 from .scripts import SCRIPTS, TEXTURES, material_name, picture_names, plain, script
@@ -181,10 +183,7 @@ def _home(path: Path) -> tuple[str, str]:
 
 def _free(place: str, taken: set[str]) -> str:
     stem, dot, suffix = place.rpartition(".")
-    candidate, number = place, 2
-    while candidate in taken:
-        candidate, number = f"{stem}_{number}{dot}{suffix}", number + 1
-    return candidate
+    return first_free(chain((place,), numbered(stem, suffix=dot + suffix)), taken)
 
 
 def _add_companions(meshes: MeshFiles, path: Path, place: str) -> None:

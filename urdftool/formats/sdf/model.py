@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import count
 
 from ...model.elements import ZERO, GazeboExtension, Origin
 from ...model.read import numbers
 from ...source.document import Element
+from ..common.naming import first_free, numbered
 from .body_sensors import body_sensors, is_body_sensor
 from .control import control
 from .frames import frames
@@ -105,7 +105,7 @@ def _closing_joint(node: Node, t: Translation, element: Element) -> None:
     name = made.get("name") or "joint"
     taken = {other.get("name") for other in node if other is not made}
     if name in taken:
-        new = next(f"{name}_{number}" for number in count(2) if f"{name}_{number}" not in taken)
+        new = first_free(numbered(name), taken)
         made.set("name", new)
         t.report_loss(
             "name",

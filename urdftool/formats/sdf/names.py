@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import chain
 
 from ...model.elements import Robot
+from ..common.naming import first_free, numbered
 
 
 @dataclass
@@ -46,7 +48,7 @@ def make_names(robot: Robot, *, anchored: bool) -> Names:
             if new == "world":
                 new = f"world_{kind}"
             if new in used:
-                new = next(free for free in _variants(new, kind) if free not in used | taken)
+                new = first_free(_variants(new, kind), used | taken)
             used.add(new)
             if new != old:
                 names.renamed[kind, old] = new
@@ -63,12 +65,7 @@ def allowed(name: str) -> str:
 
 def _variants(name: str, kind: str) -> Iterator[str]:
     base = name if name.endswith(f"_{kind}") else f"{name}_{kind}"
-    if base != name:
-        yield base
-    number = 2
-    while True:
-        yield f"{base}_{number}"
-        number += 1
+    return chain((base,) if base != name else (), numbered(base))
 
 
 def model_name(robot: Robot) -> str:

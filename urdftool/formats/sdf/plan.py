@@ -8,11 +8,12 @@ seen, touched and sensed of them moves to it, and their names stay as frames.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from ...model.elements import Joint, Link, Robot
-from ...model.pose import IDENTITY, Pose, pose_of
+from ...model.kinematics import link_poses
+from ...model.pose import IDENTITY, Pose
+from ..common.lumping import LumpingPlan, plan_lumping
 from .keywords import is_true
 from .mass import Mass, mass_of, shortfall, united
 
@@ -62,26 +63,22 @@ def make_plan(robot: Robot, *, lump: bool) -> Plan:
     """
     plan = Plan(anchored=any(root.name == WORLD for root in robot.tree.roots))
     links = [name for name in robot.tree.order if not (plan.anchored and name == WORLD)]
+    plan.in_model = {name: pose for name, pose in link_poses(robot).items() if name in set(links)}
     loose = _loose_joints(robot, plan)
-    group = {name: name for name in links}
     masses = {name: mass_of(robot.link[name]) for name in links}
-
-    def absorb(joint: Joint) -> None:
-        plan.dissolved.add(joint.name)
-        top, other = group[joint.parent], group[joint.child]
-        for name in links:
-            if group[name] == other:
-                group[name] = top
-
     for name in links:
         joint = loose.get(name)
         if joint is not None and (lump or not _stands(masses[name])):
-            absorb(joint)
+            plan.dissolved.add(joint.name)
     if not lump:
-        _mend_groups(robot, links, group, loose, masses, absorb)
-    _place(robot, plan, links, group, lump)
+        _dissolve_groups(robot, plan, loose, masses)
+    _place(robot, plan, lump)
     _weigh(plan, masses)
     return plan
+
+
+def _group(robot: Robot, plan: Plan) -> LumpingPlan:
+    return plan_lumping(robot, plan.in_model, lambda joint: joint.name in plan.dissolved)
 
 
 def _loose_joints(robot: Robot, plan: Plan) -> dict[str, Joint]:
@@ -118,16 +115,12 @@ def _stands(mass: Mass) -> bool:
     return mass.mass > 0 and shortfall(mass.tensor, mass.mass) <= EXACT
 
 
-def _mend_groups(
-    robot: Robot,
-    links: list[str],
-    group: dict[str, str],
-    loose: dict[str, Joint],
-    masses: dict[str, Mass],
-    absorb: Callable[[Joint], None],
+def _dissolve_groups(
+    robot: Robot, plan: Plan, loose: dict[str, Joint], masses: dict[str, Mass]
 ) -> None:
-    """Let a group that cannot stand absorb neighbours over fixed joints until it can."""
-    poses = _poses(robot, links)
+    """Dissolve more fixed joints around each group that cannot stand, until it can."""
+    links, poses = list(plan.in_model), plan.in_model
+    group = _group(robot, plan).top
 
     def total(tops: set[str]) -> Mass:
         return united(masses[n].moved(poses[n]) for n in links if group[n] in tops)
@@ -146,37 +139,19 @@ def _mend_groups(
             chosen.append(joint)
             tops |= {group[joint.child], group[joint.parent]}
         if _stands(total(tops)):
-            for joint in chosen:
-                absorb(joint)
+            plan.dissolved |= {joint.name for joint in chosen}
+            group = _group(robot, plan).top
 
 
-def _poses(robot: Robot, links: list[str]) -> dict[str, Pose]:
-    """The pose of each link in the root's frame, all joints at zero."""
-    poses: dict[str, Pose] = {}
-    for name in links:
-        joint = robot.tree.parent_joint(name)
-        above = IDENTITY if joint is None else poses.get(joint.parent, IDENTITY)
-        poses[name] = IDENTITY if joint is None else above @ pose_of(joint.origin)
-    return poses
-
-
-def _place(robot: Robot, plan: Plan, links: list[str], group: dict[str, str], lump: bool) -> None:
-    """Name the owners, and say where each link is in its owner."""
-    plan.in_model = _poses(robot, links)
-    together: dict[str, list[str]] = {}
-    for name in links:
-        together.setdefault(group[name], []).append(name)
-    for top, members in together.items():
+def _place(robot: Robot, plan: Plan, lump: bool) -> None:
+    """Choose the owner of each group, and compute where each link is in its owner."""
+    groups = _group(robot, plan)
+    for top, members in groups.members.items():
         owner = next((n for n in members if robot.link[n].mass > 0), top) if not lump else top
-        in_top: dict[str, Pose] = {top: IDENTITY}
-        for name in members:
-            joint = robot.tree.parent_joint(name)
-            if name != top and joint is not None:
-                in_top[name] = in_top[joint.parent] @ pose_of(joint.origin)
-        back = IDENTITY if owner == top else in_top[owner].inverse()
+        back = IDENTITY if owner == top else groups.pose[owner].inverse()
         for name in members:
             plan.owner[name] = owner
-            plan.in_owner[name] = IDENTITY if name == owner else back @ in_top[name]
+            plan.in_owner[name] = IDENTITY if name == owner else back @ groups.pose[name]
         plan.members[owner] = members
 
 

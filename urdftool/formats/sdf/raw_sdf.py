@@ -6,6 +6,7 @@ from ...model.elements import Joint, Link
 from ...model.pose import Pose, rotation_of_rpy
 from ...model.read import numbers
 from ...source.document import Element
+from ..common.naming import free_name
 from .block_numbers import wanted
 from .imu import is_old_noise
 from .pose import set_pose
@@ -68,8 +69,7 @@ def _name_once(node: Node, made: Node) -> None:
     """Give an element another name where a sibling has it."""
     name = made.get("name") or made.tag
     taken = {other.get("name") for other in node if other is not made}
-    free = (name, *(f"{name}_{number}" for number in range(2, 1000)))
-    made.set("name", next(one for one in free if one not in taken))
+    made.set("name", free_name(name, taken))
 
 
 def _is_known(parent: str, element: Element) -> bool:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from itertools import chain
 from pathlib import Path
+
+from ..common.naming import first_free, numbered
 
 SCRIPTS = "materials/scripts"
 TEXTURES = "materials/textures"
@@ -20,10 +23,8 @@ def picture_names(robot: str, pictures: list[Path]) -> dict[Path, str]:
     names: dict[Path, str] = {}
     for path in pictures:
         stem, suffix = plain(f"{robot}_{path.stem}"), path.suffix.lower()
-        name, number = f"{stem}{suffix}", 2
-        while name in names.values():
-            name, number = f"{stem}_{number}{suffix}", number + 1
-        names[path] = name
+        candidates = chain((f"{stem}{suffix}",), numbered(stem, suffix=suffix))
+        names[path] = first_free(candidates, set(names.values()))
     return names
 
 

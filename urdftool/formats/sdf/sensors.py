@@ -7,6 +7,7 @@ from copy import deepcopy
 from ...finding import Severity
 from ...model.elements import Joint, Link
 from ...source.document import Element
+from ..common.naming import free_name
 from .extensions import said_of
 from .imu import imu_noise
 from .plugins import plugin
@@ -84,7 +85,7 @@ def _name_once(
     """Give a sensor another name where one of its link has it already."""
     name = made.get("name") or f"{part.name}_sensor"
     taken = {other.get("name") for other in node if other is not made}
-    new = next(n for n in (name, *(f"{name}_{i}" for i in range(2, 1000))) if n not in taken)
+    new = free_name(name, taken)
     if new != made.get("name"):
         made.set("name", new)
         t.report_loss(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ...model.elements import Collision, Link, Visual
+from ..common.naming import first_free, numbered
 from .names import allowed
 
 
@@ -23,9 +24,8 @@ def shape_names(members: list[Link]) -> dict[int, str]:
             )
             for index, shape in enumerate(shapes):
                 own = _allowed(shape.name or "")
-                names[id(shape)] = next(
-                    name for name in _candidates(own, member.name, kind, index) if name not in used
-                )
+                candidates = _candidates(own, member.name, kind, index)
+                names[id(shape)] = first_free(candidates, used)
                 used.add(names[id(shape)])
     return names
 
@@ -41,7 +41,4 @@ def _candidates(own: str, link: str, kind: str, index: int) -> Iterator[str]:
     if own and kind == "visual":
         base = f"{own}_visual"
         yield base
-    number = 1
-    while True:
-        yield f"{base}_{number}"
-        number += 1
+    yield from numbered(base, 1)
