@@ -95,7 +95,7 @@ def test_collada_with_a_broken_material_keeps_its_triangles():
     assert [part.count for part in mesh.parts] == [2, 4]
     assert mesh.parts[0].rgba is None
     assert mesh.parts[1].rgba == (0.5, 0.0, 0.5, 1.0)
-    assert "broken" in mesh.notes[0]
+    assert [note.code for note in mesh.notes if note.lossy] == ["collada-broken-material"]
 
 
 def test_collada_unit_is_applied_and_up_axis_is_not():
@@ -132,7 +132,8 @@ def test_mirrored_scale_keeps_the_sign_of_the_volume():
 def test_bytes_after_the_last_triangle_are_said():
     mesh = load_mesh(FIXTURES / "trailing_bytes.stl")
     assert len(mesh.faces) == 10
-    assert "100 bytes" in mesh.notes[0]
+    assert mesh.notes[0].code == "stl-trailing-bytes"
+    assert "100 bytes" in mesh.notes[0].message
 
 
 @pytest.mark.parametrize(

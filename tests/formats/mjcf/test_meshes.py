@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.conftest import FIXTURES
+from urdftool.finding import Severity
 from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.convert import convert
 from urdftool.formats.mjcf.cut import Cut
@@ -190,7 +191,13 @@ def test_flat_collision_is_thickened_and_said(write, mesh, tmp_path):
     (tmp_path / "made.obj").write_bytes(written.files["assets/flat.obj"])
     thickness = np.ptp(load_mesh(tmp_path / "made.obj").vertices, axis=0).min()
     assert thickness > 0
-    assert any("thickened" in loss.message for loss in written.losses)
+    [loss] = [loss for loss in written.losses if loss.data.get("note") == "flat-mesh"]
+    assert loss.severity is Severity.WARNING
+
+
+def test_a_note_by_which_nothing_is_lost_is_info(write, mesh):
+    written = export(write("r.urdf", robot(link("a", shape("visual", mesh("trailing_bytes.stl"))))))
+    assert [loss.severity for loss in written.losses if "note" in loss.data] == [Severity.INFO]
 
 
 def test_open_visual_is_a_shell(write, mesh):
