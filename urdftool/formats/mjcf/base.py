@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from ...finding import Severity
+from ..common.gazebo_blocks import is_true
 from ..common.written import Written
 from .drives import drive_plugins
 from .options import Base
@@ -55,14 +56,10 @@ def _decide(structure: Structure, base: Base, virtual_joint: str | None) -> tupl
         return False, "the root link is the world"
     if base != "auto":
         return base == "free", f"--base {base}"
-    if any(_is_true(block.value("static")) for block in robot.extensions.get(None, ())):
+    if any(is_true(block.value("static")) for block in robot.extensions.get(None, ())):
         return False, "<gazebo> says static"
     if virtual_joint is not None:
         return virtual_joint in ("floating", "planar"), f"virtual joint of type {virtual_joint}"
     for plugin in drive_plugins(robot):
         return True, f"the plugin {plugin.filename or plugin.name} drives it over the ground"
     return False, ""
-
-
-def _is_true(text: str | None) -> bool:
-    return text is not None and text.strip().lower() in ("true", "1", "yes")

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from ...finding import Finding, Severity
 from ...model.elements import GazeboExtension, Robot
 from ...model.read import number
+from ..common.gazebo_blocks import is_false, is_true
 from ..common.written import Written
 from ..defects import defect
 from .digits import number_text
@@ -80,9 +81,9 @@ def link_is_weightless(robot: Robot, link: str) -> bool:
     for block in robot.extensions.get(link, ()):
         off, gravity = block.value("turnGravityOff"), block.value("gravity")
         if off:
-            weightless = off.lower() in ("true", "1", "yes")
+            weightless = is_true(off)
         if gravity:
-            weightless = gravity.lower() in ("false", "0", "no")
+            weightless = is_false(gravity)
     return weightless
 
 

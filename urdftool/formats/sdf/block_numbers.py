@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...model.read import number, numbers
 from ...source.document import Element
-from .keywords import is_flag
+from ..common.gazebo_blocks import is_flag
 
 SENSOR_NUMBERS = frozenset(
     ("update_rate", "horizontal_fov", "near", "far", "width", "height", "samples", "resolution",

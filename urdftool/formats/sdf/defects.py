@@ -8,10 +8,11 @@ from ...finding import Finding
 from ...model.elements import Collision, Joint, Link, Mesh, Robot, UnknownShape, Visual
 from ...model.read import numbers
 from ...source.document import Element
+from ..common.gazebo_blocks import read_value, value_of
 from ..common.missing_files import missing_mesh
 from ..defects import defect
 from .block_numbers import wanted
-from .extensions import read_value, said_of, value_of
+from .extensions import block_elements
 from .keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS, LINK_KEYWORDS
 from .mass import ROUNDING, shortfall, tensor_of
 from .mesh_files import MeshFiles
@@ -125,7 +126,7 @@ def _joint(robot: Robot, joint: Joint) -> Iterator[Finding]:
 
 def _extension(robot: Robot, part: Link | Joint) -> Iterator[Finding]:
     tables = {**COLLISION_KEYWORDS, **LINK_KEYWORDS} if isinstance(part, Link) else JOINT_KEYWORDS
-    for element in said_of(robot, part):
+    for element in block_elements(robot, part):
         keyword = tables.get(element.tag)
         text = value_of(element)
         if keyword is not None and read_value(keyword.holds, text) is None:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Robot
-from ...model.read import number, numbers
 from ...source.document import Element
-from ..common.numbers import number_text, numbers_text
+from ..common.gazebo_blocks import read_value, value_of
 from .body_sensors import is_body_sensor
 from .keywords import (
     COLLISION_KEYWORDS,
@@ -17,8 +16,6 @@ from .keywords import (
     LINK_KEYWORDS,
     LUMPING_KEYWORDS,
     Keyword,
-    is_flag,
-    is_true,
 )
 from .plugins import plugin
 from .raw_sdf import copy_raw_element, remove_invalid
@@ -29,7 +26,7 @@ ELSEWHERE = frozenset(("sensor", "visual", "collision", "material"))
 """Elements of a link's block that are not copied into the link as they are."""
 
 
-def said_of(robot: Robot, part: Link | Joint) -> Iterator[Element]:
+def block_elements(robot: Robot, part: Link | Joint) -> Iterator[Element]:
     """The elements in the blocks of a link or joint, in the order of the file.
 
     Where a link and a joint have one name, each gets what is of its kind, the link what is of both.
@@ -47,28 +44,10 @@ def _is_of_joint(element: Element) -> bool:
     return element.tag in JOINT_KEYWORDS or element.tag in LUMPING_KEYWORDS
 
 
-def value_of(element: Element) -> str:
-    """What a tag is set to: its ``value`` or its text."""
-    return (element.get("value") or element.text).strip()
-
-
-def read_value(holds: str, text: str) -> str | None:
-    """The text of a value as it is written, or None where it is not what the tag holds."""
-    if holds == "flag":
-        return ("true" if is_true(text) else "false") if is_flag(text) else None
-    if holds == "vector":
-        three = numbers(text, 3)
-        return None if three is None else numbers_text(three)
-    one = number(text)
-    if one is None or (holds == "count" and (one < 0 or not one.is_integer())):
-        return None
-    return number_text(one)
-
-
 def values(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> dict[str, str]:
     """The tags of a table that are set for a link or joint; the last of one name holds."""
     found: dict[str, str] = {}
-    for element in said_of(t.robot, part):
+    for element in block_elements(t.robot, part):
         if element.tag in table:
             text = read_value(table[element.tag].holds, value_of(element))
             if text is not None:
@@ -78,7 +57,7 @@ def values(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> dic
 
 def merged(node: Node, t: Translation, link: Link, tag: str) -> None:
     """Put the ``<visual>`` or ``<collision>`` of a link's blocks into one of its own."""
-    for element in said_of(t.robot, link):
+    for element in block_elements(t.robot, link):
         if element.tag == tag:
             made = copied(node, element)
             remove_invalid(made, t, element, link)
@@ -95,7 +74,7 @@ def link_extensions(node: Node, t: Translation, link: Link) -> None:
     if own:
         for tag, text in flags.items():
             _set_flag(node, tag, text)
-    for element in said_of(t.robot, link):
+    for element in block_elements(t.robot, link):
         tag = element.tag
         if tag in LINK_ELEMENTS and own:
             existing = node.find(tag)
@@ -145,7 +124,7 @@ def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
         at(node, path).text = text
         if also:
             at(node, also).text = text
-    for element in said_of(t.robot, joint):
+    for element in block_elements(t.robot, joint):
         tag = element.tag
         if tag == "plugin":
             if not is_body_sensor(t, element):
@@ -162,7 +141,7 @@ def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
 
 def note_dissolved_joint(t: Translation, joint: Joint) -> None:
     """Say what of a joint's block is lost with the joint."""
-    lost = [e for e in said_of(t.robot, joint) if e.tag not in (*LUMPING_KEYWORDS, *IGNORED)]
+    lost = [e for e in block_elements(t.robot, joint) if e.tag not in (*LUMPING_KEYWORDS, *IGNORED)]
     if lost and joint.name not in t.robot.link:
         tags = ", ".join(dict.fromkeys(f"<{e.tag}>" for e in lost))
         t.report_loss(
@@ -176,7 +155,7 @@ def note_dissolved_joint(t: Translation, joint: Joint) -> None:
 
 def _note_repeated(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> None:
     seen: dict[str, str] = {}
-    for element in said_of(t.robot, part):
+    for element in block_elements(t.robot, part):
         if element.tag not in table:
             continue
         text = read_value(table[element.tag].holds, value_of(element))
@@ -209,6 +188,6 @@ def _note_untouchable(t: Translation, link: Link) -> None:
     given = values(t, link, COLLISION_KEYWORDS)
     given.pop("laserRetro", None)
     if given and not link.collisions:
-        first = next(e for e in said_of(t.robot, link) if e.tag in given)
+        first = next(e for e in block_elements(t.robot, link) if e.tag in given)
         text = f"link '{link.name}' has no collision, so its {', '.join(given)} mean nothing"
         t.report_note("contact", text, first, link)

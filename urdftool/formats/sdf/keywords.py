@@ -75,16 +75,3 @@ LUMPING_KEYWORDS = ("preserveFixedJoint", "disableFixedJointLumping")
 
 IGNORED = ("canonicalBody",)
 """Tags that Gazebo ignores too."""
-
-_TRUE = frozenset(("true", "yes", "1"))
-_FALSE = frozenset(("false", "no", "0"))
-
-
-def is_true(text: str | None) -> bool:
-    """Whether a flag is set, as Gazebo reads it."""
-    return text is not None and text.strip().lower() in _TRUE
-
-
-def is_flag(text: str) -> bool:
-    """Whether a text is a flag at all."""
-    return text.strip().lower() in _TRUE | _FALSE

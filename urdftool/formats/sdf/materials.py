@@ -6,9 +6,10 @@ from decimal import Decimal
 
 from ...model.elements import Link, Material, Robot, Visual
 from ...source.document import Element
+from ..common.gazebo_blocks import value_of
 from ..common.numbers import number_text, numbers_text
 from .colors import COLORS, PICTURED, Color
-from .extensions import said_of, value_of
+from .extensions import block_elements
 from .raw_sdf import copy_raw_element
 from .translation import Translation
 from .xml import Node, add
@@ -18,7 +19,7 @@ SCRIPTS = "file://media/materials/scripts/gazebo.material"
 
 def material(node: Node, t: Translation, link: Link, part: Visual) -> None:
     """The material of a visual."""
-    said = [e for e in said_of(t.robot, link) if e.tag == "material"]
+    said = [e for e in block_elements(t.robot, link) if e.tag == "material"]
     if said and _from_gazebo(node, t, link, part, said[-1]):
         return
     own = resolved(t.robot, part.material)

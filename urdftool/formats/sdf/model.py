@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from ...model.elements import ZERO, GazeboExtension, Origin
 from ...model.read import numbers
 from ...source.document import Element
+from ..common.gazebo_blocks import is_flag, is_true, value_of
 from ..common.naming import first_free, numbered
 from .body_sensors import body_sensors, is_body_sensor
 from .control import control
 from .frames import frames
 from .joints import joint
-from .keywords import is_flag, is_true
 from .links import link
 from .names import model_name
 from .plan import WORLD, links_of
@@ -63,7 +63,7 @@ def _whole(node: Node, t: Translation) -> None:
     """What holds for the model: whether it is static, and where it is."""
     for block in _blocks(t):
         for element in block.element.all("static"):
-            text = (element.get("value") or element.text).strip()
+            text = value_of(element)
             if is_flag(text):
                 for old in node.findall("static"):
                     node.remove(old)

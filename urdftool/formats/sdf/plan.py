@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import link_poses
 from ...model.pose import IDENTITY, Pose
+from ..common.gazebo_blocks import is_true
 from ..common.lumping import LumpingPlan, plan_lumping
-from .keywords import is_true
 from .mass import Mass, mass_of, shortfall, united
 
 EXACT = 1e-9

@@ -8,7 +8,7 @@ from ...finding import Severity
 from ...model.elements import Joint, Link
 from ...source.document import Element
 from ..common.naming import free_name
-from .extensions import said_of
+from .extensions import block_elements
 from .imu import imu_noise
 from .plugins import plugin
 from .raw_sdf import copy_raw_element, move_to_owner, rename_frames
@@ -23,7 +23,7 @@ _LUMP = "_fixed_joint_lump__"
 
 def sensors(node: Node, t: Translation, link: Link) -> None:
     """The sensors of a link, in the link that it is in now."""
-    for element in said_of(t.robot, link):
+    for element in block_elements(t.robot, link):
         if element.tag == "sensor":
             if (element.get("type") or "").strip() == "force_torque":
                 text = (
@@ -37,7 +37,7 @@ def sensors(node: Node, t: Translation, link: Link) -> None:
 
 def joint_sensors(node: Node, t: Translation, joint: Joint) -> None:
     """The sensors of a joint."""
-    for element in said_of(t.robot, joint):
+    for element in block_elements(t.robot, joint):
         if element.tag == "sensor":
             for made in _made(node, t, joint, element):
                 rename_frames(made, t, joint)
