@@ -58,9 +58,9 @@ def export_sdf(
         OutputError: A file cannot be written; what was there is as it was.
     """
     from ..errors import ConfigError
+    from ..formats.export import finish_export
+    from ..formats.registry import format_named
     from ..formats.sdf.options import VERSIONS, Options, folder_and_file
-    from ..formats.sdf.verify.compare import verify as compare
-    from ..formats.sdf.write import write
 
     if version and version not in VERSIONS.get(target, ()):
         known = ", ".join(VERSIONS.get(target, ()))
@@ -80,19 +80,12 @@ def export_sdf(
         fix_inertia,
         config,
     )
-    written = write(robot, options)
+    sdf = format_named("sdf")
+    written = sdf.write(robot, options)
     written.losses += check_plugins(robot, target)
-    if output is not None:
-        _put(robot, written, output, bool(file), overwrite)
-    if verify and output is not None:
-        written.checks = compare(robot, written, options, output)
-    elif verify:
-        import tempfile
-
-        with tempfile.TemporaryDirectory(prefix="urdftool-") as place:
-            copy = Path(place) / (file or folder)
-            _put(robot, written, copy, bool(file), overwrite=False)
-            written.checks = compare(robot, written, options, copy)
+    written.checks = finish_export(
+        sdf, robot, options, written, output, verify=verify, overwrite=overwrite
+    )
     return written
 
 
@@ -159,11 +152,11 @@ def export_mjcf(
         OutputError: A file cannot be written, or MuJoCo does not compile it; what was there is as
             it was.
     """
-    from ..formats.mjcf.compiled import compile_copy
-    from ..formats.mjcf.options import FILES, Options
-    from ..formats.mjcf.verify import verify_copy
-    from ..formats.mjcf.write import write
+    from ..formats.export import finish_export
+    from ..formats.mjcf.options import Options
+    from ..formats.registry import format_named
 
+    mjcf = format_named("mjcf")
     name = Path(output).name if output is not None else ""
     options = Options(
         actuators=actuators,
@@ -173,7 +166,7 @@ def export_mjcf(
         fix_inertia=fix_inertia,
         force=force,
         mesh_dir="" if mesh_dir == "." else mesh_dir,
-        file=name if Path(name).suffix.lower() in FILES else "",
+        file=name if mjcf.has_suffix(name) else "",
         cutter=partial(cut_meshes, gltf_up=_gltf_up(robot)) if decompose else None,
         keep_locked_joints=keep_locked_joints,
         pose=pose or {},
@@ -185,14 +178,10 @@ def export_mjcf(
         fuse=fuse,
         overlap=measure_overlap,
     )
-    written = write(robot, options)
-    if verify:
-        written.checks = verify_copy(robot, options, written)
-    else:
-        compile_copy(written)
-    if output is not None:
-        more = [] if srdf is None else [str(srdf)]
-        _put(robot, written, output, bool(options.file), overwrite, more)
+    written = mjcf.write(robot, options)
+    written.checks = finish_export(
+        mjcf, robot, options, written, output, verify=verify, overwrite=overwrite
+    )
     return written
 
 
@@ -236,22 +225,6 @@ def _is_of_plugin(robot: Robot, finding: Finding) -> bool:
         plugin.place.path == place.path and plugin.element.start <= place.start < plugin.element.end
         for plugin in robot.plugins
     )
-
-
-def _put(
-    robot: Robot,
-    written: Written,
-    output: str | Path,
-    single: bool,
-    overwrite: bool,
-    more: Sequence[str] = (),
-) -> None:
-    """Write the files, over none that was read."""
-    from ..formats.common.directory import write_export
-    from ..model.files import sources
-
-    inputs = [*sorted(sources(robot)), *more]
-    write_export(output, written, single=single, overwrite=overwrite, inputs=inputs)
 
 
 def measure_overlap(

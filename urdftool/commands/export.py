@@ -6,21 +6,20 @@ from importlib import import_module
 
 import click
 
+from ..formats.registry import writable_formats
 from .general_options import accept_general_options
-
-FORMATS = ("sdf", "mjcf")
 
 
 class Formats(click.Group):
-    """The formats, each imported when it is wanted."""
+    """The formats that can be written, each imported when it is used."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Their names."""
-        return list(FORMATS)
+        """Return their names."""
+        return [target.name for target in writable_formats()]
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """One of them; None for another name."""
-        if cmd_name not in FORMATS:
+        """Return the command of a format; None for another name."""
+        if cmd_name not in self.list_commands(ctx):
             return None
         return accept_general_options(import_module(f".export_{cmd_name}", __package__).command)
 

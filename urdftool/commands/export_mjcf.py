@@ -10,7 +10,6 @@ import click
 
 from ..console import Console
 from .export_options import export_options, fix_inertia_option
-from .export_report import report_refused, report_written, write_files
 from .options import gltf_option, name_numbers, package_options, robot_argument
 from .read_strict import read_strict, say_gltf
 
@@ -139,46 +138,32 @@ def command(
         urdftool export mjcf quadruped.urdf.xacro -o q/ --scene --actuators position
     """  # noqa: D301 -- click's mark for lines it must not wrap
     from ..api.export import cut_meshes, measure_overlap
-    from ..formats.common.loss_report import losses_as_errors
-    from ..formats.defects import Refused
-    from ..formats.mjcf.compiled import compile_copy
-    from ..formats.mjcf.declared_losses import NOT_COMPARED
-    from ..formats.mjcf.options import FILES, Options
-    from ..formats.mjcf.verify import verify_copy
-    from ..formats.mjcf.write import write
-    from ..model.files import sources
+    from ..formats.mjcf.options import Options
+    from ..formats.registry import format_named
     from ..model.load import robot_of
+    from .export_report import run_export
 
-    as_json = style == "json"
+    mjcf, place = format_named("mjcf"), output or "-"
     description = read_strict(console, robot, package, package_path)
     model = robot_of(description)
     say_gltf(console, model)
-    file = Path(output).name if output and Path(output).suffix.lower() in FILES else ""
-    cutter = partial(cut_meshes, gltf_up=description.gltf_up) if decompose else None
     options = Options(
         mesh_dir="" if mesh_dir == "." else mesh_dir,
-        file=file,
-        cutter=cutter,
+        file=Path(place).name if mjcf.has_suffix(place) else "",
+        cutter=partial(cut_meshes, gltf_up=description.gltf_up) if decompose else None,
         state=pose[0],
         pose=pose[1],
         overlap=measure_overlap,
         **choices,
     )
-    try:
-        written = write(model, options)
-        if strict and (lost := losses_as_errors(written.losses)):
-            raise Refused(lost)
-    except Refused as refused:
-        return report_refused(refused.findings, as_json=as_json)
-    checks = verify_copy(model, options, written) if verified else []
-    if not verified:
-        compile_copy(written)
-    inputs = sorted(sources(model))
-    inputs += [str(path) for path in (options.srdf, options.actuator_config) if path is not None]
-    target = output or "-"
-    write_files(
-        written, target, single=bool(file), overwrite=overwrite, inputs=inputs, as_json=as_json
-    )
-    return report_written(
-        console, written, checks, target, as_json=as_json, not_compared=NOT_COMPARED
+    return run_export(
+        console,
+        mjcf,
+        model,
+        options,
+        place,
+        strict=strict,
+        verify=verified,
+        overwrite=overwrite,
+        as_json=style == "json",
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import click
@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from ..finding import Finding
     from ..formats.check import Check
     from ..formats.common.written import Written
+    from ..formats.registry import ExportOptions, Format
+    from ..model.elements import Robot
 
 
 def report_refused(findings: Sequence[Finding], *, as_json: bool) -> int:
@@ -32,31 +34,76 @@ def report_refused(findings: Sequence[Finding], *, as_json: bool) -> int:
     return 2
 
 
-def write_files(
-    written: Written,
+def run_export(
+    console: Console,
+    target: Format,
+    robot: Robot,
+    options: ExportOptions,
     output: str,
     *,
-    single: bool,
+    strict: bool,
+    verify: bool,
     overwrite: bool,
-    inputs: Sequence[str],
     as_json: bool,
-) -> None:
-    """Write the files where they are wanted; a model without companions may go to stdout.
+    more_checks: Callable[[Robot], list[Finding]] | None = None,
+) -> int:
+    """Export a robot, and report what was lost, compared and written.
+
+    Args:
+        console: Where messages go.
+        target: The format.
+        robot: The robot.
+        options: The options of its writer.
+        output: Where it goes; ``-`` is standard output.
+        strict: Treat losses as errors.
+        verify: Compare the result with the robot.
+        overwrite: Replace also what urdftool did not write.
+        as_json: Print the result as JSON.
+        more_checks: Finds what else to report of the robot.
+
+    Returns:
+        The exit code.
 
     Raises:
-        OutputError: They cannot be written there; what was there is as it was.
+        OutputError: It cannot be written there; what was there is as it was.
+    """
+    from ..formats.common.loss_report import losses_as_errors
+    from ..formats.defects import Refused
+    from ..formats.export import finish_export
+
+    try:
+        written = target.write(robot, options)
+        if more_checks is not None:
+            written.losses += more_checks(robot)
+        if strict and (lost := losses_as_errors(written.losses)):
+            raise Refused(lost)
+    except Refused as refused:
+        return report_refused(refused.findings, as_json=as_json)
+    place = None if output == "-" else output
+    checks = finish_export(
+        target, robot, options, written, place, verify=verify, overwrite=overwrite
+    )
+    if place is None:
+        _print_model(written, as_json=as_json)
+    not_compared = target.not_compared if verify else ()
+    return report_written(
+        console, written, checks, output, as_json=as_json, not_compared=not_compared
+    )
+
+
+def _print_model(written: Written, *, as_json: bool) -> None:
+    """Print a model without companions, unless standard output is for JSON.
+
+    Raises:
+        OutputError: Other files come with it.
     """
     from ..errors import OutputError
-    from ..formats.common.directory import write_export
 
-    if output == "-":
-        if len(written.files) > 1:
-            raise OutputError("meshes or a scene come with the model; say where to with -o OUT")
-        content = written.files[written.main]
-        if not as_json and isinstance(content, bytes):
-            click.echo(content, nl=False)
-        return
-    write_export(output, written, single=single, overwrite=overwrite, inputs=inputs)
+    if len(written.files) > 1:
+        raise OutputError("meshes or a scene come with the model; say where to with -o OUT")
+    content = written.files[written.main]
+    if not as_json and isinstance(content, bytes):
+        click.echo(content, nl=False)
 
 
 def report_written(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,10 +14,7 @@ from .options import gltf_option, package_options, robot_argument
 from .read_strict import read_strict, say_gltf
 
 if TYPE_CHECKING:
-    from ..formats.check import Check
-    from ..formats.common.written import Written
     from ..formats.sdf.options import Options
-    from ..model.elements import Robot
 
 
 @click.command("sdf")
@@ -92,38 +90,25 @@ def command(
         urdftool export sdf mira.urdf -o mira.sdf --target gazebo-classic
     """  # noqa: D301 -- click reads the escape
     from ..api.export import check_plugins
-    from ..formats.common.loss_report import losses_as_errors
-    from ..formats.defects import Refused
-    from ..formats.sdf.verify import NOT_COMPARED
-    from ..formats.sdf.write import write
-    from ..model.files import sources
+    from ..formats.registry import format_named
     from ..model.load import robot_of
-    from .export_report import report_refused, report_written, write_files
+    from .export_report import run_export
 
     place = output or "-"
     options = _options(place, choices)
-    description = read_strict(console, robot, package, package_path)
-    model = robot_of(description)
+    model = robot_of(read_strict(console, robot, package, package_path))
     say_gltf(console, model)
-    as_json = style == "json"
-    try:
-        written = write(model, options)
-        written.losses += check_plugins(model, options.target)
-        if strict and (lost := losses_as_errors(written.losses)):
-            raise Refused(lost)
-    except Refused as refused:
-        return report_refused(refused.findings, as_json=as_json)
-    write_files(
-        written,
+    return run_export(
+        console,
+        format_named("sdf"),
+        model,
+        options,
         place,
-        single=bool(options.file),
+        strict=strict,
+        verify=verified,
         overwrite=overwrite,
-        inputs=sorted([*sources(model), *filter(None, [str(options.actuator_config or "")])]),
-        as_json=as_json,
-    )
-    checks = _verified(model, options, written, place) if verified else []
-    return report_written(
-        console, written, checks, place, as_json=as_json, not_compared=NOT_COMPARED
+        as_json=style == "json",
+        more_checks=partial(check_plugins, target=options.target),
     )
 
 
@@ -147,19 +132,3 @@ def _options(output: str, choices: dict[str, Any]) -> Options:
         actuator_config=config,
         **choices,
     )
-
-
-def _verified(robot: Robot, options: Options, written: Written, output: str) -> list[Check]:
-    """Compare what was written; of standard output, a copy."""
-    from ..formats.sdf.verify.compare import verify
-
-    if output != "-":
-        return verify(robot, written, options, Path(output))
-    import tempfile
-
-    with tempfile.TemporaryDirectory(prefix="urdftool-") as folder:
-        copy = Path(folder) / "model.sdf"
-        content = written.files[written.main]
-        assert isinstance(content, bytes)
-        copy.write_bytes(content)
-        return verify(robot, written, options, copy)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from ...errors import UrdftoolError
 from ...meshes.load import load_named
@@ -21,7 +22,8 @@ from ...model.elements import (
     Visual,
 )
 from ...model.pose import pose_of
-from ..mjcf.inertia import Array
+
+Array = npt.NDArray[np.float64]
 
 
 def link_size(robot: Robot, link: Link) -> Array | None:

@@ -16,7 +16,7 @@ from ...extras import missing
 from ..common.directory import write_directory
 from ..common.written import Written
 from ..mechanics import GRAVITY, Array
-from .options import FILES
+from ..registry import format_named
 
 _PLAIN = (
     "<mujoco><asset><material name='plain'/></asset>"
@@ -87,7 +87,7 @@ def compile_all(written: Written, folder: Path) -> None:
         OutputError: One of them does not compile.
     """
     for name, content in written.files.items():
-        if isinstance(content, bytes) and Path(name).suffix.lower() in FILES:
+        if isinstance(content, bytes) and format_named("mjcf").has_suffix(name):
             compile_file(folder / name)
 
 

@@ -43,12 +43,3 @@ CUT = ("lossy-convex",)
 
 LOOKS = ("lossy-material", "lossy-texture")
 """A colour is."""
-
-
-NOT_COMPARED = (
-    "texture coordinates and normals of meshes",
-    "names of the model, its classes, geoms, sites and materials",
-    "<visual>, <statistic> and <size>",
-    "comments",
-)
-"""What a model holds and no row compares."""

@@ -22,9 +22,6 @@ EXCLUDES: tuple[Exclude, ...] = ("touching", "adjacent", "none")
 Overlap = Callable[[Robot, Mapping[str, float], str, str], float | None]
 """Measures how deep the collision geometry of two links, as written, overlaps [m] in a pose."""
 
-FILES = (".xml", ".mjcf")
-"""Suffixes of an output that is one file."""
-
 
 @dataclass(frozen=True)
 class Options:
@@ -72,3 +69,8 @@ class Options:
     exclude: Exclude = "adjacent"
     fuse: bool = False
     overlap: Overlap | None = None
+
+    @property
+    def input_files(self) -> tuple[Path, ...]:
+        """Return the files that are read beside the robot."""
+        return tuple(path for path in (self.srdf, self.actuator_config) if path is not None)

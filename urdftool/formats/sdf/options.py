@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..common.inertia_repair import FixInertia
+from ..registry import format_named
 
 VERSIONS: dict[str, tuple[str, ...]] = {
     "gz": ("1.9", "1.10", "1.11", "1.12"),
@@ -28,14 +29,11 @@ RELEASES = {
 
 MODEL = "model.sdf"
 
-FILES = (".sdf", ".xml", ".world")
-"""Suffixes of an output that is one file."""
-
 
 def folder_and_file(output: str | Path) -> tuple[str, str]:
     """The name of the folder an output goes to, and that of the file where it is one file."""
     path = Path(os.path.abspath(output))
-    single = path.suffix.lower() in FILES
+    single = format_named("sdf").has_suffix(path)
     return (path.parent if single else path).name, path.name if single else ""
 
 
@@ -93,6 +91,11 @@ class Options:
         if not self.classic:
             return "relative"
         return "file" if self.file else "model"
+
+    @property
+    def input_files(self) -> tuple[Path, ...]:
+        """Return the files that are read beside the robot."""
+        return () if self.actuator_config is None else (self.actuator_config,)
 
     def since(self, version: str) -> bool:
         """Whether the version written is this one or newer."""

@@ -3,10 +3,3 @@
 ``source`` and ``reader`` make a ``Mechanism`` of the robot and of the written file, ``dynamics``
 has the algebra for both, ``compare`` the checks, ``loader`` asks Gazebo's own reader.
 """
-
-NOT_COMPARED = (
-    "names of the model, its visuals and collisions",
-    "model.config and names.json",
-    "comments",
-)
-"""What a file of an export holds and no row compares."""

@@ -1,0 +1,62 @@
+"""What the formats may share: writers by ``common`` alone, and a proof nothing of a writer."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parents[2] / "urdftool"
+FORMATS = PACKAGE / "formats"
+FOLDERS = ("urdf", "sdf", "mjcf")
+MODULES = sorted(FORMATS.rglob("*.py"))
+PROOFS = [
+    path
+    for path in MODULES
+    if path.stem.startswith("verify") or path.parent.name == "verify" or path.stem == "mechanics"
+]
+
+# What a proof may import of the exporter: it repeats an export to see that it is the same, reads
+# what was chosen and what was declared, and compiles a copy.
+OPEN = (
+    *("check", "mechanics", "common.written", "common.losses", "common.directory"),
+    *("common.actuator_config", "common.force_fallbacks"),
+    *("sdf.options", "sdf.write", "sdf.colors", "sdf.verify"),
+    *("mjcf.options", "mjcf.write", "mjcf.compiled", "mjcf.declared_losses", "mjcf.verify"),
+)
+
+
+def imports(path):
+    """The modules of ``formats`` that a file imports, relative to it."""
+    parts = path.relative_to(FORMATS).with_suffix("").parts
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if not isinstance(node, ast.ImportFrom) or not node.level:
+            continue
+        base = parts[: len(parts) - node.level]
+        if node.level > len(parts):
+            continue
+        names = [node.module] if node.module else [alias.name for alias in node.names]
+        yield from (".".join((*base, name)) for name in names)
+
+
+def shown(path):
+    return str(path.relative_to(FORMATS))
+
+
+@pytest.mark.parametrize("path", PROOFS, ids=shown)
+def test_a_proof_shares_nothing_with_the_writers(path):
+    for name in imports(path):
+        assert name.startswith(OPEN), f"{shown(path)} imports {name}"
+
+
+def test_the_proofs_are_found():
+    assert len(PROOFS) > 25
+
+
+@pytest.mark.parametrize("path", MODULES, ids=shown)
+def test_a_format_imports_no_other(path):
+    own = path.relative_to(FORMATS).parts[0]
+    allowed = ("sdf.colors",) if path in PROOFS else ()
+    for name in imports(path):
+        room = name.partition(".")[0]
+        if own in (*FOLDERS, "common") and room in FOLDERS and name not in allowed:
+            assert room == own, f"{shown(path)} imports {name}"

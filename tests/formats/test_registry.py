@@ -1,0 +1,72 @@
+"""The registry of formats: its lines, and what a folder of a format must have."""
+
+from importlib import import_module
+
+import pytest
+
+import urdftool
+from tests.conftest import FIXTURES, ROOT
+from urdftool.formats.registry import (
+    FORMATS,
+    format_named,
+    readable_formats,
+    writable_formats,
+)
+
+EVERYTHING = FIXTURES / "formats" / "everything" / "everything.urdf"
+WRITABLE = writable_formats()
+
+BEYOND = """<robot name="r"><link name="a"/><link name="b"/>
+<joint name="j" type="revolute"><parent link="a"/><child link="b"/>
+<limit lower="-1" upper="1" effort="1" velocity="1"/>
+<calibration rising="0"/><safety_controller k_velocity="1"/></joint>
+<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+<joint name="j"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>
+<actuator name="m"/></transmission>
+<ros2_control name="c" type="system"><joint name="j">
+<command_interface name="position"/></joint></ros2_control>
+<gazebo><plugin name="p" filename="libgazebo_ros_p3d.so"/></gazebo></robot>
+"""
+
+
+def by_name(target):
+    return target.name
+
+
+def test_names_are_those_of_folders():
+    for target in FORMATS:
+        assert import_module(f"urdftool.formats.{target.name}").__doc__
+    with pytest.raises(KeyError):
+        format_named("collada")
+
+
+@pytest.mark.parametrize("target", readable_formats(), ids=by_name)
+def test_a_reader_gives_a_robot(target):
+    assert target.has_suffix(EVERYTHING)
+    assert target.read(EVERYTHING, gltf_up="z").name == urdftool.load(EVERYTHING).name
+
+
+@pytest.mark.parametrize("target", WRITABLE, ids=by_name)
+def test_a_writer_has_options_checks_a_command_and_a_page(target, urdftool):
+    options = import_module(f"urdftool.formats.{target.name}.options").Options()
+    assert options.file == ""
+    assert options.input_files == ()
+    assert target.not_compared
+    assert urdftool("export", target.name, "--help").code == 0
+    assert (ROOT / "docs" / "formats" / f"{target.name}.md").is_file()
+
+
+@pytest.mark.parametrize("target", WRITABLE, ids=by_name)
+def test_a_writer_reports_what_its_format_cannot_express(target, write):
+    options = import_module(f"urdftool.formats.{target.name}.options").Options(force=True)
+    written = target.write(urdftool.load(write("r.urdf", BEYOND)), options)
+    codes = {loss.rule for loss in written.losses}
+    assert target.cannot_express
+    assert set(target.cannot_express) <= codes
+
+
+def test_the_export_command_offers_what_can_be_written(urdftool):
+    shown = urdftool("export", "--help").out
+    assert all(f"  {target.name} " in shown for target in WRITABLE)
+    assert "  urdf " not in shown
+    assert urdftool("export", "urdf", EVERYTHING).code == 2
