@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -19,21 +19,36 @@ from ...model.elements import (
     Mesh,
     Robot,
     Sphere,
+    Vector,
     Visual,
 )
-from ...model.pose import pose_of
+from ...model.pose import IDENTITY, Pose, pose_of
 
 Array = npt.NDArray[np.float64]
 
 
-def link_size(robot: Robot, link: Link) -> Array | None:
-    """Edges [m] of the box around a link's collision geometry, or else its visual one."""
-    for shapes in (link.collisions, link.visuals):
-        points = [points for shape in shapes if (points := shape_points(robot, shape)) is not None]
-        if points:
-            corners = np.concatenate(points)
-            size: Array = corners.max(axis=0) - corners.min(axis=0)
-            return size
+def box_size(robot: Robot, links: Iterable[tuple[Link, Pose]]) -> Vector | None:
+    """Compute the edges [m] of the box around the geometry of links that are one body.
+
+    Args:
+        robot: The robot.
+        links: The links, each with its pose in the frame along whose axes the box is.
+
+    Returns:
+        Those of the collision geometry, or else of the visual one; None where there is none.
+    """
+    placed = list(links)
+    for kind in ("collisions", "visuals"):
+        found = []
+        for link, pose in placed:
+            turn, shift = np.array(pose.rotation), np.array(pose.translation)
+            for shape in getattr(link, kind):
+                points = shape_points(robot, shape)
+                if points is not None:
+                    found.append(points if pose is IDENTITY else points @ turn.T + shift)
+        if found:
+            x, y, z = np.ptp(np.concatenate(found), axis=0).tolist()
+            return x, y, z
     return None
 
 

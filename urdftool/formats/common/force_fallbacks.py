@@ -1,8 +1,8 @@
-"""What is left of a robot past errors in its links and joints; the rest of it can be written."""
+"""The fallbacks of ``--force``: what is written of a robot that has defects."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from ...finding import Finding
@@ -10,14 +10,15 @@ from ...model.elements import Joint, Link, Robot
 from ...model.world import with_world
 from ..defects import defects
 from .naming import free_name
+from .written import Written
 
 FATAL = frozenset(("no-links", "no-root", "multiple-parents", "detached-cycle", "immense-number"))
-"""Errors past which there is no robot that one could mean."""
+"""Defects that no fallback passes."""
 
 OF_TREES = frozenset(("no-root", "multiple-roots", "multiple-parents", "detached-cycle"))
-"""Errors of the whole, which other errors may cause or hide."""
+"""Defects of the whole tree, which other defects may cause or hide."""
 
-INSTEAD = {
+FALLBACKS = {
     "multiple-roots": "each tree stands at the model's origin",
     "duplicate-link-name": "only the first is written",
     "duplicate-joint-name": "it gets another name",
@@ -26,11 +27,11 @@ INSTEAD = {
     "missing-parent-or-child": "the joint is left out",
     "missing-name": "such a link is left out, such a joint gets a name",
 }
-"""What stands in the place of each error that can be passed, where a table can say it."""
+"""The fallback of each defect that has one which does not depend on the case."""
 
 
 def drop_invalid_parts(robot: Robot) -> Robot:
-    """The robot without links and joints that nothing can refer to or that refer to nothing.
+    """Drop links and joints that nothing can refer to, and joints that refer to nothing.
 
     Args:
         robot: A robot, which stays as it is.
@@ -53,15 +54,34 @@ def drop_invalid_parts(robot: Robot) -> Robot:
 
 
 def tree_defects(robot: Robot, left: Robot, forced: bool) -> Iterator[Finding]:
-    """The defects of links and joints, without those that are but the consequence of others.
+    """Yield the defects of links and joints, without those that are consequences of others.
 
     Args:
         robot: The robot.
-        left: What is left of it.
+        left: The robot without invalid parts.
         forced: Whether that is what is written, so that its own trees count.
     """
     own, later = list(defects(robot)), list(defects(left))
     remain = set(map(str, later))
     yield from (f for f in own if f.rule not in OF_TREES or str(f) in remain)
-    said = set(map(str, own))
-    yield from (f for f in later if forced and f.rule in OF_TREES and str(f) not in said)
+    known = set(map(str, own))
+    yield from (f for f in later if forced and f.rule in OF_TREES and str(f) not in known)
+
+
+def report_passed_defects(written: Written, found: Iterable[Finding]) -> None:
+    """Report the defects that ``--force`` passed, each with its fallback.
+
+    Args:
+        written: The export.
+        found: The defects.
+    """
+    for finding in found:
+        fallback = FALLBACKS.get(finding.rule)
+        written.report_loss(
+            finding.rule,
+            finding.message,
+            finding.place,
+            kind=finding.kind,
+            name=finding.name,
+            hint=f"passed by --force; {fallback}" if fallback else "passed by --force",
+        )

@@ -13,8 +13,9 @@ import numpy as np
 
 from ...finding import Finding, Severity
 from ...model.elements import Link
-from ..common.extent import link_size
-from ..common.inertia_repair import FixInertia
+from ...model.pose import IDENTITY
+from ..common.extent import box_size
+from ..common.inertia_repair import FixInertia, repair_tensor
 from ..common.written import Written
 from ..defects import defect
 from . import inertia as tensors
@@ -58,7 +59,7 @@ def inertials(
         if bad and not _compose(structure, top, group, bad, written):
             for name in bad:
                 if not group[name].is_possible:
-                    wrong.extend(_mend(structure, name, group, fix, force, written))
+                    wrong.extend(_repair(structure, name, group, fix, force, written))
         if top != structure.root.name or structure.free:
             _give_weight(structure, top, group, written)
         for name in [link.name for link in members]:
@@ -96,7 +97,7 @@ def _negative(link: Link) -> Iterator[Finding]:
 def _compose(
     structure: Structure, top: str, group: dict[str, LinkInertia], bad: list[str], written: Written
 ) -> bool:
-    """Mend tensors exactly inside a rigid body; whether all of them could be."""
+    """Repair tensors exactly inside a rigid body; return whether all of them could be."""
     for name in bad:
         source = group[name]
         turn = np.array(structure.pose_in_group(name).rotation)
@@ -162,7 +163,7 @@ def _unite(
     return True
 
 
-def _mend(
+def _repair(
     structure: Structure,
     name: str,
     group: dict[str, LinkInertia],
@@ -170,7 +171,7 @@ def _mend(
     force: bool,
     written: Written,
 ) -> Iterator[Finding]:
-    """Change a tensor as the user chose; held links without being asked, for they do not move."""
+    """Repair a tensor as the user chose; of links fixed to the world also if not asked to."""
     read = group[name]
     before = tensors.moments_text(read.tensor)
     static = structure.is_static(name)
@@ -189,7 +190,7 @@ def _mend(
         del group[name]
         what = "it has no mass, and is written without inertia"
     else:
-        tensor, how = _repaired(structure, name, read, "lift" if fix == "none" else fix)
+        tensor, how = _repaired(structure, name, read, fix)
         group[name] = read.changed(tensor)
         what = f"{how} to {tensors.moments_text(tensor)} kg·m²"
     held = "; it is held by the world and does not move" if static else ""
@@ -206,16 +207,14 @@ def _mend(
 def _repaired(
     structure: Structure, name: str, read: LinkInertia, fix: FixInertia
 ) -> tuple[Array, str]:
-    if fix == "box":
-        size = link_size(structure.robot, structure.robot.link[name])
-        if size is not None:
-            return tensors.box(read.mass, size), "made that of a box around its geometry, changed"
-    if fix == "balance":
-        return tensors.balance(read.tensor), "balanced"
-    lifted = tensors.lift(read.tensor)
-    if fix == "box":
-        return lifted, "it has no geometry for a box, so it is lifted"
-    return lifted, "lifted"
+    robot = structure.robot
+    return repair_tensor(
+        fix,
+        lambda: box_size(robot, [(robot.link[name], IDENTITY)]),
+        lift=lambda: tensors.lift(read.tensor),
+        balance=lambda: tensors.balance(read.tensor),
+        box=lambda edges: tensors.box(read.mass, np.array(edges)),
+    )
 
 
 def _part_of_tiny(structure: Structure, top: str, group: dict[str, LinkInertia]) -> float:

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from lxml import etree
 
-from ...errors import SourceError
 from ...finding import Finding, Severity
 from ...meshes.mesh import MeshNote
 from ...model.elements import Collision, Mesh, Robot, Vector, Visual
+from ..common.assets import find_file
 from ..common.missing_files import missing_mesh
 from ..common.naming import UniqueNames, file_name
 from ..common.written import Written
@@ -110,18 +108,15 @@ def _uses(robot: Robot) -> tuple[list[_Use], list[Finding]]:
         mesh = shape.geometry
         if not isinstance(mesh, Mesh):
             continue
-        path: Path | None = None
-        if mesh.filename and robot.source is not None:
-            with suppress(SourceError):
-                path = Path(os.path.realpath(robot.source.resolve(mesh.filename)))
-        if path is None or not os.path.isfile(path):
+        path = find_file(robot, mesh.filename)
+        if path is None:
             wrong.append(missing_mesh(robot, link, mesh))
         elif not all(mesh.scale):
             text = f"scale of mesh '{mesh.filename}' of link '{link.name}' has a zero in it"
             place = mesh.element.attribute_place("scale")
             wrong.append(defect("bad-scale", text, place, "link", link.name))
         else:
-            uses.append((path, isinstance(shape, Collision), shape))
+            uses.append((path.resolve(), isinstance(shape, Collision), shape))
     return uses, wrong
 
 

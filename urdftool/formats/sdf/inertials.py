@@ -6,8 +6,8 @@ from ...finding import Severity
 from ...model.elements import Link, Part
 from ...model.pose import Pose, Rotation
 from ..common.numbers import number_text
+from .inertia_repair import moments_text, repair_inertia
 from .mass import CLEAR, ROUNDING, lifted, shortfall, tensor_of
-from .mended import mended, moments_text
 from .plan import EXACT
 from .pose import set_origin, set_pose
 from .translation import Translation
@@ -40,7 +40,7 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
         tensor = mass.tensor
     add(node, "mass", number_text(mass.mass))
     if short > ROUNDING:
-        tensor, how = mended(t, link.name)
+        tensor, how = repair_inertia(t, link.name)
         t.report_loss(
             "inertia",
             f"link '{link.name}' has principal moments {moments_text(mass.tensor)} kg·m², which no "

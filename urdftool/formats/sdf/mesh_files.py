@@ -3,27 +3,18 @@
 from __future__ import annotations
 
 import os
-import re
 from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path, PurePosixPath
 
-from ...errors import UrdftoolError
 from ...model.elements import Mesh, Robot
 from ...source.packages import own_package
-from ..common.asset_filter import explain_invalid_mesh, is_companion, is_image
+from ..common.asset_filter import explain_invalid_mesh, is_image
+from ..common.assets import find_companions, find_file, package_path
 from ..common.naming import first_free, numbered
 from .names import model_name
 from .options import Options
 from .scripts import SCRIPTS, TEXTURES, material_name, picture_names, plain, script
-
-_NAMED = {
-    ".dae": re.compile(rb"<init_from>\s*(?:<ref>)?([^<]+)<"),
-    ".obj": re.compile(rb"(?m)^\s*mtllib\s+(.+?)\s*$"),
-    ".mtl": re.compile(rb"(?m)^\s*(?:map_\w+|bump|disp|refl|norm)\s+(?:-\S+\s+\S+\s+)*(\S+)\s*$"),
-    ".gltf": re.compile(rb'"uri"\s*:\s*"([^"]+)"'),
-}
-"""How each format names other files."""
 
 
 @dataclass
@@ -106,7 +97,7 @@ def find_meshes(robot: Robot, options: Options) -> MeshFiles:
         textures += [v.material.texture for v in link.visuals if v.material and v.material.texture]
     meshes = MeshFiles(options, model_name(robot))
     for name in dict.fromkeys([*names, *textures]):
-        meshes.found[name] = path = _find(robot, name)
+        meshes.found[name] = path = find_file(robot, name)
         why = _refusal(path, mesh=name in names) if path is not None else ""
         if why:
             meshes.found[name], meshes.refused[name] = None, why
@@ -123,19 +114,6 @@ def _there(meshes: MeshFiles, names: list[str]) -> list[Path]:
     """The files of URIs, each once, without those that are missing."""
     found = (meshes.found[name] for name in names)
     return list(dict.fromkeys(path for path in found if path is not None))
-
-
-def _find(robot: Robot, name: str) -> Path | None:
-    if not name or robot.source is None:
-        return None
-    scheme, separator, rest = name.partition("://")
-    if separator and scheme in ("package", "model"):  # several readers take package:///NAME/… too
-        name = f"{scheme}://{rest.lstrip('/')}"
-    try:
-        path = robot.source.resolve(name)
-        return path if os.path.isfile(path) else None
-    except (UrdftoolError, OSError, ValueError):
-        return None
 
 
 def _refusal(path: Path, *, mesh: bool) -> str:
@@ -156,7 +134,7 @@ def _package_uri(filename: str, path: Path) -> str:
 
 def _give_places(meshes: MeshFiles, wanted: list[Path]) -> None:
     """Keep the folders of a package below ``meshes/``, so that files still find each other."""
-    homes = {path: _home(path) for path in wanted}
+    homes = {path: package_path(path) for path in wanted}
     several = len({package for package, _ in homes.values()}) > 1
     taken: set[str] = set()
     for path in wanted:
@@ -172,15 +150,6 @@ def _give_places(meshes: MeshFiles, wanted: list[Path]) -> None:
         _add_companions(meshes, path, meshes.places[path])
 
 
-def _home(path: Path) -> tuple[str, str]:
-    """The package of a file and its path there; the name of its folder where it is in none."""
-    full = Path(os.path.abspath(path))
-    own = own_package(full)
-    if own is None:
-        return full.parent.name, full.name
-    return own[0], full.relative_to(own[1]).as_posix()
-
-
 def _free(place: str, taken: set[str]) -> str:
     stem, dot, suffix = place.rpartition(".")
     return first_free(chain((place,), numbered(stem, suffix=dot + suffix)), taken)
@@ -188,22 +157,10 @@ def _free(place: str, taken: set[str]) -> str:
 
 def _add_companions(meshes: MeshFiles, path: Path, place: str) -> None:
     """Add the textures and material files that a mesh names, where they lie to it as before."""
-    pattern = _NAMED.get(path.suffix.lower())
-    if pattern is None or meshes.options.uri_style in ("package", "file"):
+    if meshes.options.uri_style in ("package", "file"):
         return
-    try:
-        data = path.read_bytes()
-    except OSError:
-        return
-    for raw in dict.fromkeys(pattern.findall(data)):
-        name = raw.decode("utf-8", "replace").strip().removeprefix("file://").replace("\\", "/")
-        if not name or name.startswith(("/", "data:")) or "://" in name:
-            continue
-        other = path.parent / name
+    for other, name in find_companions(path):
         target = os.path.normpath(os.path.join(os.path.dirname(place), name))
-        if other in meshes.places or target.startswith("..") or not os.path.isfile(other):
-            continue
-        if not is_companion(other):
-            continue
-        meshes.places[other] = Path(target).as_posix()
-        _add_companions(meshes, other, meshes.places[other])
+        if other not in meshes.places and not target.startswith(".."):
+            meshes.places[other] = Path(target).as_posix()
+            _add_companions(meshes, other, meshes.places[other])

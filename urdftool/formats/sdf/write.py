@@ -7,10 +7,14 @@ from pathlib import PurePath
 
 from lxml import etree
 
-from ...finding import Finding
 from ...model.elements import Robot
 from ..common.directory import mark
-from ..common.force_fallbacks import FATAL, INSTEAD, drop_invalid_parts, tree_defects
+from ..common.force_fallbacks import (
+    FATAL,
+    drop_invalid_parts,
+    report_passed_defects,
+    tree_defects,
+)
 from ..common.written import Written
 from ..defects import FATAL as STRUCTURAL
 from ..defects import refuse
@@ -60,7 +64,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     root = _root(options)
     node = model(root, t)
     _note_names(t)
-    _note_forced(t, found)
+    report_passed_defects(written, found)
     _files(t, root, node)
     return written
 
@@ -106,17 +110,3 @@ def _note_names(t: Translation) -> None:
         why = "a joint has that name too" if both else "SDF does not allow the name"
         text = f"{kind} '{old}' is '{new}' in SDF, since {why}"
         t.report_loss("name", text, part, part)
-
-
-def _note_forced(t: Translation, found: list[Finding]) -> None:
-    """Say which defects were passed; what stands in their place is said where it was written."""
-    for finding in found:
-        instead = INSTEAD.get(finding.rule)
-        t.written.report_loss(
-            finding.rule,
-            finding.message,
-            finding.place,
-            kind=finding.kind,
-            name=finding.name,
-            hint=f"passed by --force; {instead}" if instead else "passed by --force",
-        )

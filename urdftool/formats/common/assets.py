@@ -1,0 +1,62 @@
+"""Mesh and image files of a robot: where they are, and which files they name themselves."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from ...errors import UrdftoolError
+from ...model.elements import Robot
+from ...source.packages import own_package
+from .asset_filter import is_companion
+
+_NAMED = {
+    ".dae": re.compile(rb"<init_from>\s*(?:<ref>)?([^<]+)<"),
+    ".obj": re.compile(rb"(?m)^\s*mtllib\s+(.+?)\s*$"),
+    ".mtl": re.compile(rb"(?m)^\s*(?:map_\w+|bump|disp|refl|norm)\s+(?:-\S+\s+\S+\s+)*(\S+)\s*$"),
+    ".gltf": re.compile(rb'"uri"\s*:\s*"([^"]+)"'),
+}
+"""How each format names other files."""
+
+
+def find_file(robot: Robot, uri: str) -> Path | None:
+    """Return the file of a URI or path in a description; None where there is none."""
+    if not uri or robot.source is None:
+        return None
+    try:
+        path = robot.source.resolve(uri)
+        return path if os.path.isfile(path) else None
+    except (UrdftoolError, OSError, ValueError):
+        return None
+
+
+def find_companions(path: Path) -> Iterator[tuple[Path, str]]:
+    """Yield the images, material and buffer files that a mesh names, and the names, relative to it.
+
+    What lies elsewhere than relative to the mesh, is not there, or is of another kind, is left out.
+    """
+    pattern = _NAMED.get(path.suffix.lower())
+    if pattern is None:
+        return
+    try:
+        data = path.read_bytes()
+    except OSError:
+        return
+    for raw in dict.fromkeys(pattern.findall(data)):
+        name = raw.decode("utf-8", "replace").strip().removeprefix("file://").replace("\\", "/")
+        if not name or name.startswith(("/", "data:")) or "://" in name:
+            continue
+        other = path.parent / name
+        if os.path.isfile(other) and is_companion(other):
+            yield other, name
+
+
+def package_path(path: Path) -> tuple[str, str]:
+    """Return the package of a file and its path there; its folder's name where it is in none."""
+    full = Path(os.path.abspath(path))
+    own = own_package(full)
+    if own is None:
+        return full.parent.name, full.name
+    return own[0], full.relative_to(own[1]).as_posix()
