@@ -11,7 +11,7 @@ from types import FunctionType
 import urdftool
 from urdftool.collision import compute, settings
 from urdftool.formats.check import Check
-from urdftool.formats.common.written import Written
+from urdftool.formats.written import Written
 from urdftool.lint.fix_run import Mended
 from urdftool.model import elements
 from urdftool.simulation.fault import Fault

@@ -18,7 +18,7 @@ PROOFS = [
 # What a proof may import of the exporter: it repeats an export to see that it is the same, reads
 # what was chosen and what was declared, and compiles a copy.
 OPEN = (
-    *("check", "mechanics", "common.written", "common.losses", "common.directory"),
+    *("check", "mechanics", "written", "common.losses", "common.directory"),
     *("common.actuator_config", "common.force_fallbacks"),
     *("sdf.options", "sdf.write", "sdf.colors", "sdf.verify"),
     *("mjcf.options", "mjcf.write", "mjcf.compiled", "mjcf.declared_losses", "mjcf.verify"),

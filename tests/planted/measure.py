@@ -12,13 +12,13 @@ from lxml import etree
 
 from urdftool.formats.check import Check
 from urdftool.formats.common.directory import write_directory
-from urdftool.formats.common.written import Written
 from urdftool.formats.mjcf.options import Options as MjcfOptions
 from urdftool.formats.mjcf.verify import verify
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.formats.sdf.options import Options as SdfOptions
 from urdftool.formats.sdf.verify.compare import compare, pair_of
 from urdftool.formats.sdf.write import write as write_sdf
+from urdftool.formats.written import Written
 from urdftool.model.elements import Robot
 from urdftool.model.load import load
 

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from ..formats.common.written import Written
+from ..formats.written import Written
 from ..model.elements import Robot
 from ..source.description import GltfUp
 

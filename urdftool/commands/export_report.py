@@ -14,8 +14,8 @@ from ..terminal import visible
 if TYPE_CHECKING:
     from ..finding import Finding
     from ..formats.check import Check
-    from ..formats.common.written import Written
     from ..formats.registry import ExportOptions, Format
+    from ..formats.written import Written
     from ..model.elements import Robot
 
 

@@ -9,8 +9,8 @@ from ..model.elements import Robot
 from ..model.files import sources
 from .check import Check
 from .common.directory import write_export
-from .common.written import Written
 from .registry import ExportOptions, Format
+from .written import Written
 
 
 def finish_export(

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     from ..model.elements import Robot
     from .check import Check
-    from .common.written import Written
+    from .written import Written
 
 
 class ExportOptions(Protocol):

@@ -220,11 +220,11 @@ def test_contacts_of_a_free_base_have_elliptic_cones(write, base, cone):
 )
 def test_real_robots(path, free):
     from tests.conftest import CORPUS
-    from urdftool.formats.common.written import Written
     from urdftool.formats.mjcf.base import with_base
     from urdftool.formats.mjcf.home import home_positions
     from urdftool.formats.mjcf.shape_box import ShapeBoxes
     from urdftool.formats.mjcf.structure import structure_of
+    from urdftool.formats.written import Written
     from urdftool.model.load import load
 
     made, written = load(CORPUS / path), Written("x")

@@ -1,8 +1,8 @@
-"""The parts that every writer of a format uses.
+"""The parts that the writers of all formats use. Nothing here imports a format.
 
-``written`` and ``losses`` hold what a writer returns, ``loss_report`` prints it, ``directory``
-writes it to disk. ``lumping`` groups links that fixed joints join, ``naming`` gives unique names,
-``assets``, ``asset_filter`` and ``missing_files`` find mesh and image files, ``inertia_repair``
-replaces physically inconsistent tensors, ``force_fallbacks`` drops invalid parts for ``--force``,
-``gazebo_blocks`` reads ``<gazebo>`` elements. Nothing here imports a format.
+``lumping`` groups the links that fixed joints join; ``naming`` makes names unique; ``assets``,
+``asset_filter`` and ``missing_files`` find mesh and image files; ``inertia_repair`` and ``extent``
+replace physically inconsistent tensors; ``gazebo_blocks`` and ``actuator_config`` read settings;
+``force_fallbacks`` drops invalid parts for ``--force``; ``losses`` and ``loss_report`` declare and
+print what was lost; ``directory`` writes files to disk, ``numbers`` writes numbers.
 """

@@ -17,7 +17,7 @@ from ... import __version__
 from ...errors import OutputError
 from ...output import check_folder
 from ...storage import write_files, write_folder
-from .written import Written
+from ..written import Written
 
 _MARK = re.compile(rb"<!-- Exported by urdftool [^;]*; ([0-9a-f]{12}) -->\n?")
 _HEAD = 4096

@@ -9,8 +9,8 @@ from ...finding import Finding
 from ...model.elements import Joint, Link, Robot
 from ...model.world import with_world
 from ..defects import defects
+from ..written import Written
 from .naming import free_name
-from .written import Written
 
 FATAL = frozenset(("no-links", "no-root", "multiple-parents", "detached-cycle", "immense-number"))
 """Defects that no fallback passes."""

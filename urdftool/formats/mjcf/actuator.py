@@ -14,7 +14,7 @@ from lxml import etree
 from ...finding import Severity
 from ...model.elements import Joint, Robot
 from ..common.actuator_config import JointSettings
-from ..common.written import Written
+from ..written import Written
 from .digits import number_text, numbers_text
 from .drives import plugin_drives
 from .equality import follows

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from ...finding import Severity
 from ..common.gazebo_blocks import is_true
-from ..common.written import Written
+from ..written import Written
 from .drives import drive_plugins
 from .options import Base
 from .shape_box import ShapeBoxes

@@ -5,7 +5,7 @@ from __future__ import annotations
 from lxml import etree
 
 from ..common.naming import UniqueNames
-from ..common.written import Written
+from ..written import Written
 from .body import Bodies
 from .joint import SITE
 from .sensor import put_before_bodies, site_sensor

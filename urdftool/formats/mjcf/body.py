@@ -6,7 +6,7 @@ from lxml import etree
 
 from ...model.elements import Joint, Link
 from ..common.naming import UniqueNames
-from ..common.written import Written
+from ..written import Written
 from .digits import numbers_text
 from .frame import set_origin, set_pose
 from .gazebo import link_friction, link_is_weightless

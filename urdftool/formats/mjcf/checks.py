@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...model.elements import Robot
 from ..check import Check
-from ..common.written import Written
+from ..written import Written
 from .options import Options
 
 NOT_COMPARED = (

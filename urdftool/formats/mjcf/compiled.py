@@ -14,9 +14,9 @@ import numpy as np
 from ...errors import MissingDependency, OutputError
 from ...extras import missing
 from ..common.directory import write_directory
-from ..common.written import Written
 from ..mechanics import GRAVITY, Array
 from ..registry import format_named
+from ..written import Written
 
 _PLAIN = (
     "<mujoco><asset><material name='plain'/></asset>"

@@ -6,7 +6,7 @@ from lxml import etree
 
 from ...finding import Severity
 from ...model.elements import Joint
-from ..common.written import Written
+from ..written import Written
 from .digits import numbers_text
 from .loops import STIFF, loop_equalities
 from .structure import Structure, locked_at

@@ -10,8 +10,8 @@ from ...finding import Finding, Severity
 from ...model.elements import Robot
 from ...model.read import numbers
 from ...source.document import Element
-from ..common.written import Written
 from ..defects import defect
+from ..written import Written
 
 OURS = frozenset(
     ("angle", "meshdir", "texturedir", "assetdir", "strippath", "discardvisual", "fusestatic",

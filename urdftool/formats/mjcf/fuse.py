@@ -17,7 +17,7 @@ from ...finding import Severity
 from ...model.elements import Vector
 from ...model.pose import Pose, rotate, rotation_of_quaternion
 from ..common.naming import UniqueNames
-from ..common.written import Written
+from ..written import Written
 from .body import Bodies
 from .digits import numbers_text
 from .frame import set_pose

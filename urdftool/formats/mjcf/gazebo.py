@@ -8,8 +8,8 @@ from ...finding import Finding, Severity
 from ...model.elements import GazeboExtension, Robot
 from ...model.read import number
 from ..common.gazebo_blocks import is_false, is_true
-from ..common.written import Written
 from ..defects import defect
+from ..written import Written
 from .digits import number_text
 
 DEFAULT_FRICTION = "1 0.005 0.0001"

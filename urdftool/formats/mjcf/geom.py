@@ -19,7 +19,7 @@ from ...model.elements import (
 )
 from ...model.read import number
 from ..common.naming import UniqueNames
-from ..common.written import Written
+from ..written import Written
 from .digits import numbers_text
 from .frame import set_origin
 from .material import Materials

@@ -12,7 +12,7 @@ from ...model.kinematics import check_positions, link_poses, movable_joints
 from ...model.pose import Pose, pose_of
 from ...model.read import number, numbers
 from ...model.start import allowed_positions, start_positions
-from ..common.written import Written
+from ..written import Written
 from .shape_box import ShapeBoxes
 from .srdf import Srdf
 from .standing import ground_of

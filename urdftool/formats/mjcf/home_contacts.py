@@ -17,7 +17,7 @@ from pathlib import Path
 from lxml import etree
 
 from ...errors import MissingDependency
-from ..common.written import Written
+from ..written import Written
 from .body import Bodies
 from .compiled import compile_file, mujoco_module
 from .meshes import Assets

@@ -16,8 +16,8 @@ from ...model.elements import Link
 from ...model.pose import IDENTITY
 from ..common.extent import box_size
 from ..common.inertia_repair import FixInertia, repair_tensor
-from ..common.written import Written
 from ..defects import defect
+from ..written import Written
 from . import inertia as tensors
 from .inertia import Array
 from .link_inertia import LinkInertia, inertia_of

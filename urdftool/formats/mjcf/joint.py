@@ -9,7 +9,7 @@ from lxml import etree
 from ...finding import Severity
 from ...model.elements import Joint, Limit, Vector
 from ...model.pose import cross, norm
-from ..common.written import Written
+from ..written import Written
 from .digits import number_text, numbers_text
 from .gazebo import joint_spring
 from .inertials import LEAF_ARMATURE

@@ -8,7 +8,7 @@ from lxml import etree
 
 from ...finding import Severity
 from ..common.actuator_config import JointSettings, read_actuator_config
-from ..common.written import Written
+from ..written import Written
 from .body import Bodies
 from .digits import number_text
 from .options import Options

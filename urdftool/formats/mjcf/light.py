@@ -11,7 +11,7 @@ from ...model.pose import IDENTITY, Pose, rotate, rotation_of_rpy
 from ...model.read import number, numbers
 from ...source.document import Element
 from ..common.naming import UniqueNames
-from ..common.written import Written
+from ..written import Written
 from .body import Bodies
 from .digits import number_text, numbers_text
 

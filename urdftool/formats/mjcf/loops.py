@@ -13,8 +13,8 @@ from ...model.pose import IDENTITY, Pose, add, dot, norm, rotate, rotation_of_rp
 from ...model.read import number, numbers
 from ...source.document import Element
 from ..common.naming import UniqueNames
-from ..common.written import Written
 from ..defects import defect
+from ..written import Written
 from .digits import numbers_text
 from .structure import WORLD, Structure
 

@@ -10,7 +10,7 @@ from lxml import etree
 from ...errors import SourceError
 from ...model.elements import Material, Robot, Visual
 from ..common.naming import UniqueNames, file_name
-from ..common.written import Written
+from ..written import Written
 from .convert import Image, Rgba
 from .digits import numbers_text
 from .gazebo_colors import gazebo_color

@@ -14,8 +14,8 @@ from ...model.elements import Collision, Mesh, Robot, Vector, Visual
 from ..common.assets import find_file
 from ..common.missing_files import missing_mesh
 from ..common.naming import UniqueNames, file_name
-from ..common.written import Written
 from ..defects import defect
+from ..written import Written
 from .convert import Converted, Image, Piece, Rgba
 from .cut import Cut, Cutter
 from .digits import numbers_text

@@ -6,7 +6,7 @@ from lxml import etree
 
 from ...finding import Severity
 from ...model.elements import Robot
-from ..common.written import Written
+from ..written import Written
 from .actuator import actuator_section
 from .base_sensors import add_base_sensors
 from .body import body_tree, fill_bodies

@@ -9,7 +9,7 @@ from lxml import etree
 from ...finding import Severity
 from ...model.elements import Vector
 from ..common.naming import UniqueNames
-from ..common.written import Written
+from ..written import Written
 from .digits import number_text
 from .document import serialise
 from .home import Home

@@ -12,7 +12,7 @@ from ...model.pose import Pose, rotation_of_quaternion, rotation_of_rpy
 from ...model.read import number, numbers
 from ...source.document import Element
 from ..common.naming import UniqueNames
-from ..common.written import Written
+from ..written import Written
 from .body import Bodies
 from .digits import number_text, numbers_text
 from .frame import set_pose

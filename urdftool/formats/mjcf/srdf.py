@@ -11,7 +11,7 @@ from ...model.read import number
 from ...source.description import read_description
 from ...source.document import Element
 from ...source.packages import Packages
-from ..common.written import Written
+from ..written import Written
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from ...finding import Severity
 from ...model.elements import Robot
 from ...source.document import parse, read_file
 from ...source.packages import own_package, shown_path
-from ..common.written import Written
+from ..written import Written
 
 
 def offer_srdf(robot: Robot, written: Written) -> None:

@@ -18,8 +18,8 @@ from ...model.load import read_again
 from ...model.world import with_world
 from ..check import Check
 from ..common.losses import DeclaredLosses
-from ..common.written import Written
 from ..mechanics import Mechanics
+from ..written import Written
 from .compiled import Compiled, compile_all, copied
 from .declared_losses import EFFORT, FREE, INERTIA, LIMITS, TORN, TREE
 from .options import Options

@@ -9,8 +9,8 @@ from ...finding import Finding
 from ...model.elements import Mesh, Robot
 from ..common.directory import mark
 from ..common.naming import file_name
-from ..common.written import Written
 from ..defects import FATAL, defect, defects, refuse, taken_world
+from ..written import Written
 from .base import with_base
 from .extension import extension_defects
 from .gazebo import gazebo_defects

@@ -8,7 +8,7 @@ from tempfile import TemporaryDirectory
 from ...model.elements import Robot
 from ..check import Check
 from ..common.directory import write_export
-from ..common.written import Written
+from ..written import Written
 from .options import Options
 
 NOT_COMPARED = (

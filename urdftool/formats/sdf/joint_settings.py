@@ -6,7 +6,7 @@ from ...finding import Severity
 from ...model.elements import Robot
 from ..common.actuator_config import JointSettings, read_actuator_config
 from ..common.numbers import number_text
-from ..common.written import Written
+from ..written import Written
 from .options import Options
 
 _TYPES = ("revolute", "continuous", "prismatic")

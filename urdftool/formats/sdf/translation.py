@@ -9,7 +9,7 @@ from ...finding import Severity
 from ...model.elements import Joint, Link, Part, Robot
 from ...source.document import Element
 from ..common.actuator_config import JointSettings
-from ..common.written import Written
+from ..written import Written
 from .mesh_files import MeshFiles
 from .names import Names
 from .options import Options

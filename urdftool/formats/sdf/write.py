@@ -15,9 +15,9 @@ from ..common.force_fallbacks import (
     report_passed_defects,
     tree_defects,
 )
-from ..common.written import Written
 from ..defects import FATAL as STRUCTURAL
 from ..defects import refuse
+from ..written import Written
 from .config import config
 from .defects import inertia_defects, mesh_defects, written_defects
 from .joint_settings import joint_settings

@@ -13,7 +13,7 @@ from ....model.elements import Robot
 from ....model.load import read_again
 from ...check import Check
 from ...common.force_fallbacks import drop_invalid_parts
-from ...common.written import Written
+from ...written import Written
 from ..options import Options
 from ..write import write
 from .dynamics import centroidal, mass_matrix, poses

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ...finding import Finding, Severity
-from ...source.location import Place
-from ..check import Check
+from ..finding import Finding, Severity
+from ..source.location import Place
+from .check import Check
 
 
 @dataclass
