@@ -161,15 +161,15 @@ def test_a_file_that_was_changed_meanwhile_is_left(write, urdftool, monkeypatch)
 def test_interrupted_between_two_files_neither_is_changed(write, monkeypatch):
     names = [write("a.xacro", "one"), write("b.xacro", "two")]
     calls = []
+    move = os.replace
 
-    def second_is_interrupted(path, data):
-        calls.append(path)
+    def second_is_interrupted(source, target):
+        calls.append(target)
         if len(calls) == 2:
             raise KeyboardInterrupt
-        original(path, data)
+        move(source, target)
 
-    original = output.write_file
-    monkeypatch.setattr(output, "write_file", second_is_interrupted)
+    monkeypatch.setattr(os, "replace", second_is_interrupted)
     with pytest.raises(KeyboardInterrupt):
         output.rewrite(
             dict.fromkeys(names, b"one") | {names[1]: b"two"}, dict.fromkeys(names, b"x")

@@ -129,16 +129,16 @@ def test_a_new_mesh_is_made_with_what_names_it_or_not_at_all(write, urdftool, mo
     write("arm#1.stl", INVERTED.read_bytes())
     path = write("r.urdf", ROBOT.format("arm#1.stl"))
     words = ("lint", path, "--select", "unsafe-file-name", *FIX)
-    original = output.write_file
+    move = os.replace
 
-    def only_meshes(target, data, **kwargs):
+    def only_meshes(source, target):
         if str(target).endswith(".urdf"):
-            raise output.OutputError("cannot be written: no space left", path=target)
-        original(target, data, **kwargs)
+            raise OSError(28, "No space left on device")
+        move(source, target)
 
     was = {"new.stl": None, path: Path(path).read_bytes()}
     with monkeypatch.context() as patch, pytest.raises(output.OutputError):
-        patch.setattr(output, "write_file", only_meshes)
+        patch.setattr(os, "replace", only_meshes)
         output.rewrite(was, {"new.stl": b"x", path: b"y"})
     assert sorted(os.listdir(".")) == ["arm#1.stl", "r.urdf"]
     shown = urdftool(*words[:4], "--diff", *FIX[1:]).out
