@@ -34,7 +34,7 @@ def _merge_missing_files(findings: Iterable[Finding]) -> Iterator[tuple[Finding,
     """Yield the first of the files that are missing for one reason, and how many more there are."""
     groups: dict[object, list[Finding]] = {}
     for index, finding in enumerate(findings):
-        cause = finding.data.get("missing")
+        cause = finding.data.get("not_found_because")
         groups.setdefault((finding.rule, cause) if cause else index, []).append(finding)
     yield from ((some[0], len(some) - 1) for some in groups.values())
 

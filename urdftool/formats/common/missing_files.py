@@ -65,5 +65,5 @@ def missing_mesh(robot: Robot, link: Link, mesh: Mesh) -> Finding:
         "link",
         link.name,
         missing.hint,
-        {"missing": missing.cause},
+        {"not_found_because": missing.cause},
     )
