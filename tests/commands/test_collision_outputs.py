@@ -108,12 +108,12 @@ def test_a_robot_without_meshes_is_said_to_have_none(urdftool, write):
 
 @pytest.mark.parametrize("way", ["robot", "mesh"])
 def test_what_comes_of_a_killed_coacd_is_said_and_not_kept(urdftool, write, monkeypatch, way):
-    from urdftool.collision import decompose
+    from urdftool import isolated
 
     killer = "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"
-    popen = decompose.subprocess.Popen
+    popen = isolated.subprocess.Popen
     monkeypatch.setattr(
-        decompose.subprocess,
+        isolated.subprocess,
         "Popen",
         lambda words, **more: popen([words[0], "-c", killer], **more),
     )
