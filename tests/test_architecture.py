@@ -9,7 +9,10 @@ PACKAGE = Path(__file__).parents[1] / "urdftool"
 MODULES = sorted(PACKAGE.rglob("*.py"))
 TREES = {path: ast.parse(path.read_text("utf-8")) for path in MODULES}
 
-BASE = ("errors", "extras", "suggestions", "parallel", "isolated", "storage")
+BASE = (
+    *("errors", "extras", "suggestions", "parallel", "isolated", "storage"),
+    *("dependencies", "workspace"),
+)
 """Modules that know nothing of robots, each of which may import those before it."""
 
 # A package may import from the packages below it, never from one above or beside.
