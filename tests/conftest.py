@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-from urdftool import cli, configuration, extras, inputs
+from urdftool import cli, extras
 
 ROOT = Path(__file__).resolve().parents[1]
 FIXTURES = ROOT / "fixtures"
@@ -95,9 +95,7 @@ def _fresh(monkeypatch, tmp_path_factory, request, programs):
         monkeypatch.setenv("PATH", programs)
     for name in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "NO_COLOR", "FORCE_COLOR"):
         monkeypatch.delenv(name, raising=False)
-    inputs.forget()
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-    configuration._found.clear()
 
 
 @dataclass

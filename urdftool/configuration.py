@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from .errors import ConfigError
 from .suggestions import did_you_mean
+from .workspace import Workspace, memoized
 
 if TYPE_CHECKING:
     from .source.description import GltfUp
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 NAMES = (".urdftool.toml", "urdftool.toml", "pyproject.toml")
 TABLES = ("packages", "lint", "collision", "simulate")
 GLTF_UP = "gltf-up"
-
-_found: dict[str, Configuration] = {}
 
 
 @dataclass
@@ -46,35 +45,40 @@ class Configuration:
     gltf_up: GltfUp = "y"
 
 
-def find_configuration(file: str | Path, given: str | None = None) -> Configuration:
+def find_configuration(
+    file: str | Path, given: str | None = None, workspace: Workspace | None = None
+) -> Configuration:
     """The configuration for a file.
 
     Args:
         file: The description, or ``-``.
         given: A configuration file that the user named; it holds for every description.
+        workspace: Reads the files; a new one if None.
 
     Raises:
         ConfigError: It is not valid TOML, or has a table or value it should not have.
     """
+    workspace = workspace or Workspace()
     if given is not None:
-        return _parse(Path(given), required=True) or Configuration(given)
+        return _parse(workspace, Path(given), required=True) or Configuration(given)
     folder = os.getcwd() if str(file) == "-" else os.path.dirname(os.path.abspath(file))
-    return _above(folder)
+    return _above(workspace, folder)
 
 
-def _above(folder: str) -> Configuration:
+@memoized
+def _above(workspace: Workspace, folder: str) -> Configuration:
     """The configuration nearest to a folder; what was found for it once holds for the run."""
-    if folder not in _found:
-        parent = os.path.dirname(folder)
-        here = (_parse(Path(folder, name), required=False) for name in NAMES)
-        found = next((configuration for configuration in here if configuration), None)
-        _found[folder] = found or (_above(parent) if parent != folder else Configuration())
-    return _found[folder]
+    here = (_parse(workspace, Path(folder, name), required=False) for name in NAMES)
+    found = next((configuration for configuration in here if configuration), None)
+    if found is not None:
+        return found
+    parent = os.path.dirname(folder)
+    return _above(workspace, parent) if parent != folder else Configuration()
 
 
-def _parse(path: Path, *, required: bool) -> Configuration | None:
+def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration | None:
     try:
-        data = path.read_bytes()
+        data = workspace.read_bytes(path)
     except OSError as error:
         if required:
             raise ConfigError(

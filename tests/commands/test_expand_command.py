@@ -169,9 +169,7 @@ def test_packages_are_found_as_told(urdftool, write, xacro_file, tmp_path):
     assert urdftool("expand", path).code == 2
     assert urdftool("expand", path, "-p", "my_macros=elsewhere").code == 0
     write("ws/urdftool.toml", '[packages]\nmy_macros = "../elsewhere"\n')
-    from urdftool import configuration
 
-    configuration._found.clear()
     assert urdftool("expand", path).code == 0
     write("other.toml", "[packages]\n")
     assert urdftool("--config", "other.toml", "expand", path).code == 2

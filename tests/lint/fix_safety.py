@@ -12,9 +12,9 @@ from urdftool.lint.outcome import Options
 from urdftool.lint.run import lint_file
 from urdftool.lint.settings import Settings
 from urdftool.source.description import read_description
-from urdftool.source.document import read_file, reading_instead
-from urdftool.source.nearby import bytes_of
+from urdftool.source.document import read_file
 from urdftool.source.packages import Packages
+from urdftool.workspace import Workspace
 
 _FILE = re.compile(r"""filename\s*=\s*(["'])([^"']*)\1""")
 _MESHES = (".stl", ".dae", ".obj", ".ply", ".gltf", ".glb")
@@ -81,38 +81,38 @@ class Bench:
         Meshes that are the same on both sides are small stand-ins of their own sizes, so that
         large ones are not read again and again, and every engine reads every kind.
         """
-        with reading_instead(files):
-            file = read_file(path)
-            packages = Packages(path)
-            text = file.data.decode(file.encoding, "replace")
-            if str(path).endswith(".xacro") or b"<xacro:" in file.data:
-                try:
-                    description = read_description(path, file=file)
-                except UrdftoolError:
-                    return None
-                packages = description.packages
-                if description.expansion is not None:
-                    text = description.expansion.text
+        workspace = Workspace(files)
+        file = read_file(path, workspace)
+        packages = Packages(path, workspace=workspace)
+        text = file.data.decode(file.encoding, "replace")
+        if str(path).endswith(".xacro") or b"<xacro:" in file.data:
+            try:
+                description = read_description(path, file=file, workspace=workspace)
+            except UrdftoolError:
+                return None
+            packages = description.packages
+            if description.expansion is not None:
+                text = description.expansion.text
 
-            def here(match):
-                if not match[2].strip().lower().endswith(_MESHES):
-                    return match[0]
-                try:
-                    mesh = packages.resolve(match[2])
-                    data = bytes_of(mesh)
-                except (UrdftoolError, OSError):
-                    return match[0]
-                if os.path.realpath(mesh) in changed:
-                    name = f"{hashlib.sha256(str(mesh).encode()).hexdigest()[:16]}{mesh.suffix}"
-                    copy = self.folder / side / name
-                else:
-                    digest = hashlib.sha256(data).digest()
-                    copy, data = self.folder / f"{digest.hex()[:16]}.stl", _stand_in(digest)
-                copy.parent.mkdir(exist_ok=True)
-                copy.write_bytes(data)
-                return f'filename="{copy}"'
+        def here(match):
+            if not match[2].strip().lower().endswith(_MESHES):
+                return match[0]
+            try:
+                mesh = packages.resolve(match[2])
+                data = workspace.read_bytes(mesh)
+            except (UrdftoolError, OSError):
+                return match[0]
+            if os.path.realpath(mesh) in changed:
+                name = f"{hashlib.sha256(str(mesh).encode()).hexdigest()[:16]}{mesh.suffix}"
+                copy = self.folder / side / name
+            else:
+                digest = hashlib.sha256(data).digest()
+                copy, data = self.folder / f"{digest.hex()[:16]}.stl", _stand_in(digest)
+            copy.parent.mkdir(exist_ok=True)
+            copy.write_bytes(data)
+            return f'filename="{copy}"'
 
-            return _FILE.sub(here, text)
+        return _FILE.sub(here, text)
 
 
 def _stand_in(digest):

@@ -1,49 +1,34 @@
 """Reports that are kept: they are what a check without them would say, whatever changes."""
 
-import ast
 import os
 import pickle
 import shutil
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.conftest import FIXTURES, ROOT, XACRO
-from urdftool import configuration, inputs
+from tests.conftest import FIXTURES, XACRO
+from urdftool import dependencies
 from urdftool.lint import cache as cache_module
 from urdftool.lint import run
 from urdftool.lint.cache import Cache
 from urdftool.lint.outcome import Options, Report
 from urdftool.lint.parallel import lint_files
 from urdftool.rules import get_rule
-from urdftool.rules.collision import likeness
-from urdftool.rules.mesh import formats, scale
-from urdftool.rules.package import manifest
 from urdftool.storage import DiskCache, cache_folder
 
 ARM = FIXTURES / "robots" / "demo_arm" / "urdf" / "arm.urdf.xacro"
 
 
-def as_new_process():
-    """Forget what a new process would not know."""
-    inputs.forget()
-    configuration._found.clear()
-    for table in (likeness._faces, formats._facts, scale._extents, manifest._texts):
-        table.clear()
-
-
 @pytest.fixture
 def lint(urdftool):
-    def call(*words):
-        as_new_process()
-        return urdftool("lint", *words)
-
-    return call
+    return partial(urdftool, "lint")
 
 
 @pytest.fixture
@@ -203,7 +188,7 @@ def test_any_edit_changes_the_report_as_it_would_without_a_cache(
     shutil.rmtree(root, ignore_errors=True)
     root.mkdir()
     (root / ".git").mkdir()
-    monkeypatch.setattr(inputs, "_FRESH_NS", 0 if trusting else 2_000_000_000)
+    monkeypatch.setattr(dependencies, "_FRESH_NS", 0 if trusting else 2_000_000_000)
     for name in ("HEIGHT", "ROS_PACKAGE_PATH"):
         monkeypatch.setenv(name, "")
     for name in FIRST:
@@ -396,12 +381,10 @@ def test_what_is_asked_once_for_all_is_kept_once(write, tmp_path):
     sizes = sorted(path.stat().st_size for path in entries(tmp_path / "kept"))
     assert len(sizes) == 4
     assert sizes[-1] > 2 * sizes[0]
-    options.cache = Cache(DiskCache(tmp_path / "kept"))
-    as_new_process()
+    options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
     assert all(run.known_report(path, options) for path in paths)
     write("ws/p59/package.xml", "<package><name>gone</name></package>")
-    options.cache = Cache(DiskCache(tmp_path / "kept"))
-    as_new_process()
+    options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
     assert not any(run.known_report(path, options) for path in paths)
 
 
@@ -424,26 +407,3 @@ def test_what_is_not_ours_is_no_report(tmp_path):
     assert cache.read("a") == Report("a")
     cache.store.put("a", pickle.dumps(([], pickle.dumps(["a"]))))
     assert cache.read("a") is None
-
-
-PURE = {
-    *("_loaded", "_chosen", "_pieces", "_codes", "_found", "_spans"),
-    "_names",  # rules/xacro/definitions.py: of files that are read
-}
-
-
-@pytest.mark.parametrize("room", ["source", "model", "meshes", "rules", "lint"])
-def test_what_is_read_once_for_a_run_is_remembered_with_its_inputs(room):
-    """A table that outlives a file's check hides what was read from whoever listens."""
-    for path in (ROOT / "urdftool" / room).rglob("*.py"):
-        for node in ast.parse(path.read_text("utf-8")).body:
-            if isinstance(node, ast.AnnAssign) and isinstance(node.value, ast.Dict):
-                name = ast.unparse(node.target)
-                if name.startswith("_") and not node.value.keys:
-                    stamped = ast.unparse(node.annotation).startswith("dict[Stamp,")
-                    assert stamped or name in PURE, f"{path}: {name} wants to be @Remembered"
-            if isinstance(node, ast.FunctionDef):
-                kept = {ast.unparse(d).partition("(")[0] for d in node.decorator_list}
-                if kept & {"cache", "lru_cache", "functools.cache", "functools.lru_cache"}:
-                    words = {ast.unparse(n) for n in ast.walk(node) if isinstance(n, ast.Name)}
-                    assert not words & {"Path", "os", "open"}, f"{path}: {node.name}"

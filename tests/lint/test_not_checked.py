@@ -10,7 +10,7 @@ import yaml
 
 from tests.conftest import ROOT
 from tests.report.sarif import SARIF
-from urdftool import check, configuration
+from urdftool import check
 from urdftool.errors import SourceError
 
 SCHEMA = json.loads((ROOT / "docs" / "schemas" / "lint.json").read_text())
@@ -277,13 +277,11 @@ def test_what_the_configuration_excludes_is_not_looked_for(xacro_file, write, ur
     xacro_file("test/bad.urdf.xacro", MACRO)
     write("r.urdf", GOOD)
     assert urdftool("lint", ".", "--select", "zero-axis").code == 2
-    configuration._found.clear()
     write("urdftool.toml", '[lint]\nexclude = ["test/*"]\n')
     result = urdftool("-v", "lint", ".", "--select", "zero-axis")
     assert result.code == 0
     assert "test/bad.urdf.xacro: skipped, excluded by 'test/*'" in result.err
     assert urdftool("lint", "test/bad.urdf.xacro").code == 2
-    configuration._found.clear()
     write("urdftool.toml", '[lint]\nexclude = "test"\n')
     result = urdftool("lint", ".")
     assert result.code == 2

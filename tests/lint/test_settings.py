@@ -1,7 +1,6 @@
 import pytest
 
 from urdftool import check
-from urdftool.source import packages
 
 TWO = """<robot name="r">
   <link name="a"/>
@@ -25,9 +24,6 @@ def rules(path, **options):
 
 
 def config(write, text, name="urdftool.toml"):
-    from urdftool import configuration
-
-    configuration._found.clear()
     return write(name, text)
 
 
@@ -100,8 +96,6 @@ def test_targets_are_inferred_and_said(robot, urdftool, write):
         "<package><name>p</name><exec_depend>ros_gz_sim</exec_depend>"
         "<export><build_type>ament_cmake</build_type></export></package>",
     )
-    packages._names.clear()
-    packages._owners.clear()
     assert "(targets: gz, ros2)" in urdftool("lint", robot).err
     assert "(targets: mujoco)" in urdftool("lint", robot, "--target", "mujoco").err
 

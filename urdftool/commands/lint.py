@@ -123,6 +123,7 @@ def command(
     from ..lint.parallel import lint_files
     from ..lint.settings import Settings, check_selectors, check_targets
     from ..lint.skipped import with_parts, without_excluded
+    from ..workspace import Workspace
     from .lint_report import Wanted, report
 
     if explain or list_rules:
@@ -133,7 +134,8 @@ def command(
     files = find_descriptions(paths)
     if not files:
         raise click.UsageError(nothing_below(paths))
-    files, excluded = without_excluded(files, paths, console.config)
+    workspace = Workspace()
+    files, excluded = without_excluded(files, paths, console.config, workspace)
     settings = Settings(
         select=check_selectors(select) if select else None,
         extend_select=check_selectors(extend_select),
@@ -145,7 +147,7 @@ def command(
             raise click.UsageError(f"{option} goes with --fix or --diff")
     kept = cache_place("lint", cache_dir, no_cache)
     options = Options(settings, arguments, package, package_path, console.config)
-    options.gltf_up = console.gltf_up
+    options.gltf_up, options.workspace = console.gltf_up, workspace
     if kept is not None:
         from ..lint.cache import Cache
         from ..storage import DiskCache

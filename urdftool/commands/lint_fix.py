@@ -48,39 +48,35 @@ def fix_files(
 
     Standard input is fixed to standard output, and what remains is reported on stderr.
     """
-    from contextlib import ExitStack
-
     from ..inertia.scales import Scales
     from ..lint.fix_run import apply_fixes
     from ..lint.parallel import lint_files
     from ..lint.skipped import with_parts
     from ..rules.inertia.solids import DENSITY
-    from ..source.document import STDIN, reading_instead
+    from ..workspace import STDIN
     from .lint_report import report
 
     scales = Scales(DENSITY) if kinds.unsafe else None
     options = replace(options, fixes=True, cache=None, weigh=scales)
-    with ExitStack() as stack:
-        given = b""
-        if "-" in files:
-            given = sys.stdin.buffer.read()
-            stack.enter_context(reading_instead({STDIN: given}))
-        reports = list(lint_files(files, options, jobs))
-        done = apply_fixes(reports, options, unsafe=kinds.unsafe, meshes=kinds.meshes)
-        _say_broken(console, done)
-        code = 0 if diff else _write(console, done, reports, options)
-        _say_what_is_left(console, done.reports, kinds)
-        if diff:
-            return _show(console, done, wanted)
-        _say(console, "Fixed", done)
-        _say_where(console, done, files)
-        if "-" in files:
-            wanted.to_stderr = wanted.output_file is None
-            sys.stdout.flush()
-            sys.stdout.buffer.write(done.after.get(STDIN, given))
-            sys.stdout.buffer.flush()
-        whole = with_parts(done.reports, wanted.paths)
-        return max(report(console, whole, settings, wanted), code)
+    given = sys.stdin.buffer.read() if "-" in files else b""
+    if "-" in files:
+        options.workspace = options.workspace.with_overlay({STDIN: given})
+    reports = list(lint_files(files, options, jobs))
+    done = apply_fixes(reports, options, unsafe=kinds.unsafe, meshes=kinds.meshes)
+    _say_broken(console, done)
+    code = 0 if diff else _write(console, done, reports, options)
+    _say_what_is_left(console, done.reports, kinds)
+    if diff:
+        return _show(console, done, wanted)
+    _say(console, "Fixed", done)
+    _say_where(console, done, files)
+    if "-" in files:
+        wanted.to_stderr = wanted.output_file is None
+        sys.stdout.flush()
+        sys.stdout.buffer.write(done.after.get(STDIN, given))
+        sys.stdout.buffer.flush()
+    whole = with_parts(done.reports, wanted.paths)
+    return max(report(console, whole, settings, wanted), code)
 
 
 def _write(console: Console, done: FixResult, reports: Sequence[Report], options: Options) -> int:
@@ -93,7 +89,7 @@ def _write(console: Console, done: FixResult, reports: Sequence[Report], options
     from ..lint.fix_run import concerns
     from ..lint.run import lint_file
     from ..output import rewrite
-    from ..source.document import STDIN
+    from ..workspace import STDIN
 
     failed: set[str] = set()
     for group in done.groups:
@@ -106,6 +102,7 @@ def _write(console: Console, done: FixResult, reports: Sequence[Report], options
     if not failed:
         return 0
     done.drop(failed)
+    options = replace(options, workspace=options.workspace.unread())
     for number, report in enumerate(reports):
         if concerns(report, failed) or concerns(done.reports[number], failed):
             done.reports[number] = lint_file(report.path, options)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from copy import copy
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from ..model.pose import pose_of
 from ..model.read import read_robot
 from ..source import edit
 from ..source.description import is_xacro
-from ..source.document import Document, Element, parse, reading_instead
+from ..source.document import Document, Element, parse
 from ..source.location import SourceFile
 from .fill import Filling, fill
 from .link_review import NAMES, LinkReview
@@ -86,8 +87,9 @@ def _read(robot: Robot, edited: Mapping[str, bytes]) -> Document:
         return parse(file)
     from ..source.expand import expand_xacro
 
-    with reading_instead({path: edited[path] for path in edited if path != main.path}):
-        return expand_xacro(file, description.arguments, description.packages).document()
+    packages = copy(description.packages)
+    packages.workspace = packages.workspace.with_overlay(edited)
+    return expand_xacro(file, description.arguments, packages).document()
 
 
 def _outside(

@@ -1,8 +1,8 @@
 """Reports kept for the next time, with everything that they hang on.
 
 An entry is found by the question (the file, the settings, the arguments, the tool's own code) and
-counts only while all that was asked of the file system for it (:mod:`urdftool.inputs`) would be
-answered the same: a mesh that was missing and has come makes the report as old as one that changed.
+counts only while all that was asked of the file system for it (:mod:`urdftool.dependencies`)
+would be answered the same: a mesh that was missing and has come counts like one that changed.
 A file whose stamp is as it was is not read again, unless it was so young that its stamp may lie.
 """
 
@@ -19,14 +19,23 @@ from typing import Any
 
 from .. import __version__
 from ..configuration import Configuration
+from ..dependencies import (
+    ABSENT,
+    Dependencies,
+    Question,
+    Stamp,
+    answer,
+    has_stamp,
+    is_settled,
+    stamp_of,
+)
 from ..extras import EXTRA_OF, is_installed
-from ..inputs import ABSENT, Asked, Question, Stamp, answer, is_settled, stamp_of, together
 from ..source.location import SourceFile
 from ..storage import DiskCache
 from .outcome import Options, Report
 from .settings import Settings
 
-_FORMAT = 1
+_FORMAT = 2
 _DAYS = 30
 _MOST = 200 * 1024 * 1024
 
@@ -47,7 +56,7 @@ class Cache:
         self._code = _code()
         self._stamps: dict[Question, Stamp | None] = {}
         self._answers: dict[Question, tuple[str, Stamp | None]] = {}
-        self._sets: dict[str, str] = {}
+        self._sets: dict[Dependencies, str] = {}
         self._valid: dict[str, bool] = {}
 
     def key(
@@ -82,14 +91,19 @@ class Cache:
             return None
         return found if isinstance(found, Report) else None
 
-    def write(self, key: str, report: Report, asked: Asked) -> None:
+    def write(self, key: str, report: Report, read: Dependencies) -> None:
         """Keep a report, unless something that it hangs on changed meanwhile."""
         if report.error is not None or report.failed_rules:
             return
         try:
-            rows = self._rows(asked)
+            rows = self._rows(read)
             if rows is None:
                 return
+            for shared in read.shared:
+                digest = self._set(shared)
+                if digest is None:
+                    return
+                rows.append(("many", digest, "", None))
             stream = io.BytesIO()
             _Writer(stream, {row[1]: row[2] for row in rows if row[0] == "file"}).dump(report)
         except (OSError, ValueError, pickle.PicklingError):
@@ -108,16 +122,10 @@ class Cache:
             raise ValueError(path)
         return SourceFile(path, data, encoding)
 
-    def _rows(self, asked: Asked) -> list[Row] | None:
+    def _rows(self, read: Dependencies) -> list[Row] | None:
         """What was asked, with the answers; None if a stamp is no longer what it was then."""
         rows: list[Row] = []
-        for question, stamp in asked.items():
-            if question[0] == "many":
-                digest = self._set(question[1])
-                if digest is None:
-                    return None
-                rows.append(("many", digest, "", None))
-                continue
+        for question, stamp in read.asked.items():
             if question not in self._answers:
                 said = answer(question)
                 self._answers[question] = said, stamp_of(question)
@@ -127,16 +135,16 @@ class Cache:
             rows.append((*question, said, now if is_settled(now) and now else None))
         return rows
 
-    def _set(self, number: str) -> str | None:
-        """The digest by which a set of questions is kept."""
-        if number not in self._sets:
-            rows = self._rows(together[int(number)])
+    def _set(self, read: Dependencies) -> str | None:
+        """The digest by which the questions of a shared result are kept."""
+        if read not in self._sets:
+            rows = self._rows(read)
             if rows is None:
                 return None
             data = pickle.dumps(rows, 5)
-            self._sets[number] = sha256(data).hexdigest()
-            self.store.put(self._sets[number], data)
-        return self._sets[number]
+            self._sets[read] = sha256(data).hexdigest()
+            self.store.put(self._sets[read], data)
+        return self._sets[read]
 
     def _holds(self, row: Row) -> bool:
         """Whether a question is answered as it was."""
@@ -147,7 +155,8 @@ class Cache:
         if question not in self._stamps:
             self._stamps[question] = stamp_of(question)
         now = self._stamps[question]
-        if kind != "env" and (now is None) == (said == ABSENT) and (now is None or now == stamp):
+        known = has_stamp(question) and (now is None) == (said == ABSENT)
+        if known and (now is None or now == stamp):
             return True
         if question not in self._answers:
             self._answers[question] = answer(question), now

@@ -11,18 +11,16 @@ the fix is found that does it.
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from ..errors import UrdftoolError
 from ..finding import FileRewrite, Finding
 from ..rules.file_rewrites import rewritten_bytes
 from ..rules.table import FIXES
-from ..source.document import reading_instead
-from ..source.nearby import bytes_of
+from ..workspace import Workspace
 from .fix_proof import REVEALING, Key, Wrong, key_of, likeness, subject_of, worse
 from .outcome import Options, Report
 from .run import lint_file
@@ -284,10 +282,10 @@ class _Round:
         changed = [path for path, data in edited.items() if result.after.get(path) != data]
         others = sorted(set().union(*(self.concerned.get(path, ()) for path in changed)))
         fresh: dict[int, Report] = {}
+        trial = self.options.workspace.with_overlay(after)
         for number in dict.fromkeys((*own, *others)):
             old = result.reports[number]
-            with reading_instead(after):
-                new = lint_file(old.path, self.options)
+            new = lint_file(old.path, replace(self.options, workspace=trial))
             wrong = worse(old, new, [one.finding for one in some if one.number == number])
             if wrong:
                 return wrong
@@ -324,15 +322,15 @@ class _Round:
                 )
         edited = {path: _spliced(files[path], spans) for path, spans in replaced.items()}
         before: dict[str, bytes | None] = dict(files)
-        with reading_instead(self.start):
-            for rewrite in _rewrites(one.finding for one in chosen):
-                try:
-                    now, made = _now(rewrite.path), rewritten_bytes(rewrite)
-                except (UrdftoolError, OSError) as error:
-                    text = f"{rewrite.origin} cannot be made {rewrite.how}: {error}"
-                    raise _UnmadeError(text) from error
-                if now != made:
-                    before[rewrite.path], edited[rewrite.path] = now, made
+        workspace = self.options.workspace.with_overlay(self.start)
+        for rewrite in _rewrites(one.finding for one in chosen):
+            try:
+                now, made = _now(workspace, rewrite.path), rewritten_bytes(workspace, rewrite)
+            except (UrdftoolError, OSError) as error:
+                text = f"{rewrite.origin} cannot be made {rewrite.how}: {error}"
+                raise _UnmadeError(text) from error
+            if now != made:
+                before[rewrite.path], edited[rewrite.path] = now, made
         return before, edited
 
     def _bytes_of(self, number: int, path: str, data: bytes) -> bytes:
@@ -377,9 +375,9 @@ def _rewrites(chosen: Iterable[Finding]) -> Iterator[FileRewrite]:
         yield from finding.fix.rewrites if finding.fix is not None else ()
 
 
-def _now(path: str) -> bytes | None:
+def _now(workspace: Workspace, path: str) -> bytes | None:
     """What is in a file; None where it is not there."""
-    return bytes_of(path) if os.path.lexists(path) else None
+    return workspace.read_bytes(path) if workspace.exists_or_is_link(path) else None
 
 
 _LATE = "content-before-declaration"

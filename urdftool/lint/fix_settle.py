@@ -21,7 +21,7 @@ from ..source.description import Description
 from ..source.document import STDIN, Element
 from ..source.escape import escape, unescape
 from ..source.location import Place, SourceFile
-from ..source.packages import own_package, shown_path
+from ..source.packages import shown_path
 
 _QUOTES = {"&quot;": '"', "&apos;": "'"}
 
@@ -111,17 +111,16 @@ class Settler:
     def _check_file(self, file: SourceFile) -> None:
         """Refuse files that are not the user's to edit, or not in an encoding that is edited."""
         if file.path != STDIN and file.path not in self.sources:
-            with open(file.path, "rb") as stream:
+            with self.description.workspace.open(file.path) as stream:
                 if stream.read(4).startswith((b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")):
                     raise RefusedError("it is in UTF-16 or UTF-32; save it as UTF-8")
         if file.path != self.main:
             self._check_inside(file.path)
 
     def _check_inside(self, file: str) -> None:
-        path = self.description.packages.file
-        own = own_package(path)
-        root = os.path.realpath(own[1] if own else path.parent)
-        if self.main == STDIN or not os.path.realpath(file).startswith(root + os.sep):
+        files, packages = self.description.workspace, self.description.packages
+        root = files.real_path(packages.own[1] if packages.own else packages.file.parent)
+        if self.main == STDIN or not files.real_path(file).startswith(root + os.sep):
             raise RefusedError(f"it is written in {file}, outside of {shown_path(root)}")
 
 

@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 from ..finding import Cause, FileRewrite, Finding, Fix, Group, Replacement, Site
-from ..inputs import Remembered
 from .merge import in_order
 from .outcome import Outcome
 
@@ -115,7 +114,7 @@ def _key(finding: Finding, robots: Mapping[Any, int]) -> Any:
         return id(finding)
     where: Any = robots.get(_identity(finding), 0)
     if finding.group.by == "repository":
-        where = repository(os.path.dirname(os.path.abspath(finding.place.path)))
+        where = _repository(os.path.dirname(os.path.abspath(finding.place.path)))
     same = finding.group.sentence or _QUOTED_OR_NUMBER.sub("", finding.message)
     effects = tuple(finding.effects.items())
     return finding.rule, finding.severity, same, effects, finding.variants, where
@@ -130,8 +129,7 @@ def _identity(finding: Finding) -> Any:
     return finding.rule, place.path, place.start, place.end, finding.name, finding.message
 
 
-@Remembered
-def repository(folder: str) -> str:
+def _repository(folder: str) -> str:
     """The nearest folder that has a ``.git``, from a folder upward; empty where there is none."""
     for above in (Path(folder), *Path(folder).parents):
         if (above / ".git").exists():

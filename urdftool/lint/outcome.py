@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from ..errors import UrdftoolError
 from ..finding import Finding
 from ..source.description import GltfUp
+from ..workspace import Workspace
 from .settings import Settings
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ class Options:
         weigh: What links weigh and how their mass lies, for fixes that fill in inertia: gives
             (mass, centre, six numbers) by link, in the link frame, for a robot and link names.
         gltf_up: The axis that is up in glTF meshes; None for what the configuration says.
+        workspace: Reads the files of the run.
     """
 
     settings: Settings = field(default_factory=Settings)
@@ -43,6 +45,7 @@ class Options:
     fixes: bool = False
     weigh: ComputeInertia | None = None
     gltf_up: GltfUp | None = None
+    workspace: Workspace = field(default_factory=Workspace)
 
 
 @dataclass

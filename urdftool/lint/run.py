@@ -11,7 +11,6 @@ from ..configuration import Configuration, find_configuration
 from ..errors import ConfigError, SourceError, UrdftoolError
 from ..extras import missing_library
 from ..finding import Cause, Finding, Group, Severity, Site
-from ..inputs import listen
 from ..model.elements import Robot
 from ..model.read import read_robot
 from ..rules import applies_to
@@ -21,6 +20,7 @@ from ..source.description import Description, GltfUp, is_xacro, read_description
 from ..source.document import Document, Element, parse, read_file
 from ..source.location import SourceFile
 from ..source.well_formed import mend
+from ..workspace import Workspace
 from .merge import in_order, merge
 from .moot import Rejections
 from .motion import UNUSED_LINK, WELDED, is_welded_in_mujoco, why_unused
@@ -80,7 +80,9 @@ def check(
         configuration = find_configuration(robot.source.path, config)
         settings = settings_for(robot.source.path, configuration, line)
         report = Report(robot.source.path)
-        _check_description(robot.source, robot, settings, report, [], Options(fixes=fixes))
+        source = robot.source.unread()
+        again = replace(robot, source=source)
+        _check_description(source, again, settings, report, [], Options(fixes=fixes))
     else:
         options = Options(line, args or {}, packages or {}, tuple(package_paths), config)
         options.fixes, options.gltf_up = fixes, gltf_up
@@ -126,7 +128,7 @@ _Question = tuple[str | Path, Options, Configuration, Settings]
 
 def _questions(path: str | Path, options: Options) -> list[_Question]:
     """What is to be checked: a description with each set of arguments that it has."""
-    configuration = find_configuration(path, options.config)
+    configuration = find_configuration(path, options.config, options.workspace)
     settings = settings_for(path, configuration, options.settings)
     each = [options]
     if configuration.lint.get("variants") is not None:
@@ -143,9 +145,10 @@ def _checked(
     question = path, options, configuration, settings
     if options.cache is None or str(path) == "-":
         return label(options.arguments), _lint_once(*question)
-    with listen() as asked:
-        report = _lint_once(*question)
-    options.cache.write(options.cache.key(*question), report, asked)
+    view = options.workspace.recorded()
+    report = _lint_once(path, replace(options, workspace=view), configuration, settings)
+    assert view.dependencies is not None
+    options.cache.write(options.cache.key(*question), report, view.dependencies)
     return label(options.arguments), report
 
 
@@ -161,7 +164,7 @@ def _lint_once(
     failures: list[UrdftoolError] = []
     description: Description | None = None
     try:
-        file = read_file(path)
+        file = read_file(path, options.workspace)
         refuse_other_files(file)
         try:
             description = _read(file, options, configuration)
@@ -190,7 +193,7 @@ def _lint_once(
             settings = replace(settings, select=(), extend_select=())
     if robot is None or description is None:
         report.stopped = failures[0].message
-        description = _unexpanded(file, failures)
+        description = _unexpanded(file, failures, options.workspace)
     _check_description(description, robot, settings, report, failures, options)
     return report
 
@@ -204,6 +207,7 @@ def _read(file: SourceFile, options: Options, configuration: Configuration) -> D
         configured=configuration.packages,
         file=file,
         gltf_up=options.gltf_up or configuration.gltf_up,
+        workspace=options.workspace,
     )
 
 
@@ -220,7 +224,9 @@ def _read_mended(
         return None
 
 
-def _unexpanded(file: SourceFile, failures: list[UrdftoolError]) -> Description:
+def _unexpanded(
+    file: SourceFile, failures: list[UrdftoolError], workspace: Workspace
+) -> Description:
     """A description whose robot is not known: its source alone."""
     from ..source.packages import Packages
 
@@ -229,9 +235,8 @@ def _unexpanded(file: SourceFile, failures: list[UrdftoolError]) -> Description:
         if failure.at is not None:
             files += [failure.at.file, *(call.file for call in failure.at.calls)]
     unique = list({f.path: f for f in files}.values())
-    return Description(
-        file.path, Document(file, Element("", {}, None, file, 0), []), unique, Packages()
-    )
+    document = Document(file, Element("", {}, None, file, 0), [])
+    return Description(file.path, document, unique, Packages(workspace=workspace))
 
 
 def _check_description(
@@ -294,19 +299,17 @@ def _check_description(
         add_fixes(report, findings, made, robot, description, options)
     findings = [rejections.without_moot(finding) for finding in findings]
     report.findings = in_order(merge(findings))
+    for memo in (description.memo, *([robot.memo] if robot is not None else ())):
+        memo.clear()  # refers to the robot, and would wait with it for the garbage collector
 
 
-_chosen: dict[tuple[int, frozenset[str], frozenset[str]], tuple[Settings, list[Rule]]] = {}
 _TELLING = frozenset(tag for tags in APPLIES_TO.values() for tag in tags)
 
 
 def _rules(settings: Settings, targets: frozenset[str], description: Description) -> list[Rule]:
-    """The rules that are to run; worked out once for descriptions of one kind."""
-    tags = _tags(description) & _TELLING
-    key = (id(settings), targets, frozenset(tags))
-    if key not in _chosen:
-        _chosen[key] = settings, settings.rules(targets, tags)
-    return _chosen[key][1]
+    """The rules that are to run; selected once for descriptions of one kind."""
+    tags = frozenset(_tags(description) & _TELLING)
+    return settings.memo.get((targets, tags), lambda: settings.rules(targets, tags))
 
 
 def _tags(description: Description) -> set[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, field, replace
 from fnmatch import fnmatch
 from pathlib import Path
@@ -16,6 +16,7 @@ from ..rules import FAMILIES, FAMILY_OF, applies_to, get_rule
 from ..rules.rule import TARGETS, Rule
 from ..suggestions import did_you_mean
 from ..suggestions import nearest as nearest_name
+from ..workspace import Memo
 
 _LISTS = ("select", "ignore", "extend-select", "targets")
 _KEYS = (*_LISTS, "severity", "per-file-ignores", "variants", "exclude")
@@ -33,6 +34,7 @@ class Settings:
         targets: The active targets; None means that they are inferred from the file.
         severity: Severity by rule name, instead of the rule's; None turns it off.
         thresholds: Thresholds by rule name.
+        memo: The rules by targets and elements, selected once.
     """
 
     select: tuple[str, ...] | None = None
@@ -41,6 +43,7 @@ class Settings:
     targets: frozenset[str] | None = None
     severity: Mapping[str, Severity | None] = field(default_factory=dict)
     thresholds: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    memo: Memo = field(default_factory=Memo, init=False, repr=False, compare=False)
 
     def names(self) -> list[str]:
         """The rules that are selected, whether or not they are on for the targets."""
@@ -53,7 +56,7 @@ class Settings:
             if name in wanted and self.severity.get(name, Severity.INFO) is not None
         ]
 
-    def rules(self, targets: frozenset[str], tags: set[str]) -> list[Rule]:
+    def rules(self, targets: frozenset[str], tags: Set[str]) -> list[Rule]:
         """The rules that are to run.
 
         Args:

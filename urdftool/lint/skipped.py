@@ -11,6 +11,7 @@ from ..configuration import find_configuration
 from ..errors import ConfigError, SourceError
 from ..source.description import Description
 from ..source.document import parse, read_file
+from ..workspace import Workspace
 from .discover import parts_below
 from .outcome import Report
 
@@ -63,7 +64,7 @@ def _why(path: str) -> str:
 
 
 def without_excluded(
-    files: Sequence[str], named: Collection[str], config: str | None
+    files: Sequence[str], named: Collection[str], config: str | None, workspace: Workspace
 ) -> tuple[list[str], list[Report]]:
     """The files to check, and a report for each that a configuration's ``lint.exclude`` leaves out.
 
@@ -71,6 +72,7 @@ def without_excluded(
         files: The files that were found.
         named: Those that the user named, which are checked in any case.
         config: The configuration file that the user named.
+        workspace: Reads the files.
 
     Raises:
         ConfigError: The option is not a list of patterns.
@@ -78,7 +80,7 @@ def without_excluded(
     kept: list[str] = []
     excluded: list[Report] = []
     for file in files:
-        pattern = None if file in named else _pattern(file, config)
+        pattern = None if file in named else _pattern(file, config, workspace)
         if pattern is None:
             kept.append(file)
         else:
@@ -86,9 +88,9 @@ def without_excluded(
     return kept, excluded
 
 
-def _pattern(file: str, config: str | None) -> str | None:
+def _pattern(file: str, config: str | None, workspace: Workspace) -> str | None:
     """The pattern that leaves out a file."""
-    configuration = find_configuration(file, config)
+    configuration = find_configuration(file, config, workspace)
     patterns = configuration.lint.get("exclude", [])
     if not isinstance(patterns, list) or not all(isinstance(word, str) for word in patterns):
         raise ConfigError("lint.exclude must be a list of patterns", path=configuration.path)

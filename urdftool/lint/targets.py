@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..inputs import Remembered
 from ..model.elements import Robot
 from ..model.gazebo_plugins import is_for_gz
 from ..source.description import Description
-from ..source.packages import own_package
+from ..workspace import Workspace, memoized
 
 _CLASSIC_PREFIXES = ("libgazebo_", "libhector_", "libroboticsgroup_", "librotors_gazebo_")
 _CLASSIC_DEPENDENCIES = ("gazebo_ros", "gazebo_plugins", "gazebo_ros_pkgs", "gazebo_ros_control")
@@ -52,24 +51,29 @@ def infer_targets(robot: Robot, description: Description) -> frozenset[str]:
         targets.add("gz" if "ros2" in targets else "gazebo-classic")
     if robot.element.child("mujoco") is not None:
         targets.add("mujoco")
-    if description.path != "-" and next(Path(description.path).parent.glob("*.srdf"), None):
+    if description.path != "-" and _has_srdf(description):
         targets.add("moveit")
     return frozenset(targets)
 
 
 def _of_package(description: Description) -> frozenset[str]:
-    own = own_package(description.packages.file)
+    own = description.packages.own
     if own is None:
         return frozenset()
-    return _read_manifest(own[1] / "package.xml")
+    return _read_manifest(description.workspace, own[1] / "package.xml")
 
 
-@Remembered
-def _read_manifest(path: Path) -> frozenset[str]:
+def _has_srdf(description: Description) -> bool:
+    folder = Path(description.path).parent
+    return bool(description.workspace.glob(folder, "*.srdf"))
+
+
+@memoized
+def _read_manifest(workspace: Workspace, path: Path) -> frozenset[str]:
     import re
 
     try:
-        text = re.sub(r"<!--.*?-->", "", path.read_text("utf-8", "replace"), flags=re.DOTALL)
+        text = re.sub(r"<!--.*?-->", "", workspace.read_text(path), flags=re.DOTALL)
     except OSError:
         return frozenset()
     targets = set()

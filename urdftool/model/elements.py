@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Union
 
 from ..source.document import Element
 from ..source.location import Place
+from ..workspace import Memo
 from .provenance import NOWHERE, Provenance
 
 if TYPE_CHECKING:
@@ -406,6 +407,7 @@ class Robot(Part):
         materials: Those at the top level.
         gazebo: All ``<gazebo>`` blocks.
         source: The description it was read from; None for a robot made of a bare element.
+        memo: What several rules need to know of it, computed once.
     """
 
     name: str = ""
@@ -417,6 +419,7 @@ class Robot(Part):
     gazebo: list[GazeboExtension] = field(default_factory=list)
     ros2_controls: list[Ros2Control] = field(default_factory=list)
     source: Description | None = field(default=None, repr=False)
+    memo: Memo = field(default_factory=Memo, init=False, repr=False, compare=False)
 
     @cached_property
     def link(self) -> dict[str, Link]:

@@ -7,7 +7,7 @@ control, simulation), and the linter itself (lint). A rule is imported when it i
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from importlib import import_module
 
 from .rule import Rule
@@ -40,7 +40,7 @@ def get_rule(name: str) -> Rule:
     return rule
 
 
-def applies_to(name: str, tags: set[str]) -> bool:
+def applies_to(name: str, tags: Set[str]) -> bool:
     """Tell whether a rule can find anything in a robot that has only these elements."""
     wanted = APPLIES_TO.get(FILE_OF[name])
     return wanted is None or not tags.isdisjoint(wanted)

@@ -8,12 +8,9 @@ from collections.abc import Collection, Iterator
 from itertools import islice
 from pathlib import Path
 
-from ..inputs import Remembered
-from ..source.document import copy_of
-from ..source.nearby import bytes_of
-from ..source.packages import own_package, shown_path
+from ..source.packages import shown_path
+from ..workspace import Workspace, memoized
 from .fix import FixContext, RefusedError
-from .mesh.uses import Stamp, stamp
 
 DESCRIPTIONS = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf")
 _USES = (".yaml", ".yml", ".json", ".py", ".launch", ".lua", ".rviz", ".cpp", ".hpp", ".h", ".srdf")
@@ -33,8 +30,9 @@ def check_alone(context: FixContext, word: str, *, robots: bool, but: Collection
     Raises:
         RefusedError: One does.
     """
-    mine = {os.path.realpath(file.path) for file in context.description.files}
-    mine.update(map(os.path.realpath, but))
+    real_path = context.workspace.real_path
+    mine = {real_path(file.path) for file in context.description.files}
+    mine.update(map(real_path, but))
     for number, file in enumerate(context.nearby(_files)):
         if number >= _MOST_FILES:
             raise RefusedError(
@@ -42,22 +40,21 @@ def check_alone(context: FixContext, word: str, *, robots: bool, but: Collection
             )
         path = file.path
         named = path.endswith(_USES) or (path.endswith(DESCRIPTIONS) and robots)
-        if named and file.names(word) and os.path.realpath(path) not in mine:
+        if named and file.names(word) and real_path(path) not in mine:
             raise RefusedError(f"{shown_path(path)} names '{word}', too")
 
 
 _PLAIN = re.compile(rb"[\w-]+")
-_MOST_WORDS = 3_000_000
-_words: dict[Stamp, frozenset[bytes]] = {}
 
 
 class _File:
     """A file around the description, and its words, which are looked up once."""
 
-    __slots__ = ("_found", "path")
+    __slots__ = ("_found", "path", "workspace")
 
-    def __init__(self, path: str) -> None:
+    def __init__(self, workspace: Workspace, path: str) -> None:
         """Read nothing yet."""
+        self.workspace = workspace
         self.path = path
         self._found: frozenset[bytes] | None = None
 
@@ -67,30 +64,23 @@ class _File:
         try:
             if _PLAIN.fullmatch(sought) is not None:
                 if self._found is None:
-                    self._found = _words_of(self.path)
+                    self._found = _words_of(self.workspace, self.path)
                 return sought in self._found
-            data = bytes_of(self.path)[:_MOST_BYTES]
+            data = self.workspace.read_bytes(self.path)[:_MOST_BYTES]
         except OSError:
             return False
         pattern = rb"(?<![\w-])" + re.escape(sought) + rb"(?![\w-])"
         return sought in data and re.search(pattern, data) is not None
 
 
-def _words_of(path: str) -> frozenset[bytes]:
-    """List the words of a file, which are kept as long as the file is the same.
+@memoized
+def _words_of(workspace: Workspace, path: str) -> frozenset[bytes]:
+    """List the words of a file.
 
     Raises:
         OSError: It cannot be read.
     """
-    copy = copy_of(path)
-    if copy is not None:
-        return frozenset(_PLAIN.findall(copy[:_MOST_BYTES]))
-    key = stamp(Path(path))
-    if key not in _words:
-        if sum(map(len, _words.values())) > _MOST_WORDS:
-            _words.clear()
-        _words[key] = frozenset(_PLAIN.findall(bytes_of(path)[:_MOST_BYTES]))
-    return _words[key]
+    return frozenset(_PLAIN.findall(workspace.read_bytes(path)[:_MOST_BYTES]))
 
 
 _INCLUDE = re.compile(rb"<(?:\w+:)?include\b[^>]*?filename\s*=\s*[\"']([^\"']*)[\"']")
@@ -109,15 +99,16 @@ def check_not_included(context: FixContext) -> None:
         RefusedError: One does.
     """
     file = context.description.packages.file
-    own = own_package(file)
+    own = context.description.packages.own
     for folder in context.description.packages.neighbors():
-        for user, said in _included(str(folder)).get(file.name, ()):
+        for user, said in _included(context.workspace, str(folder)).get(file.name, ()):
             found = _FIND.match(said)
             if found is not None:
                 is_this = own is not None and found[1] == own[0]
             else:
                 there = os.path.join(os.path.dirname(user), said)
-                is_this = "$" in said or os.path.realpath(there) == os.path.realpath(file)
+                real_path = context.workspace.real_path
+                is_this = "$" in said or real_path(there) == real_path(file)
             if is_this:
                 raise RefusedError(
                     f"{shown_path(user)} includes {file.name}, and would get it as well"
@@ -127,17 +118,17 @@ def check_not_included(context: FixContext) -> None:
 _FIND = re.compile(r"\$\(find\s+([\w.-]+)\s*\)")
 
 
-@Remembered
-def _included(folder: str) -> dict[str, list[tuple[str, str]]]:
+@memoized
+def _included(workspace: Workspace, folder: str) -> dict[str, list[tuple[str, str]]]:
     """List what xacro files below a folder include, by file name: who does, and in which words."""
     found: dict[str, list[tuple[str, str]]] = {}
-    for number, path in enumerate(_below(folder)):
+    for number, path in enumerate(_below(workspace, folder)):
         if number >= _MOST_FILES:
             break
         if not path.endswith((".xacro", ".urdf")):
             continue
         try:
-            data = Path(path).read_bytes()[:_MOST_BYTES]
+            data = workspace.read_bytes(path)[:_MOST_BYTES]
         except OSError:
             continue
         for match in _INCLUDE.finditer(data):
@@ -148,13 +139,14 @@ def _included(folder: str) -> dict[str, list[tuple[str, str]]]:
 
 def _files(context: FixContext) -> list[_File]:
     """The files of the description's package, or of its folder, as many as are looked at."""
-    own = own_package(context.description.packages.file)
+    own = context.description.packages.own
     root = own[1] if own is not None else context.description.packages.file.parent
-    return list(map(_File, islice(_below(root), _MOST_FILES + 1)))
+    found = islice(_below(context.workspace, root), _MOST_FILES + 1)
+    return [_File(context.workspace, path) for path in found]
 
 
-def _below(root: str | Path) -> Iterator[str]:
-    for where, folders, files in os.walk(root):
+def _below(workspace: Workspace, root: str | Path) -> Iterator[str]:
+    for where, folders, files in workspace.walk(root):
         folders[:] = sorted(folder for folder in folders if not folder.startswith("."))
         for file in sorted(files):
             yield os.path.join(where, file)

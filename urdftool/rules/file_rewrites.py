@@ -12,7 +12,7 @@ from typing import Any
 from ..errors import MeshError
 from ..finding import FileRewrite
 from ..meshes.facts import HEADER_BYTES, TRIANGLE_BYTES, stl_facts
-from ..source.nearby import stand_in
+from ..workspace import Workspace
 
 BINARY, TURNED, WITHOUT_COLLAPSED = "binary STL", "turned inside out", "without its flat triangles"
 MIRRORED, HEADED, COPIED = "mirrored, as STL, along ", "with another word at its head", "a copy"
@@ -23,7 +23,7 @@ Record = tuple[Any, ...]
 """Normal, three corners and the attribute of a triangle, in a row."""
 
 
-def rewritten_bytes(rewrite: FileRewrite) -> bytes:
+def rewritten_bytes(workspace: Workspace, rewrite: FileRewrite) -> bytes:
     """Compute what is written to a file.
 
     Raises:
@@ -31,7 +31,7 @@ def rewritten_bytes(rewrite: FileRewrite) -> bytes:
         OSError: The original cannot be opened.
     """
     try:
-        return _rewritten(stand_in(Path(rewrite.origin)), rewrite)
+        return _rewritten(workspace.local(rewrite.origin), rewrite)
     except (ValueError, OverflowError, struct.error) as error:
         raise MeshError(str(error), path=rewrite.origin) from error
 
@@ -110,14 +110,14 @@ def _turned(record: Record) -> bytes:
     return _RECORD.pack(*(0.0 - value for value in normal), *a, *c, *b, attribute)
 
 
-def count_collapsed(path: Path) -> int:
+def count_collapsed(workspace: Workspace, path: Path) -> int:
     """Count the triangles of a binary STL file that have two corners in one place.
 
     Raises:
         MeshError: It is not a binary STL file.
         OSError: It cannot be read.
     """
-    return sum(map(_is_collapsed, _records(stand_in(path))[1]))
+    return sum(map(_is_collapsed, _records(workspace.local(path))[1]))
 
 
 def _is_collapsed(record: Record) -> bool:

@@ -29,6 +29,7 @@ from ..model.elements import Joint, Link, Robot
 from ..source.description import Description
 from ..source.document import Document, Element
 from ..source.location import Place, SourceFile
+from ..workspace import Workspace
 from .rule import Problem
 from .words import fold
 
@@ -121,6 +122,11 @@ class FixContext:
     severity: Severity = Severity.ERROR
 
     _nearby: list[Any] | None = None
+
+    @property
+    def workspace(self) -> Workspace:
+        """Return what reads the files of the description."""
+        return self.description.workspace
 
     def nearby(self, look: Callable[[FixContext], list[Any]]) -> list[Any]:
         """List the files around the description, once."""

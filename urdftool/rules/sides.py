@@ -242,12 +242,6 @@ def family_of(name: str) -> str:
     return _END.sub("*", name)
 
 
-_last: tuple[Robot, Sides] | None = None
-
-
 def sides(robot: Robot) -> Sides:
     """The sides of a robot; worked out once, however many rules ask."""
-    global _last
-    if _last is None or _last[0] is not robot:
-        _last = robot, Sides(robot)
-    return _last[1]
+    return robot.memo.get("sides", lambda: Sides(robot))

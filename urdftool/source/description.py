@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from copy import copy
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from ..workspace import Memo, Workspace
 from .document import STDIN, Document, parse, read_file
 from .location import SourceFile
 from .packages import Packages
@@ -31,6 +33,7 @@ class Description:
         arguments: The xacro arguments it was expanded with.
         expansion: What xacro did; None for plain URDF.
         gltf_up: The axis that is up in its glTF meshes.
+        memo: What several rules need to know of it, computed once.
     """
 
     path: str
@@ -40,6 +43,18 @@ class Description:
     arguments: dict[str, str] = field(default_factory=dict)
     expansion: Expansion | None = None
     gltf_up: GltfUp = "y"
+    memo: Memo = field(default_factory=Memo, init=False, repr=False, compare=False)
+
+    @property
+    def workspace(self) -> Workspace:
+        """What reads its files."""
+        return self.packages.workspace
+
+    def unread(self) -> Description:
+        """Return the same description, of which other files are read again."""
+        packages = copy(self.packages)
+        packages.workspace = self.workspace.unread()
+        return replace(self, packages=packages)
 
     def resolve(self, uri: str) -> Path:
         """The file that a URI or path in it means; as :meth:`Packages.resolve`.
@@ -64,6 +79,7 @@ def read_description(
     configured: Mapping[str, str | Path] | None = None,
     file: SourceFile | None = None,
     gltf_up: GltfUp = "y",
+    workspace: Workspace | None = None,
 ) -> Description:
     """Read a description, and expand it where it is xacro.
 
@@ -75,16 +91,19 @@ def read_description(
         configured: Folders by package name that the configuration knows.
         file: The file, where it has been read already.
         gltf_up: The axis that is up in glTF meshes.
+        workspace: Reads the files; a new one if None.
 
     Raises:
         SourceError: It, or a file it includes, cannot be read or expanded.
     """
-    file = file or read_file(path)
+    workspace = workspace or Workspace()
+    file = file or read_file(path, workspace)
     finder = Packages(
         None if file.path == STDIN else file.path,
         named=packages,
         paths=package_paths,
         configured=configured,
+        workspace=workspace,
     )
     arguments = dict(arguments or {})
     if not is_xacro(file):

@@ -9,22 +9,19 @@ Refused in any description: files larger than ``MAX_BYTES``, and what ``well_for
 
 from __future__ import annotations
 
-import os
 import sys
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Iterator
 from pathlib import Path
-from types import MappingProxyType
 from typing import NamedTuple
 from xml.parsers import expat
 
 from ..errors import SourceError, XmlError
+from ..workspace import STDIN as STDIN
+from ..workspace import Workspace
 from .location import Call, Place, SourceFile
 from .well_formed import MAX_DEPTH, run_parser
 
 MAX_BYTES = 32 * 1024 * 1024
-STDIN = "<stdin>"
 
 
 class Element:
@@ -141,52 +138,29 @@ class Document:
         self.comments = comments
 
 
-_NOTHING: Mapping[str, bytes] = MappingProxyType({})
-_instead: ContextVar[Mapping[str, bytes]] = ContextVar("_instead", default=_NOTHING)
-
-
-@contextmanager
-def reading_instead(copies: Mapping[str, bytes]) -> Iterator[None]:
-    """For as long as it lasts, some files are read as other bytes than they have on disk.
+def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFile:
+    """The bytes of a file, or of standard input for ``-``.
 
     Args:
-        copies: The bytes by the path of the file, as :class:`SourceFile` calls it.
-    """
-    added = {_key(path): data for path, data in copies.items()}
-    token = _instead.set({**_instead.get(), **added})
-    try:
-        yield
-    finally:
-        _instead.reset(token)
-
-
-def copy_of(path: str | Path) -> bytes | None:
-    """What a file is read as instead; None where it is read as it is on disk."""
-    copies = _instead.get()
-    return copies.get(_key(str(path))) if copies else None
-
-
-def _key(path: str) -> str:
-    return path if path == STDIN else os.path.realpath(path)
-
-
-def read_file(path: str | Path) -> SourceFile:
-    """The bytes of a file, or of standard input for ``-``.
+        path: The file.
+        workspace: Reads it; a new one if None.
 
     Raises:
         SourceError: It is missing, a folder, unreadable, empty or larger than ``MAX_BYTES``.
     """
     shown = str(path)
     named = STDIN if shown == "-" else shown
-    copy = copy_of(named)
+    workspace = workspace or Workspace()
+    copy = workspace.overlaid(named)
     if copy is not None:
+        workspace.record("file", named)
         return SourceFile(named, copy)
     try:
         if shown == "-":
             shown = STDIN
             data = sys.stdin.buffer.read(MAX_BYTES + 1)
         else:
-            with open(shown, "rb") as stream:
+            with workspace.open(shown) as stream:
                 data = stream.read(MAX_BYTES + 1)
     except FileNotFoundError:
         raise SourceError("no such file", path=shown) from None

@@ -7,10 +7,11 @@ moves things. Only what decides that is read: ``project``, ``set``, ``install(DI
 
 from __future__ import annotations
 
-import os
 import re
 from pathlib import Path
 from typing import NamedTuple
+
+from ..workspace import Workspace
 
 _COMMENT = re.compile(r"#\[\[.*?\]\]|#[^\n]*", re.DOTALL)
 _COMMAND = re.compile(r"\b(project|set|install)\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)", re.IGNORECASE)
@@ -38,18 +39,19 @@ class InstallRule(NamedTuple):
     target: str
 
 
-def read_install_rules(package_dir: Path, name: str) -> list[InstallRule]:
+def read_install_rules(package_dir: Path, name: str, workspace: Workspace) -> list[InstallRule]:
     """The install rules of a package that put files below its share folder.
 
     Args:
         package_dir: The folder with its CMakeLists.txt.
         name: The package's name.
+        workspace: Reads the files.
 
     Returns:
         Rules in the order of the file; none where there is no CMakeLists.txt.
     """
     try:
-        text = (package_dir / "CMakeLists.txt").read_text("utf-8", "replace")
+        text = workspace.read_text(package_dir / "CMakeLists.txt")
     except OSError:
         return []
     share = f"share/{name}"
@@ -103,18 +105,19 @@ def _install(package_dir: Path, share: str, words: list[str]) -> list[InstallRul
     return rules
 
 
-def installed_path(rules: list[InstallRule], relative: str) -> Path | None:
+def installed_path(rules: list[InstallRule], relative: str, workspace: Workspace) -> Path | None:
     """The source file that is installed at a path below the share folder, if there is one.
 
     Args:
         rules: What :func:`read_install_rules` found.
         relative: A path below ``share/NAME``, with forward slashes.
+        workspace: Reads the files.
     """
     wanted = Path(relative).parts
     for rule in rules:
         target = Path(rule.target).parts
         if wanted[: len(target)] == target:
             candidate = rule.source.joinpath(*wanted[len(target) :])
-            if os.path.exists(candidate):
+            if workspace.exists(candidate):
                 return candidate
     return None

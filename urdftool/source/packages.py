@@ -17,7 +17,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from ..errors import PackageNotFound
-from ..inputs import Remembered
+from ..workspace import Workspace, memoized
 from .install_rules import InstallRule, installed_path, read_install_rules
 
 _NAME = re.compile(rb"<name\s*>\s*([^<\s]+)\s*</name\s*>")
@@ -31,47 +31,46 @@ _MAX_CLIMB = 6
 _NEAR = 3
 
 
-def package_name(folder: Path) -> str | None:
+def package_name(folder: Path, workspace: Workspace | None = None) -> str | None:
     """The name in a folder's ``package.xml``; None where there is none."""
-    return _names(str(folder))
+    return _names(workspace or Workspace(), str(folder))
 
 
-@Remembered
-def _names(folder: str) -> str | None:
+@memoized
+def _names(workspace: Workspace, folder: str) -> str | None:
     try:
-        with open(os.path.join(folder, "package.xml"), "rb") as stream:
-            text = stream.read()
+        text = workspace.read_bytes(os.path.join(folder, "package.xml"))
     except OSError:
         return None
     match = _NAME.search(_XML_COMMENT.sub(b"", text))
     return match[1].decode("utf-8", "replace") if match else os.path.basename(folder)
 
 
-def own_package(path: Path) -> tuple[str, Path] | None:
+def own_package(path: Path, workspace: Workspace | None = None) -> tuple[str, Path] | None:
     """Name and folder of the package a file belongs to: the nearest ``package.xml`` above it."""
-    return _owners(os.path.dirname(path))
+    return _owners(workspace or Workspace(), os.path.dirname(path))
 
 
-@Remembered
-def _owners(folder: str) -> tuple[str, Path] | None:
-    name = _names(folder)
+@memoized
+def _owners(workspace: Workspace, folder: str) -> tuple[str, Path] | None:
+    name = _names(workspace, folder)
     if name is not None:
         return name, Path(folder)
     parent = os.path.dirname(folder)
-    return _owners(parent) if parent != folder else None
+    return _owners(workspace, parent) if parent != folder else None
 
 
-def packages_below(folder: Path) -> dict[str, Path]:
+def packages_below(folder: Path, workspace: Workspace | None = None) -> dict[str, Path]:
     """All packages in a folder and below it, by name; the one nearest to the top wins.
 
     Hidden folders, build output and folders with an ``…_IGNORE`` file are passed over, and a
     package is not searched for further packages.
     """
-    return _below(str(folder))
+    return _below(workspace or Workspace(), str(folder))
 
 
-@Remembered
-def _below(folder: str) -> dict[str, Path]:
+@memoized
+def _below(workspace: Workspace, folder: str) -> dict[str, Path]:
     found: dict[str, Path] = {}
     level = [folder]
     seen = 0
@@ -82,15 +81,14 @@ def _below(folder: str) -> dict[str, Path]:
             if seen > _MAX_FOLDERS:
                 break
             try:
-                with os.scandir(place) as entries:
-                    listing = list(entries)
+                listing = workspace.list_folder(place)
             except OSError:
                 continue
             names = {entry.name for entry in listing}
             if names & _IGNORE_FILES:
                 continue
             if "package.xml" in names:
-                name = _names(place)
+                name = _names(workspace, place)
                 if name:
                     found.setdefault(name, Path(place))
                 continue
@@ -99,17 +97,10 @@ def _below(folder: str) -> dict[str, Path]:
                 for entry in listing
                 if not entry.name.startswith(".")
                 and entry.name not in _SKIP_FOLDERS
-                and _is_folder(entry)
+                and entry.is_folder
             )
         level = sorted(following)
     return found
-
-
-def _is_folder(entry: os.DirEntry[str]) -> bool:
-    try:
-        return entry.is_dir(follow_symlinks=True)
-    except OSError:
-        return False
 
 
 def shown_path(path: str | Path) -> str:
@@ -123,6 +114,7 @@ class Packages:
     """Finds packages and files for one description.
 
     Attributes:
+        workspace: Reads the files.
         file: The description; None for standard input, which stands in the current folder.
         used: Packages found so far, by name.
         assumed: Folders that stand for a package of their name in ``package://``, because there is
@@ -136,6 +128,7 @@ class Packages:
         named: Mapping[str, str | Path] | None = None,
         paths: Iterable[str | Path] = (),
         configured: Mapping[str, str | Path] | None = None,
+        workspace: Workspace | None = None,
     ) -> None:
         """Take what is known; nothing is searched before it is asked for.
 
@@ -144,7 +137,9 @@ class Packages:
             named: Folders by package name, from ``--package``.
             paths: Folders with packages below, from ``--package-path``.
             configured: Folders by package name, from the configuration.
+            workspace: Reads the files; a new one if None.
         """
+        self.workspace = workspace or Workspace()
         self.file = Path.cwd() / "-" if file is None else Path(os.path.abspath(file))
         self.named = {name: Path(os.path.abspath(folder)) for name, folder in (named or {}).items()}
         self.paths = [Path(os.path.abspath(folder)) for folder in paths]
@@ -152,6 +147,11 @@ class Packages:
         self.used: dict[str, Path] = {}
         self.assumed: dict[str, Path] = {}
         self._rules: dict[str, list[InstallRule]] = {}
+
+    @property
+    def own(self) -> tuple[str, Path] | None:
+        """Name and folder of the package that the description belongs to."""
+        return own_package(self.file, self.workspace)
 
     def find(self, name: str) -> Path:
         """The folder of a package.
@@ -167,7 +167,7 @@ class Packages:
             )
         searched: list[str] = []
         for said, folder in self._candidates(name):
-            if folder is not None and os.path.isdir(folder):
+            if folder is not None and self.workspace.is_folder(folder):
                 self.used[name] = folder
                 return folder
             searched.append(said)
@@ -183,11 +183,11 @@ class Packages:
 
         Outside of a package that is the folder of the file.
         """
-        own = own_package(self.file)
+        own = self.own
         if own is None:
             return [self.file.parent]
         roots = self._workspace_roots(own[1])
-        beside = [folder for root in roots for folder in packages_below(root).values()]
+        beside = [folder for root in roots for folder in self._below(root).values()]
         return list(dict.fromkeys([own[1], *beside]))
 
     def folder_with(self, name: str, inner: str) -> Path | None:
@@ -200,14 +200,14 @@ class Packages:
             inner: What follows it.
         """
         inner = inner.lstrip("/")
-        own = own_package(self.file)
+        own = self.own
         roots = self._workspace_roots(own[1] if own else None)
         above = [folder for folder in self.file.parents if len(folder.parts) > 2][:_MAX_CLIMB]
-        beside = [folder for root in roots for folder in packages_below(root).values()]
+        beside = [folder for root in roots for folder in self._below(root).values()]
         parts = inner.split("/")
         named = [folder / name for folder in above[:2]]
         for folder in (*above, *named, *beside) if inner and ".." not in parts else ():
-            if os.path.isfile(folder / inner):
+            if self.workspace.is_file(folder / inner):
                 return folder
         return None
 
@@ -222,8 +222,9 @@ class Packages:
         if not inner or {"", ".", ".."} & {name, *inner.split("/")}:
             return None
         above = [folder for folder in self.file.parents if len(folder.parts) > 2][:_NEAR]
-        found = [folder / name for folder in above if os.path.isfile(folder / name / inner)]
-        if len({os.path.realpath(folder) for folder in found}) != 1:
+        files = self.workspace
+        found = [folder / name for folder in above if files.is_file(folder / name / inner)]
+        if len({files.real_path(folder) for folder in found}) != 1:
             return None
         self.assumed[name] = found[0]
         return found[0]
@@ -233,8 +234,9 @@ class Packages:
         if name in self.named:
             yield f"--package {name}={self.named[name]} (no such folder)", self.named[name]
         for path in self.paths:
-            yield f"--package-path {path}", packages_below(path).get(name) or _child(path, name)
-        own = own_package(self.file)
+            below = self._below(path)
+            yield f"--package-path {path}", below.get(name) or self._child(path, name)
+        own = self.own
         if own:
             yield (
                 f"the file's own package '{own[0]}' in {own[1]}",
@@ -243,25 +245,33 @@ class Packages:
         else:
             yield f"for a package.xml above {self.file}", None
         for root in self._workspace_roots(own[1] if own else None):
-            yield f"packages below {root}", packages_below(root).get(name)
+            yield f"packages below {root}", self._below(root).get(name)
         if name in self.configured:
             folder = Path(self.configured[name])
             yield f"the configuration: {name} = {folder} (no such folder)", folder
         for variable in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"):
-            value = os.environ.get(variable, "")
+            value = self.workspace.variable(variable) or ""
             if not value:
                 yield f"{variable} (not set)", None
             for entry in filter(None, value.split(os.pathsep)):
                 if variable == "ROS_PACKAGE_PATH":
-                    folder_or_none = packages_below(Path(entry)).get(name)
+                    folder_or_none = self._below(Path(entry)).get(name)
                 else:
                     share = Path(entry) / "share" / name
-                    folder_or_none = share if os.path.isdir(share) else None
+                    folder_or_none = share if self.workspace.is_folder(share) else None
                 yield f"{variable}: {entry}", folder_or_none
         for folder in self.file.parents:
             if folder.name == name:
                 yield f"a folder above the file named {name}", folder
         yield f"for a folder named '{name}' above the file", None
+
+    def _below(self, folder: Path) -> dict[str, Path]:
+        return packages_below(folder, self.workspace)
+
+    def _child(self, path: Path, name: str) -> Path | None:
+        """A folder of that name directly in a search path, even without a ``package.xml``."""
+        folder = path / name
+        return folder if name and self.workspace.is_folder(folder) else None
 
     def _workspace_roots(self, package: Path | None) -> list[Path]:
         """Folders to search for neighbours, from the package's parent to the workspace's root."""
@@ -271,7 +281,7 @@ class Packages:
             if len(folder.parts) <= 2:
                 break  # never crawl /, /home or /tmp
             roots.append(folder)
-            if any(os.path.exists(folder / mark) for mark in _WORKSPACE_MARKS):
+            if any(self.workspace.exists(folder / mark) for mark in _WORKSPACE_MARKS):
                 return roots
         return roots[:1]
 
@@ -285,7 +295,7 @@ class Packages:
             The path itself where it exists or no rule speaks of it.
         """
         path = Path(path)
-        if os.path.lexists(path):
+        if self.workspace.exists_or_is_link(path):
             return path
         normal = Path(os.path.normpath(path))
         for name, folder in self.used.items():
@@ -294,8 +304,8 @@ class Packages:
             except ValueError:
                 continue
             if name not in self._rules:
-                self._rules[name] = read_install_rules(folder, name)
-            source = installed_path(self._rules[name], relative.as_posix())
+                self._rules[name] = read_install_rules(folder, name, self.workspace)
+            source = installed_path(self._rules[name], relative.as_posix(), self.workspace)
             if source is not None:
                 return source
         return path
@@ -341,9 +351,3 @@ def has_it(name: str, folder: Path) -> str:
     """What to write where a folder has what a package of another name should have."""
     shown = shown_path(folder)
     return f"what it names is in {shown}; write --package {name}={shown} if that is meant"
-
-
-def _child(path: Path, name: str) -> Path | None:
-    """A folder of that name directly in a search path, even without a ``package.xml``."""
-    folder = path / name
-    return folder if name and os.path.isdir(folder) else None

@@ -29,11 +29,6 @@ _PROJECT_MARKS = (".git", ".hg", "pyproject.toml", "CMakeLists.txt", "urdftool.t
 _MAX_CLIMB = 6
 
 
-def is_trusted() -> bool:
-    """Whether descriptions are trusted, in this process and in those it starts."""
-    return os.environ.get(TRUST) == "1"
-
-
 def trust_descriptions() -> None:
     """Trust all descriptions from here on."""
     os.environ[TRUST] = "1"
@@ -42,16 +37,17 @@ def trust_descriptions() -> None:
 class Reach:
     """What one description can reach."""
 
-    def __init__(self, packages: Packages, absolute: Callable[[str], str]) -> None:
+    def __init__(self, packages: Packages, load_yaml: Callable[[str], Any]) -> None:
         """Take what it needs; what can be read is looked up when it is asked for.
 
         Args:
             packages: Those of the description.
-            absolute: The path that a description means by one.
+            load_yaml: Loads a file for ``xacro.load_yaml``, if it may be read.
         """
         self.packages = packages
-        self.absolute = absolute
-        self.trusted = is_trusted()
+        self.workspace = packages.workspace
+        self.load_yaml = load_yaml
+        self.trusted = self.workspace.variable(TRUST) == "1"
 
     def variable(self, name: str) -> str:
         """``$(env NAME)``.
@@ -59,7 +55,7 @@ class Reach:
         Raises:
             XacroError: It is not set, or not to be seen.
         """
-        value = os.environ.get(name)
+        value = self.workspace.variable(name)
         if value is not None and not self._sees(name):
             raise _hidden(name)
         if value is None:
@@ -72,9 +68,10 @@ class Reach:
 
     def optional_variable(self, name: str, default: str = "") -> str:
         """``$(optenv NAME DEFAULT)``; a variable that is not to be seen and not set is no loss."""
-        if name in os.environ and not self._sees(name):
+        value = self.workspace.variable(name)
+        if value is not None and not self._sees(name):
             raise _hidden(name)
-        return os.environ.get(name, default)
+        return default if value is None else value
 
     def check_file(self, path: str | Path, at: Place | None = None) -> None:
         """Refuse a file that is neither a package's nor the project's.
@@ -86,14 +83,15 @@ class Reach:
         Raises:
             XacroError: It is somewhere else, or a link leads there.
         """
-        real = Path(os.path.realpath(path))
-        if os.path.exists(real) and not os.path.isfile(real) and not os.path.isdir(real):
+        files = self.workspace
+        real = Path(files.real_path(path))
+        if files.exists(real) and not files.is_file(real) and not files.is_folder(real):
             raise XacroError(
                 f"{path} is a device or a pipe; a file is wanted", at=at, rule="include-not-found"
             )
         if self.trusted:
             return
-        if own_package(real) or any(_is_within(real, root) for root in self._roots()):
+        if own_package(real, files) or any(_is_within(real, root) for root in self._roots()):
             return
         led = "" if str(real) == os.path.abspath(path) else f" (a link to {real})"
         raise XacroError(
@@ -113,7 +111,7 @@ class Reach:
         replaced = {
             "python": bounded.PYTHON,
             "math": bounded.MATH,
-            "xacro": {"load_yaml": self.checked(original["xacro"]["load_yaml"])},
+            "xacro": {"load_yaml": self.load_yaml},
         }
         found = dict(original)
         for name, functions in replaced.items():
@@ -125,15 +123,6 @@ class Reach:
                     old = original[key] is not original[name].get(key)
                     found[key] = _renamed(function, key, name, warn) if old else function
         return found
-
-    def checked(self, load_yaml: Callable[[str], Any]) -> Callable[[str], Any]:
-        """``xacro.load_yaml`` for the files that may be read."""
-
-        def load(filename: str) -> Any:
-            self.check_file(self.absolute(filename))
-            return load_yaml(filename)
-
-        return load
 
     def old_evaluation(self, ros: Any) -> Callable[[str, dict[str, Any]], str]:
         """``$(eval …)``: what ROS 1 allows in it, and no more of Python.
@@ -167,8 +156,8 @@ class Reach:
             known += folders.values()
         known += packages.paths
         for variable in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"):
-            known += filter(None, os.environ.get(variable, "").split(os.pathsep))
-        return [Path(os.path.realpath(folder)) for folder in known]
+            known += filter(None, (self.workspace.variable(variable) or "").split(os.pathsep))
+        return [Path(self.workspace.real_path(folder)) for folder in known]
 
     def _project(self) -> Path:
         """The folder a description without a package belongs to.
@@ -180,7 +169,7 @@ class Reach:
         above = [folder, *folder.parents][:_MAX_CLIMB]
         deep = [place for place in above if len(place.parts) > 2]  # never /, /home or /tmp
         for place in deep:
-            if any(os.path.exists(place / mark) for mark in _PROJECT_MARKS):
+            if any(self.workspace.exists(place / mark) for mark in _PROJECT_MARKS):
                 return place
         return deep[1] if len(deep) > 1 else folder
 

@@ -13,12 +13,17 @@ from .location import Place
 from .xacro_sentences import Failure, causes_of, odd_parameter, sentence_of
 
 if TYPE_CHECKING:
+    from ..workspace import Workspace
     from .expansion import Expansion
     from .xacro_tree import XacroElement
 
 
 def explain(
-    error: Exception, node: XacroElement | None, failed_text: str | None, result: Expansion
+    error: Exception,
+    node: XacroElement | None,
+    failed_text: str | None,
+    result: Expansion,
+    workspace: Workspace,
 ) -> UrdftoolError:
     """An error of xacro as one of ours.
 
@@ -27,12 +32,14 @@ def explain(
         node: The element xacro was at.
         failed_text: The text or expression that could not be evaluated, if it was that.
         result: What was read so far.
+        workspace: Looks for names that are like one that is not there.
     """
     at = None if node is None else _place(node, failed_text, odd_parameter(error))
     for cause in causes_of(error):
         if isinstance(cause, UrdftoolError) and cause.line is None and at is not None:
             if cause.path is not None:  # a file that could not be read, named where it is wanted
-                return _missing(cause.path, cause.message, at, _argument_of(node, result))
+                argument = _argument_of(node, result)
+                return _missing(cause.path, cause.message, at, argument, workspace)
             return type(cause)(
                 cause.message,
                 at=at,
@@ -64,14 +71,15 @@ def _argument_of(include: XacroElement | None, result: Expansion) -> str:
     return f"; it is the default of an argument: give {missing[0]}:=FILE" if missing else ""
 
 
-def _missing(path: str, reason: str, at: Place, argument: str) -> XacroError:
+def _missing(path: str, reason: str, at: Place, argument: str, workspace: Workspace) -> XacroError:
     """A file that is wanted and cannot be read, with the nearest name that can."""
     folder, name = os.path.split(path)
     try:
-        there = os.listdir(folder or ".")
+        there = [entry.name for entry in workspace.list_folder(folder or ".")]
     except OSError:
         there = []
-        missing = next((p for p in reversed(Path(path).parents) if not p.exists()), None)
+        above = reversed(Path(path).parents)
+        missing = next((p for p in above if not workspace.exists(p)), None)
         reason = f"there is no folder {missing}" if missing else reason
     right = nearest(name, there, 0.75)
     hint = f"; did you mean '{right}'?" if right else ""

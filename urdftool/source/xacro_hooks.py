@@ -2,13 +2,15 @@
 
 The expansion itself is the ``xacro`` package's. Replaced are the parser (for places, limits and
 refusals), the search for packages (without ROS), the evaluation of text (the same, but each
-expression is compiled once), and what it prints. This is the only module that imports xacro, whose
-state lives in module globals: one expansion runs at a time.
+expression is compiled once), the reading of files, and what it prints. This is the only module that
+imports xacro, whose state lives in module globals: one expansion runs at a time.
 """
 
 from __future__ import annotations
 
+import io
 import os
+import re
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -56,14 +58,13 @@ class Run:
     def __init__(self, result: Expansion, packages: Packages) -> None:
         self.result = result
         self.packages = packages
-        self.reach = Reach(packages, lambda path: str(xacro.abs_filename_spec(path)))
+        self.reach = Reach(packages, self.load_yaml)
         self.instances = Instances()
         self.node: XacroElement | None = None
         self.failed_text: str | None = None
         self.include_calls: tuple[Call, ...] = ()
         self.elements = 0
         self.produced = 0
-        self.yaml_safe_load: Callable[..., Any] | None = None
         self.patience = Patience()
 
     def expand(self) -> None:
@@ -86,6 +87,7 @@ class Run:
             "check_attrs": self.check_attrs(xacro.check_attrs),
             "reqd_attrs": self.reqd_attrs(xacro.reqd_attrs),
             "abs_filename_spec": self.abs_filename_spec(xacro.abs_filename_spec),
+            "get_include_files": self.included_files,
             "_empty_text_node": Characters("\n\n"),
             "_global_symbols": self.reach.symbols(xacro._global_symbols, self.warning),
             "safe_eval": safe_eval,
@@ -119,8 +121,6 @@ class Run:
             self.note_dependencies()
         finally:
             sys.setrecursionlimit(limit)
-            if self.yaml_safe_load is not None:
-                sys.modules["yaml"].safe_load = self.yaml_safe_load  # type: ignore[attr-defined]
             for name, value in saved.items():
                 setattr(xacro, name, value)
             for name, function in saved_functions.items():
@@ -143,7 +143,7 @@ class Run:
         if file is None:
             self.reach.check_file(path, self.place)
             try:
-                file = read_file(path)
+                file = read_file(path, self.packages.workspace)
             except SourceError as error:
                 xacro.filestack.pop()
                 raise xacro.XacroException(
@@ -161,25 +161,41 @@ class Run:
 
         def absolute(spec: str) -> str:
             path = original(spec)
-            self.use_bounded_yaml()
-            return path if os.path.exists(path) else str(self.packages.installed(path))
+            there = self.packages.workspace.exists(path)
+            return path if there else str(self.packages.installed(path))
 
         return absolute
 
-    def use_bounded_yaml(self) -> None:
-        """Let ``load_yaml``, once it has imported yaml, read within bounds, and fast by libyaml."""
-        yaml: Any = sys.modules.get("yaml")
-        if not hasattr(yaml, "SafeLoader") or self.yaml_safe_load is not None:
-            return
-        fast = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-        self.yaml_safe_load = yaml.safe_load
+    def included_files(self, spec: str, symbols: Any) -> Iterator[str]:
+        """Yield the files that an include names, as ``xacro.get_include_files``."""
+        path = str(xacro.abs_filename_spec(self.eval_text(spec, symbols)))
+        names = [path]
+        if re.search(r"[*[?]", path):
+            names = self.packages.workspace.match(path)
+            if not names:
+                self.warning(xacro.include_no_matches_msg.format(path))
+        for name in names:
+            xacro.all_includes.append(name)
+            yield name
 
-        def safe_load(stream: Any) -> Any:
-            """With the units that xacro has taught the slow loader."""
-            units = {"yaml_constructors": yaml.SafeLoader.yaml_constructors}
-            return yaml.load(bounded(stream, fast), Loader=type("Loader", (fast,), units))
+    def load_yaml(self, filename: str) -> Any:
+        """Load a file as ``xacro.load_yaml``, within bounds and fast by libyaml."""
+        import yaml
 
-        yaml.safe_load = safe_load
+        path = str(xacro.abs_filename_spec(filename))
+        self.reach.check_file(path)
+        fast: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+        loader: Any = type("Loader", (fast,), {})
+        for unit in xacro.ConstructUnits:
+            loader.add_constructor(unit.value.tag, unit.constructor)
+        with io.TextIOWrapper(self.packages.workspace.open(path)) as stream:
+            xacro.filestack.append(path)
+            try:
+                value = yaml.load(bounded(stream, fast), Loader=loader)
+                return xacro.YamlListWrapper.wrap(value)
+            finally:
+                xacro.filestack.pop()
+                xacro.all_includes.append(path)
 
     def warning(self, *words: object, **_: object) -> None:
         """Keep a warning with the place it was met."""
@@ -365,7 +381,7 @@ class Run:
         """An error of the expansion as a sentence with a place."""
         from .xacro_errors import explain
 
-        return explain(error, self.node, self.failed_text, self.result)
+        return explain(error, self.node, self.failed_text, self.result, self.packages.workspace)
 
 
 class _MissingFileError(OSError):

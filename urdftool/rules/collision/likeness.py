@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from pathlib import Path
 
-from ...meshes.facts import stl_facts
 from ...model.bounds import Bounds, size_of
 from ...model.elements import Collision, Cylinder, Link, Robot, Sphere, Visual
 from ...model.gltf_axes import is_gltf
 from ...source.description import Description
 from ..fix import FixContext, Proposal, depends_on_arguments, unsafe
+from ..mesh.formats import stl_facts_of
 from ..mesh.outlines import Reaches, reaches
-from ..mesh.uses import MeshUse, Stamp, is_concave, mesh_uses, stamp
+from ..mesh.uses import MeshUse, is_concave, mesh_uses
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..shape_changes import copy_origin, set_in_origin
 from .apart import compare_places, measured, with_attached
@@ -26,36 +25,29 @@ _SIMPLER = "'urdftool collision' makes simpler shapes, and measures how far off 
 _FOR_CONTACT = re.compile(r"collision|convex|hull|simpl|low[-_]?poly", re.IGNORECASE)
 """Names of meshes that were made for contacts, and are shown for want of another."""
 
-_faces: dict[Stamp, int] = {}
-
 _AXES = (
     "; or a glTF was written with Z up, and RViz turns it: export it with Y up, or say --gltf-up z"
 )
 
 
-def faces_of(path: Path | None) -> int:
+def faces_of(use: MeshUse) -> int:
     """Triangles of a binary STL file; 0 where that cannot be told cheaply."""
-    if path is None or path.suffix.lower() != ".stl":
+    if use.path is None or use.path.suffix.lower() != ".stl":
         return 0
     try:
-        key = stamp(path)
-        if key not in _faces:
-            facts = stl_facts(key[0])
-            _faces[key] = (facts.triangles or 0) if facts.size_agrees else 0
+        facts = stl_facts_of(use.workspace, use.path)
     except OSError:
         return 0
-    return _faces[key]
+    return (facts.triangles or 0) if facts.size_agrees else 0
 
 
-def _is_small(path: Path | None, least: float) -> bool:
+def _is_small(use: MeshUse, least: float) -> bool:
     """Whether an OBJ, or an STL of text, is known to have few triangles."""
-    word = {".obj": b"f", ".stl": b"facet"}.get(path.suffix.lower()) if path else None
-    if path is None or word is None:
+    word = {".obj": b"f", ".stl": b"facet"}.get(use.path.suffix.lower()) if use.path else None
+    if use.path is None or word is None or use.size is None or use.size > 400 * least:
         return False
     try:
-        if path.stat().st_size > 400 * least:
-            return False
-        lines = [line.split() for line in path.read_bytes().splitlines()]
+        lines = [line.split() for line in use.workspace.read_bytes(use.path).splitlines()]
     except OSError:
         return False
     corners = [len(line) - 1 if word == b"f" else 3 for line in lines if line[:1] == [word]]
@@ -91,10 +83,10 @@ def visual_mesh_as_collision(
             continue
         if use.uri not in seen.get(use.link.name, ()) or _FOR_CONTACT.search(use.uri):
             continue
-        faces = faces_of(use.path) if use.exists else 0
+        faces = faces_of(use) if use.exists else 0
         if faces > dense:
             heavy.append((use, faces))
-        elif faces > dense / 10 or (faces == 0 and not (use.exists and _is_small(use.path, least))):
+        elif faces > dense / 10 or (faces == 0 and not _is_small(use, least)):
             plain.append(use)
     for concave in (False, True):
         yield from _as_collision(
@@ -153,7 +145,7 @@ def collision_mesh_too_dense(
         if not use.collides or not use.exists or use.uri in told:
             continue
         told.add(use.uri)
-        faces = faces_of(use.path)
+        faces = faces_of(use)
         shared = any(
             other.uri == use.uri and not other.collides and other.link is use.link
             for other in mesh_uses(robot, description)

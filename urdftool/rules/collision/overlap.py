@@ -94,22 +94,19 @@ def _pairs(found: list[_Pair]) -> str:
     return some_of([f"'{one.name}' and '{other.name}'" for one, other, _ in found], "pairs")
 
 
-_resting: tuple[Robot, list[tuple[Link, Link, float]], bool] | None = None
-
-
 def resting(robot: Robot, deeper: float = 0.001) -> list[tuple[Link, Link, float]]:
     """Links of bodies that no joint joins and that overlap at rest, with the depth [m]."""
-    global _resting
-    if _resting is None or _resting[0] is not robot:
-        found = []
+
+    def compute() -> tuple[list[tuple[Link, Link, float]], bool]:
         known = pieces(robot)
         pairs, complete = known.strangers(RESTING) if _has_known_poses(robot) else ([], True)
-        for one, other in pairs:
-            deepest = known.deepest(one, other, least=deeper)
-            if deepest is not None:
-                found.append(deepest)
-        _resting = robot, found, complete
-    return _resting[1]
+        deepest = (known.deepest(one, other, least=deeper) for one, other in pairs)
+        return [found for found in deepest if found is not None], complete
+
+    return robot.memo.get(_RESTING, compute)[0]
+
+
+_RESTING, _SWEPT = "overlaps at rest", "overlaps in motion"
 
 
 def _has_known_poses(robot: Robot) -> bool:
@@ -121,7 +118,8 @@ def _has_known_poses(robot: Robot) -> bool:
 
 def resting_in_part(robot: Robot) -> bool:
     """Whether so many links are near each other at rest that not all pairs were looked at."""
-    return _resting is not None and _resting[0] is robot and not _resting[2]
+    resting = robot.memo.peek(_RESTING)
+    return resting is not None and not resting[1]
 
 
 @rule(
@@ -287,7 +285,6 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
     a robot with very many links only the first joints are looked at, which ``analysis-incomplete``
     says.
     """
-    global _passed
     known = pieces(robot)
     taken = {
         frozenset((known.body_of[a.name], known.body_of[b.name])) for a, b, _ in resting(robot)
@@ -309,7 +306,7 @@ def self_collision_in_range(robot: Robot, *, deeper: float = 0.01) -> Iterator[P
         tries += count
         if met is not None:
             found.append((joint, *met))
-    _passed = robot, passed
+    robot.memo.get(_SWEPT, lambda: passed)
     alike: dict[str, list[tuple[Joint, Link, Link, float]]] = {}
     for hit in found:
         alike.setdefault(_contact_in_mujoco(known, hit[1], hit[2]), []).append(hit)
@@ -334,12 +331,10 @@ def _contact_in_mujoco(known: Pieces, one: Link, other: Link) -> str:
     return "neighbors" if _carrier(known, body) == carrier and not is_root else "contact"
 
 
-_passed: tuple[Robot, list[Joint]] | None = None
-
-
 def passed_over(robot: Robot) -> list[Joint]:
     """Joints that were not moved to see where they take their links, because they are too many."""
-    return _passed[1] if _passed is not None and _passed[0] is robot else []
+    passed: list[Joint] | None = robot.memo.peek(_SWEPT)
+    return passed or []
 
 
 def _sweep(

@@ -187,12 +187,6 @@ def _rest(joint: Joint) -> float:
     return 0.0 if lower <= 0.0 <= upper or lower > upper else (lower + upper) / 2
 
 
-_last: Pieces | None = None
-
-
 def pieces(robot: Robot) -> Pieces:
     """The pieces of a robot; the same for all rules that ask."""
-    global _last
-    if _last is None or _last.robot is not robot:
-        _last = Pieces(robot)
-    return _last
+    return robot.memo.get("pieces", lambda: Pieces(robot))

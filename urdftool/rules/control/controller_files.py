@@ -15,7 +15,7 @@ from ...model.elements import Robot
 from ...source.description import Description
 from ...source.location import SourceFile
 from ...source.nearby import file_at
-from ...source.packages import own_package
+from ...workspace import Workspace
 
 _FOLDERS = ("config", "controllers", "control", "bringup/config", "params", "launch")
 _CONTROLLER = re.compile(rb"\btype[\"']?\s*:\s*[\"']?\w+(?:/|::)\w")
@@ -50,9 +50,10 @@ class Package:
         """Know where it is."""
         self.robot = robot
         self.description = description
-        own = None if description.path == "-" else own_package(description.packages.file)
+        self.workspace = description.workspace
+        own = None if description.path == "-" else description.packages.own
         self.folder = None if own is None else own[1]
-        self.own = {os.path.realpath(file.path) for file in description.files}
+        self.own = {self.workspace.real_path(file.path) for file in description.files}
 
     @cached_property
     def controller_files(self) -> list[ControllerFile]:
@@ -64,8 +65,9 @@ class Package:
         """What is in ``launch``, as far as it is text of a likely size."""
         if self.folder is None:
             return []
-        found = sorted((self.folder / "launch").glob("**/*"))[:_MOST_FILES]
-        files = [file_at(path) for path in found if os.path.isfile(path)]
+        workspace = self.workspace
+        found = workspace.glob(self.folder / "launch", "**/*")[:_MOST_FILES]
+        files = [file_at(workspace, path) for path in found if workspace.is_file(path)]
         return [file for file in files if file is not None and len(file.data) < _MOST_BYTES]
 
     @cached_property
@@ -74,17 +76,18 @@ class Package:
         if self.folder is None:
             return []
         entries, found = 0, []
-        for root, folders, names in os.walk(self.folder):
+        workspace = self.workspace
+        for root, folders, names in workspace.walk(self.folder):
             folders[:] = [name for name in folders if not name.startswith(".")]
             entries += len(names) + len(folders)
             if entries > _MOST_ENTRIES:
                 return None
             paths = [Path(root, name) for name in names if name.endswith((".urdf", ".xacro"))]
-            others = [path for path in paths if os.path.realpath(path) not in self.own]
-            found += [path for path in others if os.path.isfile(path)]
+            others = [path for path in paths if workspace.real_path(path) not in self.own]
+            found += [path for path in others if workspace.is_file(path)]
         if len(found) > _MOST_FILES:
             return None
-        return [file for path in found if (file := file_at(path)) is not None]
+        return [file for path in found if (file := file_at(workspace, path)) is not None]
 
     @cached_property
     def other_robots(self) -> list[SourceFile] | None:
@@ -113,24 +116,19 @@ class Package:
         return any(one.search(file.data) and other.search(file.data) for file in self.launch_files)
 
 
-_last: Package | None = None
-
-
 def package_of(robot: Robot, description: Description) -> Package:
     """The package of a robot; the same for all rules that ask."""
-    global _last
-    if _last is None or _last.robot is not robot:
-        _last = Package(robot, description)
-    return _last
+    return robot.memo.get("package", lambda: Package(robot, description))
 
 
 def _found(robot: Robot, package: Package) -> Iterator[ControllerFile]:
     if not robot.ros2_controls and not robot.transmissions:
         return
-    named = {os.path.realpath(path) for path in _named_by_plugins(robot, package.description)}
-    beside = {os.path.realpath(path) for path in _beside(package.folder)}
+    workspace = package.workspace
+    named = {workspace.real_path(path) for path in _named_by_plugins(robot, package.description)}
+    beside = {workspace.real_path(path) for path in _beside(workspace, package.folder)}
     for path in sorted(named | beside):
-        file = file_at(path) if os.path.isfile(path) else None
+        file = file_at(workspace, path) if workspace.is_file(path) else None
         if file is None or len(file.data) > _MOST_BYTES or not _CONTROLLER.search(file.data):
             continue
         by_plugin, by_launch = path in named, package.launches(path)
@@ -163,16 +161,16 @@ def _named_by_plugins(robot: Robot, description: Description) -> Iterator[Path]:
                     continue
 
 
-def _beside(package: Path | None) -> list[Path]:
+def _beside(workspace: Workspace, package: Path | None) -> list[Path]:
     if package is None:
         return []
     found = [
         path
         for name in _FOLDERS
         for end in ("yaml", "yml")
-        for path in package.glob(f"{name}/*.{end}")
+        for path in workspace.glob(package, f"{name}/*.{end}")
     ]
-    return [path for path in found[:_MOST_FILES] if os.path.isfile(path)]
+    return [path for path in found[:_MOST_FILES] if workspace.is_file(path)]
 
 
 def _stem(path: str) -> str:

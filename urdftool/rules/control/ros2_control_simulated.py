@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,8 +9,7 @@ from pathlib import Path
 from ...errors import PackageNotFound
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.nearby import bytes_of
-from ...source.packages import own_package
+from ...workspace import Workspace
 from ..cross_file_references import check_not_included
 from ..fix import (
     FixContext,
@@ -140,12 +138,13 @@ _RUNS = {
 def add_plugin(problem: Problem, context: FixContext) -> Proposal | None:
     """Add the plugin, if the package has one file of controllers, without which it fails."""
     described = context.description
-    own = own_package(described.packages.file)
+    own = described.packages.own
     controls = [c for c in context.robot.ros2_controls if c.element is problem.element]
     if own is None or described.expansion is None or not controls:
         return None
     runs = [v for prefix, v in _RUNS.items() if (controls[0].plugin or "").startswith(prefix)]
-    files = [path for path in sorted((own[1] / "config").glob("*.y*ml")) if _manages(path)]
+    found = context.workspace.glob(own[1] / "config", "*.y*ml")
+    files = [path for path in found if _manages(context.workspace, path)]
     if len(files) != 1 or not runs:
         return None
     check_not_included(context)
@@ -163,12 +162,13 @@ def add_plugin(problem: Problem, context: FixContext) -> Proposal | None:
     )
 
 
-def _manages(path: Path) -> bool:
+def _manages(workspace: Workspace, path: Path) -> bool:
     """Tell whether a file has the parameters of a controller_manager."""
     try:
-        return re.search(rb"^\W*controller_manager\W*:", bytes_of(path), re.MULTILINE) is not None
+        data = workspace.read_bytes(path)
     except OSError:
         return False
+    return re.search(rb"^\W*controller_manager\W*:", data, re.MULTILINE) is not None
 
 
 @rule(
@@ -204,7 +204,7 @@ def ros2_control_empty_parameters(robot: Robot, description: Description) -> Ite
 
 def _is_there(path: str, description: Description) -> bool:
     try:
-        return os.path.exists(description.resolve(path))
+        return description.workspace.exists(description.resolve(path))
     except PackageNotFound:
         return True  # it cannot be said
 

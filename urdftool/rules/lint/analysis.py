@@ -35,7 +35,7 @@ def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Prob
             continue
         from ..mesh.files import what_is_wrong
 
-        if what_is_wrong(use.path):
+        if what_is_wrong(use):
             continue
         if use.path.suffix.lower() not in _READ or outline_of(use) is None:
             found[use.uri] = use

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from ...errors import MeshError
 from ...finding import FileRewrite
-from ...source.document import Element, copy_of
-from ...source.nearby import bytes_of
+from ...source.document import Element
 from ...source.packages import shown_path
 from ..file_rewrites import rewritten_bytes
 from ..fix import Change, FixContext, Proposal, attribute_at, prepend_child, unsafe
@@ -85,11 +84,13 @@ def write_beside(use: MeshUse, name: str, how: str) -> list[FileRewrite]:
     old = Path(str(use.path))
     new = old.with_name(name)
     rewrite = FileRewrite(shown_path(new), shown_path(old), how)
-    if os.path.lexists(new) or copy_of(new) is not None:
+    workspace = use.workspace
+    if workspace.exists_or_is_link(new):
         try:
-            return [rewrite] if bytes_of(new) == rewritten_bytes(rewrite) else []
+            same = workspace.read_bytes(new) == rewritten_bytes(workspace, rewrite)
         except (MeshError, OSError):
             return []
+        return [rewrite] if same else []
     return [rewrite]
 
 
@@ -103,13 +104,13 @@ def propose_compiler(context: FixContext) -> Proposal | None:
     if root.child("mujoco") is not None:
         return None
     folders = {
-        os.path.dirname(os.path.realpath(use.path))
+        os.path.dirname(context.workspace.real_path(use.path))
         for use in mesh_uses(context.robot, context.description)
         if use.path is not None and use.exists
     }
     if len(folders) != 1 or context.description.path == "-":
         return None
-    here = os.path.dirname(os.path.realpath(context.description.files[0].path))
+    here = os.path.dirname(context.workspace.real_path(context.description.files[0].path))
     folder = os.path.relpath(folders.pop(), here).replace(os.sep, "/")
     line = f'\t<compiler meshdir="{folder}" discardvisual="false" strippath="true"/>'
     return unsafe(

@@ -10,12 +10,11 @@ from mmap import ACCESS_READ, mmap
 from pathlib import Path
 from typing import BinaryIO
 
-from ...inputs import Remembered
 from ...meshes.facts import LFS_MARK, stl_facts
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.nearby import stand_in
 from ...source.packages import own_package, shown_path
+from ...workspace import Workspace, memoized
 from ..fix import Change, FixContext, Proposal, safe, substitute
 from ..mujoco import keeps_visuals
 from ..rule import ERROR, SAFE, Problem, rule
@@ -56,15 +55,19 @@ def mesh_not_found(
     for use in mesh_uses(robot, description):
         if use.path is None or use.exists or use.is_absolute:
             continue
-        if malformation(use) or actual_case(use.path) or _is_in_own_package(use, description):
+        if (
+            malformation(use)
+            or actual_case(use.workspace, use.path)
+            or _is_in_own_package(use, description)
+        ):
             continue
         wanted.setdefault(Path(os.path.normpath(use.path)), []).append(use)
     folders: dict[Path, list[Path]] = {}
     for path in wanted:
-        folders.setdefault(_missing_folder(path), []).append(path)
+        folders.setdefault(_missing_folder(description.workspace, path), []).append(path)
     keeps = keeps_visuals(robot)
     for folder, paths in folders.items():
-        if len(paths) > together and not os.path.exists(folder):
+        if len(paths) > together and not description.workspace.exists(folder):
             first = wanted[paths[0]][0]
             yield Problem(
                 first.link,
@@ -80,7 +83,7 @@ def mesh_not_found(
             yield Problem(
                 first.link,
                 f"mesh '{first.uri}' of link '{first.link.name}' is not there: "
-                f"no file '{shown_path(path)}'{_elsewhere(path)}",
+                f"no file '{shown_path(path)}'{_elsewhere(description.workspace, path)}",
                 at=first.mesh.element.attribute_place("filename"),
                 data={"uri": first.uri, "path": str(path)},
                 effects=_of_missing(keeps, wanted[path]),
@@ -101,8 +104,9 @@ def _of_missing(keeps: bool, uses: list[MeshUse]) -> list[str]:
 def _is_above(use: MeshUse) -> bool:
     """Whether PyBullet finds a file: it looks in each folder above that of the description."""
     path = use.uri.removeprefix("package://").removeprefix("file://")
-    folder = Path(use.mesh.element.file.path).resolve().parent
-    return any((above / path).is_file() for above in (folder, *folder.parents[:-1]))
+    folder = Path(use.workspace.real_path(use.mesh.element.file.path)).parent
+    folders = (folder, *folder.parents[:-1])
+    return any(use.workspace.is_file(above / path) for above in folders)
 
 
 def _is_in_own_package(use: MeshUse, description: Description) -> bool:
@@ -111,40 +115,43 @@ def _is_in_own_package(use: MeshUse, description: Description) -> bool:
     return is_in_own_package(use, description)
 
 
-def _missing_folder(path: Path) -> Path:
+def _missing_folder(workspace: Workspace, path: Path) -> Path:
     """The uppermost folder above a file that is not there; its own folder where that is there."""
     folder = path.parent
     while (
-        folder != folder.parent and not os.path.exists(folder) and not os.path.exists(folder.parent)
+        folder != folder.parent
+        and not workspace.exists(folder)
+        and not workspace.exists(folder.parent)
     ):
         folder = folder.parent
     return folder
 
 
-def _elsewhere(path: Path) -> str:
+def _elsewhere(workspace: Workspace, path: Path) -> str:
     """A hint at a file of nearly that name there, or of that name elsewhere in the package."""
     try:
-        near = nearest(path.name, os.listdir(path.parent), 0.8)
+        names = [entry.name for entry in workspace.list_folder(path.parent)]
+        near = nearest(path.name, names, 0.8)
     except OSError:
         near = ""
     if near:
         return f"; did you mean '{near}'?"
-    own = own_package(path)
+    own = own_package(path, workspace)
     if own is None:
         return ""
     folder = str(own[1])
-    other = _files_below(folder).get(path.name)
+    other = _files_below(workspace, folder).get(path.name)
     return f"; there is '{os.path.relpath(other, folder)}' in its package" if other else ""
 
 
-@Remembered
-def _files_below(folder: str) -> dict[str, str]:
-    return dict(_files(folder))
+@memoized
+def _files_below(workspace: Workspace, folder: str) -> dict[str, str]:
+    return dict(_files(workspace, folder))
 
 
-def _files(folder: str) -> Iterator[tuple[str, str]]:
+def _files(workspace: Workspace, folder: str) -> Iterator[tuple[str, str]]:
     count = 0
-    for where, folders, names in os.walk(folder):
+    for where, folders, names in workspace.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         for name in names:
             yield name, os.path.join(where, name)
@@ -173,7 +180,7 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
     for use in mesh_uses(robot, description):
         if use.path is None or use.exists or use.uri in told:
             continue
-        actual = actual_case(use.path)
+        actual = actual_case(use.workspace, use.path)
         if actual is not None:
             told.add(use.uri)
             pairs = zip(actual.parts, use.path.parts, strict=True)
@@ -192,8 +199,10 @@ def write_name_on_disk(problem: Problem, context: FixContext) -> Proposal | None
     """Write the name with the capitals that the file and its folders have on disk."""
 
     def change(use: MeshUse) -> Change | None:
-        actual = actual_case(use.path) if use.path is not None else None
-        if actual is None or use.path is None:
+        if use.path is None:
+            return None
+        actual = actual_case(use.workspace, use.path)
+        if actual is None:
             return None
         new = use.uri
         for wanted, there in zip(use.path.parts, actual.parts, strict=True):
@@ -241,7 +250,7 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
         if use.path is None or not use.exists or use.path in told:
             continue
         told.add(use.path)
-        wrong = what_is_wrong(use.path)
+        wrong = what_is_wrong(use)
         if wrong and wrong != _LFS:
             yield Problem(
                 use.link,
@@ -274,7 +283,7 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
         if use.path is None or not use.exists or use.path in reported:
             continue
         reported.add(use.path)
-        if what_is_wrong(use.path) == _LFS:
+        if what_is_wrong(use) == _LFS:
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' {_LFS}",
@@ -285,10 +294,12 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
             )
 
 
-def what_is_wrong(path: Path) -> str:
+def what_is_wrong(use: MeshUse) -> str:
     """What keeps a file from being a mesh, to be read after its name; empty where nothing does."""
+    if use.path is None:
+        return ""
     try:
-        path = stand_in(path)
+        path = use.workspace.local(use.path)
         if path.suffix.lower() != ".stl":
             with open(path, "rb") as file:
                 head = file.read(len(LFS_MARK))

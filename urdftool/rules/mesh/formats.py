@@ -5,23 +5,24 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 from ...finding import FileRewrite
 from ...meshes.facts import StlFacts, stl_facts
 from ...model.elements import Robot
 from ...model.mesh_formats import READ_BY
 from ...source.description import Description
+from ...workspace import Workspace, memoized
 from ..file_rewrites import BINARY, HEADED
 from ..fix import Change, FixContext, Proposal, safe, substitute, unsafe
 from ..mujoco import keeps_visuals
 from ..rule import BOTH, ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from .changes import files_at, rewrite_in_place, write_beside
-from .uses import MeshUse, Stamp, mesh_uses, stamp
+from .uses import MeshUse, mesh_uses
 
 APPLIES_TO = ("mesh",)
 
 _OF_TEXT = ("pybullet", "rviz", "gz", "pinocchio")
-_facts: dict[Stamp, StlFacts] = {}
 
 
 def _first_uses(robot: Robot, description: Description) -> Iterator[MeshUse]:
@@ -107,12 +108,19 @@ def _stl(use: MeshUse) -> StlFacts | None:
     if use.path is None or not use.exists or _ending(use) != "stl":
         return None
     try:
-        key = stamp(use.path)
-        if key not in _facts:
-            _facts[key] = stl_facts(key[0])
+        return stl_facts_of(use.workspace, use.path)
     except OSError:
         return None
-    return _facts[key]
+
+
+@memoized
+def stl_facts_of(workspace: Workspace, path: Path) -> StlFacts:
+    """Return what the beginning of an STL file tells.
+
+    Raises:
+        OSError: It cannot be read.
+    """
+    return stl_facts(workspace.local(path))
 
 
 @rule(
@@ -249,7 +257,7 @@ def unit_and_axis(use: MeshUse) -> dict[str, str]:
     if use.path is None or not use.exists or _ending(use) != "dae":
         return said
     try:
-        with open(use.path, "rb") as file:
+        with use.workspace.open(use.path) as file:
             head = file.read(16384)
     except OSError:
         return said

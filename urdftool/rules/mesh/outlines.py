@@ -5,14 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from ...inputs import Remembered
 from ...model.attached import Attached, attached_links
 from ...model.bounds import Bounds, bounds_at, bounds_of
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...model.millimeters import shapes_in_millimeters
 from ...model.pose import IDENTITY, Pose, pose_of
 from ...source.description import GltfUp
-from .uses import MeshUse, Stamp, mesh_uses, stamp
+from ...workspace import Workspace, memoized
+from .parts import buffers_of
+from .uses import MeshUse, mesh_uses
 
 if TYPE_CHECKING:
     from ...meshes.outline import Outline
@@ -28,17 +29,18 @@ def outline_of(use: MeshUse) -> Outline | None:
     if use.path is None or not use.exists:
         return None
     try:
-        return _outline((stamp(use.path), use.gltf_up))
+        return _outline(use.workspace, use.path, use.gltf_up)
     except OSError:
         return None
 
 
-@Remembered
-def _outline(key: tuple[Stamp, GltfUp]) -> Outline | None:
+@memoized
+def _outline(workspace: Workspace, path: Path, gltf_up: GltfUp) -> Outline | None:
     from ...meshes.outline import outline
 
-    (path, *_), gltf_up = key
-    return outline(Path(path), gltf_up)
+    for buffer in buffers_of(workspace, path):
+        workspace.record("file", buffer)
+    return outline(workspace.local(path), gltf_up)
 
 
 def box_of(use: MeshUse, pose: Pose = IDENTITY) -> Bounds | None:
@@ -186,12 +188,6 @@ class Reaches:
         return box if box is not None and any(box.size) else None
 
 
-_last: Reaches | None = None
-
-
 def reaches(robot: Robot) -> Reaches:
     """The boxes of a robot; the same for all rules that ask."""
-    global _last
-    if _last is None or _last.robot is not robot:
-        _last = Reaches(robot)
-    return _last
+    return robot.memo.get("reaches", lambda: Reaches(robot))

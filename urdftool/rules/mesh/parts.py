@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import unquote
 
-from ...inputs import Remembered
 from ...model.elements import Robot
 from ...source.description import Description
+from ...workspace import Workspace, memoized
 from ..rule import WARNING, Problem, rule
 from ..words import quoted
 from .uses import MeshUse, mesh_uses
@@ -45,7 +44,7 @@ def missing_mesh_dependency(
         if use.path is None or not use.exists or use.uri in told or use.collides:
             continue
         told.add(use.uri)
-        missing = _missing(use.path)
+        missing = _missing(use.workspace, use.path)
         if missing:
             found.append((use, missing))
     several = len(found) > together
@@ -59,19 +58,19 @@ def missing_mesh_dependency(
         )
 
 
-@Remembered
-def _missing(path: Path) -> tuple[str, ...]:
+@memoized
+def _missing(workspace: Workspace, path: Path) -> tuple[str, ...]:
     """What a mesh refers to and is not there; looked up once for a run."""
-    return tuple(_look(path))
+    return tuple(_look(workspace, path))
 
 
-def _look(path: Path) -> Iterator[str]:
+def _look(workspace: Workspace, path: Path) -> Iterator[str]:
     ending = path.suffix.lower()
     pattern = {".obj": _OBJ, ".dae": _DAE, ".gltf": _GLTF}.get(ending)
     if pattern is None:
         return
     try:
-        with open(path, "rb") as file:
+        with workspace.open(path) as file:
             data = file.read(_MOST if ending != ".obj" else 65536)
     except OSError:
         return
@@ -83,5 +82,17 @@ def _look(path: Path) -> Iterator[str]:
             ending == ".dae" and "." not in text
         ):
             continue  # inside the file, elsewhere, or the name of an image in it
-        if not os.path.exists(path.parent / text.replace("\\", "/")):
+        if not workspace.exists(path.parent / text.replace("\\", "/")):
             yield text
+
+
+def buffers_of(workspace: Workspace, path: Path) -> list[Path]:
+    """List the files that a reader of a glTF file opens besides it."""
+    if path.suffix.lower() != ".gltf":
+        return []
+    try:
+        data = workspace.read_bytes(path)
+    except OSError:
+        return []
+    names = (match[1].decode("utf-8", "replace") for match in _GLTF.finditer(data))
+    return [path.parent / unquote(name) for name in names if not name.startswith("data:")]

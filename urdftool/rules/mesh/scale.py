@@ -12,6 +12,7 @@ from ...meshes.facts import HEADER_BYTES, TRIANGLE_BYTES, stl_bounds, stl_facts
 from ...model.elements import Robot
 from ...model.read import numbers
 from ...source.description import Description
+from ...workspace import Workspace, memoized
 from ..file_rewrites import MIRRORED
 from ..fix import (
     Change,
@@ -25,23 +26,20 @@ from ..fix import (
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from .changes import uses_at, write_beside
 from .outlines import box_of
-from .uses import MeshUse, Stamp, mesh_uses, stamp
+from .uses import MeshUse, mesh_uses
 
 APPLIES_TO = ("mesh",)
 
 _SAMPLE = 300  # triangles, from the beginning, the middle and the end
-_extents: dict[Stamp, tuple[float, float, float] | None] = {}
 
 
-def sampled_extent(path: Path) -> tuple[float, float, float] | None:
+@memoized
+def sampled_extent(workspace: Workspace, path: Path) -> tuple[float, float, float] | None:
     """Lengths of the box around some triangles of a binary STL file: it is at least so large."""
     try:
-        key = stamp(path)
-        if key not in _extents:
-            _extents[key] = _sample(path)
+        return _sample(workspace.local(path))
     except (OSError, struct.error):
         return None
-    return _extents[key]
 
 
 def _sample(path: Path) -> tuple[float, float, float] | None:
@@ -77,10 +75,7 @@ def rough_size(use: MeshUse) -> float | None:
         return _largest(use)
     if ending != ".dae":
         return None
-    try:
-        if use.path.stat().st_size > _LOOKED_AT:
-            return None
-    except OSError:
+    if (use.size or 0) > _LOOKED_AT:
         return None
     return _largest(use)
 
@@ -92,9 +87,9 @@ def _largest(use: MeshUse, whole: bool = False) -> float | None:
     if use.path.suffix.lower() != ".stl":
         box = box_of(use)
         return None if box is None else max(box.size)
-    extent = sampled_extent(use.path)
+    extent = sampled_extent(use.workspace, use.path)
     if extent is not None and whole:
-        bounds = stl_bounds(use.path)
+        bounds = stl_bounds(use.workspace.local(use.path))
         if bounds is None:
             return None
         (a, b, c), (d, e, f) = bounds
@@ -412,10 +407,10 @@ def heavy_visual(
     """
     told: set[str] = set()
     for use in mesh_uses(robot, description):
-        if use.collides or use.uri in told or not use.exists or use.path is None:
+        if use.collides or use.uri in told or use.size is None:
             continue
         told.add(use.uri)
-        size = use.path.stat().st_size
+        size = use.size
         if size > megabytes * 1e6 or size > HEADER_BYTES + TRIANGLE_BYTES * most:
             yield Problem(
                 use.link,

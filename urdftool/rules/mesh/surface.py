@@ -7,15 +7,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...errors import MeshError
-from ...inputs import Remembered
 from ...model.elements import Robot
 from ...source.description import Description
+from ...workspace import Workspace, memoized
 from ..cross_file_references import check_alone
 from ..file_rewrites import TURNED, WITHOUT_COLLAPSED, count_collapsed
 from ..fix import FixContext, Proposal, unsafe
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from .changes import files_at, rewrite_in_place
-from .uses import MeshUse, Stamp, is_concave, mesh_uses, stamp
+from .uses import MeshUse, is_concave, mesh_uses
 
 APPLIES_TO = ("mesh",)
 
@@ -27,28 +27,28 @@ MOST_SLIVERS = 0.2
 """Part of a mesh's triangles that may have no area without harm."""
 
 
-@Remembered
-def _surface(key: Stamp) -> Surface | None:
+@memoized
+def _surface(workspace: Workspace, path: Path) -> Surface | None:
     from ...meshes.surface import surface
 
-    return surface(Path(key[0]))
+    return surface(workspace.local(path))
 
 
-@Remembered
-def _change_by_closing(key: Stamp) -> float | None:
+@memoized
+def _change_by_closing(workspace: Workspace, path: Path) -> float | None:
     from ...meshes.closing import change_by_closing
 
-    return change_by_closing(key[0])
+    return change_by_closing(str(workspace.local(path)))
 
 
-@Remembered
-def _hull_volume(key: Stamp) -> float | None:
+@memoized
+def _hull_volume(workspace: Workspace, path: Path) -> float | None:
     from ...meshes.surface_arrays import hull_volume
 
-    return hull_volume(key[0])
+    return hull_volume(str(workspace.local(path)))
 
 
-def _surfaces(robot: Robot, description: Description) -> Iterator[tuple[MeshUse, Stamp, Surface]]:
+def _surfaces(robot: Robot, description: Description) -> Iterator[tuple[MeshUse, Path, Surface]]:
     """The collision meshes that are STL or OBJ files and can be read, each once."""
     told: set[str] = set()
     for use in mesh_uses(robot, description):
@@ -58,12 +58,11 @@ def _surfaces(robot: Robot, description: Description) -> Iterator[tuple[MeshUse,
             continue  # slow to read, and made to be looked at
         told.add(use.uri)
         try:
-            key = stamp(use.path)
+            found = _surface(use.workspace, use.path)
         except OSError:
             continue
-        found = _surface(key)
         if found is not None:
-            yield use, key, found
+            yield use, use.path, found
 
 
 def _together(found: list[tuple[MeshUse, str]], message: Callable[[MeshUse], str]) -> list[Problem]:
@@ -95,10 +94,10 @@ def not_watertight(
     the links.
     """
     found: list[tuple[MeshUse, str]] = []
-    for use, key, surface in _surfaces(robot, description):
+    for use, path, surface in _surfaces(robot, description):
         if not surface.open_edges:
             continue
-        changed = _change_by_closing(key)
+        changed = _change_by_closing(use.workspace, path)
         if changed is not None and changed > change:
             much = f"by {changed * 100:.0f} %" if changed < 1 else "altogether"
             found.append(
@@ -202,7 +201,7 @@ def remove_collapsed_triangles(problem: Problem, context: FixContext) -> Proposa
         return None
     for use, surface in found:
         try:
-            removed = count_collapsed(Path(str(use.path)))
+            removed = count_collapsed(use.workspace, Path(str(use.path)))
         except (MeshError, OSError):
             return None
         if surface.flat - removed > 0.01 * (surface.faces - removed):
@@ -233,13 +232,13 @@ def nonconvex_collision_mesh(
     ``urdftool collision`` cuts it into convex pieces. PyBullet keeps the triangles of a
     ``<collision>`` with the attribute ``concave``, which is reported for MuJoCo only.
     """
-    for use, key, surface in _surfaces(robot, description):
+    for use, path, surface in _surfaces(robot, description):
         if surface.open_edges or not surface.consistent or surface.volume == 0:
             continue
         concave = is_concave(use)
         if concave and "mujoco" not in targets:
             continue
-        hull = _hull_volume(key)
+        hull = _hull_volume(use.workspace, path)
         if hull is None or hull <= ratio * abs(surface.volume):
             continue
         yield Problem(

@@ -11,7 +11,6 @@ from typing import NamedTuple
 from ...model.elements import Collision, Mesh, Robot
 from ...source.description import Description
 from ...source.document import Element
-from ...source.packages import own_package
 from ..fix import Change, FixContext, Proposal, safe, set_attribute, substitute, unsafe
 from ..mujoco import keeps_visuals
 from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule
@@ -81,15 +80,15 @@ def write_package_uri(problem: Problem, context: FixContext) -> Proposal | None:
 
     The meshes of one folder that is not there are changed as far as the package has them.
     """
-    own = own_package(context.description.packages.file)
+    own = context.description.packages.own
 
     def change(use: MeshUse) -> Change | None:
-        uri = _uri_in_package(use.path, own)
+        uri = _uri_in_package(use, own)
         if uri is None and own is not None:
             parts = use.uri.replace("\\", "/").split("/")
             if own[0] in parts[:-1]:
                 rest = parts[len(parts) - parts[::-1].index(own[0]) :]
-                if os.path.isfile(own[1].joinpath(*rest)):
+                if use.workspace.is_file(own[1].joinpath(*rest)):
                     uri = f"package://{own[0]}/{'/'.join(rest)}"
         return None if uri is None else set_attribute(use.mesh.element, "filename", uri)
 
@@ -103,11 +102,13 @@ def write_package_uri(problem: Problem, context: FixContext) -> Proposal | None:
     return unsafe("write it as a package:// URI", *changes) if changes else None
 
 
-def _uri_in_package(path: Path | None, own: tuple[str, Path] | None) -> str | None:
-    """Return the URI of a file by a package; None where the file is not in it."""
-    if path is None or own is None or not os.path.isfile(path):
+def _uri_in_package(use: MeshUse, own: tuple[str, Path] | None) -> str | None:
+    """Return the URI of a mesh by a package; None where the file is not in it."""
+    files = use.workspace
+    if use.path is None or own is None or not files.is_file(use.path):
         return None
-    inside = os.path.relpath(os.path.realpath(path), os.path.realpath(own[1])).replace(os.sep, "/")
+    inside = os.path.relpath(files.real_path(use.path), files.real_path(own[1]))
+    inside = inside.replace(os.sep, "/")
     return None if inside.startswith("..") else f"package://{own[0]}/{inside}"
 
 
@@ -321,7 +322,7 @@ def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Prob
     Relative to what? A robot that comes over a topic or a parameter has no folder.
     ``package://NAME/…`` is found wherever the package is. One finding names the meshes.
     """
-    own = own_package(description.packages.file)
+    own = description.packages.own
     if own is None:
         return
     relative = _relative(mesh_uses(robot, description))
@@ -344,10 +345,10 @@ def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Prob
 @relative_uri_in_ros.fix(UNSAFE)
 def write_package_uris(problem: Problem, context: FixContext) -> Proposal | None:
     """Write all of them as URIs of the own package; None where one is not in it."""
-    own = own_package(context.description.packages.file)
+    own = context.description.packages.own
     changes = []
     for use in _relative(mesh_uses(context.robot, context.description)):
-        uri = _uri_in_package(use.path, own)
+        uri = _uri_in_package(use, own)
         if uri is None:
             return None
         changes.append(set_attribute(use.mesh.element, "filename", uri))

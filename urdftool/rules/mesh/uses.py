@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-import stat
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,8 +10,7 @@ from pathlib import Path
 from ...errors import PackageNotFound
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...source.description import Description, GltfUp
-from ...source.document import copy_of
-from ...source.nearby import stand_in
+from ...workspace import Workspace
 
 _SEEN, _TOUCHED = 0.02, 0.1  # [µs] a byte of a mesh takes in plain Python
 
@@ -25,6 +22,7 @@ class MeshUse:
     """A mesh in a shape of a link.
 
     Attributes:
+        workspace: Reads the file.
         path: The file it means; None where that cannot be known.
         size: Its bytes; None where it is not there.
         missing_package: The package that could not be found, if it was that.
@@ -35,6 +33,7 @@ class MeshUse:
     link: Link
     shape: Visual | Collision
     mesh: Mesh
+    workspace: Workspace
     path: Path | None = None
     size: int | None = None
     missing_package: str = ""
@@ -74,16 +73,15 @@ def is_concave(use: MeshUse) -> bool:
     return use.collides and use.shape.element.get("concave") is not None
 
 
-_last: tuple[Robot, list[MeshUse]] | None = None
-
-
 def mesh_uses(robot: Robot, description: Description) -> list[MeshUse]:
     """Every mesh of a robot, in the order of the file; looked for once, however many rules ask."""
-    global _last
-    if _last is None or _last[0] is not robot:
-        _last = robot, list(_uses(robot, description))
-        _expect_work(_last[1])
-    return _last[1]
+
+    def find() -> list[MeshUse]:
+        uses = list(_uses(robot, description))
+        _expect_work(uses)
+        return uses
+
+    return robot.memo.get("mesh uses", find)
 
 
 def _expect_work(uses: list[MeshUse]) -> None:
@@ -102,7 +100,7 @@ def _uses(robot: Robot, description: Description) -> Iterator[MeshUse]:
         mesh = shape.geometry
         if not isinstance(mesh, Mesh):
             continue
-        use = MeshUse(link, shape, mesh, gltf_up=description.gltf_up)
+        use = MeshUse(link, shape, mesh, description.workspace, gltf_up=description.gltf_up)
         known = found.setdefault(use.uri, use)
         if known is use:
             _locate(use, description, lost)
@@ -132,49 +130,25 @@ def _locate(use: MeshUse, description: Description, lost: dict[str, list[str]]) 
             use.missing_package, use.searched = package, list(error.notes)
             lost[package] = use.searched
         return
-    copy = copy_of(use.path)
-    if copy is not None:
-        use.size = len(copy)
-        return
-    try:
-        status = os.stat(use.path)
-    except (OSError, ValueError):
-        return
-    use.size = status.st_size if stat.S_ISREG(status.st_mode) else None
+    use.size = use.workspace.size(use.path)
 
 
-Stamp = tuple[str, int, int]
-
-
-def stamp(path: Path) -> Stamp:
-    """What stands for a file as it is now, where what was read of it is kept.
-
-    The path in it is that of the bytes to be read, which are elsewhere while a fix is tried.
-
-    Raises:
-        OSError: It is not there.
-    """
-    there = stand_in(path)
-    status = there.stat()
-    return str(there), status.st_mtime_ns, status.st_size
-
-
-def actual_case(path: Path) -> Path | None:
+def actual_case(workspace: Workspace, path: Path) -> Path | None:
     """The file that differs from a path only in the case of its letters; None if there is none."""
     known = path
     rest: list[str] = []
-    while not os.path.exists(known):
+    while not workspace.exists(known):
         if known.parent == known:
             return None
         rest.append(known.name)
         known = known.parent
     for name in reversed(rest):
         try:
-            names = os.listdir(known)
+            names = [entry.name for entry in workspace.list_folder(known)]
         except OSError:
             return None
-        same = next((n for n in sorted(names) if n.casefold() == name.casefold()), None)
+        same = next((n for n in names if n.casefold() == name.casefold()), None)
         if same is None:
             return None
         known = known / same
-    return known if os.path.isfile(known) else None
+    return known if workspace.is_file(known) else None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -268,7 +267,8 @@ def _read_beside(robot: Robot, description: Description, name: str) -> Node | No
     if not semantics(robot, description):
         return None
     path = Path(description.path).parent / name
-    file = file_at(Path(shown_path(path))) if os.path.isfile(path) else None
+    workspace = description.workspace
+    file = file_at(workspace, shown_path(path)) if workspace.is_file(path) else None
     try:
         return None if file is None else yaml_of(file)
     except ConfigError:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -27,15 +26,11 @@ from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..words import did_you_mean, nearest
 
 _ON = ("moveit",)
-_last: tuple[Robot, list[Document]] | None = None
 
 
 def semantics(robot: Robot, description: Description) -> list[Document]:
     """The SRDF files beside a description that are for it, by the name of file or robot."""
-    global _last
-    if _last is None or _last[0] is not robot:
-        _last = robot, list(_read(robot, description))
-    return _last[1]
+    return robot.memo.get("SRDF files", lambda: list(_read(robot, description)))
 
 
 def _read(robot: Robot, description: Description) -> Iterator[Document]:
@@ -43,15 +38,18 @@ def _read(robot: Robot, description: Description) -> Iterator[Document]:
         return
     path = Path(description.path)
     stem = path.name.split(".")[0]
-    files = sorted(path.parent.glob("*.srdf"))
+    workspace = description.workspace
+    files = workspace.glob(path.parent, "*.srdf")
     named = [file for file in files if file.name.split(".")[0] == stem]
     if not named:
-        described = path.parent.glob("*.urdf*")  # each of these has the SRDF of its own name
+        described = workspace.glob(
+            path.parent, "*.urdf*"
+        )  # each of these has the SRDF of its own name
         others = {other.name.split(".")[0] for other in described}
         files = [file for file in files if file.name.split(".")[0] not in others]
     for file in named or files:
         try:
-            document = parse(read_file(shown_path(file)))
+            document = parse(read_file(shown_path(file), workspace))
         except SourceError:
             continue
         if document.root.tag == "robot" and (named or document.root.get("name") == robot.name):
@@ -324,12 +322,12 @@ def missing_acceleration_limits(robot: Robot, description: Description) -> Itera
     """
     documents = semantics(robot, description)
     path = Path(description.path).parent / "joint_limits.yaml"
-    if not documents or not os.path.isfile(path):
+    if not documents or not description.workspace.is_file(path):
         return
     import yaml
 
     try:
-        table = yaml.safe_load(path.read_text("utf-8", "replace"))
+        table = yaml.safe_load(description.workspace.read_text(path))
     except (OSError, yaml.YAMLError):
         return
     limits = table.get("joint_limits") if isinstance(table, dict) else None

@@ -8,6 +8,7 @@ from ...errors import PackageNotFound
 from ...source.document import Element
 from ...source.nearby import document_at
 from ...source.packages import Packages
+from ...workspace import Workspace
 
 _MOST_PACKAGES = 2000
 
@@ -34,7 +35,7 @@ def way_between(
             folder = packages.find(name)
         except PackageNotFound:
             continue
-        for element in _depend_elements(folder):
+        for element in _depend_elements(packages.workspace, folder):
             other = element.text.strip()
             if other in ways or (element.get("condition") is not None and not conditional):
                 continue
@@ -45,9 +46,9 @@ def way_between(
     return ()
 
 
-def _depend_elements(folder: Path) -> list[Element]:
+def _depend_elements(workspace: Workspace, folder: Path) -> list[Element]:
     """List the dependencies in a package's manifest."""
-    document = document_at(folder / "package.xml")
+    document = document_at(workspace, folder / "package.xml")
     if document is None or document.root.tag != "package":
         return []
     children = document.root.children

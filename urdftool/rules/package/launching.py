@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +10,7 @@ from ...model.elements import Robot
 from ...source.description import Description
 from ...source.location import Place
 from ...source.nearby import file_at
-from ...source.packages import own_package
+from ...workspace import Workspace
 from ..fix import FixContext, Proposal, Span, safe
 from ..rule import INFO, ROS, SAFE, Problem, rule
 
@@ -39,12 +38,12 @@ def obsolete_cli_option(robot: Robot, description: Description) -> Iterator[Prob
     installed any more: in ROS 2 such a call fails. Looked at are lines that name this description,
     in the launch files, ``CMakeLists.txt`` and README of its package.
     """
-    own = own_package(description.packages.file)
+    own = description.packages.own
     if own is None:
         return
     name = description.packages.file.name.encode()
-    for path in _callers(own[1]):
-        file = file_at(path)
+    for path in _callers(description.workspace, own[1]):
+        file = file_at(description.workspace, path)
         if file is None or name not in file.data or len(file.data) > _MOST_BYTES:
             continue
         data = file.data
@@ -60,12 +59,12 @@ def obsolete_cli_option(robot: Robot, description: Description) -> Iterator[Prob
                 )
 
 
-def _callers(package: Path) -> Iterator[Path]:
+def _callers(workspace: Workspace, package: Path) -> Iterator[Path]:
     """The files of a package that may call xacro."""
-    found = [*(package / "launch").glob("**/*"), *package.glob("README*")]
+    found = [*workspace.glob(package / "launch", "**/*"), *workspace.glob(package, "README*")]
     found += [package / "CMakeLists.txt"]
     for path in sorted(found)[:_MOST_FILES]:
-        if os.path.isfile(path):
+        if workspace.is_file(path):
             yield path
 
 

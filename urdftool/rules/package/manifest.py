@@ -10,10 +10,10 @@ from pathlib import Path
 from ...errors import PackageNotFound
 from ...model.elements import Link, Robot
 from ...source.description import Description
-from ...source.document import Document, Element, copy_of
+from ...source.document import Document, Element
 from ...source.location import Place
 from ...source.nearby import document_at, file_at
-from ...source.packages import own_package
+from ...workspace import Workspace, memoized
 from ..fix import (
     Change,
     FixContext,
@@ -26,7 +26,7 @@ from ..fix import (
     substitute,
     unsafe,
 )
-from ..mesh.uses import MeshUse, Stamp, mesh_uses, stamp
+from ..mesh.uses import MeshUse, mesh_uses
 from ..rule import BOTH, ERROR, INFO, ROS, SAFE, UNSAFE, WARNING, Problem, rule
 from ..words import quoted
 from .dependencies import way_between
@@ -37,25 +37,17 @@ _DEPEND = re.compile(r"<(?:\w+_)?depend\b[^>]*>\s*([\w-]+)\s*</")
 _FIND = re.compile(rb"\$\(find\s+([\w-]+)\s*\)")
 
 
-def _manifest(folder: Path) -> str:
-    return _COMMENT.sub("", _text_of(folder / "package.xml"))
+def _manifest(workspace: Workspace, folder: Path) -> str:
+    return _COMMENT.sub("", _text_of(workspace, folder / "package.xml"))
 
 
-_texts: dict[Stamp, str] = {}
-
-
-def _text_of(path: Path) -> str:
+@memoized
+def _text_of(workspace: Workspace, path: Path) -> str:
     """The text of a file of the package; empty where it cannot be read."""
-    copy = copy_of(path)
-    if copy is not None:
-        return copy.decode("utf-8", "replace")
     try:
-        key = stamp(path)
-        if key not in _texts:
-            _texts[key] = path.read_text("utf-8", "replace")
+        return workspace.read_text(path)
     except OSError:
         return ""
-    return _texts[key]
 
 
 @rule(
@@ -73,10 +65,10 @@ def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterat
     one, ``dependency-circle`` says so instead. Descriptions in a folder ``test`` or ``tests`` of
     the package are left out: no robot needs them.
     """
-    own = own_package(description.packages.file)
-    if own is None or _is_in_tests(description.packages.file, own[1]):
+    own = description.packages.own
+    if own is None or _is_in_tests(description, own[1]):
         return
-    declared = _declared(own[1])
+    declared = _declared(description.workspace, own[1])
     for name, subject, at in _used_packages(robot, description, own):
         if name not in declared and not way_between(name, own[0], description.packages):
             yield Problem(
@@ -97,7 +89,7 @@ def declare_dependency(problem: Problem, context: FixContext) -> Proposal | None
     """
     name: str = problem.data["package"]
     manifest = _manifest_document(context)
-    own, packages = own_package(context.description.packages.file), context.description.packages
+    own, packages = context.description.packages.own, context.description.packages
     if manifest is None or own is None or not re.fullmatch(r"[\w-]+", name):
         return None
     try:
@@ -111,8 +103,8 @@ def declare_dependency(problem: Problem, context: FixContext) -> Proposal | None
 
 
 def _manifest_document(context: FixContext) -> Document | None:
-    own = own_package(context.description.packages.file)
-    found = document_at(own[1] / "package.xml") if own is not None else None
+    own = context.description.packages.own
+    found = document_at(context.workspace, own[1] / "package.xml") if own is not None else None
     return found if found is not None and found.root.tag == "package" else None
 
 
@@ -145,10 +137,10 @@ def dependency_circle(robot: Robot, description: Description) -> Iterator[Proble
     where that package happens to be. Files that two packages use belong in the one that the other
     depends on, or in a third. Descriptions in a folder ``test`` or ``tests`` are not looked at.
     """
-    own = own_package(description.packages.file)
-    if own is None or _is_in_tests(description.packages.file, own[1]):
+    own = description.packages.own
+    if own is None or _is_in_tests(description, own[1]):
         return
-    declared = _declared(own[1])
+    declared = _declared(description.workspace, own[1])
     for name, subject, at in _used_packages(robot, description, own):
         way = way_between(name, own[0], description.packages)
         if not way:
@@ -172,15 +164,16 @@ def dependency_circle(robot: Robot, description: Description) -> Iterator[Proble
             )
 
 
-def _is_in_tests(file: Path, folder: Path) -> bool:
-    """Tell whether a file is in a folder ``test`` or ``tests`` of its package."""
-    relative = Path(os.path.relpath(os.path.realpath(file), os.path.realpath(folder)))
+def _is_in_tests(description: Description, folder: Path) -> bool:
+    """Tell whether a description is in a folder ``test`` or ``tests`` of its package."""
+    real_path = description.workspace.real_path
+    relative = Path(os.path.relpath(real_path(description.packages.file), real_path(folder)))
     return not {"test", "tests"}.isdisjoint(relative.parts[:-1])
 
 
-def _declared(folder: Path) -> set[str]:
+def _declared(workspace: Workspace, folder: Path) -> set[str]:
     """The dependencies in a package's manifest."""
-    return set(_DEPEND.findall(_manifest(folder)))
+    return set(_DEPEND.findall(_manifest(workspace, folder)))
 
 
 def _used_packages(
@@ -210,9 +203,11 @@ def _is_itself(name: str, folder: Path, description: Description) -> bool:
     if name != folder.name:
         return False
     try:
-        return os.path.samefile(description.packages.find(name), folder)
-    except (PackageNotFound, OSError):
+        found = description.packages.find(name)
+    except PackageNotFound:
         return False
+    real_path = description.workspace.real_path
+    return real_path(found) == real_path(folder)
 
 
 def _package_of(use: MeshUse) -> str:
@@ -237,10 +232,10 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
     is mostly used from its sources: there it is a warning, and an info for a package that installs
     nothing at all.
     """
-    own = own_package(description.packages.file)
+    own = description.packages.own
     if own is None:
         return
-    text = _text_of(own[1] / "CMakeLists.txt")
+    text = _text_of(description.workspace, own[1] / "CMakeLists.txt")
     if not text:
         return
     text = re.sub(r"#[^\n]*", "", text)
@@ -257,7 +252,8 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
     wanted: dict[str, Element] = {}
     for use in mesh_uses(robot, description):
         if use.exists and use.path is not None and use.uri.startswith(f"package://{own[0]}/"):
-            relative = os.path.relpath(os.path.realpath(use.path), os.path.realpath(own[1]))
+            real_path = description.workspace.real_path
+            relative = os.path.relpath(real_path(use.path), real_path(own[1]))
             top = relative.replace(os.sep, "/").partition("/")[0]
             if top != ".." and "/" in relative:
                 wanted.setdefault(top, use.mesh.element)
@@ -286,9 +282,9 @@ _CATKIN, _SHARE = b"${CATKIN_PACKAGE_SHARE_DESTINATION}", b"share/${PROJECT_NAME
 @directory_not_installed.fix(UNSAFE)
 def install_directory(problem: Problem, context: FixContext) -> Proposal | None:
     """Add the folder to an install() of others, or add one."""
-    own = own_package(context.description.packages.file)
+    own = context.description.packages.own
     name: str = problem.data["folder"]
-    file = file_at(own[1] / "CMakeLists.txt") if own is not None else None
+    file = file_at(context.workspace, own[1] / "CMakeLists.txt") if own is not None else None
     if own is None or file is None or re.search(r"['\s();#\"]", name):
         return None
     folder, data = name.encode(), file.data
@@ -326,10 +322,10 @@ def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator
     ``GAZEBO_MODEL_PATH`` or ``GZ_SIM_RESOURCE_PATH`` say. A line in the ``<export>`` of
     ``package.xml``, or one in the launch file, sets it.
     """
-    own = own_package(description.packages.file)
-    if own is None or "model_path" in _manifest(own[1]):
+    own = description.packages.own
+    if own is None or "model_path" in _manifest(description.workspace, own[1]):
         return
-    if _launch_sets_path(own[1]):
+    if _launch_sets_path(description.workspace, own[1]):
         return
     for use in mesh_uses(robot, description):
         if _package_of(use) == own[0]:
@@ -342,14 +338,11 @@ def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator
             return
 
 
-def _launch_sets_path(package: Path) -> bool:
+def _launch_sets_path(workspace: Workspace, package: Path) -> bool:
     """Whether a launch file or hook of the package sets the path where Gazebo looks."""
     for folder in ("launch", "hooks", "env-hooks"):
-        for path in sorted((package / folder).glob("*"))[:50]:
-            try:
-                text = path.read_text("utf-8", "replace") if os.path.isfile(path) else ""
-            except OSError:
-                continue
+        for path in workspace.glob(package / folder, "*")[:50]:
+            text = _text_of(workspace, path) if workspace.is_file(path) else ""
             if "RESOURCE_PATH" in text or "MODEL_PATH" in text:
                 return True
     return False
@@ -395,7 +388,7 @@ def wrong_package_in_uri(robot: Robot, description: Description) -> Iterator[Pro
     The description was copied and renamed, and its meshes still name the package it came from.
     Where that is installed too, its meshes are shown.
     """
-    own = own_package(description.packages.file)
+    own = description.packages.own
     if own is None:
         return
     wrong: dict[str, list[MeshUse]] = {}
@@ -416,13 +409,14 @@ def wrong_package_in_uri(robot: Robot, description: Description) -> Iterator[Pro
 @wrong_package_in_uri.fix(UNSAFE)
 def write_own_package(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the own package in all URIs of the other; None where it lacks one of the files."""
-    own = own_package(context.description.packages.file)
+    own = context.description.packages.own
     if own is None:
         return None
     changes = []
     for use in mesh_uses(context.robot, context.description):
         if use.uri.startswith(f"package://{problem.data['package']}/"):
-            if not os.path.isfile(own[1] / use.uri.partition("://")[2].partition("/")[2]):
+            inside = use.uri.partition("://")[2].partition("/")[2]
+            if not context.workspace.is_file(own[1] / inside):
                 return None
             right = f"package://{own[0]}/"
             changes.append(substitute(use.mesh.element, "filename", "^package://[^/]*/", right))

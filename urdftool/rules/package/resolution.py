@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.packages import has_it, own_package, shown_path
+from ...source.packages import has_it, shown_path
 from ..mesh.dropped import is_dropped
 from ..mesh.uses import MeshUse, mesh_uses
 from ..rule import WARNING, Problem, rule
@@ -84,7 +84,7 @@ def _in_rviz(uses: list[MeshUse]) -> tuple[str, ...]:
 def _right_uri(use: MeshUse, description: Description) -> str:
     """A URI that every reader finds, or the path where the file is in no package."""
     file = description.packages.file
-    own = own_package(file)
+    own = description.packages.own
     path = use.path or file
     start = file.parent if own is None else own[1]
     inside = os.path.relpath(path, start).replace(os.sep, "/")
@@ -93,12 +93,12 @@ def _right_uri(use: MeshUse, description: Description) -> str:
 
 def is_in_own_package(use: MeshUse, description: Description) -> bool:
     """Whether a mesh that another package should have is in the description's own."""
-    own = own_package(description.packages.file)
+    own = description.packages.own
     scheme, _, rest = use.uri.partition("://")
     name, _, inside = rest.partition("/")
     if own is None or scheme != "package" or use.exists or not inside or name == own[0]:
         return False
-    return os.path.isfile(own[1] / inside)
+    return description.workspace.is_file(own[1] / inside)
 
 
 def _inner(uri: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator
 
@@ -217,7 +216,7 @@ def missing_texture(robot: Robot, description: Description) -> Iterator[Problem]
             path = description.resolve(uri)
         except PackageNotFound:
             continue
-        if not os.path.isfile(path):
+        if not description.workspace.is_file(path):
             yield Problem(
                 element,
                 f"texture '{uri}' is not there: no file '{shown_path(path)}'",

@@ -29,27 +29,25 @@ class Definitions:
     arguments: dict[str, list[Element]] = field(default_factory=dict)
 
 
-_last: tuple[Description, Definitions] | None = None
-
-
 def definitions(description: Description) -> Definitions:
     """What a description's files define; read once, however many rules ask."""
-    global _last
-    if _last is None or _last[0] is not description:
-        found = Definitions()
-        for document in _documents(description):
-            found.documents.append(document)
-            for element in document.root.walk():
-                kinds = {
-                    "xacro:macro": found.macros,
-                    "xacro:property": found.properties,
-                    "xacro:arg": found.arguments,
-                }
-                table = kinds.get(element.tag)
-                if table is not None and "name" in element.attributes:
-                    table.setdefault(element.attributes["name"], []).append(element)
-        _last = description, found
-    return _last[1]
+    return description.memo.get("definitions", lambda: _definitions(description))
+
+
+def _definitions(description: Description) -> Definitions:
+    found = Definitions()
+    for document in _documents(description):
+        found.documents.append(document)
+        for element in document.root.walk():
+            kinds = {
+                "xacro:macro": found.macros,
+                "xacro:property": found.properties,
+                "xacro:arg": found.arguments,
+            }
+            table = kinds.get(element.tag)
+            if table is not None and "name" in element.attributes:
+                table.setdefault(element.attributes["name"], []).append(element)
+    return found
 
 
 def _documents(description: Description) -> Iterator[Document]:
@@ -61,25 +59,25 @@ def _documents(description: Description) -> Iterator[Document]:
 
 
 _NAME = re.compile(rb"<xacro:(macro|arg)\b[^>]*?\bname\s*=\s*[\"']([^\"']+)[\"']")
-_names: dict[int, tuple[SourceFile, list[tuple[str, str]]]] = {}
 
 
-def names_in(file: SourceFile) -> list[tuple[str, str]]:
+def names_in(description: Description, file: SourceFile) -> list[tuple[str, str]]:
     """Kind and name of each macro and argument in a file, found without parsing it."""
-    known = _names.get(id(file))
-    if known is None or known[0] is not file:
-        if len(_names) > 200:
-            _names.clear()
-        found = [
-            (match[1].decode("ascii"), match[2].decode(file.encoding, "replace"))
-            for match in _NAME.finditer(file.data)
-        ]
-        known = _names[id(file)] = file, found
-    return known[1]
+    return description.memo.get(("names", file), lambda: _names(file))
+
+
+def _names(file: SourceFile) -> list[tuple[str, str]]:
+    return [
+        (match[1].decode("ascii"), match[2].decode(file.encoding, "replace"))
+        for match in _NAME.finditer(file.data)
+    ]
 
 
 def macro_names(description: Description) -> frozenset[str]:
     """Names of the macros that a description's files define."""
     return frozenset(
-        name for file in description.files for kind, name in names_in(file) if kind == "macro"
+        name
+        for file in description.files
+        for kind, name in names_in(description, file)
+        if kind == "macro"
     )

@@ -56,7 +56,9 @@ def unused_arg(description: Description) -> Iterator[Problem]:
     if description.expansion is None:
         return
     entry = description.files[0]
-    declared = [name for kind, name in names_in(entry) if kind == "arg" and "$" not in name]
+    declared = [
+        name for kind, name in names_in(description, entry) if kind == "arg" and "$" not in name
+    ]
     text = _text(description) if declared else ""
     unread = [name for name in dict.fromkeys(declared) if not _is_read(name, text)]
     if not unread or _includes_may_vary(description):
@@ -158,7 +160,12 @@ def macro_redefined(description: Description) -> Iterator[Problem]:
     a ``cylinder_inertia``, with other parameters or other formulas, the robot depends on the order
     of its includes. One in a condition, or in a file that is included with ``ns``, is not told of.
     """
-    names = [name for file in description.files for kind, name in names_in(file) if kind == "macro"]
+    names = [
+        name
+        for file in description.files
+        for kind, name in names_in(description, file)
+        if kind == "macro"
+    ]
     if len(names) == len(set(names)):
         return
     found = definitions(description)
