@@ -18,8 +18,7 @@ BASE = (
 # A package may import from the packages below it, never from one above or beside.
 BELOW = {
     **{name: BASE[:index] for index, name in enumerate(BASE)},
-    "inputs": (),
-    "source": ("inputs", *BASE),
+    "source": BASE,
     "model": ("source", *BASE),
     "finding": ("source",),
     "output": BASE,
@@ -31,8 +30,8 @@ BELOW = {
     "inertia": ("meshes", "model", "source", *BASE),
     "collision": ("drawing", "meshes", "inertia", "model", "source", *BASE),
     "viewer": ("drawing", "inertia", "meshes", "finding", "model", "source", *BASE),
-    "rules": ("finding", "model", "source", "meshes", "inputs", *BASE),
-    "lint": ("rules", "finding", "model", "source", "configuration", "inputs", *BASE),
+    "rules": ("finding", "model", "source", "meshes", *BASE),
+    "lint": ("rules", "finding", "model", "source", "configuration", *BASE),
     "formats": ("finding", "model", "source", "meshes", "inertia", "output", *BASE),
     "graph": ("finding", "model", "source", *BASE),
     "simulation": (
@@ -168,44 +167,16 @@ def test_each_deed_has_its_place(path):
             assert relative in CALLS.get(called, (relative,)), f"{relative} calls {called}"
 
 
-TO_GO = "to go: a Workspace will hold what a run remembers"
+TO_GO = "to go with the restructuring of its package"
 LIBRARY = "the only way to change what a library does"
-KNOWN_STATE = {
-    **dict.fromkeys(
-        (
-            *("configuration.py: _found", "inputs.py: _heard", "inputs.py: _hooked"),
-            *("inputs.py: _remembered", "inputs.py: together", "run.py: _chosen"),
-            *("positions.py: _patience", "likeness.py: _faces", "overlap.py: _resting"),
-            *("overlap.py: _passed", "pieces.py: _last", "controller_files.py: _last"),
-            *("cross_file_references.py: _words", "formats.py: _facts", "outlines.py: _last"),
-            *("scale.py: _extents", "uses.py: _last", "semantic.py: _last"),
-            *("manifest.py: _texts", "sides.py: _last", "definitions.py: _last"),
-            *("definitions.py: _names", "vocabulary_table.py: census", "hull_cache.py: _stores"),
-            *("mesh_cache.py: _last", "nearby.py: _folder", "group.py: repository"),
-            *(
-                "targets.py: _read_manifest",
-                "cross_file_references.py: _included",
-                "files.py: _files_below",
-            ),
-            *("outlines.py: _outline", "parts.py: _missing", "surface.py: _surface"),
-            *("surface.py: _change_by_closing", "surface.py: _hull_volume"),
-            *("packages.py: _names", "packages.py: _owners", "packages.py: _below"),
-        ),
-        TO_GO,
-    ),
-    "expressions.py: _codes": "compiled expressions by their text, as re keeps patterns",
-    "xacro_hooks.py: _pieces": "pieces of a text by the text, as re keeps patterns",
-}
+KNOWN_STATE = dict.fromkeys(
+    ("positions.py: _patience", "hull_cache.py: _stores", "mesh_cache.py: _last"), TO_GO
+)
 """Module-level state, by file and name, with the reason why it is there."""
 
 KNOWN_PATCHES = {
-    "inputs.py: os.stat": TO_GO,
-    "inputs.py: os.lstat": TO_GO,
-    "inputs.py: os.readlink": TO_GO,
-    "inputs.py: os.path": TO_GO,
     "xacro_hooks.py: xacro": LIBRARY,
     "xacro_hooks.py: substitution": LIBRARY,
-    "xacro_hooks.py: sys.modules['yaml'].safe_load": LIBRARY,
     "completion.py: click.STRING.shell_complete": LIBRARY,
     "terminal.py: sys": "streams of this process: a terminal obeys nothing that a file holds",
     "terminal.py: sys.stdin": "a standard stream that is closed leads nowhere",

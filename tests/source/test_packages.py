@@ -5,6 +5,7 @@ import pytest
 from urdftool.errors import PackageNotFound
 from urdftool.source.install_rules import read_install_rules
 from urdftool.source.packages import Packages, own_package
+from urdftool.workspace import Workspace
 
 
 def package(folder: Path, name: str, cmake: str = "") -> Path:
@@ -120,7 +121,7 @@ def test_catkin_destinations_are_known(tmp_path):
         "demo",
         "project(demo)\ninstall(DIRECTORY urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})",
     )
-    assert [rule.target for rule in read_install_rules(home, "demo")] == ["./urdf"]
+    assert [rule.target for rule in read_install_rules(home, "demo", Workspace())] == ["./urdf"]
 
 
 def test_uris_and_relative_paths(tmp_path):

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ast
 import re
+from functools import lru_cache
 from types import CodeType
 from typing import Any
 
@@ -35,30 +36,24 @@ _OPERATORS = {
 _METHODS = "|".join((*bounded.METHODS, *_HIDDEN))
 _SUSPECT = re.compile(rf"[+*%]|<<|\b[fF][rR]?['\"]|\b[rR][fF]['\"]|\.\s*(?:{_METHODS})")
 
-_codes: dict[str, CodeType] = {}
 
-
+@lru_cache(maxsize=1 << 15)
 def compile_expression(source: str) -> CodeType:
-    """The code of an expression, from the cache if it was compiled before.
+    """Compile an expression.
 
     Raises:
         SyntaxError: It is not an expression.
         ForbiddenNameError: It uses a name that leads to the interpreter's insides.
     """
-    code = _codes.get(source)
-    if code is None:
-        text = source.strip()
-        if _SUSPECT.search(text):
-            tree = ast.parse(text, "<expression>", "eval")
-            code = compile(tree, "<expression>", "eval")
-            _check_names(code)
-            _check_attributes(tree)
-            code = compile(_Bounded().visit(tree), "<expression>", "eval")
-        else:
-            code = compile(text, "<expression>", "eval")
-            _check_names(code)
-        _codes[source] = code
-    return code
+    text = source.strip()
+    if not _SUSPECT.search(text):
+        code = compile(text, "<expression>", "eval")
+        _check_names(code)
+        return code
+    tree = ast.parse(text, "<expression>", "eval")
+    _check_names(compile(tree, "<expression>", "eval"))
+    _check_attributes(tree)
+    return compile(_Bounded().visit(tree), "<expression>", "eval")
 
 
 def _check_names(code: CodeType) -> None:

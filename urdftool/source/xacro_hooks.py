@@ -15,6 +15,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import lru_cache
 from types import ModuleType
 from typing import Any
 
@@ -313,13 +314,11 @@ class Run:
         """As ``xacro.eval_text``, with the lexing and compiling done once for each text."""
         if "$" not in text:
             return text
-        pieces = _pieces.get(text)
-        if pieces is None:
-            try:
-                pieces = _pieces[text] = _split(text)
-            except Exception:
-                self.failed_text = self.failed_text or text
-                raise
+        try:
+            pieces = _split(text)
+        except Exception:
+            self.failed_text = self.failed_text or text
+            raise
         results = []
         for kind, piece in pieces:
             if kind == _EXPR:
@@ -397,9 +396,9 @@ class _MissingFileError(OSError):
 
 
 _TEXT, _EXPR, _EXTENSION = 0, 1, 2
-_pieces: dict[str, list[tuple[int, str]]] = {}
 
 
+@lru_cache(maxsize=1 << 15)
 def _split(text: str) -> list[tuple[int, str]]:
     """The pieces of a text, as xacro's own lexer finds them."""
     pieces = []

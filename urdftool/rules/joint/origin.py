@@ -26,7 +26,7 @@ def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iter
     Roll, pitch and yaw are in radians. 90 is taken for 90 rad, which comes out at 116.6°, so the
     part stands askew.
     """
-    for element in census(robot.element).known["origin"]:
+    for element in census(robot).known["origin"]:
         text = element.attributes.get("rpy")
         if not text:
             continue

@@ -77,7 +77,7 @@ def wrong_arity(robot: Robot) -> Iterator[Problem]:
     for tag, vectors in _VECTORS.items():
         if not vectors:
             continue
-        for element in census(robot.element).known[tag]:
+        for element in census(robot).known[tag]:
             for name, count in vectors:
                 text = element.attributes.get(name)
                 if text is None:
@@ -169,7 +169,7 @@ def not_a_number(robot: Robot) -> Iterator[Problem]:
     or ``inf``. urdfdom gives up on what holds the number; PyBullet reads as far as it can and goes
     on with that. So one blank behind a mass makes the link weightless, and Gazebo deletes it.
     """
-    known = census(robot.element).known
+    known = census(robot).known
     for tag, names in _SCALARS.items():
         for name in names:
             for element in known[tag]:
@@ -344,7 +344,7 @@ def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator
     if description.expansion is not None or not _TABBED.search(robot.element.file.data):
         return
     for tag, vectors in _VECTORS.items():
-        for element in census(robot.element).known[tag] if vectors else ():
+        for element in census(robot).known[tag] if vectors else ():
             spans = element.file.attribute_spans(element.start)
             for name, count in vectors:
                 if name not in spans:

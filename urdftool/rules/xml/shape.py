@@ -37,7 +37,7 @@ def repeated_element(robot: Robot) -> Iterator[Problem]:
     urdfdom and with it ROS and Gazebo take the first and drop the others, whatever they say; MuJoCo
     refuses the file. Of two masses or two limits only one can have been meant.
     """
-    known = census(robot.element).known
+    known = census(robot).known
     for tag in ("link", "inertial", "visual", "collision", "material", "joint"):
         kind = VOCABULARY[tag]
         single = {child for child in kind.children if child not in kind.many}
@@ -99,7 +99,7 @@ def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
     contact. Each shape needs a ``<visual>`` or ``<collision>`` of its own; a link may have as many
     as it likes.
     """
-    for geometry in census(robot.element).known["geometry"]:
+    for geometry in census(robot).known["geometry"]:
         shapes = shapes_in(geometry)
         if len(shapes) > 1 and geometry.children[0] is shapes[0]:
             first, second = shapes[:2]

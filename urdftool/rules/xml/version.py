@@ -104,7 +104,7 @@ def feature_needs_newer_version(robot: Robot) -> Iterator[Problem]:
 
 
 def _newer(robot: Robot, version: float) -> Iterator[Problem]:
-    known = census(robot.element).known
+    known = census(robot).known
     if version < 1.1:
         for element in known["capsule"]:
             yield Problem(
@@ -174,7 +174,7 @@ def rpy_and_quat(robot: Robot) -> Iterator[Problem]:
 
     Readers that know both refuse it, the others take ``rpy``.
     """
-    for element in census(robot.element).known["origin"]:
+    for element in census(robot).known["origin"]:
         if "rpy" in element.attributes and "quat_xyzw" in element.attributes:
             yield Problem(
                 element,

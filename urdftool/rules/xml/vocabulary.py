@@ -171,7 +171,7 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
     misspelt ``<colision>`` or an ``<inertia>`` outside ``<inertial>`` is simply gone: the link
     falls through the floor, or weighs nothing. Tags of SDF in a URDF have the same fate.
     """
-    strangers = census(robot.element).strangers
+    strangers = census(robot).strangers
     in_xacro = bool(strangers) and description.expansion is not None
     of_xacro = _XACRO | macro_names(description) if in_xacro else frozenset()
     mere: dict[tuple[str, str], list[Element]] = {}
@@ -245,7 +245,7 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
     """
     nothing: frozenset[str] = frozenset()
     mere: dict[tuple[str, tuple[str, ...], Severity], list[Element]] = {}
-    for tag, elements in census(robot.element).known.items():
+    for tag, elements in census(robot).known.items():
         known = {*attributes_of(tag), *DIALECT_ATTRIBUTES.get(tag, nothing)}
         for element in elements:
             if element.attributes.keys() <= known:
@@ -359,14 +359,14 @@ def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
     URDF's words are in lower case and readers compare them letter by letter. A joint of type
     ``Revolute`` gets the whole robot rejected; an ``<Inertial>`` is passed over in silence.
     """
-    for element in census(robot.element).strangers:
+    for element in census(robot).strangers:
         parent = element.parent
         lower = element.tag.lower()
         if parent is None or parent.tag == "geometry" or lower == element.tag:
             continue
         if lower in VOCABULARY[parent.tag].children:
             yield Problem(element, f"{_the(parent)} has no <{element.tag}>; write <{lower}>")
-    for tag, elements in census(robot.element).known.items():
+    for tag, elements in census(robot).known.items():
         known = set(attributes_of(tag))
         for element in elements:
             if element.attributes.keys() <= known:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import lru_cache
 from typing import NamedTuple
 
+from ...model.elements import Robot
 from ...source.document import Element
 
 
@@ -136,9 +136,12 @@ class Census(NamedTuple):
     strangers: list[Element]
 
 
-@lru_cache(maxsize=1)
-def census(root: Element) -> Census:
-    """The elements of a ``<robot>`` as written; asked by several rules in turn, it is made once."""
+def census(robot: Robot) -> Census:
+    """The elements of a robot as written."""
+    return robot.memo.get("census", lambda: _census(robot.element))
+
+
+def _census(root: Element) -> Census:
     known: dict[str, list[Element]] = {tag: [] for tag in VOCABULARY}
     strangers = []
     todo = [root]
