@@ -60,7 +60,7 @@ PLACES = {
         "compare/revision.py",  # git
         "formats/sdf/verify/loader.py",  # gz sdf
     ),
-    "xacro": ("source/xacro_hooks.py",),
+    "xacro": (),  # source/xacro_hooks.py loads a copy
     "lxml": ("formats/",),
     "trimesh": ("meshes/",),
     "collada": ("meshes/",),
@@ -175,8 +175,6 @@ KNOWN_STATE = dict.fromkeys(
 """Module-level state, by file and name, with the reason why it is there."""
 
 KNOWN_PATCHES = {
-    "xacro_hooks.py: xacro": LIBRARY,
-    "xacro_hooks.py: substitution": LIBRARY,
     "completion.py: click.STRING.shell_complete": LIBRARY,
     "terminal.py: sys": "streams of this process: a terminal obeys nothing that a file holds",
     "terminal.py: sys.stdin": "a standard stream that is closed leads nowhere",

@@ -13,6 +13,7 @@ from lxml import etree
 
 from tests.conftest import CORPUS, XACRO
 from urdftool.errors import PackageNotFound, XacroError, XmlError
+from urdftool.source import xacro_hooks
 from urdftool.source.document import read_file
 from urdftool.source.expand import expand_xacro
 from urdftool.source.location import SourceFile
@@ -142,12 +143,23 @@ def test_any_text_is_evaluated_as_xacro_evaluates_it(text):
         assert ours.tree.documentElement.getAttribute("t") == theirs
 
 
-def test_xacro_is_as_it_was_afterwards():
-    before = {name: getattr(xacro, name) for name in ("parse", "eval_text", "warning", "eval_all")}
+def test_the_xacro_of_others_is_not_changed(monkeypatch):
+    import xacro.substitution_args as substitution
+
+    modules = {xacro: dict(vars(xacro)), substitution: dict(vars(substitution))}
+    seen = []
+
+    def look(run):
+        seen.append([dict(vars(module)) == before for module, before in modules.items()])
+        expand(run)
+
+    expand = xacro_hooks.Run.expand
+    monkeypatch.setattr(xacro_hooks.Run, "expand", look)
     for inside in ("<a/>", '<a b="${nope}"/>'):
         with suppress(XacroError):
             expand_text(inside)
-        assert {name: getattr(xacro, name) for name in before} == before
+    assert seen == [[True, True]] * 2
+    assert xacro_hooks.xacro is not xacro
 
 
 def test_arguments_do_not_leak_from_one_file_to_the_next():

@@ -3,7 +3,7 @@
 The expansion itself is the ``xacro`` package's. Replaced are the parser (for places, limits and
 refusals), the search for packages (without ROS), the evaluation of text (the same, but each
 expression is compiled once), the reading of files, and what it prints. This is the only module that
-imports xacro, whose state lives in module globals: one expansion runs at a time.
+loads xacro, a copy of its own, whose state lives in module globals: one expansion runs at a time.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
+from importlib import import_module
+from importlib.util import find_spec, module_from_spec, spec_from_file_location
 from types import ModuleType
 from typing import Any
-
-import xacro
 
 from ..errors import SourceError, UrdftoolError, XacroError
 from .bounded import MAX_LENGTH, check_size
@@ -40,17 +40,40 @@ MAX_INCLUDES = 100
 _RECURSION_LIMIT = 6000
 
 
+_COPY = "urdftool_xacro"
+
+
+def _load_xacro() -> Any:
+    """Load xacro once more, under a name of its own.
+
+    Its functions are replaced for an expansion and its state is in the module: neither is seen by
+    others in this process that use xacro.
+    """
+    found = find_spec("xacro")
+    if found is None or found.origin is None:
+        raise ModuleNotFoundError("No module named 'xacro'", name="xacro")
+    folders = found.submodule_search_locations
+    spec = spec_from_file_location(_COPY, found.origin, submodule_search_locations=folders)
+    assert spec is not None
+    assert spec.loader is not None
+    copy = sys.modules[_COPY] = module_from_spec(spec)
+    spec.loader.exec_module(copy)
+    return copy
+
+
+xacro: Any = _load_xacro()
+
+
 def _substitution_args() -> Any:
     """Xacro's module for ``$(…)``, imported without yaml, which it names and hardly ever uses."""
     absent = "yaml" not in sys.modules
     if absent:
         sys.modules["yaml"] = ModuleType("yaml")
     try:
-        import xacro.substitution_args as substitution
+        return import_module(f"{_COPY}.substitution_args")
     finally:
         if absent:
             del sys.modules["yaml"]
-    return substitution
 
 
 class Run:
