@@ -26,24 +26,25 @@ BELOW = {
     "console": ("terminal", *BASE),
     "configuration": BASE,
     "meshes": BASE,
+    "mechanics": ("model",),
     "drawing": ("meshes", "model", "source", *BASE),
-    "inertia": ("meshes", "model", "source", *BASE),
+    "inertia": ("mechanics", "meshes", "model", "source", *BASE),
     "collision": ("drawing", "meshes", "inertia", "model", "source", *BASE),
-    "viewer": ("drawing", "inertia", "meshes", "finding", "model", "source", *BASE),
-    "rules": ("finding", "model", "source", "meshes", *BASE),
+    "viewer": ("drawing", "mechanics", "meshes", "finding", "model", "source", *BASE),
+    "rules": ("finding", "mechanics", "model", "source", "meshes", *BASE),
     "lint": ("rules", "finding", "model", "source", "configuration", *BASE),
-    "formats": ("finding", "model", "source", "meshes", "inertia", "output", *BASE),
+    "formats": ("finding", "mechanics", "model", "source", "meshes", "output", *BASE),
     "graph": ("finding", "model", "source", *BASE),
     "simulation": (
-        *("drawing", "formats", "finding", "lint", "meshes", "inertia", "model", "rules", "source"),
-        *BASE,
+        *("drawing", "formats", "finding", "lint", "mechanics", "meshes", "inertia", "model"),
+        *("rules", "source", *BASE),
     ),
     "report": (
         *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),
-        *("collision", "simulation", "inertia", *BASE),
+        *("collision", "simulation", "inertia", "mechanics", *BASE),
     ),
     "info": ("model", "source", "meshes", *BASE),
-    "compare": ("model", "source", *BASE),
+    "compare": ("mechanics", "model", "source", *BASE),
     "api": (
         *("formats", "simulation", "collision", "inertia", "lint", "rules", "model", "source"),
         *("finding", "output", *BASE),
@@ -69,7 +70,8 @@ PLACES = {
     "click": ("cli.py", "console.py", "commands/", "report/findings.py"),
     "rich": ("report/", "viewer/server.py"),
     "numpy": (
-        *("meshes/", "drawing/", "viewer/", "inertia/", "formats/", "collision/", "simulation/"),
+        *("mechanics/", "meshes/", "drawing/", "viewer/", "inertia/", "formats/"),
+        *("collision/", "simulation/"),
     ),
     "coacd": ("collision/coacd_child.py",),
     "distributed": ("collision/cluster.py",),
@@ -185,7 +187,7 @@ MUTATORS = {
     *("append", "appendleft", "add", "update", "pop", "popitem", "clear", "setdefault", "extend"),
     *("insert", "remove", "discard", "move_to_end"),
 }
-PLAIN = {"int", "float", "str", "bool", "bytes", "Vector", "Six", "tuple[str, ...]"}
+PLAIN = {"int", "float", "str", "bool", "bytes", "Vector", "SymmetricTensor", "tuple[str, ...]"}
 """Types of arguments that a function may remember its results by."""
 
 

@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 import trimesh
 
+from tests.mechanics.bodies import move
 from urdftool.errors import MeshError
 from urdftool.inertia.estimate import estimate_mass_properties
 from urdftool.inertia.inertia_error import InertiaError
 from urdftool.inertia.polyhedron import solid_moments
+from urdftool.inertia.requirements import is_consistent
 from urdftool.inertia.solids import box
-from urdftool.inertia.tensor import combine, is_possible, move
+from urdftool.mechanics.spatial_inertia import combine
 from urdftool.meshes.load import load_mesh
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "meshes"
@@ -44,7 +46,7 @@ def differences(got, wanted):
     return np.array(
         [
             abs(got.mass / wanted.mass - 1),
-            np.linalg.norm(got.com - wanted.com) / radius,
+            np.linalg.norm(np.subtract(got.com, wanted.com)) / radius,
             np.abs(got.inertia - wanted.inertia).max() / np.abs(wanted.inertia).max(),
         ]
     )
@@ -86,7 +88,7 @@ def test_damage_is_repaired_or_said(name, kind):
     for seed in range(2):
         broken = damaged(faces, kind, np.random.default_rng(seed))
         got = estimate_mass_properties(vertices, broken, density=2.0)
-        assert is_possible(got.properties.inertia)
+        assert is_consistent(got.properties)
         assert isinstance(got.reliable, bool)
         if got.reliable:
             trusted += 1
@@ -203,7 +205,7 @@ def test_random_triangles_never_give_an_impossible_tensor():
                 got = estimate_mass_properties(vertices, faces, mass=1.0)
             except MeshError:
                 continue
-            assert is_possible(got.properties.inertia)
+            assert is_consistent(got.properties)
             assert not got.reliable
 
 
@@ -222,7 +224,7 @@ def test_real_meshes(name):
     mesh = load_mesh(file)
     got = estimate_mass_properties(mesh.vertices, mesh.faces, density=1000.0)
     assert (got.method, got.reliable) == REAL[name]
-    assert is_possible(got.properties.inertia)
+    assert is_consistent(got.properties)
     judge = trimesh.Trimesh(mesh.vertices, mesh.faces)
     if got.method == "exact" and judge.is_watertight:
         judge.density = 1000.0
@@ -243,6 +245,6 @@ def test_damaged_real_meshes(name, kind):
     wanted = estimate_mass_properties(mesh.vertices, mesh.faces, density=1000.0)
     broken = damaged(mesh.faces, kind, np.random.default_rng(0))
     got = estimate_mass_properties(mesh.vertices, broken, density=1000.0)
-    assert is_possible(got.properties.inertia)
+    assert is_consistent(got.properties)
     if got.reliable:
         assert differences(got.properties, wanted.properties).max() < 0.03

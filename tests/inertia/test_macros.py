@@ -2,14 +2,16 @@
 
 import xml.etree.ElementTree as ET
 
-import numpy as np
 import pytest
 import xacro
 
+from tests.mechanics.bodies import move
 from urdftool.inertia.macros import macro_file, mass_macro, shape_call, shape_macro
 from urdftool.inertia.rounding import round_properties
 from urdftool.inertia.shapes import find_shape, shape_properties
-from urdftool.inertia.tensor import MassProperties, move, rotate, rotation_from_rpy, six_numbers
+from urdftool.mechanics.spatial_inertia import SpatialInertia
+from urdftool.mechanics.tensor import components_of, diagonal_tensor, rotate_tensor
+from urdftool.model.pose import rotation_of_rpy
 
 CASES = [
     ("box", {"size": (0.3, 0.7, 1.1)}, {}),
@@ -49,12 +51,12 @@ def test_macros_equal_the_command(tmp_path, name, sizes, more, whole):
         before = shape_macro(shape, hollow="thickness" in more)
     mass, at, turned, six = expanded(tmp_path, before + f"<link>{call}</link>")
     alone = shape_properties(shape, sizes, mass=1.7, **more)
-    assert six == six_numbers(round_properties(alone).inertia)
+    assert six == components_of(round_properties(alone).tensor)
     moved = round_properties(move(alone, xyz=xyz, rpy=rpy))
     assert mass == moved.mass == 1.7
-    assert at == pytest.approx(moved.com.tolist(), abs=1e-11)
-    tensor = np.diag([six["ixx"], six["iyy"], six["izz"]])
-    assert rotate(tensor, rotation_from_rpy(turned)) == pytest.approx(moved.inertia, rel=1e-10)
+    assert at == pytest.approx(moved.com, abs=1e-11)
+    tensor = diagonal_tensor(six["ixx"], six["iyy"], six["izz"])
+    assert rotate_tensor(tensor, rotation_of_rpy(turned)) == pytest.approx(moved.tensor, rel=1e-10)
 
 
 def test_xyz_and_rpy_may_be_left_out(tmp_path):
@@ -65,10 +67,10 @@ def test_xyz_and_rpy_may_be_left_out(tmp_path):
 
 
 def test_a_body_of_any_shape_takes_its_mass(tmp_path):
-    inertia = np.array([[2, 0.1, 0.2], [0.1, 3, 0.3], [0.2, 0.3, 4]])
-    macro = mass_macro("part", MassProperties(2.0, np.array([1, 2, 3.5]), inertia))
-    assert expanded(tmp_path, macro)[3] == six_numbers(inertia)
+    tensor = (2.0, 0.1, 0.2, 3.0, 0.3, 4.0)
+    macro = mass_macro("part", SpatialInertia(2.0, (1.0, 2.0, 3.5), tensor))
+    assert expanded(tmp_path, macro)[3] == components_of(tensor)
     heavy = macro.replace("<xacro:part_inertia/>", '<xacro:part_inertia mass="4"/>')
     mass, at, _, six = expanded(tmp_path, heavy)
     assert (mass, at) == (4, [1, 2, 3.5])
-    assert six == {n: pytest.approx(v * 2) for n, v in six_numbers(inertia).items()}
+    assert six == {n: pytest.approx(v * 2) for n, v in components_of(tensor).items()}

@@ -10,7 +10,8 @@ import trimesh
 from urdftool.errors import MeshError
 from urdftool.inertia.polyhedron import shell_moments, signed_volume, solid_moments
 from urdftool.inertia.solids import box
-from urdftool.inertia.tensor import from_second_moment, rotation_from_rpy
+from urdftool.mechanics.tensor import inertia_from_second_moment, matrix_of, tensor_of_matrix
+from urdftool.model.pose import rotation_of_rpy
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "meshes"
 
@@ -61,7 +62,7 @@ def meshes():
 @pytest.mark.parametrize("offset", [0.0, 1000.0])
 def test_equals_exact_fractions(name, offset):
     mesh = meshes()[name]
-    turn = rotation_from_rpy((0.1, 0.5, 0.8))
+    turn = np.array(rotation_of_rpy((0.1, 0.5, 0.8)))
     vertices = mesh.vertices @ turn.T + offset
     faces = np.asarray(mesh.faces)
     volume, centroid, second = tetrahedra_sum(vertices, faces)
@@ -95,7 +96,8 @@ def test_shell_of_a_sphere():
     moments = shell_moments(mesh.vertices + 5, np.asarray(mesh.faces))
     assert moments.measure == pytest.approx(16 * np.pi, rel=1e-3)
     np.testing.assert_allclose(moments.centroid, [5] * 3, atol=1e-9)
-    inertia = from_second_moment(moments.second) / moments.measure
+    tensor = inertia_from_second_moment(tensor_of_matrix(moments.second / moments.measure))
+    inertia = matrix_of(tensor)
     np.testing.assert_allclose(inertia, np.eye(3) * 2 / 3 * 4, atol=5e-3)
 
 

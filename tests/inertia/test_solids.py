@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from urdftool.inertia import solids
 from urdftool.inertia.inertia_error import InertiaError
-from urdftool.inertia.tensor import is_possible
+from urdftool.inertia.requirements import is_consistent
 
 lengths = st.floats(1e-4, 1e3)
 
@@ -130,7 +130,7 @@ def test_all_are_possible(a, b, c):
         solids.cone(a, b, mass=1),
         solids.hollow_cylinder(a, b, a / 3, mass=1),
     ]
-    assert all(is_possible(body.inertia) for body in bodies)
+    assert all(is_consistent(body) for body in bodies)
 
 
 @pytest.mark.parametrize(

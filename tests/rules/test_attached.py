@@ -3,8 +3,8 @@
 import pytest
 
 from urdftool.lint.run import check
+from urdftool.mechanics.spatial_inertia import combine_links
 from urdftool.model.attached import attached_links, is_fixed_to_world
-from urdftool.model.body_inertia import combined_inertia
 from urdftool.model.load import load
 
 HEAD = '<?xml version="1.0"?>\n<robot name="r">\n'
@@ -152,7 +152,7 @@ def test_combined_inertia_is_that_of_pinocchio(tmp_path):
         + "</robot>"
     )
     robot = load(path)
-    ours = combined_inertia(attached_links(robot, robot.link["a"]))
+    ours = combine_links(attached_links(robot, robot.link["a"]))
     theirs = pinocchio.buildModelFromUrdf(str(path)).inertias[0]
     assert ours.mass == pytest.approx(theirs.mass)
     assert ours.com == pytest.approx(theirs.lever)

@@ -81,13 +81,14 @@ def command(
         raise click.UsageError("a mesh wants --mass M [kg] or --density D [kg/m³]")
     from ..inertia.bodies import mesh_body, weighed
     from ..inertia.rounding import round_properties
-    from ..inertia.tensor import move
+    from ..model.pose import Pose, rotation_of_rpy
     from ..output import write_result
 
     up = gltf_up_for(console, file)
     body = mesh_body(Path(file), surface=surface, gltf_up=up).scaled(scale)
     alone = weighed(body.unit, "mesh", mass=mass, density=density)
-    result = round_properties(move(alone, xyz=origin_xyz, rpy=origin_rpy), "the mesh")
+    pose = Pose(rotation_of_rpy(origin_rpy), origin_xyz)
+    result = round_properties(alone.moved(pose), "the mesh")
     text = _text(style, file, result, body, alone.mass / body.measure, scale)
     write_result(text, output, inputs=[file])
     _say(console, file, body, result, style)

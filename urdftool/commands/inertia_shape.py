@@ -63,7 +63,7 @@ def _run(console: Console, shape: Shape, given: dict[str, Any]) -> int:
 
     from ..inertia.rounding import round_properties
     from ..inertia.shapes import shape_properties
-    from ..inertia.tensor import move
+    from ..model.pose import Pose, rotation_of_rpy
     from ..output import write_result
 
     def properties(**amount: float | None) -> Any:
@@ -71,8 +71,8 @@ def _run(console: Console, shape: Shape, given: dict[str, Any]) -> int:
 
     alone = properties(mass=mass, density=density)
     what = shape.name if thickness is None else f"hollow {shape.name}"
-    moved = move(alone, xyz=given["origin_xyz"], rpy=given["origin_rpy"])
-    result = round_properties(moved, f"the {what}")
+    pose = Pose(rotation_of_rpy(given["origin_rpy"]), given["origin_xyz"])
+    result = round_properties(alone.moved(pose), f"the {what}")
     facts: dict[str, Any] = {"shape": shape.name, **sizes}
     if thickness is not None:
         facts |= {"thickness": thickness} | ({"closed": closed} if shape.ends else {})

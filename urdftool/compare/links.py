@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from ..mechanics.tensor import SymmetricTensor, rotate_tensor
 from ..model.elements import (
     Box,
     Capsule,
@@ -19,7 +20,6 @@ from ..model.elements import (
     Visual,
 )
 from ..model.pose import Pose, pose_of, rpy_of_rotation
-from ..model.tensor3 import Six, turned
 from .change import Change
 from .closeness import all_close, close, distance, moved, same_pose
 
@@ -66,13 +66,13 @@ def _mass(inertial: Inertial | None) -> float | None:
     return None if inertial is None else inertial.mass or 0.0
 
 
-def _tensor(inertial: Inertial) -> Six | None:
+def _tensor(inertial: Inertial) -> SymmetricTensor | None:
     """``ixx, ixy, ixz, iyy, iyz, izz`` about the centre of mass, along the link's axes [kg·m²]."""
     i = inertial.inertia
     if i is None:
         return None
     rotation = pose_of(inertial.origin).rotation
-    return turned((i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz), rotation)
+    return rotate_tensor((i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz), rotation)
 
 
 def _percent(a: float | None, b: float | None) -> str:

@@ -14,9 +14,11 @@ from typing import Any
 import numpy as np
 
 from ..errors import MeshError
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..mechanics.tensor import inertia_from_second_moment, second_moment
+from ..meshes.mesh import Array
 from ..source.description import GltfUp
 from .inertia_error import InertiaError
-from .tensor import Array, MassProperties, from_second_moment, scale_mass, second_moment
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +26,7 @@ class MeshBody:
     """What a mesh encloses, or its surface, at a density of one."""
 
     path: Path
-    unit: MassProperties
+    unit: SpatialInertia
     """At 1 kg/m³, or 1 kg/m² for a surface, in the frame of the mesh."""
     lower: Array
     """Smallest corner of the box around it [m]."""
@@ -65,9 +67,11 @@ class MeshBody:
             growth = x * x
         else:
             growth = abs(x * y * z)
-        second = second_moment(self.unit.inertia) * np.outer(scale, scale) * growth
-        unit = MassProperties(
-            self.unit.mass * growth, self.unit.com * scale, from_second_moment(second)
+        xx, xy, xz, yy, yz, zz = (growth * part for part in second_moment(self.unit.tensor))
+        second = (x * x * xx, x * y * xy, x * z * xz, y * y * yy, y * z * yz, z * z * zz)
+        a, b, c = self.unit.com
+        unit = SpatialInertia(
+            self.unit.mass * growth, (a * x, b * y, c * z), inertia_from_second_moment(second)
         )
         corners = np.stack([self.lower * scale, self.upper * scale])
         hull = None if self.hull_measure is None else self.hull_measure * growth
@@ -148,8 +152,8 @@ def mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> Me
 
 
 def weighed(
-    unit: MassProperties, what: str, *, mass: float | None = None, density: float | None = None
-) -> MassProperties:
+    unit: SpatialInertia, what: str, *, mass: float | None = None, density: float | None = None
+) -> SpatialInertia:
     """A body of unit density with the mass [kg] or density [kg/m³] it has.
 
     Raises:
@@ -161,4 +165,4 @@ def weighed(
     assert given is not None
     if not (math.isfinite(given) and given > 0):
         raise InertiaError(f"the {name} of a {what} is {given:g}; a number above zero is needed")
-    return scale_mass(unit, given if mass is not None else given * unit.mass)
+    return unit.with_mass(given if mass is not None else given * unit.mass)

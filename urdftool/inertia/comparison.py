@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from .tensor import Array, MassProperties, principal, scale_mass
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..mechanics.tensor import principal_axes
+from ..meshes.mesh import Array
 
 ALIKE = 0.05
 """Two principal moments that differ by less, relatively, leave their axes undetermined."""
@@ -41,16 +43,16 @@ class Comparison:
         }
 
 
-def compare(written: MassProperties, unit: MassProperties) -> Comparison:
+def compare(written: SpatialInertia, unit: SpatialInertia) -> Comparison:
     """Compare what is written with a body of unit density, in the same frame."""
-    implied = scale_mass(unit, written.mass)
-    there, axes = principal(written.inertia)
-    meant, implied_axes = principal(implied.inertia)
+    implied = unit.with_mass(written.mass)
+    there, axes = principal_axes(written.tensor)
+    meant, implied_axes = principal_axes(implied.tensor)
     ratio = [float(a / b) if b > 0 else math.inf for a, b in zip(there, meant, strict=True)]
     return Comparison(
         (ratio[0], ratio[1], ratio[2]),
         axis_angle(there, axes, meant, implied_axes),
-        float(np.linalg.norm(written.com - unit.com)),
+        math.dist(written.com, unit.com),
         written.mass / unit.mass,
     )
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from ..errors import UrdftoolError
+from ..mechanics.spatial_inertia import SpatialInertia
 from ..model.elements import Link
 from ..source.description import Description
 from ..source.document import STDIN, Document
@@ -14,7 +15,7 @@ from .bodies import weighed
 from .inertia_error import InertiaError
 from .mesh_files import read_meshes
 from .pieces import SOURCES, LinkBody, link_body, mesh_names, shapes_of
-from .tensor import MassProperties, require_possible
+from .requirements import require_consistent
 
 
 def compute_inertia(
@@ -25,7 +26,7 @@ def compute_inertia(
     source: str | None = None,
     packages: Mapping[str, str | Path] | None = None,
     package_paths: Iterable[str | Path] = (),
-) -> MassProperties:
+) -> SpatialInertia:
     """Mass [kg], centre of mass [m] and inertia [kg·m²] that the geometry of a link implies.
 
     All pieces are solid and of one density; a closed mesh is integrated exactly, any other is
@@ -62,7 +63,7 @@ def compute_inertia(
     description = Description(path, Document(root.file, root, []), [root.file], finder)
     body = _body(link, description, source)
     properties = weighed(body.unit, f"link '{link.name}'", mass=mass, density=density)
-    return require_possible(properties, f"link '{link.name}'")
+    return require_consistent(properties, f"link '{link.name}'")
 
 
 def _body(link: Link, description: Description, source: str | None) -> LinkBody:

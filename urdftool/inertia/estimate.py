@@ -24,15 +24,16 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError
-from ..meshes.mesh import Faces, Points
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..meshes.mesh import Array, Faces, Points
 from ..meshes.solid import body_labels, collapsed, edges_of, weld
 from .hull import hull_moments
 from .inertia_error import InertiaError
 from .nesting import Nesting, nest
 from .polyhedron import Moments, solid_moments
 from .repair import Filling, drop_duplicates, fill_holes, orient
+from .requirements import require_consistent
 from .sampling import sampled_moments
-from .tensor import Array, MassProperties, require_possible
 
 ACCEPTED_ERROR = 0.02
 """Relative error of the volume up to which a result counts as reliable."""
@@ -54,7 +55,7 @@ _SHEET = 1e-6
 class Estimate:
     """Mass properties of a mesh, and how far they can be trusted."""
 
-    properties: MassProperties
+    properties: SpatialInertia
     """In the frame of the mesh."""
     volume: float
     """Volume [m³] of the solid."""
@@ -125,7 +126,7 @@ def estimate_mass_properties(
     else:
         assert density is not None
         properties = moments.with_density(density)
-    require_possible(properties, "the mesh")
+    require_consistent(properties, "the mesh")
     return Estimate(
         properties,
         float(moments.measure),

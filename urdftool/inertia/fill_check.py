@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 
-import numpy as np
-
 from ..errors import SourceError, UrdftoolError
-from ..model.elements import Robot
-from ..model.pose import pose_of
+from ..mechanics.spatial_inertia import SpatialInertia, link_inertia
+from ..model.elements import Link, Robot
 from ..model.read import read_robot
 from ..source import edit
 from ..source.description import is_xacro
 from ..source.document import Document, Element, parse
 from ..source.location import SourceFile
 from .fill import Filling, fill
-from .link_review import NAMES, LinkReview
+from .link_review import LinkReview
 from .masses import Masses
-from .tensor import MassProperties, is_possible, rotate, tensor_from_six
+from .requirements import is_consistent
 
 
 def checked_filling(
@@ -73,7 +72,7 @@ def check_filling(robot: Robot, filling: Filling, edited: Mapping[str, bytes]) -
     links = read_robot(root).link
     for wanted in filling.written:
         link = links.get(wanted.link.name)
-        if link is None or not _has(link.inertial, wanted.result, exact=not wanted.item.missing):
+        if link is None or not _has(link, wanted.result, exact=not wanted.item.missing):
             return f"link '{wanted.link.name}' would not have the inertia that was computed"
     return ""
 
@@ -106,20 +105,18 @@ def _outside(
         todo.extend(reversed(children))
 
 
-def _has(inertial: object, meant: MassProperties, *, exact: bool) -> bool:
-    mass = getattr(inertial, "mass", None)
-    inertia = getattr(inertial, "inertia", None)
-    if mass is None or inertia is None:
+def _has(link: Link, meant: SpatialInertia, *, exact: bool) -> bool:
+    """Whether a link has an inertia that is possible and, if ``exact``, the one that was meant."""
+    inertial = link.inertial
+    if inertial is None or inertial.mass is None or inertial.inertia is None:
         return False
-    pose = pose_of(getattr(inertial, "origin", None))
-    tensor = tensor_from_six(*(getattr(inertia, name) for name in NAMES))
-    turned = rotate(tensor, np.array(pose.rotation, dtype=np.float64))
-    if not is_possible(turned, triangle_tolerance=1e-6):
+    written = link_inertia(link)
+    if not is_consistent(written, tolerance=1e-6):
         return False
     if not exact:
         return True
-    size = float(np.abs(meant.inertia).max())
-    return bool(
-        np.isclose(mass, meant.mass, rtol=1e-9)
-        and np.allclose(turned, meant.inertia, rtol=0, atol=1e-9 * size)
+    size = max(map(abs, meant.tensor))
+    return math.isclose(written.mass, meant.mass, rel_tol=1e-9) and all(
+        abs(one - other) <= 1e-9 * size
+        for one, other in zip(written.tensor, meant.tensor, strict=True)
     )

@@ -6,34 +6,24 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-import numpy as np
-
 from ..errors import UrdftoolError
+from ..mechanics.mass_bounds import Misfit, misfit_of_com, misfit_of_spread, shapes_in_words
+from ..mechanics.spatial_inertia import SpatialInertia, combine_links, link_inertia
+from ..mechanics.tensor import COMPONENTS, consistency, noise_of, principal_moments, rotate_tensor
+from ..mechanics.typo_detection import ROUNDING, Proposal, infer_intended_tensor
 from ..meshes.outline import outline
 from ..model.attached import attached_links, is_fixed_to_world
-from ..model.body_inertia import combined_inertia
 from ..model.bounds import Bounds, bounds_at
 from ..model.elements import Inertia, Inertial, Link, Mesh, Robot
-from ..model.mass_fit import Misfit, misfit_of_com, misfit_of_spread, shapes_in_words
-from ..model.pose import IDENTITY, Pose, pose_of
+from ..model.pose import IDENTITY, UPRIGHT, Pose, pose_of, rotate, transpose
 from ..model.read import number
-from ..model.tensor3 import SMALLEST_RADIUS, turned
 from ..model.world import WORLD
 from ..source.location import Place
 from .bodies import MeshBody
 from .comparison import compare
-from .link_review import NAMES, Fault, LinkReview, inertial_rotation
+from .link_review import Fault, LinkReview, inertial_rotation
 from .mesh_files import Meshes
 from .pieces import SOURCES, Shape, shapes_of
-from .proposal import ROUNDING, Proposal, propose
-from .tensor import (
-    MassProperties,
-    is_positive,
-    principal,
-    rotate,
-    tensor_from_six,
-    triangle_excess,
-)
 
 _LARGEST = 1e60
 
@@ -51,24 +41,19 @@ def read_written(item: LinkReview) -> None:
         missing.append("inertia")
     else:
         attributes = inertial.inertia.element.attributes
-        missing += [name for name in NAMES if name not in attributes]
-        for name in NAMES:
+        missing += [name for name in COMPONENTS if name not in attributes]
+        for name in COMPONENTS:
             _unreadable(inertial, "inertia", name, item)
     item.missing = tuple(missing)
     if missing or item.faults or inertial.mass is None or inertial.inertia is None:
         return
     pose = pose_of(inertial.origin)
-    six = [getattr(inertial.inertia, name) for name in NAMES]
-    largest = max(map(abs, (*six, inertial.mass, *pose.translation)))
+    largest = max(map(abs, (*inertial.inertia.six, inertial.mass, *pose.translation)))
     if largest > _LARGEST or 0 < abs(inertial.mass) < 1 / _LARGEST:
         message = f"a number above {_LARGEST:g} or a mass below {1 / _LARGEST:g} is no robot's"
         item.faults.append(Fault("unreadable", message, inertial.place))
         return
-    item.written = MassProperties(
-        inertial.mass,
-        np.array(pose.translation, dtype=np.float64),
-        rotate(tensor_from_six(*six), np.array(pose.rotation, dtype=np.float64)),
-    )
+    item.written = link_inertia(item.link)
 
 
 def _unreadable(inertial: Inertial, tag: str, name: str, item: LinkReview) -> bool:
@@ -148,13 +133,14 @@ def _judge_mass(item: LinkReview, inertial: Inertial, robot: Robot) -> None:
         item.notes.append("a mass of 0: PyBullet takes the robot as static, and Gazebo removes it")
 
 
-def _judge_tensor(item: LinkReview, written: MassProperties, at: Place, robot: Robot) -> None:
-    moments = principal(written.inertia)[0]
+def _judge_tensor(item: LinkReview, written: SpatialInertia, at: Place, robot: Robot) -> None:
+    found = consistency(written.tensor)
+    moments, excess = found.moments, found.excess
     shown = ", ".join(f"{moment:.4g}" for moment in moments)
-    nothing = np.abs(written.inertia).max() <= written.mass * SMALLEST_RADIUS**2
+    nothing = max(map(abs, written.tensor)) <= noise_of(written.mass)
     thin = nothing or moments[0] <= 0 < (item.volume or 0.0)
-    negative = not nothing and not is_positive(written.inertia, tolerance=1e-6)
-    impossible = not nothing and triangle_excess(written.inertia) > ROUNDING
+    negative = not nothing and found.negativity > 1e-6
+    impossible = not nothing and excess > ROUNDING
     if thin and not negative and not impossible and _is_added(robot, item.link):
         item.notes.append(
             f"principal moments {shown} kg m²: no body of its own, and harmless, since it is a "
@@ -165,7 +151,6 @@ def _judge_tensor(item: LinkReview, written: MassProperties, at: Place, robot: R
         message = f"principal moments {shown} kg m² are not all positive"
         item.faults.append(Fault("positivity", message, at))
         return
-    excess = triangle_excess(written.inertia)
     if excess > ROUNDING:
         message = (
             f"principal moment {moments[2]:.4g} is larger than {moments[0]:.4g} + "
@@ -184,7 +169,7 @@ def _is_added(robot: Robot, link: Link) -> bool:
     members = attached_links(robot, link)
     if is_fixed_to_world(robot, link):
         return True
-    return len(members) > 1 and not combined_inertia(members).is_thin
+    return len(members) > 1 and not combine_links(members).is_thin
 
 
 def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_com: bool) -> None:
@@ -197,7 +182,7 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
     if tensor is None or not mass:
         return
     pose = pose_of(inertial.origin)
-    com, six = pose.translation, turned(tensor.six, pose.rotation)
+    com, six = pose.translation, rotate_tensor(tensor.six, pose.rotation)
 
     def misfits(box: Bounds, has_mesh: bool, attached: Sequence[str] = ()) -> list[Misfit]:
         shapes, rough = shapes_in_words(attached), has_mesh or not link.collisions
@@ -303,7 +288,7 @@ def _judge_placeholder(item: LinkReview, inertia: Inertia, mass: float) -> bool:
         return False
     shapes = item.link.collisions or item.link.visuals
     if item.implied is not None and len(shapes) == 1 and not isinstance(shapes[0].geometry, Mesh):
-        if all(0.5 * xx <= moment <= 2 * xx for moment in principal(item.implied.inertia)[0]):
+        if all(0.5 * xx <= moment <= 2 * xx for moment in principal_moments(item.implied.tensor)):
             return False
     message = f"the inertia is a placeholder, {xx:g} about every axis"
     if xx == 1.0 or xx > mass:
@@ -313,24 +298,21 @@ def _judge_placeholder(item: LinkReview, inertia: Inertia, mass: float) -> bool:
     return True
 
 
-def _proposal(item: LinkReview, inertial: Inertial, written: MassProperties) -> Proposal | None:
+def _proposal(item: LinkReview, inertial: Inertial, written: SpatialInertia) -> Proposal | None:
     """The repair of the tensor along the axes of the inertial's own frame, as it is written."""
     assert item.body is not None
-    turn = inertial_rotation(inertial)
-    turned = not np.array_equal(turn, np.eye(3))
-    unit, (low, high) = item.body.unit, item.body.box
-    centre, half = (low + high) / 2, (high - low) / 2
-    if turned:
-        unit = MassProperties(unit.mass, turn.T @ unit.com, rotate(unit.inertia, turn.T))
-        centre, half = turn.T @ centre, np.abs(turn.T) @ half
+    rotation = inertial_rotation(inertial)
+    back = transpose(rotation)
+    low, high = (tuple(corner.tolist()) for corner in item.body.box)
     try:
-        return propose(
-            written.mass,
-            turn.T @ written.com,
-            rotate(written.inertia, turn.T),
-            implied=unit,
-            box=(centre - half, centre + half),
-            rotation=turn if turned else None,
-        )
+        unit = item.body.unit.rotated(back)
     except UrdftoolError:
         return None
+    return infer_intended_tensor(
+        written.mass,
+        rotate(back, written.com),
+        rotate_tensor(written.tensor, back),
+        solid=unit.with_mass(written.mass).tensor,
+        box=Bounds(low, high).rotated(back),
+        rotation=None if rotation == UPRIGHT else rotation,
+    )

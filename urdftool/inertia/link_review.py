@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..mechanics.typo_detection import Proposal
 from ..model.elements import Inertial, Link
-from ..model.pose import pose_of
+from ..model.pose import Rotation, pose_of
 from ..source.location import Place
 from .comparison import Comparison
 from .pieces import LinkBody
-from .proposal import Proposal
-from .tensor import Array, MassProperties
-
-NAMES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 @dataclass(frozen=True)
@@ -53,10 +49,10 @@ class LinkReview:
 
     link: Link
     body: LinkBody | None = None
-    written: MassProperties | None = None
+    written: SpatialInertia | None = None
     missing: tuple[str, ...] = ()
     mass: float | None = None
-    implied: MassProperties | None = None
+    implied: SpatialInertia | None = None
     comparison: Comparison | None = None
     faults: list[Fault] = field(default_factory=list)
     proposal: Proposal | None = None
@@ -81,6 +77,6 @@ class LinkReview:
         return "ok"
 
 
-def inertial_rotation(inertial: Inertial | None) -> Array:
-    """The rotation of an inertial's frame in the link frame."""
-    return np.array(pose_of(inertial.origin if inertial else None).rotation, dtype=np.float64)
+def inertial_rotation(inertial: Inertial | None) -> Rotation:
+    """Return the rotation of an inertial's frame in the link frame."""
+    return pose_of(inertial.origin if inertial else None).rotation

@@ -9,14 +9,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-import numpy as np
-
+from ..mechanics.spatial_inertia import SpatialInertia
 from ..model.elements import Robot
 from ..model.kinematics import check_positions, limits_of, link_poses, with_mimics
-from ..model.pose import Pose
 from .inertia_error import InertiaError
 from .link_review import LinkReview
-from .tensor import Array, MassProperties, combine, rotate
+from .requirements import combine
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +29,7 @@ class Lump:
 
     link: str
     members: tuple[str, ...]
-    properties: MassProperties | None
+    properties: SpatialInertia | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +46,7 @@ class Lumped:
 
     lumps: tuple[Lump, ...]
     root: str
-    whole: MassProperties | None
+    whole: SpatialInertia | None
     positions: dict[str, float]
     notes: tuple[str, ...] = field(default=())
 
@@ -71,7 +69,7 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
     check_positions(robot, pose)
     positions = with_mimics(robot, pose)
     notes = _beyond_limits(robot, positions)
-    weights: dict[str, MassProperties] = {}
+    weights: dict[str, SpatialInertia] = {}
     for item in found:
         if item.written is not None and item.written.mass > 0:
             weights.setdefault(item.link.name, item.written)
@@ -89,23 +87,14 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
         if top not in poses:
             continue
         to_top = poses[top].inverse()
-        bodies = [
-            placed(weights[name], to_top @ poses[name]) for name in members if name in weights
-        ]
+        bodies = [weights[name].moved(to_top @ poses[name]) for name in members if name in weights]
         properties = combine(bodies) if bodies else None
         lumps.append(Lump(top, tuple(members), properties))
-    all_bodies = [placed(body, poses[name]) for name, body in weights.items() if name in poses]
+    all_bodies = [body.moved(poses[name]) for name, body in weights.items() if name in poses]
     whole = combine(all_bodies) if all_bodies else None
     for link in robot.tree.detached:
         notes.append(f"link '{link.name}' hangs on no root and is left out")
     return Lumped(tuple(lumps), root, whole, positions, tuple(notes))
-
-
-def placed(body: MassProperties, pose: Pose) -> MassProperties:
-    """A body seen from the frame in which its own has a pose."""
-    rotation = np.array(pose.rotation, dtype=np.float64)
-    com: Array = rotation @ body.com + np.array(pose.translation)
-    return MassProperties(body.mass, com, rotate(body.inertia, rotation))
 
 
 def _beyond_limits(robot: Robot, positions: Mapping[str, float]) -> list[str]:

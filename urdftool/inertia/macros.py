@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..mechanics.tensor import as_tensor, components_of
 from .rounding import DIGITS, number_text, numbers_text
 from .shapes import SHAPES, THICKNESS, Shape, Sizes
-from .tensor import MassProperties, six_numbers
 
 NAMESPACE = "http://www.ros.org/wiki/xacro"
 
@@ -197,9 +198,9 @@ def shape_call(
     return f"<xacro:{name}_inertia {attributes}/>\n"
 
 
-def mass_macro(name: str, properties: MassProperties) -> str:
+def mass_macro(name: str, properties: SpatialInertia) -> str:
     """A macro of a body of any shape, that takes its mass; of the body as it is by default."""
-    unit = six_numbers(properties.inertia / properties.mass)
+    unit = components_of(as_tensor([part / properties.mass for part in properties.tensor]))
     six = [f'{key}="{_rounded(f"mass * {value!r}")}"' for key, value in unit.items()]
     return "\n".join(
         [

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import UrdftoolError
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..meshes.mesh import Array
 from ..model.elements import (
     Box,
     Capsule,
@@ -26,7 +28,7 @@ from ..model.pose import pose_of
 from . import solids
 from .bodies import MeshBody
 from .inertia_error import InertiaError
-from .tensor import Array, MassProperties, combine, rotate
+from .requirements import combine
 
 SOURCES = ("collision", "visual")
 
@@ -42,7 +44,7 @@ class Piece:
 
     shape: Shape
     what: str
-    unit: MassProperties
+    unit: SpatialInertia
     lower: Array
     upper: Array
     method: str = "exact"
@@ -84,7 +86,7 @@ class LinkBody:
         return self.complete and all(piece.reliable for piece in self.pieces)
 
     @property
-    def unit(self) -> MassProperties:
+    def unit(self) -> SpatialInertia:
         """All pieces as one body of 1 kg/m³; space that two share counts twice."""
         return combine(piece.unit for piece in self.pieces)
 
@@ -156,14 +158,14 @@ def _piece(shape: Shape, meshes: Meshes) -> Piece:
     return Piece(shape, geometry.element.tag, placed, lower, upper)
 
 
-def _primitive(geometry: Geometry) -> tuple[MassProperties, Array]:
+def _primitive(geometry: Geometry) -> tuple[SpatialInertia, Array]:
     """A primitive at 1 kg/m³ in its own frame, and half the edges [m] of the box around it."""
     make, half = _PRIMITIVES[type(geometry)]
     return make(geometry), np.array(half(geometry), dtype=np.float64)
 
 
 _PRIMITIVES: dict[
-    type, tuple[Callable[[Any], MassProperties], Callable[[Any], tuple[float, float, float]]]
+    type, tuple[Callable[[Any], SpatialInertia], Callable[[Any], tuple[float, float, float]]]
 ] = {
     Box: (
         lambda g: solids.box(g.size, density=1.0),
@@ -185,18 +187,17 @@ _PRIMITIVES: dict[
 
 
 def _placed(
-    shape: Shape, unit: MassProperties, box: tuple[Array, Array]
-) -> tuple[MassProperties, Array, Array]:
+    shape: Shape, unit: SpatialInertia, box: tuple[Array, Array]
+) -> tuple[SpatialInertia, Array, Array]:
     """A body and its box, by the ``<origin>`` of its shape moved into the link frame."""
     pose = pose_of(shape.origin)
     rotation = np.array(pose.rotation, dtype=np.float64)
     xyz = np.array(pose.translation, dtype=np.float64)
-    size = float(np.abs(unit.inertia).max())
+    size = max(map(abs, unit.tensor))
     place = max(float(np.abs(values).max()) for values in (xyz, *box))
     # beyond these, numbers lose their meaning on the way
     if not (_MIN < size < _MAX and _MIN < unit.mass < _MAX and place < _FAR):
         raise ArithmeticError
-    moved = MassProperties(unit.mass, rotation @ unit.com + xyz, rotate(unit.inertia, rotation))
     middle, half = (box[0] + box[1]) / 2, (box[1] - box[0]) / 2
     centre, reach = rotation @ middle + xyz, np.abs(rotation) @ half
-    return moved, centre - reach, centre + reach
+    return unit.moved(pose), centre - reach, centre + reach

@@ -22,7 +22,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError
-from .tensor import Array, MassProperties, from_second_moment
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..mechanics.tensor import inertia_from_second_moment, tensor_of_matrix
+from ..meshes.mesh import Array
 
 Faces = npt.NDArray[np.int64]
 
@@ -38,13 +40,13 @@ class Moments:
     second: Array
     """∫ x xᵀ about the centroid, shape (3, 3), [m⁵] of a solid, [m⁴] of a shell."""
 
-    def with_density(self, density: float) -> MassProperties:
+    def with_density(self, density: float) -> SpatialInertia:
         """The body of this shape and ``density``, [kg/m³] of a solid, [kg/m²] of a shell."""
-        return MassProperties(
-            density * self.measure, self.centroid, density * from_second_moment(self.second)
-        )
+        x, y, z = self.centroid.tolist()
+        second = tensor_of_matrix(density * self.second)
+        return SpatialInertia(density * self.measure, (x, y, z), inertia_from_second_moment(second))
 
-    def with_mass(self, mass: float) -> MassProperties:
+    def with_mass(self, mass: float) -> SpatialInertia:
         """The body of this shape that weighs ``mass`` [kg]."""
         return self.with_density(mass / self.measure)
 

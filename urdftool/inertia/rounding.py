@@ -9,11 +9,12 @@ more digits are kept.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Sequence
 
-import numpy as np
-
-from .tensor import Array, MassProperties, is_positive, require_possible, triangle_excess
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..mechanics.tensor import SymmetricTensor, as_tensor, consistency, trace_of
+from .requirements import ROUNDING, require_consistent
 
 DIGITS = 12
 """Significant digits that are kept."""
@@ -24,22 +25,25 @@ NOISE = 1e-12
 _EXACT = 2e-15
 
 
-def round_properties(properties: MassProperties, what: str = "the result") -> MassProperties:
+def round_properties(properties: SpatialInertia, what: str = "the result") -> SpatialInertia:
     """The same properties in numbers that can be written.
 
     Raises:
         InertiaError: A rigid body cannot have them.
     """
-    require_possible(properties, what)
-    inertia = properties.inertia.copy()
-    inertia[np.abs(inertia) < NOISE * np.abs(inertia).max()] = 0.0
-    com = properties.com.copy()
-    gyration = float(np.sqrt(np.trace(inertia) / properties.mass))
-    com[np.abs(com) < NOISE * max(gyration, float(np.abs(com).max()))] = 0.0
-    return require_possible(
-        MassProperties(round_number(properties.mass), _rounded(com, DIGITS), _possible(inertia)),
-        what,
+    require_consistent(properties, what)
+    tensor = as_tensor(_without_noise(properties.tensor, 0.0))
+    gyration = math.sqrt(trace_of(tensor) / properties.mass)
+    x, y, z = _rounded(_without_noise(properties.com, gyration), DIGITS)
+    return require_consistent(
+        SpatialInertia(round_number(properties.mass), (x, y, z), _possible(tensor)), what
     )
+
+
+def _without_noise(values: Sequence[float], size: float) -> list[float]:
+    """Replace what is below the noise of the largest value, or of a size, by zeros."""
+    least = NOISE * max(size, *map(abs, values))
+    return [0.0 if abs(value) < least else value for value in values]
 
 
 def round_number(value: float, digits: int = DIGITS) -> float:
@@ -59,15 +63,15 @@ def numbers_text(values: Iterable[float]) -> str:
     return " ".join(number_text(float(value)) for value in values)
 
 
-def _possible(inertia: Array) -> Array:
-    allowed = max(_EXACT, triangle_excess(inertia))
+def _possible(tensor: SymmetricTensor) -> SymmetricTensor:
+    allowed = max(_EXACT, consistency(tensor).excess)
     for digits in range(DIGITS, 17):
-        rounded = _rounded(inertia, digits)
-        if triangle_excess(rounded) <= allowed and is_positive(rounded):
+        rounded = as_tensor(_rounded(tensor, digits))
+        found = consistency(rounded)
+        if found.size > 0 and found.excess <= allowed and found.negativity <= ROUNDING:
             return rounded
-    return inertia
+    return tensor
 
 
-def _rounded(values: Array, digits: int) -> Array:
-    flat = [round_number(value, digits) for value in values.reshape(-1)]
-    return np.array(flat, dtype=np.float64).reshape(values.shape)
+def _rounded(values: Sequence[float], digits: int) -> list[float]:
+    return [round_number(value, digits) for value in values]

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..meshes.mesh import Array
 from .crossings import crossing_numbers
 from .polyhedron import Moments
-from .tensor import Array
 from .winding import boxes_of, winding_numbers
 
 SAMPLES = 30_000

@@ -12,7 +12,6 @@ from .bodies import weighed
 from .link_review import LinkReview
 from .mesh_files import Meshes, read_meshes
 from .review import find_bodies
-from .tensor import six_numbers
 
 
 class Scales:
@@ -49,12 +48,7 @@ class Scales:
                 if body is None or not body.complete or not body.volume > 0:
                     continue
                 whole = weighed(body.unit, "link", density=self.density)
-                center = tuple(float(part) for part in whole.com)
-                weights[item.link.name] = (
-                    whole.mass,
-                    center,
-                    tuple(six_numbers(whole.inertia).values()),
-                )
+                weights[item.link.name] = whole.mass, whole.com, whole.tensor
         except UrdftoolError:
             return {}
         return weights

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from .tensor import MassProperties
+    from ..mechanics.spatial_inertia import SpatialInertia
 
 Sizes = Mapping[str, "float | tuple[float, ...]"]
 
@@ -78,7 +78,7 @@ def shape_properties(
     closed: bool = False,
     mass: float | None = None,
     density: float | None = None,
-) -> MassProperties:
+) -> SpatialInertia:
     """Mass properties of a shape in its own frame; the formulas are in ``solids``.
 
     Args:
@@ -102,9 +102,9 @@ def shape_properties(
         name = f"hollow_{name}"
         given |= {"thickness": thickness} | ({"closed": closed} if shape.ends else {})
     try:
-        result: MassProperties = getattr(solids, name)(**given)
+        result: SpatialInertia = getattr(solids, name)(**given)
     except ArithmeticError:
         result = None  # type: ignore[assignment]
-    if result is None or not (_MIN < result.mass < _MAX and _MIN < result.inertia.max() < _MAX):
+    if result is None or not (_MIN < result.mass < _MAX and _MIN < max(result.tensor) < _MAX):
         raise InertiaError(f"{shape.title} of this size and mass is beyond what numbers can hold")
     return result

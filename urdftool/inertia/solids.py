@@ -1,6 +1,6 @@
 """Mass properties of simple solids in closed form, and of their hollow versions.
 
-Every function takes either ``mass`` [kg] or ``density`` [kg/m³] and returns ``MassProperties`` in
+Every function takes either ``mass`` [kg] or ``density`` [kg/m³] and returns ``SpatialInertia`` in
 the frame URDF and SDF give the shape: origin at the middle of the shape, axis of revolution along
 Z. Only a cone's centre of mass is not at that origin.
 
@@ -12,17 +12,17 @@ results stay exact to rounding however thin the wall is.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
-import numpy as np
-
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..mechanics.tensor import diagonal_tensor
+from ..model.elements import ZERO, Vector
 from .inertia_error import InertiaError
-from .tensor import MassProperties
 
 
 def box(
     size: Sequence[float], *, mass: float | None = None, density: float | None = None
-) -> MassProperties:
+) -> SpatialInertia:
     """A solid cuboid of edges ``size`` [m] along X, Y, Z: ixx = m (y² + z²) / 12."""
     x, y, z = _sizes("box", size=size)
     m = _mass("box", x * y * z, mass, density)
@@ -33,7 +33,7 @@ def box(
 
 def cylinder(
     radius: float, length: float, *, mass: float | None = None, density: float | None = None
-) -> MassProperties:
+) -> SpatialInertia:
     """A solid cylinder of ``radius`` and ``length`` [m] along Z: izz = m r² / 2."""
     r, h = _sizes("cylinder", radius=radius, length=length)
     m = _mass("cylinder", math.pi * r * r * h, mass, density)
@@ -43,7 +43,7 @@ def cylinder(
 
 def sphere(
     radius: float, *, mass: float | None = None, density: float | None = None
-) -> MassProperties:
+) -> SpatialInertia:
     """A solid sphere of ``radius`` [m]: i = 2 m r² / 5."""
     (r,) = _sizes("sphere", radius=radius)
     m = _mass("sphere", 4 / 3 * math.pi * r**3, mass, density)
@@ -53,7 +53,7 @@ def sphere(
 
 def capsule(
     radius: float, length: float, *, mass: float | None = None, density: float | None = None
-) -> MassProperties:
+) -> SpatialInertia:
     """A solid capsule along Z: a cylinder of ``length`` between half spheres of ``radius`` [m].
 
     ``length`` is the cylinder's alone, as in URDF 1.1, SDF and MuJoCo; the whole is length + 2 r
@@ -72,7 +72,7 @@ def capsule(
 
 def ellipsoid(
     radii: Sequence[float], *, mass: float | None = None, density: float | None = None
-) -> MassProperties:
+) -> SpatialInertia:
     """A solid ellipsoid of half axes ``radii`` [m] along X, Y, Z: ixx = m (b² + c²) / 5."""
     a, b, c = _sizes("ellipsoid", radii=radii)
     m = _mass("ellipsoid", 4 / 3 * math.pi * a * b * c, mass, density)
@@ -81,7 +81,7 @@ def ellipsoid(
 
 def cone(
     radius: float, length: float, *, mass: float | None = None, density: float | None = None
-) -> MassProperties:
+) -> SpatialInertia:
     """A solid cone along Z, its tip at +length/2 and its base of ``radius`` [m] at −length/2.
 
     This is SDF's frame: the origin is half way up. The centre of mass is a quarter of the length
@@ -99,7 +99,7 @@ def hollow_box(
     *,
     mass: float | None = None,
     density: float | None = None,
-) -> MassProperties:
+) -> SpatialInertia:
     """A closed cuboid of outer edges ``size`` [m] with walls of ``thickness`` [m] on all six sides.
 
     The outer cuboid less the inner one: ∫x² dV = (a³bc − a'³b'c') / 12, with a' = a − 2t.
@@ -126,7 +126,7 @@ def hollow_cylinder(
     closed: bool = False,
     mass: float | None = None,
     density: float | None = None,
-) -> MassProperties:
+) -> SpatialInertia:
     """A tube of outer ``radius``, ``length`` and wall ``thickness`` [m] along Z.
 
     Open at both ends, or ``closed`` by end plates of the wall's thickness within the length:
@@ -157,7 +157,7 @@ def hollow_sphere(
     *,
     mass: float | None = None,
     density: float | None = None,
-) -> MassProperties:
+) -> SpatialInertia:
     """A sphere of outer ``radius`` [m] with a wall of ``thickness`` [m], empty inside.
 
     i = 2/5 m (r⁵ − s⁵) / (r³ − s³) with s = r − t, divided through by r − s.
@@ -190,9 +190,9 @@ def _cubed_difference(outer: Sequence[float], inner: Sequence[float], t: float) 
 
 
 def _diagonal(
-    mass: float, ixx: float, iyy: float, izz: float, com: tuple[float, float, float] = (0, 0, 0)
-) -> MassProperties:
-    return MassProperties(mass, np.array(com, dtype=np.float64), np.diag([ixx, iyy, izz]))
+    mass: float, ixx: float, iyy: float, izz: float, com: Vector = ZERO
+) -> SpatialInertia:
+    return SpatialInertia(mass, com, diagonal_tensor(ixx, iyy, izz))
 
 
 def _sizes(shape: str, **named: float | Sequence[float]) -> tuple[float, ...]:
@@ -203,7 +203,7 @@ def _sizes(shape: str, **named: float | Sequence[float]) -> tuple[float, ...]:
     """
     sizes: list[float] = []
     for name, given in named.items():
-        values = [float(v) for v in given] if isinstance(given, (Sequence, np.ndarray)) else [given]
+        values = [float(v) for v in given] if isinstance(given, Iterable) else [given]
         if name in ("size", "radii") and len(values) != 3:
             raise InertiaError(
                 f"a {shape} has a {name} of 3 numbers [m], along X, Y and Z; got {len(values)}"

@@ -6,16 +6,18 @@ written along its axes; attributes whose number is right already are left alone.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 
-import numpy as np
-
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..mechanics.tensor import COMPONENTS, as_tensor, components_of, rotate_tensor
 from ..model.elements import Link
+from ..model.pose import transpose
 from ..model.read import number, numbers
 from ..source.document import Element
-from .link_review import NAMES, LinkReview, inertial_rotation
+from .link_review import LinkReview, inertial_rotation
+from .requirements import require_consistent
 from .rounding import number_text, numbers_text, round_properties
-from .tensor import MassProperties, require_possible, rotate, six_numbers, tensor_from_six
 
 _SAME = 1e-11
 
@@ -44,7 +46,7 @@ class Wanted:
     """All that is wanted for one link, and what it then weighs."""
 
     item: LinkReview
-    result: MassProperties
+    result: SpatialInertia
     wants: list[Want] = field(default_factory=list)
 
     @property
@@ -72,9 +74,9 @@ def wanted_for(item: LinkReview, *, anew: bool) -> Wanted:
         return Wanted(item, result, [want])
     element = inertial.element
     origin, mass, inertia = (element.child(tag) for tag in ("origin", "mass", "inertia"))
-    turn = inertial_rotation(inertial)
+    back = transpose(inertial_rotation(inertial))
     along = round_properties(
-        MassProperties(result.mass, result.com, rotate(result.inertia, turn.T)),
+        replace(result, tensor=rotate_tensor(result.tensor, back)),
         f"link '{item.link.name}'",
     )
     if not element.children:
@@ -82,9 +84,9 @@ def wanted_for(item: LinkReview, *, anew: bool) -> Wanted:
     found = Wanted(item, result)
     texts = dict(zip(("origin", "mass", "inertia"), _children(along), strict=True))
     if origin is None:
-        if np.any(along.com):
+        if any(along.com):
             found.wants.append(Want(element, child="origin", lines=(texts["origin"],)))
-    elif anew and not _same(origin.get("xyz") or "0 0 0", along.com.tolist()):
+    elif anew and not _same(origin.get("xyz") or "0 0 0", along.com):
         found.wants.append(Want(origin, "xyz", numbers_text(along.com)))
     if mass is None or "value" not in mass.attributes:
         if mass is None:
@@ -100,29 +102,29 @@ def wanted_for(item: LinkReview, *, anew: bool) -> Wanted:
     return found
 
 
-def _numbers(inertia: Element, along: MassProperties, *, anew: bool) -> list[Want]:
+def _numbers(inertia: Element, along: SpatialInertia, *, anew: bool) -> list[Want]:
     """The six numbers that differ, or that are missing: a missing product beside moments is 0."""
-    meant = six_numbers(along.inertia)
-    missing = [name for name in NAMES if name not in inertia.attributes]
+    meant = components_of(along.tensor)
+    missing = [name for name in COMPONENTS if name not in inertia.attributes]
     if not anew:
         if not any(name in missing for name in ("ixx", "iyy", "izz")):
             meant |= dict.fromkeys(missing, 0.0)
-        kept = {name: number(inertia.get(name)) or 0.0 for name in NAMES if name not in missing}
-        tensor = tensor_from_six(**{**meant, **kept})
-        require_possible(
-            MassProperties(along.mass, along.com, tensor), "what is written, filled in,"
-        )
+        kept = {
+            name: number(inertia.get(name)) or 0.0 for name in COMPONENTS if name not in missing
+        }
+        tensor = as_tensor([{**meant, **kept}[name] for name in COMPONENTS])
+        require_consistent(replace(along, tensor=tensor), "what is written, filled in,")
         return [Want(inertia, name, number_text(meant[name])) for name in missing]
     return [
         Want(inertia, name, number_text(meant[name]))
-        for name in NAMES
-        if not _same(inertia.get(name), [meant[name]], scale=float(np.abs(along.inertia).max()))
+        for name in COMPONENTS
+        if not _same(inertia.get(name), [meant[name]], scale=max(map(abs, along.tensor)))
     ]
 
 
-def _children(properties: MassProperties) -> tuple[str, str, str]:
-    six = six_numbers(properties.inertia)
-    numbers_written = " ".join(f'{name}="{number_text(six[name])}"' for name in NAMES)
+def _children(properties: SpatialInertia) -> tuple[str, str, str]:
+    six = components_of(properties.tensor)
+    numbers_written = " ".join(f'{name}="{number_text(six[name])}"' for name in COMPONENTS)
     return (
         f'<origin xyz="{numbers_text(properties.com)}" rpy="0 0 0"/>',
         f'<mass value="{number_text(properties.mass)}"/>',
@@ -130,7 +132,7 @@ def _children(properties: MassProperties) -> tuple[str, str, str]:
     )
 
 
-def _same(text: str | None, values: list[float], scale: float = 0.0) -> bool:
+def _same(text: str | None, values: Sequence[float], scale: float = 0.0) -> bool:
     written = numbers(text, len(values))
     if written is None:
         return False

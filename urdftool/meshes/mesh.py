@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+Array = npt.NDArray[np.float64]
 Points = npt.NDArray[np.float64]
 Faces = npt.NDArray[np.int64]
 

@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from .elements import Box, Capsule, Collision, Cylinder, Geometry, Sphere, Vector, Visual
-from .pose import Pose, pose_of
+from .pose import Pose, Rotation, pose_of, rotate
 
 
 class Bounds(NamedTuple):
@@ -32,6 +32,15 @@ class Bounds(NamedTuple):
         low = tuple(map(min, self.low, other.low))
         high = tuple(map(max, self.high, other.high))
         return Bounds(low, high)  # type: ignore[arg-type]
+
+    def rotated(self, rotation: Rotation) -> Bounds:
+        """Return the box around this one in a frame of the same origin, by ``rotation``."""
+        x, y, z = rotate(rotation, self.centre)
+        a, b, c = (
+            sum(abs(part) * length for part, length in zip(row, self.size, strict=True)) / 2
+            for row in rotation
+        )
+        return Bounds((x - a, y - b, z - c), (x + a, y + b, z + c))
 
     def meets(self, other: Bounds) -> bool:
         """Whether the two have a point in common."""

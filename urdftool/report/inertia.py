@@ -7,14 +7,13 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..inertia.rounding import number_text, numbers_text, round_number
-from ..inertia.tensor import MassProperties, principal, shift_from_com, six_numbers
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..mechanics.tensor import COMPONENTS, SymmetricTensor, components_of, principal_axes
 
-SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
-
-def urdf(properties: MassProperties) -> str:
+def urdf(properties: SpatialInertia) -> str:
     """``<inertial>`` of a URDF link, its axes those of the link."""
-    six = six_numbers(properties.inertia)
+    six = components_of(properties.tensor)
     return (
         "<inertial>\n"
         f'  <origin xyz="{numbers_text(properties.com)}" rpy="0 0 0"/>\n'
@@ -24,10 +23,10 @@ def urdf(properties: MassProperties) -> str:
     )
 
 
-def sdf(properties: MassProperties) -> str:
+def sdf(properties: SpatialInertia) -> str:
     """``<inertial>`` of an SDF link."""
-    six = six_numbers(properties.inertia)
-    rows = "".join(f"    <{name}>{number_text(six[name])}</{name}>\n" for name in SIX)
+    six = components_of(properties.tensor)
+    rows = "".join(f"    <{name}>{number_text(six[name])}</{name}>\n" for name in COMPONENTS)
     return (
         "<inertial>\n"
         f"  <pose>{numbers_text(properties.com)} 0 0 0</pose>\n"
@@ -37,9 +36,9 @@ def sdf(properties: MassProperties) -> str:
     )
 
 
-def mjcf(properties: MassProperties) -> str:
+def mjcf(properties: SpatialInertia) -> str:
     """``<inertial>`` of an MJCF body; MuJoCo's order puts the diagonal first."""
-    six = six_numbers(properties.inertia)
+    six = components_of(properties.tensor)
     diagonal = [six[name] for name in ("ixx", "iyy", "izz")]
     products = [six[name] for name in ("ixy", "ixz", "iyz")]
     if any(products):
@@ -52,24 +51,23 @@ def mjcf(properties: MassProperties) -> str:
     )
 
 
-def as_json(properties: MassProperties, facts: Mapping[str, Any]) -> str:
+def as_json(properties: SpatialInertia, facts: Mapping[str, Any]) -> str:
     """One object: mass, com and inertia, the same about the origin, principal moments, facts."""
     return json.dumps({"version": 1, **numbers(properties), **facts}, indent=2) + "\n"
 
 
-def numbers(properties: MassProperties) -> dict[str, Any]:
+def numbers(properties: SpatialInertia) -> dict[str, Any]:
     """The JSON form of mass properties, with what follows from them."""
-    moments, axes = principal(properties.inertia)
-    about_origin = shift_from_com(properties.inertia, properties.mass, properties.com)
+    moments, axes = principal_axes(properties.tensor)
     return {
         **properties.as_dict(),
-        "inertia_about_origin": _rounded_six(about_origin),
+        "inertia_about_origin": _rounded_components(properties.about_origin),
         "principal_moments": [round_number(float(moment)) for moment in moments],
         "principal_axes": [[float(value) for value in axis] for axis in axes.T],
     }
 
 
-def table(title: str, properties: MassProperties, facts: Mapping[str, str]) -> str:
+def table(title: str, properties: SpatialInertia, facts: Mapping[str, str]) -> str:
     """What there is to know, a line each, to six digits."""
     found = numbers(properties)
     rows = {
@@ -91,19 +89,19 @@ def table(title: str, properties: MassProperties, facts: Mapping[str, str]) -> s
     return "".join([f"{title}\n", *(f"  {key:<{width}}  {value}\n" for key, value in rows.items())])
 
 
-def summary(what: str, properties: MassProperties) -> str:
+def summary(what: str, properties: SpatialInertia) -> str:
     """Mass and moments in one line, to six digits."""
-    six = six_numbers(properties.inertia)
+    six = components_of(properties.tensor)
     moments = ", ".join(f"{name} {six[name]:.6g}" for name in ("ixx", "iyy", "izz"))
     return f"{what}: {properties.mass:.6g} kg; {moments} kg m² about the centre of mass"
 
 
-def _rounded_six(inertia: Any) -> dict[str, float]:
-    return {name: round_number(value) for name, value in six_numbers(inertia).items()}
+def _rounded_components(tensor: SymmetricTensor) -> dict[str, float]:
+    return {name: round_number(value) for name, value in components_of(tensor).items()}
 
 
 def _attributes(six: Mapping[str, float]) -> str:
-    return " ".join(f'{name}="{number_text(six[name])}"' for name in SIX)
+    return " ".join(f'{name}="{number_text(six[name])}"' for name in COMPONENTS)
 
 
 def _shown(values: Any) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..inertia.fill import Filling, Refusal
-from ..inertia.tensor import six_numbers
+from ..mechanics.tensor import components_of
 from ..model.elements import Robot
 from .counted import counted
 from .findings import clean
@@ -19,7 +19,7 @@ def text(filling: Filling) -> str:
     """A row for each link that was written."""
     rows: list[tuple[str, ...]] = [("link", "mass [kg]", "ixx", "iyy", "izz", "from")]
     for wanted in filling.written:
-        six = six_numbers(wanted.result.inertia)
+        six = components_of(wanted.result.tensor)
         body = wanted.item.body
         rows.append(
             (

@@ -6,14 +6,15 @@ from typing import Any
 
 from ..inertia.lump import Lumped
 from ..inertia.rounding import round_properties
-from ..inertia.tensor import MassProperties, six_numbers
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..mechanics.tensor import COMPONENTS
 from ..model.elements import Robot
 from .findings import clean
-from .inertia import SIX, numbers
+from .inertia import numbers
 from .json_text import json_text
 from .tables import render_table
 
-_HEADS = ("body", "links", "mass [kg]", "com x", "y", "z [m]", *SIX[:5], "izz [kg m²]")
+_HEADS = ("body", "links", "mass [kg]", "com x", "y", "z [m]", *COMPONENTS[:5], "izz [kg m²]")
 
 
 def table(lumped: Lumped) -> str:
@@ -28,12 +29,11 @@ def table(lumped: Lumped) -> str:
     return render_table(rows)
 
 
-def _cells(properties: MassProperties | None) -> tuple[str, ...]:
+def _cells(properties: SpatialInertia | None) -> tuple[str, ...]:
     if properties is None:
         return ("–",) * (len(_HEADS) - 2)
-    six = six_numbers(properties.inertia)
-    values = (properties.mass, *properties.com, *(six[name] for name in SIX))
-    return tuple(f"{float(value):.4g}" for value in values)
+    values = (properties.mass, *properties.com, *properties.tensor)
+    return tuple(f"{value:.4g}" for value in values)
 
 
 def as_json(lumped: Lumped, robot: Robot) -> str:
@@ -54,7 +54,7 @@ def as_json(lumped: Lumped, robot: Robot) -> str:
     return json_text(found, 1) + "\n"
 
 
-def _dict(properties: MassProperties | None) -> dict[str, Any] | None:
+def _dict(properties: SpatialInertia | None) -> dict[str, Any] | None:
     if properties is None:
         return None
     try:

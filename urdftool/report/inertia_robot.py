@@ -9,7 +9,9 @@ from typing import Any
 from ..inertia.comparison import Comparison
 from ..inertia.link_review import LinkReview
 from ..inertia.rounding import number_text, round_properties
-from ..inertia.tensor import MassProperties, six_numbers
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..mechanics.tensor import components_of
+from ..mechanics.typo_detection import Proposal
 from ..source.location import Place
 from .counted import counted
 from .findings import Painter, clean
@@ -101,8 +103,8 @@ def remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[
             if not item.faults and at is not None:
                 yield f"{at.place}: link '{name}': {paint('doubtful', 'yellow')}: " + _far(item)
             yield f"  probably meant: {item.proposal.sentence}"
-            rounded = MassProperties(1.0, 0 * item.proposal.inertia[0], item.proposal.inertia)
-            six = six_numbers(_tidied(rounded).inertia)
+            rounded = _tidied(SpatialInertia(1.0, tensor=item.proposal.tensor))
+            six = components_of(rounded.tensor)
             written = " ".join(f'{key}="{number_text(value)}"' for key, value in six.items())
             yield f"  <inertia {written}/>"
         elif item.faults and item.implied is not None and item.faults[-1].kind != "unreadable":
@@ -129,15 +131,15 @@ def _far(item: LinkReview) -> str:
     return f"a body may have this inertia, but it is {ratio} times what the geometry implies"
 
 
-def _tidied(properties: MassProperties) -> MassProperties:
+def _tidied(properties: SpatialInertia) -> SpatialInertia:
     try:
         return round_properties(properties)
     except ValueError:
         return properties
 
 
-def _short(properties: MassProperties) -> str:
-    six = six_numbers(properties.inertia)
+def _short(properties: SpatialInertia) -> str:
+    six = components_of(properties.tensor)
     return ", ".join(f"{name} {value:.6g}" for name, value in six.items())
 
 
@@ -193,11 +195,20 @@ def place_dict(place: Place) -> dict[str, Any]:
     return {"path": place.path, "line": place.line, "column": place.column}
 
 
+def _proposal(proposal: Proposal | None) -> dict[str, Any] | None:
+    """Return the JSON form: kind, sentence and the six numbers [kg·m²]."""
+    if proposal is None:
+        return None
+    return {
+        "kind": proposal.kind,
+        "sentence": proposal.sentence,
+        "inertia": components_of(proposal.tensor),
+    }
+
+
 def _implied(item: LinkReview) -> dict[str, Any] | None:
     """The numbers of what the geometry implies, where they are numbers."""
-    if item.implied is None or not all(
-        map(math.isfinite, six_numbers(item.implied.inertia).values())
-    ):
+    if item.implied is None or not all(map(math.isfinite, item.implied.tensor)):
         return None
     return numbers(_tidied(item.implied))
 
@@ -220,7 +231,7 @@ def _link(item: LinkReview) -> dict[str, Any]:
             {"kind": fault.kind, "message": fault.message, **place_dict(fault.place)}
             for fault in item.faults
         ],
-        "proposal": item.proposal.as_dict() if item.proposal is not None else None,
+        "proposal": _proposal(item.proposal),
         "pieces": [
             {
                 "what": piece.what,

@@ -34,10 +34,12 @@ from .rule import Problem
 from .words import fold
 
 if TYPE_CHECKING:
+    from ..mechanics.tensor import SymmetricTensor
     from ..model.elements import Vector
-    from ..model.tensor3 import Six
 
-    ComputeInertia = Callable[[Robot, Sequence[str]], "dict[str, tuple[float, Vector, Six]]"]
+    ComputeInertia = Callable[
+        [Robot, Sequence[str]], "dict[str, tuple[float, Vector, SymmetricTensor]]"
+    ]
 else:
     ComputeInertia = Callable
 

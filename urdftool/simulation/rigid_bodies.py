@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..formats.mjcf.gazebo import joint_spring, link_is_weightless
-from ..inertia.lump import placed as moved
-from ..inertia.tensor import MassProperties, combine, tensor_from_six
+from ..inertia.requirements import combine
+from ..mechanics.spatial_inertia import SpatialInertia, link_inertia
 from ..model.actuation import actuated_joints
-from ..model.elements import Joint, Link, Robot
+from ..model.elements import ZERO, Joint, Link, Robot
 from ..model.kinematics import limits_of, link_poses, movable_joints
 from ..model.pose import IDENTITY, Pose, pose_of
 from ..model.start import start_positions
@@ -85,13 +85,13 @@ class RigidBody:
     name: str
     links: tuple[str, ...]
     places: Mapping[str, Pose]
-    properties: MassProperties | None
+    properties: SpatialInertia | None
     shapes: tuple[Shape, ...]
     joint: RigidBodyJoint | None
     parent: int
     origin: Pose
     surface: Surface
-    weightless: MassProperties | None = None
+    weightless: SpatialInertia | None = None
 
     @property
     def mass(self) -> float:
@@ -107,12 +107,12 @@ class RigidBody:
         if self.properties is None:
             return 0.0, np.zeros(3)
         if self.weightless is None:
-            return self.properties.mass, self.properties.com
+            return self.properties.mass, np.array(self.properties.com)
         mass = self.properties.mass - self.weightless.mass
         if mass <= 1e-9 * self.properties.mass:
             return 0.0, np.zeros(3)
-        moment = self.properties.mass * self.properties.com
-        return mass, (moment - self.weightless.mass * self.weightless.com) / mass
+        moment = self.properties.mass * np.array(self.properties.com)
+        return mass, (moment - self.weightless.mass * np.array(self.weightless.com)) / mass
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,32 +241,22 @@ def _below(robot: Robot, name: str, top: str) -> bool:
     return root is not None and (top == root.name or name != root.name)
 
 
-def link_mass_properties(link: Link) -> MassProperties | None:
+def link_mass_properties(link: Link) -> SpatialInertia | None:
     """Return mass, center of mass and tensor of a link in its frame; None without mass."""
-    inertial = link.inertial
-    if inertial is None or not link.mass:
-        return None
-    tensor = inertial.inertia
-    six = (0.0,) * 6 if tensor is None else (
-        tensor.ixx, tensor.ixy, tensor.ixz, tensor.iyy, tensor.iyz, tensor.izz
-    )  # fmt: skip
-    own = MassProperties(link.mass, np.zeros(3), tensor_from_six(*six))
-    pose = pose_of(inertial.origin)
-    return moved(own, pose)
+    return link_inertia(link) if link.mass else None
 
 
 def _properties(
     robot: Robot, places: Mapping[str, Pose], payloads: Mapping[str, float]
-) -> MassProperties | None:
+) -> SpatialInertia | None:
     parts = []
     for name, pose in places.items():
         own = link_mass_properties(robot.link[name])
         if payloads.get(name):
-            centre = np.zeros(3) if own is None else own.com
-            point = MassProperties(payloads[name], centre, np.zeros((3, 3)))
+            point = SpatialInertia(payloads[name], ZERO if own is None else own.com)
             own = point if own is None else combine([own, point])
         if own is not None:
-            parts.append(moved(own, pose))
+            parts.append(own.moved(pose))
     return combine(parts) if parts else None
 
 

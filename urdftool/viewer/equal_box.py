@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..inertia.tensor import principal, second_moment, tensor_from_six
+from ..mechanics.tensor import principal_axes, second_moment
 from ..model.elements import Inertial, Vector
 from ..model.pose import Pose, pose_of
 
@@ -39,12 +39,15 @@ def equal_box(inertial: Inertial | None) -> EqualBox | None:
     """
     if inertial is None or inertial.inertia is None or not inertial.mass:
         return None
-    (ixx, iyy, izz), (ixy, ixz, iyz) = inertial.inertia.moments, inertial.inertia.products
     pose = pose_of(inertial.origin)
-    numbers = (ixx, ixy, ixz, iyy, iyz, izz, inertial.mass, *pose.translation, *pose.rotation[0])
-    if inertial.mass < 0 or not all(map(math.isfinite, numbers)) or not (ixx or iyy or izz):
+    numbers = (*inertial.inertia.six, inertial.mass, *pose.translation, *pose.rotation[0])
+    if (
+        inertial.mass < 0
+        or not all(map(math.isfinite, numbers))
+        or not any(inertial.inertia.moments)
+    ):
         return None
-    moments, axes = principal(second_moment(tensor_from_six(ixx, ixy, ixz, iyy, iyz, izz)))
+    moments, axes = principal_axes(second_moment(inertial.inertia.six))
     squares = 12.0 * moments / inertial.mass
     x, y, z = (float(edge) for edge in np.sqrt(np.maximum(squares, 0.0)))
     rows = axes.tolist()

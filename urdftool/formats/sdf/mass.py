@@ -1,6 +1,6 @@
 """Mass, centre and inertia of rigid bodies, put together exactly and in plain Python.
 
-A tensor is the symmetric matrix of URDF's six numbers. The eigenvalues of a body's *spread*
+A tensor is the symmetric matrix of URDF's six numbers. The principal_moments of a body's *spread*
 ``tr(I)/2 - I`` are its second moments of mass along three axes; that none of them is negative is
 the same as the triangle inequality of its principal moments.
 """
@@ -11,9 +11,9 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from ...mechanics.tensor import MIN_GYRATION_RADIUS
 from ...model.elements import Inertia, Link, Vector
 from ...model.pose import UPRIGHT, Pose, Rotation, matrix_product, pose_of, transpose
-from ...model.tensor3 import SMALLEST_RADIUS
 
 ROUNDING = 0.01
 """How far moments may miss the triangle inequality, relative to the largest, by rounding."""
@@ -127,7 +127,7 @@ def shortfall(tensor: Rotation, mass: float = 0.0) -> float:
         mass: The body's mass [kg]; moments that are nothing to it count as rounding.
     """
     low, middle, high = principal(tensor)[0]
-    scale = max(abs(low), abs(high), mass * SMALLEST_RADIUS**2)
+    scale = max(abs(low), abs(high), mass * MIN_GYRATION_RADIUS**2)
     if scale == 0.0:
         return 0.0
     return max(high - middle - low, -low) / scale

@@ -7,13 +7,13 @@ import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from ...mechanics.spatial_inertia import combine_links
+from ...mechanics.tensor import principal_moments
 from ...model.attached import Attached, attached_links
-from ...model.body_inertia import combined_inertia
 from ...model.elements import Collision, Cylinder, Joint, Link, Mesh, Robot, Vector, Visual
 from ...model.kinematics import limits_of
 from ...model.pose import dot, norm, pose_of, rotate, transpose
 from ...model.read import numbers
-from ..inertia.tensors import moments_of
 from ..mesh.outlines import reaches
 from ..sides import sides
 
@@ -159,9 +159,11 @@ def _of_visual(robot: Robot, members: Attached) -> Saying | None:
 
 def _of_inertia(members: Attached) -> Saying | None:
     """What the inertia of a wheel says: two moments are equal, and the third is the largest."""
-    body = combined_inertia(members)
+    body = combine_links(members)
     six = body.tensor
-    if not body.mass or max(map(abs, (six[1], six[2], six[4]))) > _ROUND * max(moments_of(six)):
+    if not body.mass or max(map(abs, (six[1], six[2], six[4]))) > _ROUND * max(
+        principal_moments(six)
+    ):
         return None
     x, y, z = six[0], six[3], six[5]
     if min(x, y, z) <= 0:

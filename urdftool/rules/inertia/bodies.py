@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from ...mechanics.spatial_inertia import SpatialInertia, combine_links
 from ...model.attached import attached_links
-from ...model.body_inertia import BodyInertia, combined_inertia
 from ...model.elements import Link, Robot
 from ..gazebo.lumping import is_lumped
 
@@ -72,7 +72,7 @@ def mass_of(links: list[Link]) -> float:
     return sum(link.mass for link in links)
 
 
-def body_inertia(robot: Robot, links: Iterable[Link]) -> BodyInertia:
+def body_inertia(robot: Robot, links: Iterable[Link]) -> SpatialInertia:
     """Add up the mass properties of the links of one body, in the frame of its first link.
 
     Args:
@@ -82,7 +82,7 @@ def body_inertia(robot: Robot, links: Iterable[Link]) -> BodyInertia:
     members = list(links)
     names = {link.name for link in members}
     around = attached_links(robot, members[0])
-    return combined_inertia([(link, pose) for link, pose in around if link.name in names])
+    return combine_links([(link, pose) for link, pose in around if link.name in names])
 
 
 def negligible(robot: Robot, light: float) -> set[str]:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ...mechanics.mass_bounds import MARGIN, Misfit, misfit_of_com, shapes_in_words
 from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
 from ...model.gltf_axes import is_gltf
-from ...model.mass_fit import MARGIN, Misfit, misfit_of_com, shapes_in_words
 from ...model.pose import pose_of
 from ..fix import (
     FixContext,
@@ -27,7 +27,7 @@ from .frame import about_center
 from .proposals import attributes_text
 from .size import SIZE_IN_DOUBT, has_mesh, is_placeholder
 from .solids import box_of, centre_of_solids
-from .tensors import is_zero, six_of
+from .tensors import is_zero
 
 
 @rule(
@@ -127,7 +127,7 @@ def inertial_not_at_com_suspect(
             continue
         if inertial.origin is not None and any(inertial.origin.xyz):
             continue
-        if inertial.inertia is not None and is_placeholder(link, six_of(inertial.inertia)):
+        if inertial.inertia is not None and is_placeholder(link, inertial.inertia.six):
             continue  # all of it is made up, which is said
         box = reach.link(link)
         if box is None or not _is_off_centre(link, box, far):

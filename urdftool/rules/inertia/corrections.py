@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
+from ...mechanics.tensor import COMPONENTS, SymmetricTensor, rotate_tensor
+from ...mechanics.typo_detection import is_consistent
 from ...model.elements import Inertia, Inertial, Link, Vector
-from ...model.inertia_slips import NAMES, is_possible
 from ...model.pose import pose_of, transpose
-from ...model.tensor3 import Six, turned
 from ..fix import (
     Change,
     FixContext,
@@ -66,7 +66,7 @@ def give_small_inertial(link: Link) -> Proposal | None:
     return unsafe(f"give it {mass * 1000:g} g", prepend_child(link.element, *lines))
 
 
-def _inertial_lines(mass: float, center: str, six: Six, rpy: str = "") -> Lines:
+def _inertial_lines(mass: float, center: str, six: SymmetricTensor, rpy: str = "") -> Lines:
     turn = f' rpy="{rpy}"' if rpy else ""
     return (
         "<inertial>",
@@ -77,7 +77,7 @@ def _inertial_lines(mass: float, center: str, six: Six, rpy: str = "") -> Lines:
     )
 
 
-def _weigh(link: Link, context: FixContext) -> tuple[float, Vector, Six] | None:
+def _weigh(link: Link, context: FixContext) -> tuple[float, Vector, SymmetricTensor] | None:
     """Compute mass [kg], center of mass [m] and tensor [kg·m²] of a link from its meshes."""
     if context.compute_inertia is None:
         return None
@@ -105,7 +105,7 @@ def write_inertia_of_shapes(problem: Problem, context: FixContext) -> Proposal |
     inertial = link.inertial
     if inertial is None or not inertial.mass or inertial.mass <= 0 or inertial.inertia is None:
         return None
-    if any(is_computed(inertial.inertia.element, name) for name in NAMES):
+    if any(is_computed(inertial.inertia.element, name) for name in COMPONENTS):
         return None  # before meshes are read for nothing
     if depends_on_arguments(link.element):
         return None
@@ -120,7 +120,7 @@ def write_inertia_of_shapes(problem: Problem, context: FixContext) -> Proposal |
         return None
     mass, center, tensor = found
     scale = inertial.mass / mass
-    here = turned(
+    here = rotate_tensor(
         tuple(value * scale for value in tensor),  # type: ignore[arg-type]
         transpose(pose_of(inertial.origin).rotation),
     )
@@ -136,7 +136,7 @@ def write_proposed_inertia(problem: Problem, context: FixContext) -> Proposal | 
 
 
 def write_tensor(
-    link: Link, six: Six, why: str = "", center: Vector | None = None
+    link: Link, six: SymmetricTensor, why: str = "", center: Vector | None = None
 ) -> Proposal | None:
     """Write six numbers, as far as they differ, and where the mass is.
 
@@ -147,14 +147,14 @@ def write_tensor(
         center: Where the center of mass belongs in the frame of the link [m]; None if it stays.
     """
     inertial = link.inertial
-    if inertial is None or inertial.inertia is None or not is_possible(six):
+    if inertial is None or inertial.inertia is None or not is_consistent(six):
         return None
     why = why or f"write {attributes_text(six)}"
     element = inertial.inertia.element
     least = 1e-12 * max(map(abs, six))
     changes = [
         set_attribute(element, name, f"{new + 0.0 if abs(new) > least else 0:.9g}")
-        for name, old, new in zip(NAMES, inertial.inertia.six, six, strict=True)
+        for name, old, new in zip(COMPONENTS, inertial.inertia.six, six, strict=True)
         if f"{new:.9g}" != f"{old:.9g}" and max(abs(new), abs(old)) > least
     ]
     if center is not None:

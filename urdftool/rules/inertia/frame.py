@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ...mechanics.mass_bounds import spread_ratio
+from ...mechanics.tensor import SymmetricTensor, rotate_tensor, shift_to_com
+from ...mechanics.typo_detection import is_consistent
 from ...model.bounds import Bounds
 from ...model.elements import Collision, Inertial, Link, Mesh, Robot, Vector, Visual
-from ...model.inertia_slips import is_possible, shifted_to_com
-from ...model.mass_fit import spread_ratio
 from ...model.pose import pose_of, transpose
-from ...model.tensor3 import Six, turned
 from ..fix import FixContext, Proposal
 from ..mesh.outlines import reaches
 from ..rule import UNSAFE, WARNING, Problem, rule
@@ -73,7 +73,9 @@ def write_inertia_about_center(problem: Problem, context: FixContext) -> Proposa
     return write_proposed_inertia(problem, context)
 
 
-def about_com(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> Six | None:
+def about_com(
+    link: Link, inertial: Inertial, six: SymmetricTensor, box: Bounds | None
+) -> SymmetricTensor | None:
     """Compute the tensor about the center of mass, if the written one is about the link frame.
 
     Args:
@@ -89,10 +91,10 @@ def about_com(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> S
     mass, pose = link.mass, pose_of(inertial.origin)
     if box is None or mass <= 0 or not any(pose.translation) or is_zero(six, mass):
         return None
-    tensor = turned(six, pose.rotation)
-    shifted = shifted_to_com(tensor, mass, pose.translation)
-    right = turned(shifted, transpose(pose.rotation))
-    if not is_possible(shifted):
+    tensor = rotate_tensor(six, pose.rotation)
+    shifted = shift_to_com(tensor, mass, pose.translation)
+    right = rotate_tensor(shifted, transpose(pose.rotation))
+    if not is_consistent(shifted):
         return None
     other = proposal_of(link, inertial, six)
     if other is not None and other.kind != "origin":
@@ -114,7 +116,9 @@ def about_com(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> S
     return None
 
 
-def about_center(link: Link, inertial: Inertial, center: Vector, box: Bounds) -> Six | None:
+def about_center(
+    link: Link, inertial: Inertial, center: Vector, box: Bounds
+) -> SymmetricTensor | None:
     """Compute the tensor about a center of mass that is not written, but known by the geometry.
 
     Args:
@@ -131,8 +135,8 @@ def about_center(link: Link, inertial: Inertial, center: Vector, box: Bounds) ->
     if inertial.inertia is None:
         return None
     six, rotation, mass = inertial.inertia.six, pose_of(inertial.origin).rotation, link.mass
-    shifted = shifted_to_com(turned(six, rotation), mass, center)
-    right = turned(shifted, transpose(rotation))
+    shifted = shift_to_com(rotate_tensor(six, rotation), mass, center)
+    right = rotate_tensor(shifted, transpose(rotation))
     solid = solid_tensor(link)
     if solid is not None and not _has_mesh(link):
         for one in (six, right):
@@ -143,14 +147,14 @@ def about_center(link: Link, inertial: Inertial, center: Vector, box: Bounds) ->
         return None
     written, meant = (sum(one[i] for i in (0, 3, 5)) / 2 / whole for one in (six, shifted))
     fits = [PLAUSIBLE[0] <= value <= PLAUSIBLE[1] for value in (written, meant)]
-    if fits[1] and not fits[0] and is_possible(shifted):
+    if fits[1] and not fits[0] and is_consistent(shifted):
         return right
-    if fits[0] and not (fits[1] and is_possible(shifted)):
+    if fits[0] and not (fits[1] and is_consistent(shifted)):
         return six
     return None
 
 
-def _explains_products(tensor: Six, shifted: Six) -> bool:
+def _explains_products(tensor: SymmetricTensor, shifted: SymmetricTensor) -> bool:
     """Whether products of inertia that are not small are much smaller about the other point."""
     before, after = (abs(one[1]) + abs(one[2]) + abs(one[4]) for one in (tensor, shifted))
     return before > 0.05 * max(tensor[0], tensor[3], tensor[5]) and after < 0.5 * before
@@ -161,12 +165,12 @@ def _has_mesh(link: Link) -> bool:
     return any(isinstance(shape.geometry, Mesh) for shape in shapes)
 
 
-def _distance(one: Six, other: Six) -> float:
+def _distance(one: SymmetricTensor, other: SymmetricTensor) -> float:
     a, b, c, d, e, f = (x - y for x, y in zip(one, other, strict=True))
     return _norm((a, b, c, d, e, f))
 
 
-def _norm(six: Six) -> float:
+def _norm(six: SymmetricTensor) -> float:
     """The Frobenius norm of a symmetric matrix."""
     xx, xy, xz, yy, yz, zz = six
     return math.sqrt(xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz))

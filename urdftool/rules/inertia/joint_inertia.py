@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+from ...mechanics.tensor import rotate_tensor
 from ...model.elements import Joint, Robot, Vector
 from ...model.pose import Pose, cross, norm, pose_of, rotate
-from ...model.tensor3 import turned
-from .tensors import six_of
 
 
 def joint_inertia(robot: Robot, joint: Joint, poses: dict[str, Pose]) -> float:
@@ -48,7 +47,7 @@ def _about(robot: Robot, joint: Joint, poses: dict[str, Pose], links: set[str]) 
         if inertial is None or inertial.inertia is None:
             continue
         at = pose @ pose_of(inertial.origin)
-        a, b, c, d, e, f = turned(six_of(inertial.inertia), at.rotation)
+        a, b, c, d, e, f = rotate_tensor(inertial.inertia.six, at.rotation)
         arm = _minus(at.translation, frame.translation)
         total += link.mass * norm(cross(arm, (x, y, z))) ** 2
         total += x * x * a + y * y * d + z * z * f + 2 * (x * y * b + x * z * c + y * z * e)

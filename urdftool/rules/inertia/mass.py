@@ -17,7 +17,7 @@ from ..words import some_of
 from ..xml.vocabulary_table import misspelt_attributes, misspelt_children
 from .bodies import bodies, mass_of, massless_pairs
 from .solids import solid_volume
-from .tensors import SIX, six_of
+from .tensors import SIX
 
 _AS_PART = ("gz, gazebo-classic, pinocchio (part)", "mujoco (part)", "drake (part)")
 _AS_ROOT = ("gz, gazebo-classic (root)", "pybullet (root)")
@@ -150,7 +150,7 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         at = mass.attribute_place("value") if mass is not None else None
         if mass_of(links) > 0:
             tensor = link.inertial.inertia
-            if tensor is not None and any(six_of(tensor)):
+            if tensor is not None and any(tensor.six):
                 yield Problem(
                     link,
                     f"mass of link '{link.name}' is 0 and its inertia is not; write its mass, or "

@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ...mechanics.spatial_inertia import SpatialInertia, combine_links
+from ...mechanics.tensor import principal_moments
 from ...model.attached import attached_links
-from ...model.body_inertia import BodyInertia, combined_inertia
 from ...model.elements import Link, Robot, Vector
 from ...model.pose import norm, rotate, transpose
 from ..fix import FixContext, Proposal, set_attribute, unsafe
 from ..mesh.outlines import reaches
 from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from ..sides import Pair, Sides, family_of, sides, twin_links
-from .tensors import is_accepted, is_zero, moments_of, six_of
+from .tensors import is_accepted, is_zero
 
 _CHECKING = "gz, gazebo-classic, mujoco, drake"
 
@@ -106,7 +107,7 @@ def _factors(link: Link, other: Link) -> str:
 def _moments_of_link(link: Link) -> Vector:
     assert link.inertial is not None
     assert link.inertial.inertia is not None
-    return moments_of(six_of(link.inertial.inertia))
+    return principal_moments(link.inertial.inertia.six)
 
 
 def _readers_of(link: Link, other: Link) -> list[str]:
@@ -114,7 +115,7 @@ def _readers_of(link: Link, other: Link) -> list[str]:
     accepted = all(
         one.inertial is not None
         and one.inertial.inertia is not None
-        and is_accepted(six_of(one.inertial.inertia))
+        and is_accepted(one.inertial.inertia.six)
         for one in (link, other)
     )
     return [*[_CHECKING] * accepted, "pinocchio"]
@@ -125,19 +126,19 @@ def _has_moments(link: Link) -> bool:
     inertia = link.inertial.inertia if link.inertial is not None else None
     if inertia is None:
         return False
-    six = six_of(inertia)
-    return not is_zero(six, link.mass) and moments_of(six)[0] > 0
+    six = inertia.six
+    return not is_zero(six, link.mass) and principal_moments(six)[0] > 0
 
 
-def _bodies(robot: Robot, link: Link, other: Link) -> tuple[BodyInertia, BodyInertia] | None:
+def _bodies(robot: Robot, link: Link, other: Link) -> tuple[SpatialInertia, SpatialInertia] | None:
     """Add up the bodies of two links; None where they are one, or no more than the links."""
     first, second = attached_links(robot, link), attached_links(robot, other)
     if len(first) == len(second) == 1 or any(one is other for one, _ in first):
         return None
-    return combined_inertia(first), combined_inertia(second)
+    return combine_links(first), combine_links(second)
 
 
-def _trace(body: BodyInertia) -> float:
+def _trace(body: SpatialInertia) -> float:
     """Sum the moments of a body [kg·m²]."""
     return body.tensor[0] + body.tensor[3] + body.tensor[5]
 

@@ -6,17 +6,17 @@ import math
 from collections.abc import Iterator
 from functools import partial
 
-from ...model.attached import attached_links
-from ...model.elements import Collision, Link, Mesh, Robot, Visual
-from ...model.mass_fit import (
+from ...mechanics.mass_bounds import (
     ALLOWED,
     CERTAIN,
     ROUNDING,
     misfit_of_spread,
     shapes_in_words,
 )
+from ...mechanics.tensor import SymmetricTensor, principal_moments, rotate_tensor
+from ...model.attached import attached_links
+from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...model.pose import pose_of
-from ...model.tensor3 import Six, turned
 from ..fix import FixContext, Proposal
 from ..mesh.outlines import reaches
 from ..rule import INFO, UNSAFE, WARNING, Problem, rule
@@ -26,7 +26,7 @@ from .density import outlier
 from .frame import about_com
 from .proposals import remedy_text
 from .solids import is_dummy, solid_moments, solid_text
-from .tensors import is_accepted, is_positive, is_zero, moments_of, tensors
+from .tensors import is_accepted, is_positive, is_zero, tensors
 
 SIZE_IN_DOUBT = ("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line")
 _SINGULAR = 1e-9  # the part of the largest moment that counts as zero
@@ -98,7 +98,7 @@ def _is_frame(robot: Robot, link: Link, body: list[Link], tiny: float) -> bool:
     return box is not None and max(box.size) <= tiny
 
 
-def is_placeholder(link: Link, six: Six) -> bool:
+def is_placeholder(link: Link, six: SymmetricTensor) -> bool:
     """Whether a tensor is a power of ten times the identity, and not by chance the right one."""
     xx, xy, xz, yy, yz, zz = six
     if not xx == yy == zz > 0 or xy or xz or yz:
@@ -147,18 +147,18 @@ def inertia_exceeds_geometry(
     reach = reaches(robot)
     slight = slight_parts(robot)
     for link, inertial, six in tensors(robot):
-        if link.mass <= 0 or is_placeholder(link, six) or not is_positive(moments_of(six)):
+        if link.mass <= 0 or is_placeholder(link, six) or not is_positive(six):
             continue
         if link.name in slight:
             continue
-        low, middle, high = moments_of(six)
+        low, middle, high = principal_moments(six)
         if low + middle < high:
             continue  # no body has it, whatever its size
         pose = pose_of(inertial.origin)
         judge = partial(
             misfit_of_spread,
             mass=link.mass,
-            tensor=turned(six, pose.rotation),
+            tensor=rotate_tensor(six, pose.rotation),
             rough=has_mesh(link) or not link.collisions,
             allowed=allowed,
             certain=certain,
@@ -189,7 +189,7 @@ def inertia_exceeds_geometry(
             )
 
 
-def _readers_of(six: Six) -> list[str]:
+def _readers_of(six: SymmetricTensor) -> list[str]:
     """The readers that take a tensor as written, as keys of effects."""
     return [*[_CHECKING] * is_accepted(six), "pinocchio"]
 
@@ -251,7 +251,7 @@ def inertia_below_geometry(
     heavy = outlier(robot)
     for link, inertial, six in tensors(robot):
         mass = link.mass
-        if mass <= 0 or is_zero(six, mass) or not is_positive(moments_of(six)):
+        if mass <= 0 or is_zero(six, mass) or not is_positive(six):
             continue
         if heavy is not None and link is heavy.link:
             continue  # the mass is reported
@@ -310,7 +310,7 @@ def radius_of_gyration(
             continue
         if inertial.mass is None or reach.link(link) is not None:
             continue
-        low, _, high = moments_of(six)
+        low, _, high = principal_moments(six)
         if high <= 0 or low <= _SINGULAR * high:
             continue
         radius = math.sqrt(high / mass)

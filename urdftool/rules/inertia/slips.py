@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...mechanics.tensor import SymmetricTensor
+from ...mechanics.typo_detection import Proposal as Slip
+from ...mechanics.typo_detection import infer_intended_moment, is_consistent
 from ...model.bounds import Bounds
 from ...model.elements import Inertial, Link, Robot
-from ...model.inertia_slips import Proposal as Slip
-from ...model.inertia_slips import is_possible, propose_moment
 from ...model.pose import pose_of
 from ...model.read import number
-from ...model.tensor3 import Six
 from ...source.document import Element
 from ..fix import FixContext, Proposal, attribute_at, remove_attribute, safe
 from ..mesh.outlines import reaches
@@ -89,9 +89,9 @@ def write_without_slip(problem: Problem, context: FixContext) -> Proposal | None
     return write_proposed_inertia(problem, context)
 
 
-def slip_of(link: Link, inertial: Inertial, six: Six, robot: Robot) -> Slip | None:
+def slip_of(link: Link, inertial: Inertial, six: SymmetricTensor, robot: Robot) -> Slip | None:
     """The slip that explains a tensor no body has, if it is one of these."""
-    if is_zero(six, link.mass) or is_possible(six):
+    if is_zero(six, link.mass) or is_consistent(six):
         return None
     proposal = proposal_of(link, inertial, six)
     if proposal is None:
@@ -101,7 +101,9 @@ def slip_of(link: Link, inertial: Inertial, six: Six, robot: Robot) -> Slip | No
     return proposal
 
 
-def _moment_of_box(link: Link, inertial: Inertial, six: Six, box: Bounds | None) -> Slip | None:
+def _moment_of_box(
+    link: Link, inertial: Inertial, six: SymmetricTensor, box: Bounds | None
+) -> Slip | None:
     """The one moment that is off by a power of ten, by the other two and the bounding box.
 
     None for one solid shape, whose tensor is known, for numbers that xacro computes, where no
@@ -116,7 +118,7 @@ def _moment_of_box(link: Link, inertial: Inertial, six: Six, box: Bounds | None)
         sum(abs(part) * length for part, length in zip(column, box.size, strict=True))
         for column in zip(*rotation, strict=True)
     )
-    return propose_moment(link.mass, six, (x, y, z))
+    return infer_intended_moment(link.mass, six, (x, y, z))
 
 
 def _is_computed(inertial: Inertial) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from ...mechanics.tensor import SymmetricTensor, rotate_tensor
 from ...model.bounds import Bounds, bounds_of
 from ...model.elements import (
     Box,
@@ -18,7 +19,6 @@ from ...model.elements import (
     Visual,
 )
 from ...model.pose import matrix_product, pose_of, transpose
-from ...model.tensor3 import Six, turned
 
 DENSITY = 1000.0
 """Density [kg/m³] of the shapes of a link whose mass is not written: that of water."""
@@ -90,7 +90,7 @@ def solid_moments(link: Link) -> Vector | None:
     return _moments(shape.geometry, inertial.mass)
 
 
-def solid_tensor(link: Link) -> Six | None:
+def solid_tensor(link: Link) -> SymmetricTensor | None:
     """The tensor [kg·m²] of a link's one shape, were it solid, along the axes of its inertial.
 
     None where the link has several shapes, or none that is a primitive.
@@ -105,7 +105,7 @@ def solid_tensor(link: Link) -> Six | None:
     there, here = pose_of(shape.origin).rotation, pose_of(inertial.origin).rotation
     if there == here:
         return x, 0.0, 0.0, y, 0.0, z
-    return turned((x, 0.0, 0.0, y, 0.0, z), matrix_product(transpose(here), there))
+    return rotate_tensor((x, 0.0, 0.0, y, 0.0, z), matrix_product(transpose(here), there))
 
 
 def only_shape(link: Link) -> Visual | Collision | None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ...mechanics.tensor import SymmetricTensor, principal_moments
 from ...model.attached import is_fixed_to_world
 from ...model.elements import Inertial, Link, Robot, Vector
 from ...model.kinematics import MOVABLE, limits_of, link_poses
 from ...model.pose import Pose
-from ...model.tensor3 import Six
 from ...source.location import Place
 from ..fix import FixContext, Proposal, set_attribute, unsafe
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
@@ -25,9 +25,7 @@ from .tensors import (
     is_positive,
     is_rejected_by_gazebo,
     is_zero,
-    moments_of,
     rounding_of,
-    six_of,
     tensors,
 )
 
@@ -53,8 +51,8 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
     is larger than the moments beside it allow.
     """
     for link, inertial, six in tensors(robot):
-        moments = moments_of(six)
-        if is_zero(six, link.mass) or is_positive(moments, tolerance):
+        moments = principal_moments(six)
+        if is_zero(six, link.mass) or is_positive(six, tolerance):
             continue
         if slip_of(link, inertial, six, robot) is not None:
             continue
@@ -89,9 +87,9 @@ def inertia_triangle_inequality(
     ``rounding`` that the digits as written leave open is ``inertia-triangle-inequality-rounding``.
     """
     for link, inertial, six in tensors(robot):
-        moments = low, middle, high = moments_of(six)
+        moments = low, middle, high = principal_moments(six)
         excess = high - low - middle
-        if excess <= EXACT * high or not is_positive(moments, tolerance):
+        if excess <= EXACT * high or not is_positive(six, tolerance):
             continue
         if inertial.inertia is None:
             continue
@@ -143,7 +141,7 @@ def inertia_triangle_inequality_rounding(
     by the digits that are written; more is ``inertia-triangle-inequality``.
     """
     for link, inertial, six in tensors(robot):
-        moments = low, middle, high = moments_of(six)
+        moments = low, middle, high = principal_moments(six)
         excess = high - low - middle
         if inertial.inertia is None or low < 0 or excess <= tolerance * high:
             continue
@@ -167,13 +165,15 @@ def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
     inertial = context.link(problem).inertial
     if inertial is None or inertial.inertia is None:
         return None
-    xx, xy, xz, yy, yz, zz = six_of(inertial.inertia)
+    xx, xy, xz, yy, yz, zz = inertial.inertia.six
     excess, high = problem.data["excess"], problem.data["moments"][2]
     for factor in (1.0, 1.5, 2.0, 4.0):
         more = factor * (excess + 1e-9 * high)
         moments = [float(f"{value + more:.10g}") for value in (xx, yy, zz)]
         shown = [float(f"{value:.10g}") for value in (xy, xz, yz)]
-        a, b, c = moments_of((moments[0], shown[0], shown[1], moments[1], shown[2], moments[2]))
+        a, b, c = principal_moments(
+            (moments[0], shown[0], shown[1], moments[1], shown[2], moments[2])
+        )
         if c <= a + b:
             break
     else:
@@ -257,13 +257,8 @@ def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Proble
     """
     whole: dict[str, list[Link]] | None = None
     for link, inertial, six in tensors(robot):
-        moments = low, middle, high = moments_of(six)
-        if (
-            is_zero(six, link.mass)
-            or high <= 0
-            or low > smallest * high
-            or not is_positive(moments)
-        ):
+        moments = low, middle, high = principal_moments(six)
+        if is_zero(six, link.mass) or high <= 0 or low > smallest * high or not is_positive(six):
             continue
         if low + middle < high * 0.99:
             continue
@@ -271,7 +266,7 @@ def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Proble
             whole = {one.name: links for links in bodies(robot).values() for one in links}
         links = whole.get(link.name, [link])
         if len(links) > 1:
-            least, _, most = moments_of(body_inertia(robot, links).tensor)
+            least, _, most = principal_moments(body_inertia(robot, links).tensor)
             if least > smallest * most:
                 continue
         if is_fixed_to_world(robot, link):
@@ -367,7 +362,7 @@ def _may_be_below(links: list[Link], most: float, slides: bool) -> bool:
     if slides:
         return mass_of(links) < most
     tensors_of = [link.inertial.inertia for link in links if link.inertial is not None]
-    lows = [moments_of(six_of(one))[0] for one in tensors_of if one is not None]
+    lows = [principal_moments(one.six)[0] for one in tensors_of if one is not None]
     return min(lows, default=0.0) < most
 
 
@@ -376,7 +371,7 @@ def _shown(moments: Vector) -> str:
     return ", ".join(f"{moment if abs(moment) > least else 0.0:.4g}" for moment in moments)
 
 
-def _component(inertial: Inertial, six: Six, moment: float) -> Place | None:
+def _component(inertial: Inertial, six: SymmetricTensor, moment: float) -> Place | None:
     """Where a moment is written, if the moments are the principal ones; else the whole tensor."""
     if inertial.inertia is None:
         return None

@@ -6,20 +6,15 @@ import math
 from collections.abc import Iterator
 from decimal import Decimal, InvalidOperation
 
-from ...model.elements import Inertia, Inertial, Link, Robot, Vector
+from ...mechanics.tensor import COMPONENTS, SymmetricTensor, consistency, noise_of
+from ...model.elements import Inertia, Inertial, Link, Robot
 from ...model.read import number
-from ...model.tensor3 import SMALLEST_RADIUS, Six, eigenvalues
 from .bodies import bodies, body_inertia
 
-SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+SIX = COMPONENTS
 
 
-def six_of(inertia: Inertia) -> Six:
-    """Its six numbers."""
-    return inertia.six
-
-
-def tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, Six]]:
+def tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, SymmetricTensor]]:
     """Links with mass and six numbers that are written and can be read.
 
     A tensor of which a number is missing or unreadable is another matter, and so is one without
@@ -29,7 +24,7 @@ def tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, Six]]:
         inertial = link.inertial
         if inertial is None or not inertial.mass or inertial.inertia is None:
             continue
-        six = six_of(inertial.inertia)
+        six = inertial.inertia.six
         if 0.0 in six:
             attributes = inertial.inertia.element.attributes
             zeros = (name for name, value in zip(SIX, six, strict=True) if value == 0.0)
@@ -38,35 +33,29 @@ def tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, Six]]:
         yield link, inertial, six
 
 
-def moments_of(six: Six) -> Vector:
-    """Principal moments, ascending."""
-    return eigenvalues(six)
-
-
-def is_zero(six: Six, mass: float) -> bool:
-    """Whether all six are 0, but for the noise of whatever computed them.
+def is_zero(six: SymmetricTensor, mass: float) -> bool:
+    """Whether all six numbers are 0, except for noise of the program that computed them.
 
     Args:
         six: The six numbers [kg·m²].
-        mass: The body's mass [kg]; what is below it times (10 µm)² is noise.
+        mass: The body's mass [kg]; numbers below it times (10 µm)² are noise.
     """
-    return max(map(abs, six)) <= abs(mass) * SMALLEST_RADIUS**2
+    return max(map(abs, six)) <= noise_of(mass)
 
 
-def is_positive(moments: Vector, tolerance: float = 1e-6) -> bool:
-    """Whether no principal moment is negative, but for rounding."""
-    low, _, high = moments
-    return low >= -tolerance * max(abs(low), abs(high))
+def is_positive(six: SymmetricTensor, tolerance: float = 1e-6) -> bool:
+    """Whether no principal moment is negative, except for rounding."""
+    return consistency(six).negativity <= tolerance
 
 
 EXACT = 1e-12
 """Part of the largest moment by which computing the moments may be off."""
 
 
-def is_accepted(six: Six) -> bool:
+def is_accepted(six: SymmetricTensor) -> bool:
     """Whether Gazebo and MuJoCo accept a tensor: positive, and no moment above the others' sum."""
-    low, middle, high = moments_of(six)
-    return low > EXACT * high and high - low - middle <= EXACT * high
+    found = consistency(six)
+    return found.negativity < -EXACT and found.excess <= EXACT
 
 
 def is_rejected_by_gazebo(robot: Robot, link: Link) -> bool:
@@ -77,8 +66,7 @@ def is_rejected_by_gazebo(robot: Robot, link: Link) -> bool:
         if joint is not None and joint.is_fixed:
             return False  # in a broken tree it is not known what it would be lumped into
         whole = [link]
-    low, middle, high = moments_of(body_inertia(robot, whole).tensor)
-    return low < -EXACT * abs(high) or high - low - middle > EXACT * high
+    return consistency(body_inertia(robot, whole).tensor).excess > EXACT
 
 
 def rounding_of(inertia: Inertia) -> float:

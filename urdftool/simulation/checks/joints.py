@@ -151,7 +151,7 @@ def _why_idle(run: Run, column: int) -> str:
     """Explain why a joint is off its target though it could use more effort."""
     body = run.bodies.bodies[column + 1]
     if body.properties is not None and is_impossible(
-        body.properties.inertia, run.thresholds.tensor_excess
+        body.properties.tensor, run.thresholds.tensor_excess
     ):
         return f"link '{body.name}' has a physically inconsistent inertia"
     return "it is blocked, or moves too slowly to be there in time"

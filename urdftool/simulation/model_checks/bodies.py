@@ -6,13 +6,18 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...mechanics.tensor import (
+    ZERO_TENSOR,
+    SymmetricTensor,
+    consistency,
+    principal_moments,
+)
 from ...model.elements import Geometry, Link, Mesh, Robot
 from ...rules.inertia.density import mass_out_of_line
 from ...source.location import Place
 from ..extent import measure_extent
 from ..fault import Fault
 from ..mesh_cache import outermost_points
-from ..recording import Array
 from ..rigid_bodies import RigidBody, link_mass_properties
 from ..run import Run
 from ..shapes import is_without_extent
@@ -38,7 +43,7 @@ def check_bodies(robot: Robot, run: Run) -> Iterator[Fault]:
         if number == 0 and bodies.fixed_base:
             continue
         if body.properties is not None and is_impossible(
-            body.properties.inertia, run.thresholds.tensor_excess
+            body.properties.tensor, run.thresholds.tensor_excess
         ):
             told.add(body.name)
             yield from _inconsistent_inertia(robot, run, body)
@@ -188,16 +193,15 @@ def _is_massless_shape(robot: Robot, name: str) -> bool:
     return not robot.link[name].mass and has_shapes(robot, name)
 
 
-def is_impossible(tensor: Array, excess: float) -> bool:
+def is_impossible(tensor: SymmetricTensor, excess: float) -> bool:
     """Tell whether a tensor is physically inconsistent.
 
     Args:
-        tensor: Shape (3, 3) [kg·m²].
+        tensor: About the center of mass [kg·m²].
         excess: How far it may exceed the triangle inequality [1].
     """
-    low, middle, high = np.linalg.eigvalsh(tensor).tolist()
-    possible: bool = low >= -1e-9 * abs(high) and 0 < high <= (low + middle) * (1 + excess)
-    return not possible
+    found = consistency(tensor)
+    return found.size == 0 or found.negativity > 1e-9 or found.excess > excess / (1 + excess)
 
 
 def _inconsistent_inertia(robot: Robot, run: Run, body: RigidBody) -> Iterator[Fault]:
@@ -206,12 +210,12 @@ def _inconsistent_inertia(robot: Robot, run: Run, body: RigidBody) -> Iterator[F
         link
         for link in (robot.link[name] for name in body.links)
         if (own := link_mass_properties(link)) is not None
-        and is_impossible(own.inertia, run.thresholds.tensor_excess)
+        and is_impossible(own.tensor, run.thresholds.tensor_excess)
     ]
     link = max(bad, key=lambda link: link.mass) if bad else robot.link[body.name]
     own = link_mass_properties(link)
-    tensor = own.inertia if bad and own is not None else np.zeros((3, 3))
-    low, middle, high = np.linalg.eigvalsh(tensor).tolist()
+    tensor = own.tensor if bad and own is not None else ZERO_TENSOR
+    low, middle, high = principal_moments(tensor)
     taken = _tensor_taken(run, body)
     if high <= 0 and low >= 0:
         said = f"is zero, and it weighs {body.mass:.4g} kg"

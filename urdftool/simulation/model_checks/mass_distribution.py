@@ -8,7 +8,8 @@ from itertools import product
 
 import numpy as np
 
-from ...inertia.tensor import MassProperties
+from ...mechanics.spatial_inertia import SpatialInertia
+from ...mechanics.tensor import principal_axes, tensor_of_matrix
 from ...model.elements import Link, Robot
 from ..checks.thresholds import Thresholds
 from ..extent import Extent, measure_extent
@@ -42,7 +43,7 @@ def check_mass_distribution(robot: Robot, link: Link, run: Run) -> Iterator[Faul
     if not (share > bounds.light_link or _dominates(own.inertia, link.name, run)):
         return
     extent = _extent_around(robot, link, run)
-    reach = extent.reach(own.com)
+    reach = extent.reach(np.array(own.com))
     heavy = share > bounds.light_link
     if reach and spread > (bounds.gyration_reach if heavy else bounds.light_gyration_reach) * reach:
         said = f"that of mass {spread:.3g} m from its centre; its shapes reach {reach:.3g} m"
@@ -78,7 +79,7 @@ def check_mass_distribution(robot: Robot, link: Link, run: Run) -> Iterator[Faul
 
 
 def _frame_inertia(
-    robot: Robot, link: Link, own: MassProperties, spread: float, run: Run
+    robot: Robot, link: Link, own: SpatialInertia, spread: float, run: Run
 ) -> Iterator[Fault]:
     """Report the tensor of a link without shapes that no part of the robot's size could have."""
     bodies = run.bodies.bodies
@@ -89,7 +90,7 @@ def _frame_inertia(
         own.inertia, link.name, run
     ):
         return
-    centre = np.array(body.places[link.name].transform(tuple(own.com.tolist())))
+    centre = np.array(body.places[link.name].transform(own.com))
     at = np.array(run.start.pose(bodies.index(body)).transform(tuple(centre.tolist())))
     reach = float(np.linalg.norm(_frame_origins(run) - at, axis=1).max())
     if spread > reach:  # on average, where not even the farthest corner is
@@ -149,7 +150,7 @@ def _placeholder(tensor: Array, mass: float, extent: Extent, bounds: Thresholds)
 
 def _halves(tensor: Array, extent: Extent, bounds: Thresholds) -> tuple[Array, Array]:
     """Compute principal moments, and half the extent of the shapes along each axis [m]."""
-    moments, axes = np.linalg.eigh(tensor)
+    moments, axes = principal_axes(tensor_of_matrix(tensor))
     along = extent.points @ axes
     half = (along.max(axis=0) - along.min(axis=0)) / 2
     return moments, np.maximum(half, bounds.sheet_thickness * half.max())
@@ -185,8 +186,8 @@ def _extent_around(
     )
 
 
-def _fits(extent: Extent, own: MassProperties, spread: float, bounds: Thresholds) -> bool:
-    reach = extent.reach(own.com)
+def _fits(extent: Extent, own: SpatialInertia, spread: float, bounds: Thresholds) -> bool:
+    reach = extent.reach(np.array(own.com))
     return bool(
         spread <= bounds.gyration_reach * reach
         and own.mass <= bounds.density * extent.volume

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ....inertia.lump import placed
-from ....inertia.tensor import MassProperties, combine
+from ....mechanics.spatial_inertia import SpatialInertia, combine
+from ....mechanics.tensor import principal_moments
 from ....model.pose import rotation_of_quaternion
 from ...recording import ReadBack
 from ...rigid_bodies import TENSOR_ROUNDING, RigidBody, RigidBodyModel
@@ -52,22 +52,22 @@ def _mass(model: Any, body: RigidBody, number_of: Mapping[str, int]) -> Iterator
             w, x, y, z = (float(part) for part in model.body_iquat[number])
             turn = np.array(rotation_of_quaternion((w, x, y, z)))
             tensor = turn @ np.diag(model.body_inertia[number]) @ turn.T
-            own = MassProperties(
+            own = SpatialInertia.from_arrays(
                 float(model.body_mass[number]), np.array(model.body_ipos[number]), tensor
             )
-            parts.append(placed(own, pose))
-    got = combine(parts) if parts else MassProperties(0.0, np.zeros(3), np.zeros((3, 3)))
+            parts.append(own.moved(pose))
+    got = combine(parts)
     if not math.isclose(got.mass, body.mass, rel_tol=_CLOSE, abs_tol=1e-12):
         yield ReadBack("link", body.name, "mass", f"{body.mass:g} kg", f"{got.mass:g} kg")
     said = body.properties
     if said is None or not body.mass:
         return
-    scale = float(np.abs(said.inertia).max())
-    least, middle, most = np.linalg.eigvalsh(said.inertia)
+    scale = max(map(abs, said.tensor))
+    least, middle, most = principal_moments(said.tensor)
     close = 1e-4 if most <= least + middle else TENSOR_ROUNDING
-    if not np.allclose(got.inertia, said.inertia, rtol=1e-4, atol=close * scale + 1e-12):
+    if not np.allclose(got.tensor, said.tensor, rtol=1e-4, atol=close * scale + 1e-12):
         one, two = (
-            " ".join(f"{value:.4g}" for value in np.linalg.eigvalsh(part.inertia))
+            " ".join(f"{value:.4g}" for value in principal_moments(part.tensor))
             for part in (said, got)
         )
         yield ReadBack("link", body.name, "principal moments", f"{one} kg·m²", f"{two} kg·m²")

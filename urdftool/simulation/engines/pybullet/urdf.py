@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ....inertia.tensor import principal
+from ....mechanics.tensor import principal_axes
 from ....model.pose import Pose, rpy_of_rotation
 from ...rigid_bodies import TENSOR_ROUNDING, RigidBody, RigidBodyJoint, RigidBodyModel
 from ...shapes import Shape
@@ -45,14 +45,13 @@ def principal_frame(body: RigidBody) -> tuple[Pose, tuple[float, float, float]]:
     """Compute the frame of a body's center of mass and principal axes, and its moments [kg·m²]."""
     if body.properties is None:
         return Pose(), (0.0, 0.0, 0.0)
-    moments, axes = principal(body.properties.inertia)
+    moments, axes = principal_axes(body.properties.tensor)
     most = float(moments[0] + moments[1])
     if most < moments[2] <= most * (1 + TENSOR_ROUNDING):
         moments = np.array([moments[0], moments[1], most * (1 - 1e-6)])
-    x, y, z = (float(part) for part in body.properties.com)
     rows = tuple(tuple(float(value) for value in row) for row in axes)
     a, b, c = (float(value) for value in moments)
-    return Pose(rows, (x, y, z)), (a, b, c)  # type: ignore[arg-type]
+    return Pose(rows, body.properties.com), (a, b, c)  # type: ignore[arg-type]
 
 
 def _inertial(body: RigidBody) -> Iterator[str]:

@@ -4,10 +4,15 @@ import math
 
 import pytest
 
+from urdftool.mechanics.tensor import rotate_tensor
+from urdftool.mechanics.typo_detection import (
+    COMPONENTS,
+    infer_intended_moment,
+    infer_intended_tensor,
+    is_consistent,
+)
 from urdftool.model.bounds import Bounds
-from urdftool.model.inertia_slips import NAMES, is_possible, propose, propose_moment
 from urdftool.model.pose import rotation_of_rpy
-from urdftool.model.tensor3 import turned
 
 BOX = Bounds((-0.05, -0.1, -0.2), (0.05, 0.1, 0.2))
 SOLID = (1 / 30, 0.0, 0.0, 17 / 600, 0.0, 1 / 120)
@@ -31,7 +36,7 @@ def changed(tensor, **numbers):
     ],
 )
 def test_each_kind_is_told(wrong, kind, name):
-    found = propose(2.0, ORIGIN, wrong, solid=SOLID, box=BOX)
+    found = infer_intended_tensor(2.0, ORIGIN, wrong, solid=SOLID, box=BOX)
     assert found is not None
     assert (found.kind, found.name) == (kind, name)
     assert found.tensor == pytest.approx(SOLID, rel=1e-12)
@@ -46,7 +51,7 @@ def test_each_kind_is_told(wrong, kind, name):
     ids=["sign", "order"],
 )
 def test_without_geometry_physics_may_leave_one_way(wrong, meant):
-    found = propose(2.0, ORIGIN, wrong)
+    found = infer_intended_tensor(2.0, ORIGIN, wrong)
     assert found is not None
     assert found.tensor == pytest.approx(meant, rel=1e-12)
     assert "geometry" not in found.sentence
@@ -54,35 +59,41 @@ def test_without_geometry_physics_may_leave_one_way(wrong, meant):
 
 def test_without_geometry_no_decimal_point_can_be_told():
     wrong = changed(SOLID, izz=833.0)
-    assert propose(2.0, ORIGIN, wrong) is None
-    found = propose(2.0, ORIGIN, wrong, box=BOX)
+    assert infer_intended_tensor(2.0, ORIGIN, wrong) is None
+    found = infer_intended_tensor(2.0, ORIGIN, wrong, box=BOX)
     assert found is not None
     assert found.tensor == pytest.approx(changed(SOLID, izz=0.00833))
 
 
 def test_without_geometry_what_is_possible_is_left_alone():
-    assert propose(2.0, ORIGIN, tuple(1e6 * value for value in SOLID)) is None
+    assert infer_intended_tensor(2.0, ORIGIN, tuple(1e6 * value for value in SOLID)) is None
 
 
 def test_two_ways_are_none():
-    assert propose(2.0, ORIGIN, (1.0, 0.0, 0.0, 1.0, 0.0, 30.0)) is None
+    assert infer_intended_tensor(2.0, ORIGIN, (1.0, 0.0, 0.0, 1.0, 0.0, 30.0)) is None
 
 
 def test_a_product_the_shape_does_not_have_gets_no_decimal_point():
     # each of 0.005, 0.0005, … is as good as the next
     wrong = (0.0134, 0.05, 0.0, 0.0134, 0.0, 0.0002)
-    assert propose(1.0, ORIGIN, wrong, solid=(0.0134, 0.0, 0.0, 0.0134, 0.0, 0.0002)) is None
+    assert (
+        infer_intended_tensor(1.0, ORIGIN, wrong, solid=(0.0134, 0.0, 0.0, 0.0134, 0.0, 0.0002))
+        is None
+    )
 
 
 def test_a_small_moment_is_not_taken_for_near_because_it_is_small():
     wrong = (0.0134, 0.0, 0.0, 0.0134, 0.0, 0.08)
-    assert propose(1.0, ORIGIN, wrong, solid=(0.0134, 0.0, 0.0, 0.0134, 0.0, 0.0002)) is None
+    assert (
+        infer_intended_tensor(1.0, ORIGIN, wrong, solid=(0.0134, 0.0, 0.0, 0.0134, 0.0, 0.0002))
+        is None
+    )
 
 
 def test_turned_twice():
     rotation = rotation_of_rpy((0.4, 1.0, 0.7))
-    wrong = turned(SOLID, rotation)
-    found = propose(2.0, ORIGIN, wrong, solid=SOLID, rotation=rotation)
+    wrong = rotate_tensor(SOLID, rotation)
+    found = infer_intended_tensor(2.0, ORIGIN, wrong, solid=SOLID, rotation=rotation)
     assert found is not None
     assert found.kind == "frame"
     assert found.tensor == pytest.approx(SOLID, abs=1e-15)
@@ -91,16 +102,16 @@ def test_turned_twice():
 @pytest.mark.parametrize("size", [0.0, 1e-300, 1e-110, 1e110, 1e300, math.inf, math.nan])
 def test_numbers_of_no_robot(size):
     wrong = (size, size / 2, size / 3, size, size / 5, -size)
-    assert propose(1.0, ORIGIN, wrong, solid=SOLID, box=BOX) is None
-    assert propose(1.0, ORIGIN, wrong) is None
+    assert infer_intended_tensor(1.0, ORIGIN, wrong, solid=SOLID, box=BOX) is None
+    assert infer_intended_tensor(1.0, ORIGIN, wrong) is None
 
 
 def test_what_is_possible():
-    assert is_possible(SOLID)
-    assert is_possible((1.0, 0.0, 0.0, 1.0, 0.0, 2.005))  # a plate, rounded
-    assert not is_possible((1.0, 0.0, 0.0, 1.0, 0.0, 2.1))
-    assert not is_possible((1.0, 1.5, 0.0, 1.0, 0.0, 1.0))
-    assert not is_possible((0.0,) * 6)
+    assert is_consistent(SOLID)
+    assert is_consistent((1.0, 0.0, 0.0, 1.0, 0.0, 2.005))  # a plate, rounded
+    assert not is_consistent((1.0, 0.0, 0.0, 1.0, 0.0, 2.1))
+    assert not is_consistent((1.0, 1.5, 0.0, 1.0, 0.0, 1.0))
+    assert not is_consistent((0.0,) * 6)
 
 
 ROD = (0.1, 0.1, 0.4)
@@ -112,10 +123,10 @@ ROD = (0.1, 0.1, 0.4)
 def test_the_other_moments_tell_a_decimal_point(entry, power):
     right = (0.01417, 0.0, 0.0, 0.0152, 0.0, 0.001667)  # not quite uniform
     wrong = tuple(v * 10.0**power if i == entry else v for i, v in enumerate(right))
-    found = propose_moment(1.0, wrong, ROD)
+    found = infer_intended_moment(1.0, wrong, ROD)
     assert found is not None
     assert found.tensor == pytest.approx(right)
-    assert found.name == NAMES[entry]
+    assert found.name == COMPONENTS[entry]
 
 
 @pytest.mark.parametrize(
@@ -127,4 +138,4 @@ def test_the_other_moments_tell_a_decimal_point(entry, power):
     ],
 )
 def test_what_more_than_one_number_explains_has_no_decimal_point(tensor):
-    assert propose_moment(1.0, tensor, ROD) is None
+    assert infer_intended_moment(1.0, tensor, ROD) is None

@@ -14,9 +14,9 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from .bounds import Bounds
-from .elements import Vector
-from .tensor3 import Six
+from ..model.bounds import Bounds
+from ..model.elements import Vector
+from .tensor import SymmetricTensor
 
 ALLOWED = 1.1
 """By how much the variance may exceed what the box allows; twice as much of a mesh."""
@@ -60,7 +60,7 @@ def shapes_in_words(attached: Iterable[str], shown: int = 2) -> str:
 
 
 def spread_ratio(
-    box: Bounds, mass: float, com: Vector, tensor: Six, rounding: float = ROUNDING
+    box: Bounds, mass: float, com: Vector, tensor: SymmetricTensor, rounding: float = ROUNDING
 ) -> tuple[float, int]:
     """Compare the variance of a mass with the largest that fits into a box.
 
@@ -103,7 +103,7 @@ def misfit_of_spread(
     box: Bounds,
     mass: float,
     com: Vector,
-    tensor: Six,
+    tensor: SymmetricTensor,
     rough: bool,
     *,
     allowed: float = ALLOWED,

@@ -1,9 +1,8 @@
-"""The one simple slip that explains a tensor no body, or not this body, can have.
+"""The one typing error that explains an inconsistent tensor, or one that misfits the geometry.
 
 A wrong tensor is often a right one mistyped: a decimal point, a sign, the order of the six numbers,
-a unit, a frame. Each such slip is undone in turn; what remains is kept only if a rigid body can
-have it, if it fits the geometry, and if no other slip explains the tensor as well. Physics is not
-made up: without just one explanation there is no proposal.
+a unit, a frame. Each such error is undone in turn; the result is kept only if it is physically
+consistent, if it fits the geometry, and if no other error explains the tensor as well.
 """
 
 from __future__ import annotations
@@ -14,12 +13,10 @@ from functools import lru_cache
 from itertools import permutations
 from typing import NamedTuple
 
-from .bounds import Bounds
-from .elements import Vector
-from .pose import Rotation, transpose
-from .tensor3 import Six, eigenvalues, turned
-
-NAMES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+from ..model.bounds import Bounds
+from ..model.elements import Vector
+from ..model.pose import Rotation, transpose
+from .tensor import COMPONENTS, SymmetricTensor, consistency, rotate_tensor, shift_to_com
 
 DIAGONAL = (0, 3, 5)
 """Where the three moments are among the six numbers."""
@@ -31,13 +28,13 @@ SLIPS = tuple(power for power in range(-6, 7) if power)
 """Powers of ten by which one number may be off."""
 
 GROSS = 0.3
-"""Distance from the geometry's tensor, relative to it, beyond which a possible one is in doubt."""
+"""Distance from the geometry's tensor, relative to it, beyond which it is in doubt."""
 
 FIT = 0.25
 """Distance from the geometry's tensor, relative to it, within which a repair fits."""
 
 LOOSE_FIT = 0.5
-"""The same for a tensor that no body can have, which needs an explanation more."""
+"""The same for a physically inconsistent tensor, which needs an explanation more."""
 
 SPREAD = 1.1
 """How far beyond the spread of mass that the bounding box allows a tensor may be."""
@@ -59,7 +56,7 @@ _LARGEST = 1e60
 _UNITS = {-9: "g·mm²", -7: "g·cm²", -6: "kg·mm²", -4: "kg·cm²", -3: "g·m²"}
 
 _ORDERS = {
-    "row by row, ixx ixy ixz iyy iyz izz": NAMES,
+    "row by row, ixx ixy ixz iyy iyz izz": COMPONENTS,
     "ixx iyy izz ixy ixz iyz": ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"),
     "ixx iyy izz iyz ixz ixy": ("ixx", "iyy", "izz", "iyz", "ixz", "ixy"),
     "ixx iyy izz ixy iyz ixz": ("ixx", "iyy", "izz", "ixy", "iyz", "ixz"),
@@ -67,7 +64,7 @@ _ORDERS = {
 }
 
 _REORDERED = tuple(
-    (meant, tuple(NAMES.index(taken[wanted.index(name)]) for name in NAMES))
+    (meant, tuple(COMPONENTS.index(taken[wanted.index(name)]) for name in COMPONENTS))
     for (meant, wanted), (_, taken) in permutations(_ORDERS.items(), 2)
 )
 """The numbers read in one of the usual orders and written in another."""
@@ -86,11 +83,11 @@ _EXCHANGED = tuple(
 
 
 class Proposal(NamedTuple):
-    """A tensor that was probably meant, and why."""
+    """The tensor that was probably intended, and why."""
 
     kind: str
     """``decimal``, ``sign``, ``order``, ``axes``, ``unit``, ``origin``, ``frame`` or ``copied``."""
-    tensor: Six
+    tensor: SymmetricTensor
     """The tensor [kg·m²] about the centre of mass, along the axes the given one had."""
     sentence: str
     """What to change, and what speaks for it."""
@@ -100,22 +97,22 @@ class Proposal(NamedTuple):
 
 class _Candidate(NamedTuple):
     kind: str
-    tensor: Six
+    tensor: SymmetricTensor
     detail: str = ""
     entry: int = -1
 
 
 @lru_cache(maxsize=1024)
-def propose(
+def infer_intended_tensor(
     mass: float,
     com: Vector,
-    tensor: Six,
+    tensor: SymmetricTensor,
     *,
-    solid: Six | None = None,
+    solid: SymmetricTensor | None = None,
     box: Bounds | None = None,
     rotation: Rotation | None = None,
 ) -> Proposal | None:
-    """The one simple repair of a tensor that makes it possible and fits the geometry, if any.
+    """Find the one typing error that, undone, makes a tensor consistent and fit the geometry.
 
     Everything is in one frame: that of the link, or that of the inertial if its axes differ.
 
@@ -123,24 +120,24 @@ def propose(
         mass: Mass [kg] as written.
         com: Centre of mass [m] as written.
         tensor: Tensor [kg·m²] as written, about the centre of mass.
-        solid: What the geometry makes of a uniform density and that mass [kg·m²].
+        solid: Tensor of the geometry with a uniform density and that mass [kg·m²].
         box: The box around the geometry [m].
         rotation: Matrix of the inertial's own ``rpy``, if it is not zero: a tensor may have been
-            written along the link's axes in spite of it, or have been turned twice.
+            written along the link's axes in spite of it, or have been rotated twice.
 
     Returns:
-        None if the tensor is possible and agrees with the geometry, or if no repair, or more than
-        one, explains it. Without geometry only what no body can have is in doubt, and only a sign
-        or the order of the numbers can be told.
+        None if the tensor is consistent and agrees with the geometry, or if no typing error, or
+        more than one, explains it. Without geometry only an inconsistent tensor is doubtful, and
+        only a sign or the order of the numbers can be found.
     """
     if not (mass > 0 and 1 / _LARGEST < max(map(abs, tensor)) < _LARGEST):
         return None
-    size = 0.0 if solid is None else _square(solid)
+    size = 0.0 if solid is None else _squared_norm(solid)
     if size == 0.0:
         solid = None
     room = None if box is None else _room(mass, com, box)
-    wrong = not is_possible(tensor) or not _within(tensor, room)
-    away = 0.0 if solid is None else math.sqrt(_apart(tensor, solid) / size)
+    wrong = not is_consistent(tensor) or not _within(tensor, room)
+    away = 0.0 if solid is None else math.sqrt(_squared_distance(tensor, solid) / size)
     copied = None if solid is None else _copied(tensor, solid)
     if copied is not None or (not wrong and away <= GROSS):
         return copied
@@ -149,8 +146,8 @@ def propose(
     found: list[tuple[float, _Candidate]] = []
     for candidate in _candidates(mass, com, tensor, rotation):
         meant = candidate.tensor
-        off = 0.0 if solid is None else _apart(meant, solid)
-        if off > reach or not _within(meant, room) or not is_possible(meant):
+        off = 0.0 if solid is None else _squared_distance(meant, solid)
+        if off > reach or not _within(meant, room) or not is_consistent(meant):
             continue
         if candidate.kind == "decimal" and not _is_near(candidate, solid, room):
             continue
@@ -163,18 +160,18 @@ def propose(
         (first, _), (second, _) = found[:2]
         if second <= 9 * first:
             return None
-    return _told(found[0][1], tensor, solid is not None or box is not None)
+    return _proposal(found[0][1], tensor, solid is not None or box is not None)
 
 
-def propose_moment(mass: float, tensor: Six, size: Vector) -> Proposal | None:
-    """Move the decimal point of the one moment that makes a tensor impossible.
+def infer_intended_moment(mass: float, tensor: SymmetricTensor, size: Vector) -> Proposal | None:
+    """Move the decimal point of the one moment that makes a tensor inconsistent.
 
-    The other two tell how the body fills its bounding box, and so what the third must be, well
+    The other two show how the body fills its bounding box, and so the size of the third, well
     within a power of ten.
 
     Args:
         mass: Mass [kg].
-        tensor: Tensor [kg·m²] that no body can have.
+        tensor: Physically inconsistent tensor [kg·m²].
         size: Of the box around the geometry [m], along the axes of the tensor.
 
     Returns:
@@ -190,17 +187,17 @@ def propose_moment(mass: float, tensor: Six, size: Vector) -> Proposal | None:
             continue
         before, after = tensor[:entry], tensor[entry + 1 :]
         for power in SLIPS:
-            meant: Six = (*before, _moved(value, power), *after)  # type: ignore[assignment]
-            if not is_possible(meant):
+            meant: SymmetricTensor = (*before, _moved(value, power), *after)  # type: ignore[assignment]
+            if not is_consistent(meant):
                 continue
             if entry not in DIAGONAL:
                 return None
             if _is_in_proportion(meant, solid, DIAGONAL.index(entry)):
                 found.append(_Candidate("decimal", meant, str(abs(power)), entry))
-    return _told(found[0], tensor, True) if len(found) == 1 else None
+    return _proposal(found[0], tensor, True) if len(found) == 1 else None
 
 
-def _is_in_proportion(tensor: Six, solid: tuple[float, ...], axis: int) -> bool:
+def _is_in_proportion(tensor: SymmetricTensor, solid: tuple[float, ...], axis: int) -> bool:
     """Whether a moment goes with the other two, and those with a body of the size of the box."""
     filled = [tensor[i] / moment for i, moment in zip(DIAGONAL, solid, strict=True)]
     own = filled.pop(axis)
@@ -210,8 +207,8 @@ def _is_in_proportion(tensor: Six, solid: tuple[float, ...], axis: int) -> bool:
     return usual / SIMILAR <= own <= usual * SIMILAR
 
 
-def is_possible(tensor: Six) -> bool:
-    """Whether some rigid body has this tensor, but for the rounding of written numbers."""
+def is_consistent(tensor: SymmetricTensor) -> bool:
+    """Whether a rigid body can have this tensor, except for the rounding of written numbers."""
     xx, _, _, yy, _, zz = tensor
     largest = max(xx, yy, zz)
     # what holds of the principal moments holds along any axes; this sorts out most
@@ -219,12 +216,12 @@ def is_possible(tensor: Six) -> bool:
         return False
     if 2 * largest > (xx + yy + zz) * (1 + 2 * ROUNDING):
         return False
-    low, middle, high = eigenvalues(tensor)
-    return high > 0 and low >= -1e-6 * high and high - low - middle <= ROUNDING * high
+    found = consistency(tensor)
+    return found.size > 0 and found.negativity <= 1e-6 and found.excess <= ROUNDING
 
 
 def _room(mass: float, com: Vector, box: Bounds) -> Vector:
-    """The largest second moments [kg·m²] along x, y and z of a body in a box.
+    """Compute the largest second moments [kg·m²] along x, y and z of a body in a box.
 
     Mass inside the interval [lo, hi] with its mean at c has a variance of at most (hi − c)(c − lo)
     (Bhatia and Davis, "A Better Bound on the Variance", 2000).
@@ -239,7 +236,7 @@ def _room(mass: float, com: Vector, box: Bounds) -> Vector:
     return x, y, z
 
 
-def _within(tensor: Six, room: Vector | None) -> bool:
+def _within(tensor: SymmetricTensor, room: Vector | None) -> bool:
     if room is None:
         return True
     xx, _, _, yy, _, zz = tensor
@@ -247,28 +244,28 @@ def _within(tensor: Six, room: Vector | None) -> bool:
     return half - xx <= room[0] and half - yy <= room[1] and half - zz <= room[2]
 
 
-def _square(tensor: Six) -> float:
+def _squared_norm(tensor: SymmetricTensor) -> float:
     xx, xy, xz, yy, yz, zz = tensor
     return xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz)
 
 
-def _apart(tensor: Six, other: Six) -> float:
-    """The squared norm of the difference of two tensors."""
+def _squared_distance(tensor: SymmetricTensor, other: SymmetricTensor) -> float:
+    """Compute the squared norm of the difference of two tensors."""
     xx, xy, xz, yy, yz, zz = tensor
     a, b, c, d, e, f = other
     xx, xy, xz, yy, yz, zz = xx - a, xy - b, xz - c, yy - d, yz - e, zz - f
     return xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz)
 
 
-def _alike(tensor: Six, other: Six) -> bool:
-    return _apart(tensor, other) <= 1e-18 * _square(other)
+def _alike(tensor: SymmetricTensor, other: SymmetricTensor) -> bool:
+    return _squared_distance(tensor, other) <= 1e-18 * _squared_norm(other)
 
 
-def _is_near(candidate: _Candidate, solid: Six | None, room: Vector | None) -> bool:
-    """Whether a number whose decimal point was moved is the geometry's within a quarter.
+def _is_near(candidate: _Candidate, solid: SymmetricTensor | None, room: Vector | None) -> bool:
+    """Whether a number whose decimal point was moved is within a quarter of the geometry's.
 
-    A small number beside two large ones adds little to the distance, wherever its decimal point is.
-    Without any geometry no decimal point can be told.
+    A small number next to two large ones adds little to the distance, whatever its decimal point.
+    Without any geometry no decimal point can be judged.
     """
     if solid is None:
         return room is not None
@@ -276,8 +273,8 @@ def _is_near(candidate: _Candidate, solid: Six | None, room: Vector | None) -> b
     return abs(value - wanted) <= 0.25 * abs(wanted)
 
 
-def _copied(tensor: Six, solid: Six) -> Proposal | None:
-    """The geometry's tensor, where one of its three moments was written on all three axes."""
+def _copied(tensor: SymmetricTensor, solid: SymmetricTensor) -> Proposal | None:
+    """Return the geometry's tensor, if one of its three moments was written on all three axes."""
     moment = tensor[0]
     if not moment == tensor[3] == tensor[5] or tensor[1] or tensor[2] or tensor[4]:
         return None
@@ -285,7 +282,7 @@ def _copied(tensor: Six, solid: Six) -> Proposal | None:
     largest = max(meant)
     if max(abs(solid[1]), abs(solid[2]), abs(solid[4])) > 0.01 * largest:
         return None
-    right = [NAMES[i] for i in DIAGONAL if abs(solid[i] - moment) <= 0.02 * abs(moment)]
+    right = [COMPONENTS[i] for i in DIAGONAL if abs(solid[i] - moment) <= 0.02 * abs(moment)]
     if not right or largest - min(meant) <= 0.1 * largest:
         return None
     values = ", ".join(f"{value:.6g}" for value in meant)
@@ -298,7 +295,7 @@ def _copied(tensor: Six, solid: Six) -> Proposal | None:
 
 
 def _candidates(
-    mass: float, com: Vector, tensor: Six, rotation: Rotation | None
+    mass: float, com: Vector, tensor: SymmetricTensor, rotation: Rotation | None
 ) -> Iterator[_Candidate]:
     for entry, value in enumerate(tensor):
         if not value:
@@ -319,35 +316,15 @@ def _candidates(
         scaled = tuple([_moved(value, power) for value in tensor])
         yield _Candidate("unit", scaled, _unit(power))  # type: ignore[arg-type]
     if any(com):
-        yield _Candidate("origin", shifted_to_com(tensor, mass, com))
+        yield _Candidate("origin", shift_to_com(tensor, mass, com))
     if rotation is not None:
-        yield _Candidate("frame", turned(tensor, transpose(rotation)), "written")
-        yield _Candidate("frame", turned(tensor, rotation), "turned")
+        yield _Candidate("frame", rotate_tensor(tensor, transpose(rotation)), "written")
+        yield _Candidate("frame", rotate_tensor(tensor, rotation), "turned")
 
 
 def _moved(value: float, power: int) -> float:
-    """The number with its decimal point moved; a division is rounded better than 1e-3."""
+    """Move the decimal point of a number; a division is rounded better than times 1e-3."""
     return float(value * 10**power if power > 0 else value / 10**-power)
-
-
-def shifted_to_com(tensor: Six, mass: float, com: Vector) -> Six:
-    """Shift a tensor about the origin to the center of mass (Huygens–Steiner).
-
-    Args:
-        tensor: About the origin [kg·m²].
-        mass: Of the body [kg].
-        com: Its center of mass [m], along the axes of the tensor.
-    """
-    xx, xy, xz, yy, yz, zz = tensor
-    x, y, z = com
-    return (
-        xx - mass * (y * y + z * z),
-        xy + mass * x * y,
-        xz + mass * x * z,
-        yy - mass * (x * x + z * z),
-        yz + mass * y * z,
-        zz - mass * (x * x + y * y),
-    )
 
 
 def _unit(power: int) -> str:
@@ -357,12 +334,12 @@ def _unit(power: int) -> str:
     return f"{text}the decimal point of all six is off"
 
 
-def _told(candidate: _Candidate, tensor: Six, fits: bool) -> Proposal:
-    """The proposal with its sentence."""
+def _proposal(candidate: _Candidate, tensor: SymmetricTensor, fits: bool) -> Proposal:
+    """Make the proposal with its sentence."""
     kind, meant, detail, entry = candidate
     is_so = "is possible and fits the geometry" if fits else "is possible"
     are_so = "are possible and fit the geometry" if fits else "are possible"
-    name = NAMES[entry] if entry >= 0 else ""
+    name = COMPONENTS[entry] if entry >= 0 else ""
     if kind == "decimal":
         places = f"{detail} decimal place{'s' if detail != '1' else ''}"
         change = f"{meant[entry]:.6g} instead of {tensor[entry]:.6g}"

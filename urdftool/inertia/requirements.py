@@ -1,0 +1,67 @@
+"""What mass properties have to fulfill before they are computed with or written."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from ..mechanics import spatial_inertia
+from ..mechanics.spatial_inertia import SpatialInertia
+from ..mechanics.tensor import consistency, principal_moments
+from .inertia_error import InertiaError
+
+ROUNDING = 1e-9
+"""Excess of a tensor, relative to its size, that rounding explains."""
+
+
+def is_consistent(properties: SpatialInertia, *, tolerance: float = ROUNDING) -> bool:
+    """Whether a rigid body can have these mass properties, and some inertia.
+
+    Args:
+        properties: Mass properties.
+        tolerance: Excess over the triangle inequality that is allowed, relative to the largest
+            principal moment.
+    """
+    if not properties.is_finite:
+        return False
+    found = consistency(properties.tensor)
+    return found.size > 0 and found.excess <= tolerance and found.negativity <= ROUNDING
+
+
+def require_consistent(properties: SpatialInertia, what: str = "the result") -> SpatialInertia:
+    """Return the argument, if a rigid body can have it.
+
+    Raises:
+        InertiaError: The mass is not above zero, or the tensor breaks positivity or the triangle
+            inequality.
+    """
+    if not (math.isfinite(properties.mass) and properties.mass > 0):
+        raise InertiaError(
+            f"{what} would weigh {properties.mass:g} kg; a mass above zero is needed"
+        )
+    if not is_consistent(properties):
+        moments = "not finite"
+        if all(map(math.isfinite, properties.tensor)):
+            found = principal_moments(properties.tensor)
+            moments = ", ".join(f"{moment:.6g}" for moment in found)
+        raise InertiaError(
+            f"{what} has principal moments {moments} kg·m², which no rigid body has: each must be "
+            "positive and none larger than the sum of the other two"
+        )
+    return properties
+
+
+def combine(bodies: Iterable[SpatialInertia]) -> SpatialInertia:
+    """Combine bodies of one frame into one rigid body that has a mass.
+
+    Raises:
+        InertiaError: There is no body, or their masses add up to nothing.
+    """
+    pieces = list(bodies)
+    whole = spatial_inertia.combine(pieces)
+    if not whole.mass > 0:
+        raise InertiaError(
+            f"the {len(pieces)} bodies weigh {whole.mass:g} kg together; a centre of mass needs a "
+            "mass above zero"
+        )
+    return whole

@@ -1,0 +1,37 @@
+"""Three ways to replace an inertia tensor that is physically inconsistent."""
+
+from __future__ import annotations
+
+from ..model.elements import Vector
+from .tensor import SymmetricTensor, diagonal_tensor, principal_axes, tensor_of_matrix, trace_of
+
+
+def nearest_consistent(tensor: SymmetricTensor, margin: float = 0.0) -> SymmetricTensor:
+    """Return the nearest tensor of a rigid body, with the same principal axes.
+
+    Negative eigenvalues of the second moments ∫ x xᵀ dm, and those below the margin, are raised to
+    it (Wensing, Kim and Slotine 2018).
+
+    Args:
+        tensor: Inertia about the center of mass [kg·m²].
+        margin: Least second moment, relative to the largest principal moment, so that a reader
+            that computes principal moments with rounding finds the result consistent too.
+    """
+    import numpy as np
+
+    moments, axes = principal_axes(tensor)
+    size = float(np.abs(moments).max()) or 1.0
+    second = np.maximum(0.5 * moments.sum() - moments, margin * size)
+    return tensor_of_matrix((axes * (second.sum() - second)) @ axes.T)
+
+
+def sphere_tensor(tensor: SymmetricTensor) -> SymmetricTensor:
+    """Return a sphere's tensor with the same mean moment, as MuJoCo's ``balanceinertia`` does."""
+    mean = max(trace_of(tensor) / 3, 0.0)
+    return diagonal_tensor(mean, mean, mean)
+
+
+def box_tensor(mass: float, size: Vector) -> SymmetricTensor:
+    """Return the tensor of a solid box of a mass [kg] and edges along x, y, z [m]."""
+    xx, yy, zz = (edge * edge for edge in size)
+    return diagonal_tensor(mass * (yy + zz) / 12, mass * (xx + zz) / 12, mass * (xx + yy) / 12)

@@ -1,0 +1,163 @@
+"""Mass, center of mass and inertia tensor of a rigid body."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..model.attached import Attached
+from ..model.elements import ZERO, Link, Vector
+from ..model.pose import Pose, Rotation, pose_of, rotate
+from .tensor import (
+    ZERO_TENSOR,
+    SymmetricTensor,
+    as_tensor,
+    components_of,
+    matrix_of,
+    noise_of,
+    principal_moments,
+    rotate_tensor,
+    shift_from_com,
+    tensor_of_matrix,
+    written_tensor,
+)
+
+if TYPE_CHECKING:
+    from .tensor import Array
+
+
+@dataclass(frozen=True, slots=True)
+class SpatialInertia:
+    """Mass properties of a rigid body in one frame.
+
+    Attributes:
+        mass: Mass [kg].
+        com: Center of mass [m].
+        tensor: Inertia about the center of mass, along the frame's axes [kg·m²].
+    """
+
+    mass: float = 0.0
+    com: Vector = ZERO
+    tensor: SymmetricTensor = ZERO_TENSOR
+
+    @classmethod
+    def from_arrays(cls, mass: float, com: Array, inertia: Array) -> SpatialInertia:
+        """Make one of arrays: center of mass [m], shape (3,), and tensor [kg·m²], shape (3, 3)."""
+        x, y, z = com.tolist()
+        return cls(float(mass), (x, y, z), tensor_of_matrix(inertia))
+
+    @property
+    def inertia(self) -> Array:
+        """The tensor [kg·m²] as an array, shape (3, 3)."""
+        return matrix_of(self.tensor)
+
+    @property
+    def is_thin(self) -> bool:
+        """Whether the body has no inertia about some axis, except for rounding."""
+        return principal_moments(self.tensor)[0] <= noise_of(self.mass)
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether all ten numbers are finite."""
+        return all(map(math.isfinite, (self.mass, *self.com, *self.tensor)))
+
+    @property
+    def about_origin(self) -> SymmetricTensor:
+        """The tensor about the origin of the frame [kg·m²]."""
+        return shift_from_com(self.tensor, self.mass, self.com)
+
+    def moved(self, pose: Pose) -> SpatialInertia:
+        """Express the body in the frame in which its own frame has a pose."""
+        tensor = rotate_tensor(self.tensor, pose.rotation)
+        return SpatialInertia(self.mass, pose.transform(self.com), tensor)
+
+    def rotated(self, rotation: Rotation) -> SpatialInertia:
+        """Express the body in a frame of the same origin, see :func:`tensor.rotate_tensor`."""
+        tensor = rotate_tensor(self.tensor, rotation)
+        return SpatialInertia(self.mass, rotate(rotation, self.com), tensor)
+
+    def with_mass(self, mass: float) -> SpatialInertia:
+        """Return the same body of another density, so that it has a mass [kg] above zero."""
+        factor = mass / self.mass
+        if math.isinf(factor):  # the body's own size is in both, and may bring them together
+            return SpatialInertia(mass, self.com, self._scaled(1 / self.mass, mass))
+        return SpatialInertia(mass, self.com, self._scaled(factor))
+
+    def _scaled(self, *factors: float) -> SymmetricTensor:
+        values: Sequence[float] = self.tensor
+        for factor in factors:
+            values = [factor * value for value in values]
+        return as_tensor(values)
+
+    def as_dict(self) -> dict[str, object]:
+        """Return the JSON form: ``mass`` [kg], ``com`` [m], six numbers of ``inertia`` [kg·m²]."""
+        return {
+            "mass": self.mass,
+            "com": list(self.com),
+            "inertia": components_of(self.tensor),
+        }
+
+
+def combine(bodies: Iterable[SpatialInertia]) -> SpatialInertia:
+    """Combine bodies of one frame into one rigid body, by the parallel axis theorem.
+
+    Returns:
+        Masses added, tensors added about the common center of mass; where the masses add up to
+        zero, the center of mass is the origin and tensors are added as they are.
+    """
+    parts = list(bodies)
+    mass = _sum(part.mass for part in parts)
+    if mass == 0.0:
+        return SpatialInertia(0.0, ZERO, _sum_tensors([part.tensor for part in parts]))
+    x, y, z = (_sum(part.mass * part.com[axis] for part in parts) / mass for axis in range(3))
+    shifted = [
+        shift_from_com(part.tensor, part.mass, (part.com[0] - x, part.com[1] - y, part.com[2] - z))
+        for part in parts
+    ]
+    return SpatialInertia(mass, (x, y, z), _sum_tensors(shifted))
+
+
+def _sum_tensors(tensors: list[SymmetricTensor]) -> SymmetricTensor:
+    return as_tensor([_sum(tensor[i] for tensor in tensors) for i in range(6)])
+
+
+def _sum(values: Iterable[float]) -> float:
+    numbers = list(values)
+    try:
+        return math.fsum(numbers)
+    except (OverflowError, ValueError):  # beyond the range of floats, or infinite
+        return sum(numbers)
+
+
+def link_inertia(link: Link) -> SpatialInertia:
+    """Return the mass properties of a link as written, in the link's frame.
+
+    A missing mass or tensor counts as zero.
+    """
+    if link.inertial is None:
+        return SpatialInertia()
+    own = SpatialInertia(link.mass, ZERO, written_tensor(link.inertial.inertia))
+    return own.moved(pose_of(link.inertial.origin))
+
+
+def combine_links(members: Attached) -> SpatialInertia:
+    """Combine the written mass properties of links that are rigidly attached to each other.
+
+    Links without a mass and those with a negative one are left out; a missing tensor counts as
+    zero.
+
+    Args:
+        members: Links with their poses in one frame.
+
+    Returns:
+        The rigid body in that frame.
+    """
+    return combine(
+        SpatialInertia(link.mass, ZERO, written_tensor(link.inertial.inertia)).moved(
+            pose @ pose_of(link.inertial.origin)
+        )
+        for link, pose in members
+        if link.inertial is not None and link.mass > 0
+    )

@@ -1,0 +1,253 @@
+"""Symmetric 3 × 3 tensors as six numbers ``xx, xy, xz, yy, yz, zz``, as URDF orders them.
+
+An inertia tensor has the negative products of inertia off the diagonal (ixy = -∫ x y dm). Unless
+stated otherwise it is about the center of mass, along the axes of the frame in use, in kg·m².
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..model.elements import Inertia, Vector
+from ..model.pose import UPRIGHT, Rotation, matrix_product, transpose
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Array = npt.NDArray[np.float64]
+
+SymmetricTensor = tuple[float, float, float, float, float, float]
+
+COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+"""The names of the six numbers in URDF, in their order."""
+
+ZERO_TENSOR: SymmetricTensor = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+MIN_GYRATION_RADIUS = 1e-5
+"""The smallest radius of gyration [m] that counts: below it moments are noise."""
+
+_CLOSE = 1e-6
+_SMALL = 1e-60
+
+
+class Consistency(NamedTuple):
+    """How far a tensor is from that of a rigid body.
+
+    A rigid body has no negative principal moment, and none above the sum of the other two. The
+    second follows for the largest one only if the first holds, so ``excess`` judges both; a body
+    whose mass is in a plane has an excess of 0.
+
+    Attributes:
+        moments: Principal moments [kg·m²], ascending.
+        size: The largest of them by absolute value [kg·m²].
+        excess: Largest moment less the sum of the others, relative to ``size``; 0 where that is 0.
+        negativity: The smallest moment with the other sign, relative to ``size``; never above the
+            excess.
+    """
+
+    moments: Vector
+    size: float
+    excess: float
+    negativity: float
+
+
+def consistency(tensor: SymmetricTensor, *, least_size: float = 0.0) -> Consistency:
+    """Measure how far a tensor is from that of a rigid body; the caller chooses a tolerance.
+
+    Args:
+        tensor: Inertia about the center of mass [kg·m²].
+        least_size: Size [kg·m²] that excess and negativity are relative to if the tensor's own is
+            smaller, see :func:`noise_of`.
+    """
+    moments = low, middle, high = principal_moments(tensor)
+    size = max(abs(low), abs(high), least_size)
+    if size == 0.0:
+        return Consistency(moments, 0.0, 0.0, 0.0)
+    return Consistency(moments, size, (high - low - middle) / size, -low / size)
+
+
+def noise_of(mass: float) -> float:
+    """Return the moment [kg·m²] below which those of a body of this mass [kg] are noise."""
+    return abs(mass) * MIN_GYRATION_RADIUS**2
+
+
+@lru_cache(maxsize=4096)
+def principal_moments(tensor: SymmetricTensor) -> Vector:
+    """Compute the eigenvalues, ascending.
+
+    In closed form, which is good to half the digits where two are equal; where one is near zero, or
+    near the sum or difference of the others, by Jacobi's rotations, which are good to all of them.
+    """
+    xx, xy, xz, yy, yz, zz = tensor
+    off = xy * xy + xz * xz + yz * yz
+    if off == 0.0:
+        low, middle, high = sorted((xx, yy, zz))
+        return low, middle, high
+    size = max(map(abs, tensor))
+    if 0.0 < size <= _SMALL or 1 / _SMALL <= size < math.inf:  # its cube would leave the range
+        low, middle, high = principal_moments(as_tensor([part / size for part in tensor]))
+        return low * size, middle * size, high * size
+    mean = (xx + yy + zz) / 3
+    a, b, c = xx - mean, yy - mean, zz - mean
+    spread = math.sqrt((a * a + b * b + c * c + 2 * off) / 6)
+    determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz)
+    angle = math.acos(max(-1.0, min(1.0, determinant / (2 * spread**3)))) / 3
+    high = mean + 2 * spread * math.cos(angle)
+    low = mean + 2 * spread * math.cos(angle + 2 * math.pi / 3)
+    middle = 3 * mean - high - low
+    size = max(abs(low), abs(high))
+    if min(abs(low), abs(low + middle - high)) <= _CLOSE * size:
+        return _jacobi(tensor)
+    return low, middle, high
+
+
+def _jacobi(tensor: SymmetricTensor) -> Vector:
+    xx, xy, xz, yy, yz, zz = tensor
+    matrix = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+    for _ in range(12):
+        off = abs(matrix[0][1]) + abs(matrix[0][2]) + abs(matrix[1][2])
+        if off <= 1e-17 * max(abs(matrix[i][i]) for i in range(3)):
+            break
+        for p, q, r in ((0, 1, 2), (0, 2, 1), (1, 2, 0)):
+            apq = matrix[p][q]
+            if apq == 0.0:
+                continue
+            theta = (matrix[q][q] - matrix[p][p]) / (2 * apq)
+            t = math.copysign(1.0, theta) / (abs(theta) + math.hypot(theta, 1.0))
+            cosine = 1 / math.hypot(t, 1.0)
+            sine = t * cosine
+            apr, aqr = matrix[p][r], matrix[q][r]
+            matrix[p][p] -= t * apq
+            matrix[q][q] += t * apq
+            matrix[p][q] = matrix[q][p] = 0.0
+            matrix[p][r] = matrix[r][p] = cosine * apr - sine * aqr
+            matrix[q][r] = matrix[r][q] = sine * apr + cosine * aqr
+    low, middle, high = sorted(matrix[i][i] for i in range(3))
+    return low, middle, high
+
+
+def principal_axes(tensor: SymmetricTensor) -> tuple[Array, Array]:
+    """Compute principal moments and axes with numpy.
+
+    Returns:
+        The moments, ascending, shape (3,), and a right-handed rotation matrix whose columns are
+        their axes in the frame of the tensor.
+    """
+    import numpy as np
+
+    moments, axes = np.linalg.eigh(matrix_of(tensor))
+    if np.linalg.det(axes) < 0:
+        axes = axes * np.array([1.0, 1.0, -1.0])
+    return moments, axes
+
+
+def rotate_tensor(tensor: SymmetricTensor, rotation: Rotation) -> SymmetricTensor:
+    """Express a tensor along the axes of the parent frame, ``R T Rᵀ``.
+
+    Args:
+        tensor: Along the axes of the rotated frame.
+        rotation: Matrix R that maps coordinates of the rotated frame to the parent's.
+    """
+    if rotation is UPRIGHT:
+        return tensor
+    xx, xy, xz, yy, yz, zz = tensor
+    matrix = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+    (a, b, c), (_, d, e), (_, _, f) = matrix_product(
+        matrix_product(rotation, matrix), transpose(rotation)
+    )
+    return a, b, c, d, e, f
+
+
+def shift_from_com(tensor: SymmetricTensor, mass: float, offset: Vector) -> SymmetricTensor:
+    """Take a tensor about a point instead of the center of mass (parallel axis theorem).
+
+    I' = I + m (|d|² E − d dᵀ), also named after Huygens and Steiner.
+
+    Args:
+        tensor: About the center of mass [kg·m²].
+        mass: Of the body [kg].
+        offset: From the point to the center of mass, or back [m].
+    """
+    xx, xy, xz, yy, yz, zz = tensor
+    x, y, z = offset
+    return (
+        xx + mass * (y * y + z * z),
+        xy - mass * x * y,
+        xz - mass * x * z,
+        yy + mass * (x * x + z * z),
+        yz - mass * y * z,
+        zz + mass * (x * x + y * y),
+    )
+
+
+def shift_to_com(tensor: SymmetricTensor, mass: float, offset: Vector) -> SymmetricTensor:
+    """Take a tensor about the center of mass instead of a point, see :func:`shift_from_com`."""
+    return shift_from_com(tensor, -mass, offset)
+
+
+def second_moment(tensor: SymmetricTensor) -> SymmetricTensor:
+    """Return S = ∫ x xᵀ dm [kg·m²] of an inertia tensor: S = ½ tr(I) E − I.
+
+    A tensor belongs to a rigid body exactly when S has no negative eigenvalue (Wensing, Kim and
+    Slotine, "Linear Matrix Inequalities for Physically Consistent Inertial Parameter
+    Identification", 2018).
+    """
+    xx, xy, xz, yy, yz, zz = tensor
+    half = 0.5 * (xx + yy + zz)
+    return half - xx, 0.0 - xy, 0.0 - xz, half - yy, 0.0 - yz, half - zz
+
+
+def inertia_from_second_moment(moment: SymmetricTensor) -> SymmetricTensor:
+    """Return the inertia tensor I = tr(S) E − S [kg·m²] of S = ∫ x xᵀ dm."""
+    xx, xy, xz, yy, yz, zz = moment
+    trace = xx + yy + zz
+    return trace - xx, 0.0 - xy, 0.0 - xz, trace - yy, 0.0 - yz, trace - zz
+
+
+def written_tensor(inertia: Inertia | None) -> SymmetricTensor:
+    """Return the six numbers of an ``<inertia>`` [kg·m²]; zeros where there is none."""
+    return ZERO_TENSOR if inertia is None else inertia.six
+
+
+def diagonal_of(tensor: SymmetricTensor) -> Vector:
+    """Return the moments xx, yy, zz."""
+    return tensor[0], tensor[3], tensor[5]
+
+
+def diagonal_tensor(xx: float, yy: float, zz: float) -> SymmetricTensor:
+    """Return the tensor with these moments and no products."""
+    return xx, 0.0, 0.0, yy, 0.0, zz
+
+
+def trace_of(tensor: SymmetricTensor) -> float:
+    """Return the sum of the diagonal."""
+    return tensor[0] + tensor[3] + tensor[5]
+
+
+def as_tensor(values: Sequence[float]) -> SymmetricTensor:
+    """Return six numbers as a tensor."""
+    xx, xy, xz, yy, yz, zz = values
+    return xx, xy, xz, yy, yz, zz
+
+
+def components_of(tensor: SymmetricTensor) -> dict[str, float]:
+    """Return the six numbers by their URDF names."""
+    return dict(zip(COMPONENTS, tensor, strict=True))
+
+
+def matrix_of(tensor: SymmetricTensor) -> Array:
+    """Return the tensor as an array, shape (3, 3)."""
+    import numpy as np
+
+    xx, xy, xz, yy, yz, zz = tensor
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], dtype=np.float64)
+
+
+def tensor_of_matrix(matrix: Array) -> SymmetricTensor:
+    """Return the symmetric part of an array, shape (3, 3)."""
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = (0.5 * (matrix + matrix.T)).tolist()
+    return xx, xy, xz, yy, yz, zz
