@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from ..mechanics import spatial_inertia
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import consistency, principal_moments
+from ..mechanics.tensor import consistency, moments_text
 from .inertia_error import InertiaError
 
 ROUNDING = 1e-9
@@ -42,8 +42,7 @@ def require_consistent(properties: SpatialInertia, what: str = "the result") -> 
     if not is_consistent(properties):
         moments = "not finite"
         if all(map(math.isfinite, properties.tensor)):
-            found = principal_moments(properties.tensor)
-            moments = ", ".join(f"{moment:.6g}" for moment in found)
+            moments = moments_text(properties.tensor)
         raise InertiaError(
             f"{what} has principal moments {moments} kg·m², which no rigid body has: each must be "
             "positive and none larger than the sum of the other two"

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..model.attached import Attached
 from ..model.elements import ZERO, Link, Vector
-from ..model.pose import Pose, Rotation, pose_of, rotate
+from ..model.pose import Pose, Rotation, cross, dot, norm, pose_of, rotate
 from .tensor import (
     ZERO_TENSOR,
     SymmetricTensor,
@@ -19,6 +19,7 @@ from .tensor import (
     noise_of,
     principal_moments,
     rotate_tensor,
+    scale_tensor,
     shift_from_com,
     tensor_of_matrix,
     written_tensor,
@@ -78,18 +79,28 @@ class SpatialInertia:
         tensor = rotate_tensor(self.tensor, rotation)
         return SpatialInertia(self.mass, rotate(rotation, self.com), tensor)
 
+    def moment_about(self, point: Vector, axis: Vector) -> float:
+        """Compute the moment of inertia [kg·m²] about an axis.
+
+        Args:
+            point: A point of the axis [m].
+            axis: Its direction, of any length above zero.
+        """
+        length = norm(axis)
+        unit = x, y, z = axis[0] / length, axis[1] / length, axis[2] / length
+        a, b, c, d, e, f = self.tensor
+        about_com = x * x * a + y * y * d + z * z * f + 2 * (x * y * b + x * z * c + y * z * e)
+        (p, q, r), (s, t, u) = self.com, point
+        arm = cross((p - s, q - t, r - u), unit)
+        return about_com + self.mass * dot(arm, arm)
+
     def with_mass(self, mass: float) -> SpatialInertia:
         """Return the same body of another density, so that it has a mass [kg] above zero."""
         factor = mass / self.mass
         if math.isinf(factor):  # the body's own size is in both, and may bring them together
-            return SpatialInertia(mass, self.com, self._scaled(1 / self.mass, mass))
-        return SpatialInertia(mass, self.com, self._scaled(factor))
-
-    def _scaled(self, *factors: float) -> SymmetricTensor:
-        values: Sequence[float] = self.tensor
-        for factor in factors:
-            values = [factor * value for value in values]
-        return as_tensor(values)
+            tensor = as_tensor([value / self.mass * mass for value in self.tensor])
+            return SpatialInertia(mass, self.com, tensor)
+        return SpatialInertia(mass, self.com, scale_tensor(self.tensor, factor))
 
     def as_dict(self) -> dict[str, object]:
         """Return the JSON form: ``mass`` [kg], ``com`` [m], six numbers of ``inertia`` [kg·m²]."""

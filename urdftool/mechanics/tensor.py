@@ -234,6 +234,21 @@ def as_tensor(values: Sequence[float]) -> SymmetricTensor:
     return xx, xy, xz, yy, yz, zz
 
 
+def moments_text(tensor: SymmetricTensor) -> str:
+    """Format the principal moments for a message, ascending."""
+    return ", ".join(f"{moment:.6g}" for moment in principal_moments(tensor))
+
+
+def add_tensors(*tensors: SymmetricTensor) -> SymmetricTensor:
+    """Add tensors about the same point."""
+    return as_tensor([sum(values) for values in zip(*tensors, strict=True)])
+
+
+def scale_tensor(tensor: SymmetricTensor, factor: float) -> SymmetricTensor:
+    """Multiply all six numbers."""
+    return as_tensor([factor * value for value in tensor])
+
+
 def components_of(tensor: SymmetricTensor) -> dict[str, float]:
     """Return the six numbers by their URDF names."""
     return dict(zip(COMPONENTS, tensor, strict=True))

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-import numpy as np
 from lxml import etree
 
 from ...finding import Severity
+from ...mechanics.spatial_inertia import combine
 from ...model.elements import Vector
 from ...model.pose import Pose, rotate, rotation_of_quaternion
 from ..common.naming import UniqueNames
@@ -197,16 +197,8 @@ def composed(parts: list[tuple[LinkInertia, Pose]]) -> LinkInertia:
     Args:
         parts: Mass properties of each, and the pose of its link in the frame of the whole.
     """
-    mass = sum(read.mass for read, _ in parts)
-    centers = [np.array(pose.transform(read.com)) for read, pose in parts]
-    weights = np.array([read.mass for read, _ in parts])
-    com = weights @ np.array(centers) / mass if mass > 0 else np.zeros(3)
-    tensor = np.zeros((3, 3))
-    for (read, pose), center in zip(parts, centers, strict=True):
-        turn, arm = np.array(pose.rotation), center - com
-        tensor += turn @ read.tensor @ turn.T
-        tensor += read.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    return LinkInertia.about(mass, com, (tensor + tensor.T) / 2, parts[0][0].place)
+    whole = combine(read.body.moved(pose) for read, pose in parts)
+    return LinkInertia(whole, parts[0][0].place)
 
 
 def _leading_comments(body: etree._Element) -> Iterator[etree._Element]:

@@ -1,14 +1,25 @@
-"""Which tensors MuJoCo takes, and the three ways to mend one that no rigid body has.
+"""Which tensors MuJoCo accepts, and the moments that are written for one that it might reject.
 
-Tensors are symmetric 3 × 3 arrays [kg·m²] about the centre of mass. MuJoCo refuses a model where
-the two smaller principal moments do not add up to the largest, exactly, after its own
-diagonalisation; a flat plate whose numbers were rounded to text fails by 1e-16.
+Tensors are about the center of mass [kg·m²]. MuJoCo rejects a model where the two smaller principal
+moments do not add up to the largest, exactly, after its own diagonalization; a flat plate whose
+numbers were rounded to text fails by 1e-16.
 """
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import numpy.typing as npt
+
+from ...mechanics.repair import nearest_consistent
+from ...mechanics.tensor import (
+    ZERO_TENSOR,
+    SymmetricTensor,
+    consistency,
+    principal_axes,
+)
+from ...model.elements import Vector
 
 Array = npt.NDArray[np.float64]
 
@@ -19,40 +30,26 @@ _SAFE = 1e-12
 _LIFT = 2e-12
 
 
-def excess(tensor: Array) -> float:
-    """By how much the largest principal moment exceeds the others' sum, or a moment is negative.
-
-    Relative to the largest moment by size; zero or negative for a tensor that a rigid body has.
-    """
-    low, middle, high = np.linalg.eigvalsh(tensor)
-    size = max(abs(low), abs(high))
-    if size == 0:
-        return 0.0
-    return float(max(high - low - middle, -low) / size)
+def is_possible(tensor: SymmetricTensor) -> bool:
+    """Whether a rigid body can have it, up to rounding."""
+    return all(map(math.isfinite, tensor)) and consistency(tensor).excess <= ROUNDING
 
 
-def is_possible(tensor: Array) -> bool:
-    """Whether a rigid body has it, up to rounding."""
-    return bool(np.isfinite(tensor).all()) and excess(tensor) <= ROUNDING
-
-
-def is_safe_diagonal(moments: Array) -> bool:
-    """Whether MuJoCo takes these moments as they are."""
-    a, b, c = (float(moment) for moment in moments)
+def is_safe_diagonal(moments: Vector) -> bool:
+    """Whether MuJoCo accepts these moments as they are."""
+    a, b, c = moments
     return min(a, b, c) >= 0 and a + b >= c and a + c >= b and b + c >= a
 
 
-def is_safe_tensor(tensor: Array) -> bool:
-    """Whether MuJoCo takes it whatever its diagonalisation rounds to."""
-    low = np.linalg.eigvalsh(tensor)[0]
-    return excess(tensor) < -_SAFE and low > _SAFE * abs(tensor).max()
+def is_safe_tensor(tensor: SymmetricTensor) -> bool:
+    """Whether MuJoCo accepts it however its diagonalization is rounded."""
+    found = consistency(tensor)
+    return found.excess < -_SAFE and found.moments[0] > _SAFE * max(map(abs, tensor))
 
 
-def principal(tensor: Array) -> tuple[Array, Array]:
-    """Principal moments, raised so far that MuJoCo takes them, and their axes as columns."""
-    moments, axes = np.linalg.eigh(tensor)
-    if np.linalg.det(axes) < 0:
-        axes = axes * np.array([1.0, 1.0, -1.0])
+def principal(tensor: SymmetricTensor) -> tuple[Array, Array]:
+    """Compute principal moments, raised so far that MuJoCo accepts them, and axes as columns."""
+    moments, axes = principal_axes(tensor)
     size = moments[2]
     moments = np.maximum(moments, 0.0)
     gap = moments[2] - moments[0] - moments[1]
@@ -64,37 +61,13 @@ def principal(tensor: Array) -> tuple[Array, Array]:
 
 
 def _rounded_up(moment: float) -> float:
-    """The next number of twelve digits, which is above by at most 1e-11 of it."""
+    """Return the next number of twelve digits, which is above by at most 1e-11 of it."""
     short = float(f"{moment:.11e}")
     return short if short >= moment else float(f"{moment * (1 + 1e-11):.11e}")
 
 
-def lift(tensor: Array) -> Array:
-    """The nearest tensor that a body has: ∫ x xᵀ dm without its negative eigenvalues.
-
-    A tensor is possible exactly where S = ½ tr(I) E − I has none (Wensing, Kim and Slotine 2018).
-    """
-    second = 0.5 * np.trace(tensor) * np.eye(3) - tensor
-    values, axes = np.linalg.eigh(second)
-    kept: Array = (axes * np.maximum(values, 0.0)) @ axes.T
-    lifted: Array = np.trace(kept) * np.eye(3) - kept
-    negligible = abs(lifted).max() < ROUNDING * abs(tensor).max()
-    return np.zeros((3, 3)) if negligible else lifted
-
-
-def balance(tensor: Array) -> Array:
-    """A ball of the same mean moment, as MuJoCo's ``balanceinertia`` makes it."""
-    balanced: Array = np.eye(3) * max(float(np.trace(tensor)) / 3, 0.0)
-    return balanced
-
-
-def box(mass: float, size: Array) -> Array:
-    """A solid box of a mass [kg] and edges [m]."""
-    x, y, z = size**2
-    tensor: Array = np.diag([y + z, x + z, x + y]) * mass / 12
-    return tensor
-
-
-def moments_text(tensor: Array) -> str:
-    """Principal moments for a message, ascending."""
-    return ", ".join(f"{moment:.6g}" for moment in np.linalg.eigvalsh(tensor))
+def lift(tensor: SymmetricTensor) -> SymmetricTensor:
+    """Return the nearest tensor of a rigid body; zeros where next to nothing is left of it."""
+    lifted = nearest_consistent(tensor)
+    negligible = max(map(abs, lifted)) < ROUNDING * max(map(abs, tensor))
+    return ZERO_TENSOR if negligible else lifted

@@ -9,17 +9,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from ...finding import Finding, Severity
-from ...model.elements import Link
-from ...model.pose import IDENTITY
+from ...mechanics.spatial_inertia import SpatialInertia, combine
+from ...mechanics.tensor import (
+    ZERO_TENSOR,
+    SymmetricTensor,
+    add_tensors,
+    diagonal_tensor,
+    moments_text,
+    rotate_tensor,
+    scale_tensor,
+)
+from ...model.elements import ZERO, Link
+from ...model.pose import IDENTITY, transpose
 from ..common.extent import box_size
 from ..common.inertia_repair import FixInertia, repair_tensor
 from ..defects import defect
 from ..written import Written
 from . import inertia as tensors
-from .inertia import Array
 from .link_inertia import LinkInertia, inertia_of
 from .structure import Structure
 
@@ -100,20 +107,20 @@ def _compose(
     """Repair tensors exactly inside a rigid body; return whether all of them could be."""
     for name in bad:
         source = group[name]
-        turn = np.array(structure.pose_in_group(name).rotation)
-        kept = tensors.lift(source.tensor) if source.mass > 0 else np.zeros((3, 3))
-        surplus = turn @ (source.tensor - kept) @ turn.T
+        turn = structure.pose_in_group(name).rotation
+        kept = tensors.lift(source.tensor) if source.mass > 0 else ZERO_TENSOR
+        surplus = rotate_tensor(add_tensors(source.tensor, scale_tensor(kept, -1.0)), turn)
         for other in sorted(set(group) - {name}, key=lambda n: (n != top, -group[n].mass, n)):
             taker = group[other]
-            back = np.array(structure.pose_in_group(other).rotation).T
-            tensor = taker.tensor + back @ surplus @ back.T
+            back = transpose(structure.pose_in_group(other).rotation)
+            tensor = add_tensors(taker.tensor, rotate_tensor(surplus, back))
             if taker.mass > 0 and taker.is_possible and tensors.is_possible(tensor):
                 group[other] = taker.changed(tensor)
                 group[name] = source.changed(kept)
                 written.report_loss(
                     "inertia-moved",
                     f"no rigid body has the inertia of link '{name}' (principal moments "
-                    f"{tensors.moments_text(source.tensor)} kg·m²); what is too much of it is "
+                    f"{moments_text(source.tensor)} kg·m²); what is too much of it is "
                     f"written to link '{other}', which is welded to it: the whole is the same",
                     source.place,
                     kind="link",
@@ -132,23 +139,13 @@ def _unite(
     """Write a rigid body's whole mass to its topmost link, if that is a tensor a body has."""
     if len(group) < 2 and top in group:
         return False
-    mass = sum(read.mass for read in group.values())
-    if mass <= 0:
-        return False
-    poses = {name: structure.pose_in_group(name) for name in group}
-    coms = {name: np.array(poses[name].transform(group[name].com)) for name in group}
-    com = sum((group[name].mass * coms[name] for name in group), np.zeros(3)) / mass
-    tensor = np.zeros((3, 3))
-    for name, read in group.items():
-        turn, arm = np.array(poses[name].rotation), coms[name] - com
-        tensor += turn @ read.tensor @ turn.T
-        tensor += read.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    if not tensors.is_possible(tensor):
+    whole = combine(read.body.moved(structure.pose_in_group(name)) for name, read in group.items())
+    if whole.mass <= 0 or not tensors.is_possible(whole.tensor):
         return False
     places = {name: group[name].place for name in bad}
     names = list(group)
     group.clear()
-    group[top] = LinkInertia.about(mass, com, tensor, next(iter(places.values())))
+    group[top] = LinkInertia(whole, next(iter(places.values())))
     for name in bad:
         written.report_loss(
             "inertia-moved",
@@ -173,7 +170,7 @@ def _repair(
 ) -> Iterator[Finding]:
     """Repair a tensor as the user chose; of links fixed to the world also if not asked to."""
     read = group[name]
-    before = tensors.moments_text(read.tensor)
+    before = moments_text(read.tensor)
     static = structure.is_static(name)
     if fix == "none" and not (static or force):
         yield defect(
@@ -192,7 +189,7 @@ def _repair(
     else:
         tensor, how = _repaired(structure, name, read, fix)
         group[name] = read.changed(tensor)
-        what = f"{how} to {tensors.moments_text(tensor)} kg·m²"
+        what = f"{how} to {moments_text(tensor)} kg·m²"
     held = "; it is held by the world and does not move" if static else ""
     written.report_loss(
         "inertia",
@@ -206,14 +203,13 @@ def _repair(
 
 def _repaired(
     structure: Structure, name: str, read: LinkInertia, fix: FixInertia
-) -> tuple[Array, str]:
+) -> tuple[SymmetricTensor, str]:
     robot = structure.robot
     return repair_tensor(
         fix,
+        read.body,
         lambda: box_size(robot, [(robot.link[name], IDENTITY)]),
-        lift=lambda: tensors.lift(read.tensor),
-        balance=lambda: tensors.balance(read.tensor),
-        box=lambda edges: tensors.box(read.mass, np.array(edges)),
+        lift=tensors.lift,
     )
 
 
@@ -228,13 +224,11 @@ def _part_of_tiny(structure: Structure, top: str, group: dict[str, LinkInertia])
         return 0.0
     if any(structure.robot.link[name].mass > 0 for name in below):
         return 0.0
-    axis = np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
-    axis = axis / np.linalg.norm(axis)
-    about = 0.0
-    for name, read in group.items():
-        pose = structure.pose_in_group(name)
-        turn, arm = np.array(pose.rotation), np.cross(axis, pose.transform(read.com))
-        about += read.mass * float(arm @ arm) + float(axis @ turn @ read.tensor @ turn.T @ axis)
+    axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+    about = sum(
+        read.body.moved(structure.pose_in_group(name)).moment_about(ZERO, axis)
+        for name, read in group.items()
+    )
     return TINY / about if about > 0 else 1.0
 
 
@@ -249,7 +243,9 @@ def _give_weight(
     if mass > ENOUGH:
         heaviest = max(group, key=lambda name: group[name].mass)
         part = _part_of_tiny(structure, top, group)
-        group[heaviest] = group[heaviest].changed(group[heaviest].tensor + TINY * np.eye(3))
+        group[heaviest] = group[heaviest].changed(
+            add_tensors(group[heaviest].tensor, diagonal_tensor(TINY, TINY, TINY))
+        )
         written.report_loss(
             "point-mass",
             f"link '{heaviest}' is a point mass; MuJoCo requires inertia, so it has {TINY:g} kg·m²"
@@ -265,7 +261,8 @@ def _give_weight(
     leaf = top in massless_leaves(structure)
     root = top == structure.root.name
     least = LEAST if leaf else TINY
-    group[top] = LinkInertia.about(least, np.zeros(3), least * np.eye(3), link.place)
+    point = SpatialInertia(least, tensor=diagonal_tensor(least, least, least))
+    group[top] = LinkInertia(point, link.place)
     written.report_loss(
         "massless",
         f"link '{top}' moves and has no mass; MuJoCo wants some, so it has {least:g} kg"

@@ -7,8 +7,6 @@ from collections.abc import Mapping
 import numpy as np
 
 from ...model.kinematics import link_poses
-from ...model.pose import Pose
-from .inertia import Array
 from .joint import axis_of
 from .link_inertia import LinkInertia
 from .structure import Structure
@@ -32,7 +30,7 @@ def joint_inertias(
     row = {name: index for index, name in enumerate(names)}
     weights = np.array([masses[name].mass for name in names])
     centers = np.array([poses[name].transform(masses[name].com) for name in names]).reshape(-1, 3)
-    tensors = np.array([_turned(masses[name].tensor, poses[name]) for name in names])
+    tensors = np.array([masses[name].body.moved(poses[name]).inertia for name in names])
     below = _links_below(structure)
     found = {}
     for joint in structure.moving:
@@ -50,12 +48,6 @@ def joint_inertias(
         about = np.einsum("i,nij,j->n", axis, tensors[rows].reshape(-1, 3, 3), axis)
         found[joint.name] = float((about + weights[rows] * (arms**2).sum(axis=1)).sum())
     return found
-
-
-def _turned(tensor: Array, pose: Pose) -> Array:
-    rotation = np.array(pose.rotation)
-    turned: Array = rotation @ tensor @ rotation.T
-    return turned
 
 
 def _links_below(structure: Structure) -> dict[str, list[str]]:

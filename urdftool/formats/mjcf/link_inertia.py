@@ -4,58 +4,70 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-import numpy as np
 from lxml import etree
 
-from ...model.elements import Link, Origin, Vector
+from ...mechanics.spatial_inertia import SpatialInertia
+from ...mechanics.tensor import (
+    ZERO_TENSOR,
+    SymmetricTensor,
+    diagonal_of,
+    principal_moments,
+    written_tensor,
+)
+from ...model.elements import ZERO, Link, Origin, Vector
 from ...model.pose import pose_of, quaternion_of_rotation
 from ...source.location import Place
 from . import inertia as tensors
 from .digits import number_text, numbers_text
 from .frame import plain, quaternion_of
-from .inertia import Array
 
 POINT = 1e-15
 """Inertia [kg·m²] below which a body of 1 kg is a point, and a lighter one in proportion."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class LinkInertia:
     """Mass properties in the link's frame.
 
     Attributes:
-        mass: Mass [kg].
-        com: Centre of mass [m].
-        tensor: Inertia [kg·m²] about the centre of mass, along the link's axes.
+        body: Mass, center of mass and tensor in the link's frame.
         place: Where it is written.
         origin: The inertial frame, while the tensor is the one that is written in it.
         local: The tensor along the axes of that frame.
     """
 
-    mass: float
-    com: Vector
-    tensor: Array
+    body: SpatialInertia
     place: Place
     origin: Origin | None = None
-    local: Array | None = None
+    local: SymmetricTensor | None = None
 
-    @classmethod
-    def about(cls, mass: float, com: Array, tensor: Array, place: Place) -> LinkInertia:
-        """Mass properties that are written nowhere."""
-        return cls(mass, (float(com[0]), float(com[1]), float(com[2])), tensor, place)
+    @property
+    def mass(self) -> float:
+        """Mass [kg]."""
+        return self.body.mass
+
+    @property
+    def com(self) -> Vector:
+        """Center of mass [m]."""
+        return self.body.com
+
+    @property
+    def tensor(self) -> SymmetricTensor:
+        """Inertia [kg·m²] about the center of mass, along the link's axes."""
+        return self.body.tensor
 
     @property
     def is_possible(self) -> bool:
         """Whether a rigid body can have them."""
-        return tensors.is_possible(self.tensor) and (self.mass > 0 or not self.tensor.any())
+        return tensors.is_possible(self.tensor) and (self.mass > 0 or not any(self.tensor))
 
     def is_heavy(self, least: float) -> bool:
         """Whether mass and every moment are above a bound."""
-        return self.mass > least and bool(np.linalg.eigvalsh(self.tensor)[0] > least)
+        return self.mass > least and principal_moments(self.tensor)[0] > least
 
-    def changed(self, tensor: Array) -> LinkInertia:
-        """The same with another tensor."""
-        return replace(self, tensor=(tensor + tensor.T) / 2, origin=None, local=None)
+    def changed(self, tensor: SymmetricTensor) -> LinkInertia:
+        """Return the same with another tensor."""
+        return LinkInertia(replace(self.body, tensor=tensor), self.place)
 
 
 def inertia_of(link: Link) -> LinkInertia | None:
@@ -64,21 +76,13 @@ def inertia_of(link: Link) -> LinkInertia | None:
     if inertial is None:
         return None
     mass = inertial.mass or 0.0
-    local = np.zeros((3, 3))
-    if inertial.inertia is not None:
-        xx, yy, zz = inertial.inertia.moments
-        xy, xz, yz = inertial.inertia.products
-        local = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    if mass > 0 and abs(local).max() < POINT * min(mass, 1.0):
-        local = np.zeros((3, 3))  # what arithmetic left of zeros
-    if mass < 0 or not (mass or local.any()):
+    local = written_tensor(inertial.inertia)
+    if mass > 0 and max(map(abs, local)) < POINT * min(mass, 1.0):
+        local = ZERO_TENSOR  # what arithmetic left of zeros
+    if mass < 0 or not (mass or any(local)):
         return None
-    pose = pose_of(inertial.origin)
-    turn = np.array(pose.rotation)
-    tensor = turn @ local @ turn.T
-    return LinkInertia(
-        mass, pose.translation, (tensor + tensor.T) / 2, inertial.place, inertial.origin, local
-    )
+    body = SpatialInertia(mass, ZERO, local).moved(pose_of(inertial.origin))
+    return LinkInertia(body, inertial.place, inertial.origin, local)
 
 
 def inertial_element(read: LinkInertia) -> etree._Element:
@@ -86,18 +90,18 @@ def inertial_element(read: LinkInertia) -> etree._Element:
     element = etree.Element("inertial", pos=numbers_text(read.com), mass=number_text(read.mass))
     quaternion = quaternion_of(read.origin) if read.origin is not None else None
     if read.local is not None and _is_diagonal(read.local):
-        moments = np.diag(read.local)
-        if tensors.is_safe_diagonal(moments):
-            if quaternion is not None and len(set(moments.tolist())) > 1:
+        diagonal = diagonal_of(read.local)
+        if tensors.is_safe_diagonal(diagonal):
+            if quaternion is not None and len(set(diagonal)) > 1:
                 element.set("quat", numbers_text(quaternion))
-            element.set("diaginertia", numbers_text(moments))
+            element.set("diaginertia", numbers_text(diagonal))
             return element
     full = read.local if read.local is not None and quaternion is None else read.tensor
     if tensors.is_safe_tensor(full) and not _is_diagonal(full):
-        element.set("fullinertia", numbers_text(full[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]))
+        element.set("fullinertia", numbers_text([full[i] for i in (0, 3, 5, 1, 2, 4)]))
         return element
-    if _is_diagonal(full) and tensors.is_safe_diagonal(np.diag(full)):
-        element.set("diaginertia", numbers_text(np.diag(full)))
+    if _is_diagonal(full) and tensors.is_safe_diagonal(diagonal_of(full)):
+        element.set("diaginertia", numbers_text(diagonal_of(full)))
         return element
     moments, axes = tensors.principal(full)
     turn = plain(quaternion_of_rotation(tuple(map(tuple, axes.tolist()))))  # type: ignore[arg-type]
@@ -107,5 +111,5 @@ def inertial_element(read: LinkInertia) -> etree._Element:
     return element
 
 
-def _is_diagonal(tensor: Array) -> bool:
-    return not (tensor - np.diag(np.diag(tensor))).any()
+def _is_diagonal(tensor: SymmetricTensor) -> bool:
+    return not any(tensor[i] for i in (1, 2, 4))

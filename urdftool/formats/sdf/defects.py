@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...finding import Finding
+from ...mechanics.spatial_inertia import link_inertia
 from ...model.elements import Collision, Joint, Link, Mesh, Robot, UnknownShape, Visual
 from ...model.read import numbers
 from ...source.document import Element
@@ -14,9 +15,8 @@ from ..defects import defect
 from .block_numbers import wanted
 from .extensions import block_elements
 from .keywords import COLLISION_KEYWORDS, JOINT_KEYWORDS, LINK_KEYWORDS
-from .mass import ROUNDING, shortfall, tensor_of
 from .mesh_files import MeshFiles
-from .plan import Plan
+from .plan import ROUNDING, Plan, excess_of
 from .sensor_types import KNOWN
 
 _WANTED = {
@@ -61,7 +61,7 @@ def mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
 def inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
     """Bodies whose inertia no rigid body has, also with what fixed joints add to them."""
     for owner, mass in plan.mass.items():
-        short = shortfall(mass.tensor, mass.mass)
+        short = excess_of(mass)
         if mass.mass <= 0 or short <= ROUNDING:
             continue
         members = [robot.link[name] for name in plan.members[owner]]
@@ -79,7 +79,7 @@ def inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
 
 
 def _own_shortfall(link: Link) -> float:
-    return shortfall(tensor_of(link.inertial.inertia if link.inertial else None), link.mass)
+    return excess_of(link_inertia(link))
 
 
 def _inertial(link: Link) -> Iterator[Finding]:

@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 from ...finding import Severity
+from ...mechanics.repair import nearest_consistent
+from ...mechanics.tensor import (
+    COMPONENTS,
+    SymmetricTensor,
+    consistency,
+    diagonal_tensor,
+    moments_text,
+    written_tensor,
+)
 from ...model.elements import Link, Part
-from ...model.pose import Pose, Rotation
+from ...model.pose import Pose
 from ..common.numbers import number_text
-from .inertia_repair import moments_text, repair_inertia
-from .mass import CLEAR, ROUNDING, lifted, shortfall, tensor_of
-from .plan import EXACT
+from .inertia_repair import CLEAR, repair_inertia
+from .plan import EXACT, ROUNDING, excess_of
 from .pose import set_origin, set_pose
 from .translation import Translation
 from .xml import Node, add
@@ -30,13 +38,13 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
     alone = link.name in t.plan.alone
     own = link.inertial
     about: Part = own or link
-    short = shortfall(mass.tensor, mass.mass)
+    short = excess_of(mass)
     node = add(node, "inertial")
     if alone and own is not None and short <= ROUNDING:
         set_origin(node, own.origin, exact=t.options.since("1.9"))
-        tensor = tensor_of(own.inertia)
+        tensor = written_tensor(own.inertia)
     else:
-        set_pose(node, Pose(translation=mass.center))
+        set_pose(node, Pose(translation=mass.com))
         tensor = mass.tensor
     add(node, "mass", number_text(mass.mass))
     if short > ROUNDING:
@@ -57,31 +65,30 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
             about,
             link,
         )
-        tensor = lifted(tensor, CLEAR)
-    _tensor(node, tensor if _is_safe(tensor) else lifted(tensor))
+        tensor = nearest_consistent(tensor, CLEAR)
+    _tensor(node, tensor if _is_safe(tensor) else nearest_consistent(tensor, _MARGIN))
 
 
-def _is_safe(tensor: Rotation) -> bool:
+def _is_safe(tensor: SymmetricTensor) -> bool:
     """Whether a reader finds it possible, however it computes the principal moments."""
-    short = shortfall(tensor)
-    products = tensor[0][1], tensor[0][2], tensor[1][2]
+    short = consistency(tensor).excess
+    products = tensor[1], tensor[2], tensor[4]
     return short < -_MARGIN or (not any(products) and short <= _EPSILON)
 
 
-def _tensor(node: Node, tensor: Rotation) -> None:
+def _tensor(node: Node, tensor: SymmetricTensor) -> None:
     inertia = add(node, "inertia")
-    for row, first in enumerate("xyz"):
-        for column in range(row, 3):
-            add(inertia, f"i{first}{'xyz'[column]}", number_text(tensor[row][column]))
+    for name, value in zip(COMPONENTS, tensor, strict=True):
+        add(inertia, name, number_text(value))
 
 
-def _weightless(node: Node, t: Translation, link: Link, tensor: Rotation) -> None:
+def _weightless(node: Node, t: Translation, link: Link, tensor: SymmetricTensor) -> None:
     """A body without mass that must be a link, since it moves or the model has no other."""
     node = add(node, "inertial")
     add(node, "mass", number_text(WEIGHTLESS))
     tiny = WEIGHTLESS * 1e-6
-    if not any(map(any, tensor)) or shortfall(tensor) > EXACT:
-        tensor = (tiny, 0.0, 0.0), (0.0, tiny, 0.0), (0.0, 0.0, tiny)
+    if not any(tensor) or consistency(tensor).excess > EXACT:
+        tensor = diagonal_tensor(tiny, tiny, tiny)
     _tensor(node, tensor)
     below = any(t.robot.link[name].mass > 0 for name in t.robot.tree.descendants(link.name))
     t.report_loss(

@@ -10,15 +10,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from ...mechanics.spatial_inertia import SpatialInertia, combine, link_inertia
+from ...mechanics.tensor import consistency, noise_of
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import link_poses
 from ...model.pose import IDENTITY, Pose
 from ..common.gazebo_blocks import is_true
 from ..common.lumping import LumpingPlan, plan_lumping
-from .mass import Mass, mass_of, shortfall, united
 
 EXACT = 1e-9
 """How far moments may miss the triangle inequality, relative to the largest, and be written."""
+
+ROUNDING = 0.01
+"""How far moments may miss it by the rounding of written numbers; they are corrected."""
 
 WORLD = "world"
 
@@ -45,7 +49,7 @@ class Plan:
     kept: set[str] = field(default_factory=set)
     in_owner: dict[str, Pose] = field(default_factory=dict)
     in_model: dict[str, Pose] = field(default_factory=dict)
-    mass: dict[str, Mass] = field(default_factory=dict)
+    mass: dict[str, SpatialInertia] = field(default_factory=dict)
     alone: set[str] = field(default_factory=set)
     anchored: bool = False
 
@@ -65,7 +69,7 @@ def make_plan(robot: Robot, *, lump: bool) -> Plan:
     links = [name for name in robot.tree.order if not (plan.anchored and name == WORLD)]
     plan.in_model = {name: pose for name, pose in link_poses(robot).items() if name in set(links)}
     loose = _loose_joints(robot, plan)
-    masses = {name: mass_of(robot.link[name]) for name in links}
+    masses = {name: link_inertia(robot.link[name]) for name in links}
     for name in links:
         joint = loose.get(name)
         if joint is not None and (lump or not _stands(masses[name])):
@@ -110,20 +114,25 @@ def _said_to_stay(robot: Robot, joint: Joint) -> bool:
     )
 
 
-def _stands(mass: Mass) -> bool:
+def excess_of(mass: SpatialInertia) -> float:
+    """Return how far a body's tensor is from consistent; moments that are noise count little."""
+    return consistency(mass.tensor, least_size=noise_of(mass.mass)).excess
+
+
+def _stands(mass: SpatialInertia) -> bool:
     """Whether a link of this mass can be a link of its own."""
-    return mass.mass > 0 and shortfall(mass.tensor, mass.mass) <= EXACT
+    return mass.mass > 0 and excess_of(mass) <= EXACT
 
 
 def _dissolve_groups(
-    robot: Robot, plan: Plan, loose: dict[str, Joint], masses: dict[str, Mass]
+    robot: Robot, plan: Plan, loose: dict[str, Joint], masses: dict[str, SpatialInertia]
 ) -> None:
     """Dissolve more fixed joints around each group that cannot stand, until it can."""
     links, poses = list(plan.in_model), plan.in_model
     group = _group(robot, plan).top
 
-    def total(tops: set[str]) -> Mass:
-        return united(masses[n].moved(poses[n]) for n in links if group[n] in tops)
+    def total(tops: set[str]) -> SpatialInertia:
+        return combine(masses[n].moved(poses[n]) for n in links if group[n] in tops)
 
     for top in links:
         if group[top] != top or _stands(total({top})):
@@ -155,14 +164,14 @@ def _place(robot: Robot, plan: Plan, lump: bool) -> None:
         plan.members[owner] = members
 
 
-def _weigh(plan: Plan, masses: dict[str, Mass]) -> None:
+def _weigh(plan: Plan, masses: dict[str, SpatialInertia]) -> None:
     for owner, members in plan.members.items():
-        heavy = [n for n in members if masses[n].mass or any(map(any, masses[n].tensor))]
+        heavy = [n for n in members if masses[n].mass or any(masses[n].tensor)]
         if heavy in ([owner], []):
             plan.alone.add(owner)
             plan.mass[owner] = masses[owner]
         else:
-            plan.mass[owner] = united(masses[n].moved(plan.in_owner[n]) for n in heavy)
+            plan.mass[owner] = combine(masses[n].moved(plan.in_owner[n]) for n in heavy)
 
 
 def links_of(plan: Plan, robot: Robot) -> list[Link]:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ...mechanics.tensor import rotate_tensor
-from ...model.elements import Joint, Robot, Vector
-from ...model.pose import Pose, cross, norm, pose_of, rotate
+from ...mechanics.spatial_inertia import link_inertia
+from ...model.elements import Joint, Robot
+from ...model.pose import Pose, rotate
 
 
 def joint_inertia(robot: Robot, joint: Joint, poses: dict[str, Pose]) -> float:
@@ -37,22 +37,10 @@ def _about(robot: Robot, joint: Joint, poses: dict[str, Pose], links: set[str]) 
         return sum(link.mass for link, _ in masses)
     frame = poses[joint.child]
     axis = rotate(frame.rotation, joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
-    length = norm(axis)
-    if not length:
+    if not any(axis):
         return 0.0
-    x, y, z = (part / length for part in axis)
-    total = 0.0
-    for link, pose in masses:
-        inertial = link.inertial
-        if inertial is None or inertial.inertia is None:
-            continue
-        at = pose @ pose_of(inertial.origin)
-        a, b, c, d, e, f = rotate_tensor(inertial.inertia.six, at.rotation)
-        arm = _minus(at.translation, frame.translation)
-        total += link.mass * norm(cross(arm, (x, y, z))) ** 2
-        total += x * x * a + y * y * d + z * z * f + 2 * (x * y * b + x * z * c + y * z * e)
-    return total
-
-
-def _minus(one: Vector, other: Vector) -> Vector:
-    return one[0] - other[0], one[1] - other[1], one[2] - other[2]
+    return sum(
+        link_inertia(link).moved(pose).moment_about(frame.translation, axis)
+        for link, pose in masses
+        if link.inertial is not None and link.inertial.inertia is not None
+    )
