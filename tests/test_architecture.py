@@ -25,25 +25,25 @@ BELOW = {
     "terminal": (),
     "console": ("terminal", *BASE),
     "configuration": BASE,
-    "meshes": BASE,
+    "geometry": ("model", *BASE),
     "mechanics": ("model",),
-    "drawing": ("meshes", "model", "source", *BASE),
-    "inertia": ("mechanics", "meshes", "model", "source", *BASE),
-    "collision": ("drawing", "meshes", "inertia", "model", "source", *BASE),
-    "viewer": ("drawing", "mechanics", "meshes", "finding", "model", "source", *BASE),
-    "rules": ("finding", "mechanics", "model", "source", "meshes", *BASE),
+    "drawing": ("geometry", "model", "source", *BASE),
+    "inertia": ("mechanics", "geometry", "model", "source", *BASE),
+    "collision": ("drawing", "geometry", "inertia", "model", "source", *BASE),
+    "viewer": ("drawing", "mechanics", "geometry", "finding", "model", "source", *BASE),
+    "rules": ("finding", "mechanics", "model", "source", "geometry", *BASE),
     "lint": ("rules", "finding", "model", "source", "configuration", *BASE),
-    "formats": ("finding", "mechanics", "model", "source", "meshes", "output", *BASE),
+    "formats": ("finding", "mechanics", "model", "source", "geometry", "output", *BASE),
     "graph": ("finding", "model", "source", *BASE),
     "simulation": (
-        *("drawing", "formats", "finding", "lint", "mechanics", "meshes", "inertia", "model"),
+        *("drawing", "formats", "finding", "lint", "mechanics", "geometry", "inertia", "model"),
         *("rules", "source", *BASE),
     ),
     "report": (
         *("graph", "info", "compare", "lint", "rules", "finding", "model", "source", "formats"),
         *("collision", "simulation", "inertia", "mechanics", *BASE),
     ),
-    "info": ("model", "source", "meshes", *BASE),
+    "info": ("model", "source", "geometry", *BASE),
     "compare": ("mechanics", "model", "source", *BASE),
     "api": (
         *("formats", "simulation", "collision", "inertia", "lint", "rules", "model", "source"),
@@ -63,14 +63,14 @@ PLACES = {
     ),
     "xacro": (),  # source/xacro_hooks.py loads a copy
     "lxml": ("formats/",),
-    "trimesh": ("meshes/",),
-    "collada": ("meshes/",),
-    "scipy": ("meshes/", "inertia/", "collision/"),
-    "manifold3d": ("meshes/hull.py", "simulation/solids.py"),
+    "trimesh": ("geometry/",),
+    "collada": ("geometry/",),
+    "scipy": ("geometry/", "inertia/", "collision/"),
+    "manifold3d": ("geometry/hull.py", "simulation/solids.py"),
     "click": ("cli.py", "console.py", "commands/", "report/findings.py"),
     "rich": ("report/", "viewer/server.py"),
     "numpy": (
-        *("mechanics/", "meshes/", "drawing/", "viewer/", "inertia/", "formats/"),
+        *("mechanics/", "geometry/", "drawing/", "viewer/", "inertia/", "formats/"),
         *("collision/", "simulation/"),
     ),
     "coacd": ("collision/coacd_child.py",),
@@ -171,9 +171,7 @@ def test_each_deed_has_its_place(path):
 
 TO_GO = "to go with the restructuring of its package"
 LIBRARY = "the only way to change what a library does"
-KNOWN_STATE = dict.fromkeys(
-    ("positions.py: _patience", "hull_cache.py: _stores", "mesh_cache.py: _last"), TO_GO
-)
+KNOWN_STATE = dict.fromkeys(("hull_cache.py: _stores", "mesh_cache.py: _last"), TO_GO)
 """Module-level state, by file and name, with the reason why it is there."""
 
 KNOWN_PATCHES = {
@@ -274,9 +272,6 @@ def test_no_function_of_another_module_is_replaced(path):
 
 KNOWN_CYCLES = (
     {"document", "edit", "location", "well_formed"},
-    {"piece", "tessellate"},
-    {"extremes", "outline"},
-    {"solid", "surface", "surface_arrays"},
     {"controller_drives", "drive_wheels"},
 )
 """Modules that import each other inside of functions; to go."""

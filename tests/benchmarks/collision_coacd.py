@@ -25,7 +25,7 @@ from urdftool.collision.distance import Surface, spread
 from urdftool.collision.measure import Target, measure
 from urdftool.collision.piece import mesh_piece
 from urdftool.collision.surface import read_surface
-from urdftool.meshes.load import load_mesh
+from urdftool.geometry.load import load_mesh
 
 from .timing import URDFTOOL
 

@@ -19,7 +19,7 @@ from urdftool.collision.decimate import decimate
 from urdftool.collision.distance import Surface, spread
 from urdftool.collision.surface import read_surface
 from urdftool.errors import UrdftoolError
-from urdftool.meshes.solid import edges_of
+from urdftool.geometry.topology import edges_of
 
 
 def apart(one: np.ndarray, other: np.ndarray, size: float) -> float:

@@ -4,7 +4,7 @@ import struct
 
 import numpy as np
 
-from urdftool.collision.tessellate import primitive
+from urdftool.collision.piece import primitive
 
 SIZES = {
     "box": (0.3, 0.2, 0.1),

@@ -13,12 +13,11 @@ from urdftool.collision.decompose import solid_of
 from urdftool.collision.distance import Surface, spread
 from urdftool.collision.measure import Target, measure
 from urdftool.collision.merge import Joiner
-from urdftool.collision.piece import mesh_piece
+from urdftool.collision.piece import mesh_piece, primitive
 from urdftool.collision.remesh import Layer, Outside, common, remesh
 from urdftool.collision.settings import Settings
 from urdftool.collision.surface import prepare, read_surface
-from urdftool.collision.tessellate import primitive
-from urdftool.meshes.solid import edges_of
+from urdftool.geometry.topology import edges_of
 
 
 def soup():

@@ -9,11 +9,10 @@ from urdftool.collision.convex import capped_hull, planes, signed_distance
 from urdftool.collision.decimate import decimate
 from urdftool.collision.distance import to_triangles
 from urdftool.collision.measure import Target, measure
-from urdftool.collision.piece import mesh_piece
+from urdftool.collision.piece import mesh_piece, primitive
 from urdftool.collision.settings import Settings
 from urdftool.collision.surface import prepare
-from urdftool.collision.tessellate import primitive
-from urdftool.meshes.solid import edges_of
+from urdftool.geometry.topology import edges_of
 
 
 @pytest.mark.parametrize(

@@ -14,8 +14,8 @@ from tests.collision.shapes import l_profile, noisy, stl, turned
 from tests.commands.test_collision import robot
 from urdftool.collision.compute import Task, attempt
 from urdftool.collision.parallel import compute_all
+from urdftool.collision.piece import primitive
 from urdftool.collision.settings import Settings
-from urdftool.collision.tessellate import primitive
 from urdftool.errors import UrdftoolError
 from urdftool.storage import DiskCache
 

@@ -10,7 +10,7 @@ from urdftool.drawing.normals import corner_normals
 from urdftool.drawing.shapes import robot_shapes
 from urdftool.drawing.texture import looked_up, read_texture
 from urdftool.errors import MeshError
-from urdftool.meshes.tessellate import tessellate
+from urdftool.geometry.tessellate import tessellate
 
 from .robots import link, mask, read, seen, visual
 
@@ -163,7 +163,7 @@ def test_shapes_that_are_no_numbers_are_said_and_left_out(tmp_path):
 
 
 def test_one_mesh_is_read_once_and_its_trouble_said_at_each_use(tmp_path, monkeypatch):
-    from urdftool.meshes import load as loading
+    from urdftool.geometry import load as loading
 
     (tmp_path / "t.obj").write_text("v 0 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n")
     reads = []

@@ -10,7 +10,7 @@ import pytest
 from urdftool.drawing.camera import Camera
 from urdftool.drawing.picture import draw, png
 from urdftool.drawing.shapes import bare_shapes, robot_shapes
-from urdftool.meshes.tessellate import tessellate
+from urdftool.geometry.tessellate import tessellate
 from urdftool.model.kinematics import link_poses
 from urdftool.model.pose import IDENTITY, Pose
 

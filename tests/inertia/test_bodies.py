@@ -6,10 +6,10 @@ import pytest
 import urdftool
 from tests.conftest import FIXTURES
 from urdftool.errors import MeshError, UrdftoolError
+from urdftool.geometry.load import load_mesh
 from urdftool.inertia.bodies import mesh_body
 from urdftool.inertia.estimate import estimate_mass_properties
 from urdftool.inertia.polyhedron import shell_moments
-from urdftool.meshes.load import load_mesh
 
 MESHES = FIXTURES / "meshes"
 

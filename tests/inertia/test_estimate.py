@@ -8,13 +8,13 @@ import trimesh
 
 from tests.mechanics.bodies import move
 from urdftool.errors import MeshError
+from urdftool.geometry.load import load_mesh
 from urdftool.inertia.estimate import estimate_mass_properties
 from urdftool.inertia.inertia_error import InertiaError
 from urdftool.inertia.polyhedron import solid_moments
 from urdftool.inertia.requirements import is_consistent
 from urdftool.inertia.solids import box
 from urdftool.mechanics.spatial_inertia import combine
-from urdftool.meshes.load import load_mesh
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "meshes"
 CORPUS = Path(__file__).parents[3] / "shared" / "corpus-meshes"

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import MeshError, UrdftoolError
-from ..meshes.load import FARTHEST
-from ..meshes.mesh import Points
+from ..geometry.load import FARTHEST
+from ..geometry.mesh import Points
 from ..model.elements import Box, Capsule, Cylinder, Link, Mesh, Robot, Sphere
 from ..model.pose import Pose, pose_of
 from ..parallel import Loss, cores, map_tasks
@@ -20,9 +20,8 @@ from .convex import hull, planes, signed_distance
 from .links import Shape
 from .measure import Target, measure
 from .parallel import Progress
-from .piece import Piece, mesh_piece
+from .piece import Piece, mesh_piece, primitive
 from .surface import Prepared, prepare, read_surface
-from .tessellate import primitive
 
 _CONVEX = 1e-3
 _FEW = 500

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import MeshError
-from ..meshes.solid import body_labels, edges_of
+from ..geometry.topology import body_labels, edges_of
 from .convex import capped_hull, thickened
 from .cut import Cutter
 from .decimate import decimate

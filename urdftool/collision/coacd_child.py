@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..extras import missing
-from ..meshes.mesh import Faces, Points
+from ..geometry.mesh import Faces, Points
 
 
 def decompose(vertices: Points, faces: Faces, options: dict[str, Any]) -> list[Points]:

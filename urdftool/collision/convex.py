@@ -6,8 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError
-from ..meshes.mesh import Faces, Points
-from .columns import dot, lengths, normals
+from ..geometry.mesh import Faces, Points
+from .vec3 import dot, lengths, normals
 
 _AT_ONCE = 200_000  # distances of points and planes that are computed together
 _LIMIT = 4000  # hull vertices beyond which a cap looks at the extreme ones of a direction only

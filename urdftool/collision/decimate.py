@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..meshes.mesh import Faces, Points
+from ..geometry.mesh import Faces, Points
 
 BORDER_WEIGHT = 10.0
 """Weight of the planes that keep open borders in place, relative to those of the faces."""

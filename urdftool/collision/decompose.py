@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import MeshError, UrdftoolError
+from ..geometry.mesh import Faces, Points
+from ..geometry.topology import body_labels, edges_of
 from ..isolated import IsolatedProcess, ProcessDied, ProcessTimeout
-from ..meshes.mesh import Faces, Points
-from ..meshes.solid import body_labels, edges_of
 from .convex import capped_hull
 from .decimate import decimate
 from .measure import Target

@@ -8,8 +8,8 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from ..meshes.mesh import Points
-from .columns import lengths, normals
+from ..geometry.mesh import Points
+from .vec3 import lengths, normals
 
 _GOLDEN = 1.324717957244746  # the real root of x³ = x + 1
 _NEIGHBOURS = 6

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..geometry.mesh import Points
 from ..inertia.sampling import spread_points
 from ..inertia.winding import boxes_of, winding_numbers
-from ..meshes.mesh import Points
 from . import convex, primitives
 from .distance import Samples, Surface, areas_of, spread
 from .piece import Piece, mesh_piece, near_ones

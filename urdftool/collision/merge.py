@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ..errors import MeshError
-from ..meshes.mesh import Points
+from ..geometry.mesh import Points
 from .convex import hull, signed_distance
 from .distance import spread
 from .measure import Target

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -9,8 +10,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..meshes.mesh import Faces, Points
-from .columns import bounds
+from ..geometry.mesh import Faces, Points
+from ..geometry.tessellate import tessellate
+from .vec3 import bounds
 
 PRIMITIVES = ("sphere", "capsule", "box", "cylinder")
 """Kinds that need no mesh file."""
@@ -107,10 +109,25 @@ def mesh_piece(vertices: Points, faces: Faces, *, convex: bool = True) -> Piece:
     return Piece(kind, (), np.eye(3), np.zeros(3), vertices, faces)
 
 
-def piece_of(table: dict[str, Any]) -> Piece:
-    """The piece that :meth:`Piece.as_dict` told of."""
-    from .tessellate import primitive
+def primitive(
+    kind: str, size: Sequence[float], rotation: Points, centre: Sequence[float] | Points
+) -> Piece:
+    """Make a box, cylinder, capsule or sphere, with triangles fine enough to measure distances to.
 
+    Args:
+        kind: One of ``PRIMITIVES``.
+        size: Lengths [m], as ``Piece.size``.
+        rotation: Its axes, as columns.
+        centre: Its center [m].
+    """
+    vertices, faces = tessellate(kind, size)
+    turned = np.asarray(rotation, dtype=np.float64)
+    middle = np.asarray(centre, dtype=np.float64)
+    return Piece(kind, tuple(size), turned, middle, vertices @ turned.T + middle, faces)
+
+
+def piece_of(table: dict[str, Any]) -> Piece:
+    """Make the piece that :meth:`Piece.as_dict` describes."""
     if table["kind"] in PRIMITIVES:
         return primitive(
             table["kind"], tuple(table["size"]), np.array(table["rotation"]), table["centre"]

@@ -12,10 +12,9 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ..errors import MeshError
-from ..meshes.mesh import Points
+from ..geometry.mesh import Points
 from .convex import hull
-from .piece import Piece
-from .tessellate import primitive
+from .piece import Piece, primitive
 
 POINTS = 1500
 """Points that a shape is fitted to."""

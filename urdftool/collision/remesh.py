@@ -13,12 +13,12 @@ from itertools import permutations
 import numpy as np
 import numpy.typing as npt
 
+from ..geometry.mesh import Faces, Points
 from ..inertia.winding import boxes_of, winding_numbers
-from ..meshes.mesh import Faces, Points
-from .columns import bounds
 from .convex import planes, signed_distance
 from .distance import Surface, areas_of, spread
 from .touchable import widened
+from .vec3 import bounds
 
 CELLS = 96
 """Cells along the longest side of the mesh's box; gaps narrower than two are closed."""

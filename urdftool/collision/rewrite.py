@@ -199,7 +199,7 @@ def _parts(piece: Piece, capsules: bool) -> list[Piece]:
     """A capsule as a cylinder and two spheres, where URDF has none."""
     if piece.kind != "capsule" or capsules:
         return [piece]
-    from .tessellate import primitive
+    from .piece import primitive
 
     radius, length = piece.size
     reach = piece.rotation[:, 2] * length / 2

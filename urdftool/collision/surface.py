@@ -10,10 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError
+from ..geometry.load import FARTHEST, load_mesh
+from ..geometry.mesh import Faces, Points
+from ..geometry.topology import collapsed, components, edges_of, neighbors, weld
 from ..inertia.repair import drop_duplicates, orient
-from ..meshes.load import FARTHEST, load_mesh
-from ..meshes.mesh import Faces, Points
-from ..meshes.solid import collapsed, components, edges_of, neighbours, weld
 from ..source.description import GltfUp
 
 SLIVER = 1e-14
@@ -131,6 +131,6 @@ def flat_labels(surface: Prepared) -> npt.NDArray[np.int64]:
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     unit = normals / np.where(lengths > 0, lengths, 1.0)
-    first, second = neighbours(edges_of(surface.faces))
+    first, second = neighbors(edges_of(surface.faces))
     same = np.abs(np.einsum("ij,ij->i", unit[first], unit[second])) > FLAT
     return components(len(surface.faces), first[same], second[same])

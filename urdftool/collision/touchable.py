@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..meshes.mesh import Points
-from .columns import bounds
+from ..geometry.mesh import Points
 from .distance import areas_of, spread
+from .vec3 import bounds
 
 CELLS = 100
 """Cells along the longest side of the surface's box."""

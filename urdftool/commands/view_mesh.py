@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def is_mesh(path: str) -> bool:
     """Whether a path names a mesh file, by its suffix."""
-    from ..meshes.load import READERS
+    from ..geometry.load import READERS
 
     return Path(path).suffix.lower().removeprefix(".") in READERS
 
@@ -37,7 +37,7 @@ def read_mesh_robot(
     Raises:
         UrdftoolError: It is not found, or cannot be read.
     """
-    from ..meshes.load import load_named
+    from ..geometry.load import load_named
     from ..model.load import robot_of
     from ..source.location import SourceFile
     from .read_strict import read_configured

@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError, UrdftoolError
-from ..meshes.mesh import Faces, Mesh, Part, Points
-from ..meshes.tessellate import tessellate
+from ..geometry.mesh import Faces, Mesh, Part, Points
+from ..geometry.tessellate import tessellate
 from ..model.elements import (
     Box,
     Capsule,
@@ -164,7 +164,7 @@ def _mesh_surface(gathering: Gathering, geometry: MeshGeometry) -> Surface:
     Raises:
         UrdftoolError: It is not found, or cannot be read.
     """
-    from ..meshes.load import load_named
+    from ..geometry.load import load_named
 
     key = (geometry.filename, geometry.scale)
     if key not in gathering.surfaces:

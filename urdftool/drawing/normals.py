@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ..meshes.mesh import Faces, Points
+from ..geometry.mesh import Faces, Points
 from .raster import Floats, Indices
 
 CREASE = math.cos(math.radians(38.0))

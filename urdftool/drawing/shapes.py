@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import UrdftoolError
-from ..meshes.mesh import Faces, Points
+from ..geometry.mesh import Faces, Points
 from ..model.elements import Collision, Robot, Visual
 from ..model.elements import Mesh as MeshGeometry
 from ..model.pose import Pose

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import MeshError
+from ..geometry.mesh import Array
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import inertia_from_second_moment, second_moment
-from ..meshes.mesh import Array
 from ..source.description import GltfUp
 from .inertia_error import InertiaError
 
@@ -86,7 +86,7 @@ class MeshBody:
 
     def _with_suspicion(self) -> MeshBody:
         """With a note where the size hints at a wrong unit."""
-        from ..meshes.solid import unit_suspicion
+        from ..geometry.topology import unit_suspicion
 
         hint = unit_suspicion(float((self.upper - self.lower).max()))
         return replace(self, notes=(*self.notes, hint)) if hint else self
@@ -116,7 +116,7 @@ def mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> Me
     Raises:
         MeshError: The file cannot be read, or encloses nothing.
     """
-    from ..meshes.load import load_mesh
+    from ..geometry.load import load_mesh
 
     mesh = load_mesh(path, gltf_up=gltf_up)
     used = mesh.vertices[np.unique(mesh.faces)]

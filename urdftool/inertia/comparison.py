@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from ..geometry.mesh import Array
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import principal_axes
-from ..meshes.mesh import Array
 
 ALIKE = 0.05
 """Two principal moments that differ by less, relatively, leave their axes undetermined."""

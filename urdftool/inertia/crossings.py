@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from ..meshes.mesh import Array
+from ..geometry.mesh import Array
 
 STRIPS = 160
 """The most into which the points are sorted, seen from above."""

@@ -24,9 +24,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError
+from ..geometry.mesh import Array, Faces, Points
+from ..geometry.topology import body_labels, collapsed, edges_of, weld
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..meshes.mesh import Array, Faces, Points
-from ..meshes.solid import body_labels, collapsed, edges_of, weld
 from .hull import hull_moments
 from .inertia_error import InertiaError
 from .nesting import Nesting, nest

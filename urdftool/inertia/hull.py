@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import MeshError
-from ..meshes.mesh import Points
+from ..geometry.mesh import Points
 from .polyhedron import Moments, solid_moments
 
 

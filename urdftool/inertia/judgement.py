@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..errors import UrdftoolError
+from ..geometry.convex_points import read_convex_points
 from ..mechanics.mass_bounds import Misfit, misfit_of_com, misfit_of_spread, shapes_in_words
 from ..mechanics.spatial_inertia import SpatialInertia, combine_links, link_inertia
 from ..mechanics.tensor import COMPONENTS, consistency, noise_of, principal_moments, rotate_tensor
 from ..mechanics.typo_detection import ROUNDING, Proposal, infer_intended_tensor
-from ..meshes.outline import outline
 from ..model.attached import attached_links, is_fixed_to_world
 from ..model.bounds import Bounds, bounds_at
 from ..model.elements import Inertia, Inertial, Link, Mesh, Robot
@@ -261,7 +261,7 @@ def _box_of_mesh(mesh: Mesh, pose: Pose, context: Context) -> Bounds | None:
         box = Bounds((min(d, g), min(e, h), min(f, i)), (max(d, g), max(e, h), max(f, i)))
     else:
         try:
-            points = outline(source.resolve(mesh.filename), source.gltf_up)
+            points = read_convex_points(source.resolve(mesh.filename), source.gltf_up)
         except UrdftoolError:
             return None
         if points is None:

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ..meshes.mesh import Array
+from ..geometry.mesh import Array
 from .crossings import crossing_numbers
 from .sampling import spread_points
 from .winding import boxes_of, winding_numbers

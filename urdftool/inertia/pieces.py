@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import UrdftoolError
+from ..geometry.mesh import Array
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..meshes.mesh import Array
 from ..model.elements import (
     Box,
     Capsule,

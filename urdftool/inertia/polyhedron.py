@@ -22,9 +22,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError
+from ..geometry.mesh import Array
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import inertia_from_second_moment, tensor_of_matrix
-from ..meshes.mesh import Array
 
 Faces = npt.NDArray[np.int64]
 

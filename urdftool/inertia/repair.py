@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..meshes.mesh import Faces, Points
-from ..meshes.solid import components, edges_of
+from ..geometry.mesh import Faces, Points
+from ..geometry.topology import components, edges_of
 
 CAP_RISE = 0.1
 """How far a surface may bulge over a hole, relative to the hole's size, in the error of a cap."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..meshes.mesh import Array
+from ..geometry.mesh import Array
 from .crossings import crossing_numbers
 from .polyhedron import Moments
 from .winding import boxes_of, winding_numbers

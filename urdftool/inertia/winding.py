@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..meshes.mesh import Array
+from ..geometry.mesh import Array
 
 FAR = 1.8
 """Distance in radii of a box of triangles beyond which they are one dipole."""

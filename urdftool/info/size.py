@@ -105,7 +105,7 @@ def _read(
     Raises:
         UrdftoolError: It is not found or cannot be read.
     """
-    from ..meshes.load import load_mesh
+    from ..geometry.load import load_mesh
 
     if robot.source is None:
         return

@@ -11,7 +11,7 @@ from typing import Any
 
 from ..errors import MeshError
 from ..finding import FileRewrite
-from ..meshes.facts import HEADER_BYTES, TRIANGLE_BYTES, stl_facts
+from ..geometry.stl_header import HEADER_BYTES, TRIANGLE_BYTES, read_stl_header
 from ..workspace import Workspace
 
 BINARY, TURNED, WITHOUT_COLLAPSED = "binary STL", "turned inside out", "without its flat triangles"
@@ -56,7 +56,7 @@ def _rewritten(path: Path, rewrite: FileRewrite) -> bytes:
 
 
 def _is_text(path: Path) -> bool:
-    return path.suffix.lower() == ".stl" and stl_facts(path).kind == "ascii"
+    return path.suffix.lower() == ".stl" and read_stl_header(path).kind == "ascii"
 
 
 def _text_as_binary(path: Path) -> bytes:
@@ -72,7 +72,7 @@ def _text_as_binary(path: Path) -> bytes:
 
 def _as_stl(path: Path, scale: tuple[float, float, float]) -> bytes:
     """Write the triangles of any mesh file as STL, in its own frame, scaled by 1 or -1."""
-    from ..meshes.load import load_mesh
+    from ..geometry.load import load_mesh
 
     mesh = load_mesh(path, scale)
     return _written(mesh.vertices[mesh.faces].reshape(-1, 9).tolist())
@@ -97,7 +97,7 @@ def _normal(corners: list[float]) -> tuple[float, float, float]:
 
 def _records(path: Path) -> tuple[bytes, Iterator[Record]]:
     """Read the head and the triangles of a binary STL file."""
-    facts = stl_facts(path)
+    facts = read_stl_header(path)
     if facts.kind != "binary" or not facts.size_agrees:
         raise MeshError("is no binary STL file", path=path)
     data = path.read_bytes()

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..formats.common.extent import placed, shape_points
-from ..meshes.hull import convex_hull
+from ..geometry.hull import convex_hull
 from ..model.elements import Box, Capsule, Collision, Cylinder, Mesh, Robot, Sphere, Visual
 from .mesh_cache import outermost_points
 from .recording import Array

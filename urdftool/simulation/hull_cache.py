@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..meshes.mesh import Faces, Points
+from ..geometry.mesh import Faces, Points
 from ..storage import DiskCache, cache_folder, cache_key
 
 Cloud = tuple[Points, Faces]

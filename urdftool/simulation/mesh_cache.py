@@ -9,11 +9,10 @@ from typing import TypeVar, cast
 import numpy as np
 
 from ..errors import UrdftoolError
-from ..meshes.extremes import extreme_points
-from ..meshes.load import load_named
-from ..meshes.mesh import Mesh as Triangles
-from ..meshes.mesh import Points
-from ..meshes.outline import outline
+from ..geometry.convex_points import extreme_points, read_convex_points
+from ..geometry.load import load_named
+from ..geometry.mesh import Mesh as Triangles
+from ..geometry.mesh import Points
 from ..model.elements import Mesh, Robot
 from .hull_cache import Cloud, get_or_compute
 
@@ -57,7 +56,7 @@ def outermost_points(robot: Robot, geometry: Mesh) -> Points | None:
 
     def make() -> list[Cloud]:
         assert robot.source is not None
-        found = outline(robot.source.resolve(geometry.filename), robot.source.gltf_up)
+        found = read_convex_points(robot.source.resolve(geometry.filename), robot.source.gltf_up)
         if found is not None:
             points = np.array(found.points) * geometry.scale
         else:

@@ -10,9 +10,9 @@ import numpy as np
 
 from ..errors import ModelError, UrdftoolError
 from ..formats.sdf.shapes import has_extent
-from ..meshes.hull import convex_hull, hull_surface
-from ..meshes.mesh import Faces
-from ..meshes.mesh import Mesh as Triangles
+from ..geometry.hull import convex_hull, hull_surface
+from ..geometry.mesh import Faces
+from ..geometry.mesh import Mesh as Triangles
 from ..model.elements import Box, Capsule, Collision, Cylinder, Link, Mesh, Robot, Sphere
 from ..model.pose import Pose, pose_of
 from .hull_cache import get_or_compute

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..meshes.extremes import extreme_points
-from ..meshes.hull import convex_hull
+from ..geometry.convex_points import extreme_points
+from ..geometry.hull import convex_hull
 from ..model.pose import Pose
 from .recording import Array
 

@@ -11,7 +11,7 @@ from urdftool.formats.defects import Refused
 from urdftool.formats.mjcf.convert import convert
 from urdftool.formats.mjcf.cut import Cut
 from urdftool.formats.mjcf.obj import obj_bytes
-from urdftool.meshes.load import load_mesh
+from urdftool.geometry.load import load_mesh
 
 from .robots import INERTIAL, export, link, robot, rules, tree
 

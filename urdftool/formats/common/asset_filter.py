@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ...errors import MeshError
-from ...meshes.facts import is_lfs_pointer, stl_facts
+from ...geometry.stl_header import is_lfs_pointer, read_stl_header
 
 _HEAD = 65536
 _TGA_KINDS = (1, 2, 3, 9, 10, 11)
@@ -71,7 +71,7 @@ def _is_tga(path: Path, head: bytes) -> bool:
 
 
 def _is_stl(path: Path) -> bool:
-    facts = stl_facts(path)
+    facts = read_stl_header(path)
     if facts.kind == "ascii":
         return b"facet" in _head(path).lower()
     return facts.expected_bytes is not None and facts.bytes >= facts.expected_bytes

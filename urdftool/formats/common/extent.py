@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import UrdftoolError
-from ...meshes.load import load_named
+from ...geometry.load import load_named
 from ...model.elements import (
     Box,
     Capsule,

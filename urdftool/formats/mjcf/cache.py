@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from io import BytesIO
 from pathlib import Path
 
-from ...meshes.mesh import MeshNote
+from ...geometry.mesh import MeshNote
 from ...parallel import cores, in_order, map_tasks
 from ...source.description import GltfUp
 from ...storage import DiskCache, cache_folder, cache_key

@@ -14,10 +14,10 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import MeshError
-from ...meshes.facts import stl_facts
-from ...meshes.hull import convex_hull
-from ...meshes.load import load_mesh
-from ...meshes.mesh import Faces, Mesh, MeshNote, Part, Points
+from ...geometry.hull import convex_hull
+from ...geometry.load import load_mesh
+from ...geometry.mesh import Faces, Mesh, MeshNote, Part, Points
+from ...geometry.stl_header import read_stl_header
 from ...source.description import GltfUp
 from .obj import obj_bytes
 
@@ -119,7 +119,7 @@ def _collision(mesh: Mesh, copied: bool, notes: list[MeshNote]) -> Converted:
 
 def _is_readable(mesh: Mesh) -> bool:
     if mesh.format == "stl":
-        facts = stl_facts(mesh.path)
+        facts = read_stl_header(mesh.path)
         return (
             facts.kind == "binary"
             and facts.size_agrees

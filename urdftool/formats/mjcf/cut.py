@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...meshes.mesh import Faces, Points
+from ...geometry.mesh import Faces, Points
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from pathlib import Path
 from lxml import etree
 
 from ...finding import Finding, Severity
-from ...meshes.mesh import MeshNote
+from ...geometry.mesh import MeshNote
 from ...model.elements import Collision, Mesh, Robot, Vector, Visual
 from ..common.assets import find_file
 from ..common.missing_files import missing_mesh

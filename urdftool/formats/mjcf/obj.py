@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...meshes.mesh import Faces, Points
+from ...geometry.mesh import Faces, Points
 
 
 def obj_bytes(vertices: Points, faces: Faces, uv: Points | None = None) -> bytes:

@@ -6,7 +6,7 @@ import os
 from math import hypot
 
 from ...errors import SourceError
-from ...meshes.outline import Outline, outline
+from ...geometry.convex_points import ConvexPoints, read_convex_points
 from ...model.elements import Collision, Mesh, Robot, Vector, Visual
 from ...model.pose import Pose, pose_of
 from .geom import shape_size
@@ -21,7 +21,7 @@ class ShapeBoxes:
     def __init__(self, robot: Robot) -> None:
         """Take the robot; its meshes are read when they are asked for."""
         self._robot = robot
-        self._outlines: dict[str, Outline | None] = {}
+        self._outlines: dict[str, ConvexPoints | None] = {}
 
     def box(self, shape: Visual | Collision, frame: Pose) -> Box | None:
         """Compute the box around a shape.
@@ -48,17 +48,17 @@ class ShapeBoxes:
         x, y, z = pose.translation
         return (x - a, y - b, z - c), (x + a, y + b, z + c)
 
-    def _outline(self, name: str) -> Outline | None:
+    def _outline(self, name: str) -> ConvexPoints | None:
         if name not in self._outlines:
             self._outlines[name] = self._read(name)
         return self._outlines[name]
 
-    def _read(self, name: str) -> Outline | None:
+    def _read(self, name: str) -> ConvexPoints | None:
         source = self._robot.source
         if source is None or not name:
             return None
         try:
-            return outline(os.path.realpath(source.resolve(name)), source.gltf_up)
+            return read_convex_points(os.path.realpath(source.resolve(name)), source.gltf_up)
         except SourceError:
             return None
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import UrdftoolError
-from ...meshes.mesh import Part
+from ...geometry.mesh import Part
 from ...model.elements import Link, Material, Mesh, Robot, Visual
 from ..check import Check
 from ..common.losses import DeclaredLosses

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ...errors import UrdftoolError
-from ...meshes.load import load_named
-from ...meshes.mesh import Mesh
+from ...geometry.load import load_named
+from ...geometry.mesh import Mesh
 from ...model.elements import Robot, Vector
 
 WHOLE: Vector = (1.0, 1.0, 1.0)

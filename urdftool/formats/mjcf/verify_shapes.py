@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ...meshes.mesh import Faces
+from ...geometry.mesh import Faces
 from ...model.elements import (
     Box,
     Capsule,

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from ...geometry.penetration import Convex
 from ...model.attached import attached_links
-from ...model.convex import Convex
 from ...model.elements import Collision, Joint, Link, Robot, Sphere, Vector
 from ...model.pose import Pose, dot, pose_of, rotate, transpose
 from ..gazebo.wheel_pair import CASTER, driven_joints

@@ -175,7 +175,7 @@ def _coincide(
 
 
 def _ways() -> list[Vector]:
-    from ...meshes.outline import directions
+    from ...geometry.convex_points import directions
 
     return directions()
 

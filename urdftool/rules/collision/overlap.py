@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ...model.convex import Convex
+from ...geometry.penetration import CORNER_DIRECTIONS, Convex
 from ...model.elements import Joint, Link, Mesh, Robot
 from ...model.kinematics import MOVABLE, limits_of, motion_of
 from ...model.pose import IDENTITY, Pose, dot, pose_of, rotate, transpose
@@ -240,21 +240,12 @@ def _depth_of_middle(known: Pieces, joint: Joint, moved: Pose) -> tuple[float, L
     return best
 
 
-_WAYS = tuple(
-    (x / n, y / n, z / n)
-    for x in (-1, 0, 1)
-    for y in (-1, 0, 1)
-    for z in (-1, 0, 1)
-    if (n := math.hypot(x, y, z))
-)
-
-
 def _depth(around: Convex, at: tuple[float, float, float]) -> float:
     """How deep a point is inside a shape, in its half widths: 1 in the middle, 0 on the surface."""
     x, y, z = (a - b for a, b in zip(at, around.pose.translation, strict=True))
     local = rotate(transpose(around.pose.rotation), (x, y, z))
     least = 1.0
-    for a, b, c in _WAYS:
+    for a, b, c in CORNER_DIRECTIONS:
         ahead = around.reach(a, b, c)
         half = (ahead + around.reach(-a, -b, -c)) / 2
         if half > 0:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ...model.convex import Convex, convex_of, overlap
+from ...geometry.penetration import Convex, convex_of, overlap
 from ...model.elements import Joint, Link, Mesh, Robot, Vector
 from ...model.kinematics import MOVABLE, limits_of, link_poses, with_mimics
 from ...model.pose import IDENTITY, Pose, pose_of
@@ -172,10 +172,10 @@ def _sphere(found: list[tuple[Link, Convex]]) -> tuple[Vector, float]:
 
 def _hull(points: list[Vector], scale: Vector, pose: Pose) -> Convex:
     """The hull of a mesh as a convex piece in the frame of its link."""
-    from ...meshes.outline import reach_of
+    from ...geometry.convex_points import support_function_of
 
     a, b, c = scale
-    middle, radius, reach = reach_of([(a * x, b * y, c * z) for x, y, z in points])
+    middle, radius, reach = support_function_of([(a * x, b * y, c * z) for x, y, z in points])
     return Convex(pose @ Pose(translation=middle), reach, radius, False)
 
 

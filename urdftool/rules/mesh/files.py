@@ -10,7 +10,7 @@ from mmap import ACCESS_READ, mmap
 from pathlib import Path
 from typing import BinaryIO
 
-from ...meshes.facts import LFS_MARK, stl_facts
+from ...geometry.stl_header import LFS_MARK, read_stl_header
 from ...model.elements import Robot
 from ...source.description import Description
 from ...source.packages import own_package, shown_path
@@ -308,7 +308,7 @@ def what_is_wrong(use: MeshUse) -> str:
                 if head == LFS_MARK:
                     return _LFS
                 return "has no faces" if _has_no_faces(file, path.suffix.lower()) else ""
-        facts = stl_facts(path)
+        facts = read_stl_header(path)
     except OSError as error:
         return f"cannot be read: {(error.strerror or 'unknown').lower()}"
     if facts.kind == "lfs-pointer":

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ...finding import FileRewrite
-from ...meshes.facts import StlFacts, stl_facts
+from ...geometry.stl_header import StlHeader, read_stl_header
 from ...model.elements import Robot
 from ...model.mesh_formats import READ_BY
 from ...source.description import Description
@@ -104,7 +104,7 @@ def is_odd(ending: str) -> bool:
     return len(ending) > 5 or not ending.isalnum()
 
 
-def _stl(use: MeshUse) -> StlFacts | None:
+def _stl(use: MeshUse) -> StlHeader | None:
     if use.path is None or not use.exists or _ending(use) != "stl":
         return None
     try:
@@ -114,13 +114,13 @@ def _stl(use: MeshUse) -> StlFacts | None:
 
 
 @memoized
-def stl_facts_of(workspace: Workspace, path: Path) -> StlFacts:
+def stl_facts_of(workspace: Workspace, path: Path) -> StlHeader:
     """Return what the beginning of an STL file tells.
 
     Raises:
         OSError: It cannot be read.
     """
-    return stl_facts(workspace.local(path))
+    return read_stl_header(workspace.local(path))
 
 
 @rule(

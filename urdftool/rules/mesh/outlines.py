@@ -16,7 +16,7 @@ from .parts import buffers_of
 from .uses import MeshUse, mesh_uses
 
 if TYPE_CHECKING:
-    from ...meshes.outline import Outline
+    from ...geometry.convex_points import ConvexPoints
 
 ShapeKind = Literal["visuals", "collisions", "all"]
 
@@ -24,7 +24,7 @@ LARGEST = 10.0  # [m] a mesh that is longer is in millimetres
 SMALLEST = 0.001
 
 
-def outline_of(use: MeshUse) -> Outline | None:
+def outline_of(use: MeshUse) -> ConvexPoints | None:
     """The points of a mesh in the frame of its file, unscaled; None if it has none."""
     if use.path is None or not use.exists:
         return None
@@ -35,12 +35,12 @@ def outline_of(use: MeshUse) -> Outline | None:
 
 
 @memoized
-def _outline(workspace: Workspace, path: Path, gltf_up: GltfUp) -> Outline | None:
-    from ...meshes.outline import outline
+def _outline(workspace: Workspace, path: Path, gltf_up: GltfUp) -> ConvexPoints | None:
+    from ...geometry.convex_points import read_convex_points
 
     for buffer in buffers_of(workspace, path):
         workspace.record("file", buffer)
-    return outline(workspace.local(path), gltf_up)
+    return read_convex_points(workspace.local(path), gltf_up)
 
 
 def box_of(use: MeshUse, pose: Pose = IDENTITY) -> Bounds | None:

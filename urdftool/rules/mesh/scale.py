@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-import struct
 from collections.abc import Iterator
 from pathlib import Path
 
 from ...finding import FileRewrite
-from ...meshes.facts import HEADER_BYTES, TRIANGLE_BYTES, stl_bounds, stl_facts
+from ...geometry.stl_header import HEADER_BYTES, TRIANGLE_BYTES, read_stl_header
 from ...model.elements import Robot
 from ...model.read import numbers
 from ...source.description import Description
@@ -38,29 +37,17 @@ def sampled_extent(workspace: Workspace, path: Path) -> tuple[float, float, floa
     """Lengths of the box around some triangles of a binary STL file: it is at least so large."""
     try:
         return _sample(workspace.local(path))
-    except (OSError, struct.error):
+    except OSError:
         return None
 
 
 def _sample(path: Path) -> tuple[float, float, float] | None:
-    facts = stl_facts(path)
+    facts = read_stl_header(path)
     if facts.kind != "binary" or not facts.triangles or not facts.size_agrees:
         return None
-    points: list[tuple[float, ...]] = []
-    with open(path, "rb") as file:
-        last = max(0, facts.triangles - _SAMPLE)
-        for first in sorted({0, last // 2, last}):
-            file.seek(HEADER_BYTES + TRIANGLE_BYTES * first)
-            data = file.read(TRIANGLE_BYTES * min(_SAMPLE, facts.triangles))
-            points += struct.iter_unpack("<12x9f2x", data)
-    columns = list(zip(*points, strict=True))
-    spans = []
-    for axis in range(3):
-        values = [v for column in columns[axis::3] for v in column]
-        spans.append(max(values) - min(values))
-    if not all(span - span == 0 for span in spans):
-        return None
-    return spans[0], spans[1], spans[2]
+    from ...geometry.stl import sample_extent
+
+    return sample_extent(path, facts, _SAMPLE)
 
 
 _LOOKED_AT = 400_000  # bytes
@@ -89,6 +76,8 @@ def _largest(use: MeshUse, whole: bool = False) -> float | None:
         return None if box is None else max(box.size)
     extent = sampled_extent(use.workspace, use.path)
     if extent is not None and whole:
+        from ...geometry.stl import stl_bounds
+
         bounds = stl_bounds(use.workspace.local(use.path))
         if bounds is None:
             return None

@@ -20,7 +20,7 @@ from .uses import MeshUse, is_concave, mesh_uses
 APPLIES_TO = ("mesh",)
 
 if TYPE_CHECKING:
-    from ...meshes.surface import Surface
+    from ...geometry.surface import Surface
 
 
 MOST_SLIVERS = 0.2
@@ -29,21 +29,21 @@ MOST_SLIVERS = 0.2
 
 @memoized
 def _surface(workspace: Workspace, path: Path) -> Surface | None:
-    from ...meshes.surface import surface
+    from ...geometry.surface import read_surface
 
-    return surface(workspace.local(path))
+    return read_surface(workspace.local(path))
 
 
 @memoized
 def _change_by_closing(workspace: Workspace, path: Path) -> float | None:
-    from ...meshes.closing import change_by_closing
+    from ...geometry.surface import change_by_closing
 
     return change_by_closing(str(workspace.local(path)))
 
 
 @memoized
 def _hull_volume(workspace: Workspace, path: Path) -> float | None:
-    from ...meshes.surface_arrays import hull_volume
+    from ...geometry.surface import hull_volume
 
     return hull_volume(str(workspace.local(path)))
 

@@ -12,8 +12,6 @@ from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...source.description import Description, GltfUp
 from ...workspace import Workspace
 
-_SEEN, _TOUCHED = 0.02, 0.1  # [µs] a byte of a mesh takes in plain Python
-
 _ABSOLUTE = re.compile(r"(file://)?(/|[A-Za-z]:[\\/]|~)")
 
 
@@ -75,22 +73,7 @@ def is_concave(use: MeshUse) -> bool:
 
 def mesh_uses(robot: Robot, description: Description) -> list[MeshUse]:
     """Every mesh of a robot, in the order of the file; looked for once, however many rules ask."""
-
-    def find() -> list[MeshUse]:
-        uses = list(_uses(robot, description))
-        _expect_work(uses)
-        return uses
-
-    return robot.memo.get("mesh uses", find)
-
-
-def _expect_work(uses: list[MeshUse]) -> None:
-    """Know from the start whether the meshes of a robot are so many that numpy pays."""
-    cost = {use.uri: (_TOUCHED if use.collides else _SEEN) * use.size for use in uses if use.size}
-    if cost:
-        from ...meshes.positions import expect
-
-        expect(sum(cost.values()))
+    return robot.memo.get("mesh uses", lambda: list(_uses(robot, description)))
 
 
 def _uses(robot: Robot, description: Description) -> Iterator[MeshUse]:

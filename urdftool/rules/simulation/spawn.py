@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ...model.convex import Convex
+from ...geometry.penetration import Convex
 from ...model.elements import Robot
 from ...model.kinematics import MOVABLE, link_poses
 from ...model.pose import rotate, transpose

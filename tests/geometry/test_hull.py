@@ -11,7 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from urdftool.meshes.hull import convex_hull, hull_surface
+from urdftool.geometry.hull import convex_hull, hull_surface
 
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 
@@ -84,7 +84,7 @@ def test_as_large_as_that_of_qhull(seed, count, stretch, rounded):
 
 SURFACE = """
 import hashlib, numpy as np
-from urdftool.meshes.hull import convex_hull, hull_surface
+from urdftool.geometry.hull import convex_hull, hull_surface
 points = np.random.default_rng(5).normal(size=(30000, 3))
 points /= np.linalg.norm(points, axis=1)[:, None]
 corners, faces = hull_surface(convex_hull(points))

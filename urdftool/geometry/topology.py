@@ -1,4 +1,4 @@
-"""Whether triangles bound a solid: closed, wound one way round, outwards, in how many bodies.
+"""Topology of triangles: edges, closedness, winding, bodies.
 
 A mesh is *closed* when every edge has an even number of faces (no rim), and *consistently wound*
 when each edge is walked equally often in both directions. Both together make it the boundary of a
@@ -14,7 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .mesh import Faces, Points
-from .surface import WELD_TOLERANCE
+
+WELD_TOLERANCE = 1e-6
+"""Points nearer than this part of the mesh's largest extent may be rounded copies of one."""
 
 LARGE_EXTENT = 10.0
 """A link's largest extent [m] above which its mesh is probably in millimetres."""
@@ -54,49 +56,8 @@ class Edges:
         return bool(np.array_equal(self.forward, self.backward))
 
 
-@dataclass(frozen=True)
-class SolidFacts:
-    """What can be said of a mesh as the surface of a solid."""
-
-    closed: bool
-    """Every edge has an even number of faces, once equal vertices are merged."""
-    consistent: bool
-    """Neighbouring faces are wound the same way round."""
-    volume: float
-    """Signed volume [m³]; negative where faces look inwards; meaningless for an open mesh."""
-    bodies: int
-    """Sets of faces that hang together by edges."""
-    degenerate: int
-    """Faces without an area: two corners at one point, or all three on a line."""
-    extent: float
-    """Largest side of the bounding box [m]."""
-
-    @property
-    def inside_out(self) -> bool:
-        """Whether a closed, consistent surface looks inwards."""
-        return self.closed and self.consistent and self.volume < 0
-
-
-def solid_facts(vertices: Points, faces: Faces) -> SolidFacts:
-    """Closedness, winding, volume, bodies and size of a mesh.
-
-    Args:
-        vertices: Points [m], shape (n, 3); equal ones are taken as one.
-        faces: Indices into ``vertices``, shape (m, 3).
-    """
-    points, merged, edges = weld(vertices, faces)
-    corners = points[merged]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    extent = float(np.ptp(corners.reshape(-1, 3), axis=0).max()) if len(faces) else 0.0
-    flat = np.linalg.norm(normals, axis=1) <= 1e-12 * extent**2
-    centred = corners - corners.reshape(-1, 3).mean(axis=0) if len(faces) else corners
-    volume = np.einsum("ij,ij->", centred[:, 0], np.cross(centred[:, 1], centred[:, 2])) / 6
-    bodies = int(body_labels(len(edges.order) // 3, edges).max(initial=-1)) + 1
-    return SolidFacts(edges.closed, edges.cycle, float(volume), bodies, int(flat.sum()), extent)
-
-
 def unit_suspicion(extent: float) -> str | None:
-    """A sentence where the size of one link's mesh hints at a wrong unit; None where it does not.
+    """Explain why the size of one link's mesh hints at a wrong unit; None if it does not.
 
     Of 4,325 meshes in public robots the largest extent lies below 2.03 m in all but ten, and those
     ten are above 99 m: millimetres read as metres. At the other end, meshes below 1 mm are metres
@@ -119,7 +80,7 @@ def unit_suspicion(extent: float) -> str | None:
 
 
 def weld(vertices: Points, faces: Faces) -> tuple[Points, Faces, Edges]:
-    """The same faces on points that occur once each, and their edges without collapsed faces.
+    """Merge equal points of a mesh, and find the edges of the faces that have an area.
 
     Points are taken as one where they are equal; if that leaves the surface open or inconsistent,
     where they are nearer than ``WELD_TOLERANCE`` of its size, provided this closes it.
@@ -136,10 +97,32 @@ def weld(vertices: Points, faces: Faces) -> tuple[Points, Faces, Edges]:
     return points, merged, edges
 
 
+def weld_on_grids(vertices: Points, faces: Faces) -> tuple[Points, Faces, Edges]:
+    """Merge equal points of a mesh; nearly equal ones too where that closes it.
+
+    Unlike :func:`weld` this needs no scipy: nearly equal points are those in one cell of a grid.
+    """
+    best: tuple[Points, Faces, Edges] | None = None
+    grid = WELD_TOLERANCE * float(np.ptp(vertices, axis=0).max())
+    for shift in (None, 0.0, 0.5):
+        # two points of one place may lie on two sides of a cell's border, but not of both grids'
+        rounded = vertices if shift is None else np.floor(vertices / (grid or 1.0) + shift)
+        _, merged = merge_vertices(rounded, faces)
+        points = np.empty((int(merged.max()) + 1, 3))
+        points[merged.reshape(-1)] = vertices[faces.reshape(-1)]
+        edges = edges_of(merged[~collapsed(merged)])
+        if best is None or edges.open_count < best[2].open_count:
+            best = points, merged, edges
+        if edges.closed:
+            break
+    assert best is not None
+    return best
+
+
 def merge_vertices(
     vertices: Points, faces: Faces, *, tolerance: float = 0.0
 ) -> tuple[Points, Faces]:
-    """The same triangles on points that occur once each; points of no face are dropped.
+    """Merge points, so that each occurs once; points of no face are dropped.
 
     Args:
         vertices: Points [m], shape (n, 3).
@@ -166,14 +149,14 @@ def merge_vertices(
 
 
 def collapsed(faces: Faces) -> npt.NDArray[np.bool_]:
-    """Which faces use one vertex twice."""
+    """Find the faces that use one vertex twice."""
     return np.asarray(
         (faces[:, 0] == faces[:, 1]) | (faces[:, 1] == faces[:, 2]) | (faces[:, 2] == faces[:, 0])
     )
 
 
 def edges_of(faces: Faces) -> Edges:
-    """The edges of faces on merged vertices, none of them collapsed."""
+    """Find the edges of faces on merged vertices, none of them collapsed."""
     begin = faces.reshape(-1)
     end = faces[:, [1, 2, 0]].reshape(-1)
     count = int(begin.max(initial=-1)) + 1
@@ -189,7 +172,7 @@ def edges_of(faces: Faces) -> Edges:
     return Edges(pairs, forward, sizes - forward, order, starts)
 
 
-def neighbours(edges: Edges) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+def neighbors(edges: Edges) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
     """Pairs of faces that share an edge; at an edge of more than two, a chain through them."""
     face = edges.order // 3
     same = np.ones(len(face), dtype=bool)
@@ -199,14 +182,14 @@ def neighbours(edges: Edges) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int6
 
 
 def body_labels(count: int, edges: Edges) -> npt.NDArray[np.int64]:
-    """For each of ``count`` faces the number, from 0, of the body it belongs to."""
-    return components(count, *neighbours(edges))
+    """Number the bodies, from 0, for each of ``count`` faces."""
+    return components(count, *neighbors(edges))
 
 
 def components(
     count: int, first: npt.NDArray[np.int64], second: npt.NDArray[np.int64]
 ) -> npt.NDArray[np.int64]:
-    """For each of ``count`` things its group's number; ``first[i]`` goes with ``second[i]``."""
+    """Number the groups for each of ``count`` items; ``first[i]`` goes with ``second[i]``."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
@@ -216,7 +199,7 @@ def components(
 
 
 def _hashes(bits: npt.NDArray[np.uint64]) -> npt.NDArray[np.uint64]:
-    """One number for each row of three; equal rows get equal numbers, others hardly ever."""
+    """Hash each row of three; equal rows have equal hashes, others hardly ever."""
     mixed = np.zeros(len(bits), dtype=np.uint64)
     for axis, factor in enumerate((0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9)):
         part = bits[:, axis] * np.uint64(factor)

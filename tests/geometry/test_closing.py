@@ -5,7 +5,7 @@ import struct
 import numpy as np
 import pytest
 
-from urdftool.meshes.closing import change_by_closing
+from urdftool.geometry.surface import change_by_closing
 
 X, Y, Z = np.eye(3)
 QUADS = [

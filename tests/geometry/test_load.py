@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from urdftool.errors import MeshError
-from urdftool.meshes.load import load_mesh
-from urdftool.meshes.solid import solid_facts
+from urdftool.geometry.load import load_mesh
+from urdftool.geometry.surface import measure_surface
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "meshes"
 
@@ -31,11 +31,10 @@ def bounds(mesh):
 )
 def test_cube(name):
     mesh = load_mesh(FIXTURES / name)
-    facts = solid_facts(mesh.vertices, mesh.faces)
+    facts = measure_surface(mesh.vertices, mesh.faces)
     assert len(mesh.faces) == 12
-    assert facts.closed
+    assert not facts.open_edges
     assert facts.consistent
-    assert facts.bodies == 1
     assert facts.volume == pytest.approx(1.0, abs=1e-12)
     np.testing.assert_allclose(bounds(mesh), [[-0.5] * 3, [0.5] * 3])
     assert mesh.notes == ()
@@ -63,7 +62,7 @@ def test_obj_has_objects_colours_polygons_and_relative_indices():
     assert right.rgba == (0.5, 0.25, 0.125, 1.0)
     assert right.texture == FIXTURES / "textures" / "wood.png"
     assert mesh.vertices[mesh.part_faces(right)][..., 0].min() == pytest.approx(2.5)
-    assert solid_facts(mesh.vertices, mesh.faces).volume == pytest.approx(2.0)
+    assert measure_surface(mesh.vertices, mesh.faces).volume == pytest.approx(2.0)
 
 
 @pytest.mark.parametrize("name", ["textured.obj", "textured.dae", "textured.glb"])
@@ -111,20 +110,20 @@ def test_collada_instances_are_placed_and_mirrored_ones_keep_their_volume():
     low, high = bounds(mesh)
     np.testing.assert_allclose(low, [-0.5, -0.5, 1.5], atol=1e-6)
     np.testing.assert_allclose(high, [3.5, 0.5, 2.5], atol=1e-6)
-    assert solid_facts(mesh.vertices, mesh.faces).volume == pytest.approx(2.0, rel=1e-6)
+    assert measure_surface(mesh.vertices, mesh.faces).volume == pytest.approx(2.0, rel=1e-6)
 
 
 def test_gltf_is_turned_so_that_y_becomes_z():
     mesh = load_mesh(FIXTURES / "cube.glb")
     np.testing.assert_allclose(bounds(mesh)[1], [0.5, 2.0, 1.0], atol=1e-6)
-    assert solid_facts(mesh.vertices, mesh.faces).volume == pytest.approx(8.0, rel=1e-6)
+    assert measure_surface(mesh.vertices, mesh.faces).volume == pytest.approx(8.0, rel=1e-6)
     lying = load_mesh(FIXTURES / "cube.glb", gltf_up="z")
     np.testing.assert_allclose(bounds(lying)[1], [0.5, 1.0, 2.0], atol=1e-6)
 
 
 def test_mirrored_scale_keeps_the_sign_of_the_volume():
     mesh = load_mesh(FIXTURES / "cube.stl", (-2, 1, 3))
-    facts = solid_facts(mesh.vertices, mesh.faces)
+    facts = measure_surface(mesh.vertices, mesh.faces)
     assert facts.volume == pytest.approx(6.0)
     assert not facts.inside_out
 

@@ -1,15 +1,85 @@
-"""How much the holes of a mesh move what is computed of it: volume, center of mass, inertia."""
+"""The surface of a mesh file: closed, wound outwards, without slivers, convex, sensitive to holes.
+
+Nothing here needs scipy, which takes longer to import than a mesh to be read.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import MeshError
+from .convex_points import extreme_points
+from .hull import convex_hull
 from .load import load_mesh
 from .mesh import Faces, Points
-from .surface_arrays import welded
+from .topology import weld_on_grids
+
+LARGEST = 32_000_000
+"""Bytes of a file whose surface is read at most."""
+
+
+class Surface(NamedTuple):
+    """Properties of the surface of a mesh.
+
+    Attributes:
+        faces: Triangles.
+        open_edges: Edges with an odd number of triangles; 0 for a closed surface.
+        flat: Triangles without an area.
+        consistent: Whether neighbors are wound the same way round.
+        volume: Signed volume in the file's unit cubed; meaningless for an open surface.
+    """
+
+    faces: int
+    open_edges: int
+    flat: int
+    consistent: bool
+    volume: float
+
+    @property
+    def inside_out(self) -> bool:
+        """Whether a closed surface faces inwards."""
+        return not self.open_edges and self.consistent and self.volume < 0
+
+
+def read_surface(path: str | Path) -> Surface | None:
+    """Measure the surface of a mesh file; None if it cannot be read or is above LARGEST."""
+    file = Path(path)
+    try:
+        if file.stat().st_size > LARGEST:
+            return None
+        mesh = load_mesh(file)
+    except (MeshError, OSError):
+        return None
+    return measure_surface(mesh.vertices, mesh.faces)
+
+
+def measure_surface(vertices: Points, faces: Faces) -> Surface:
+    """Measure the surface of triangles.
+
+    Args:
+        vertices: Points, shape (n, 3); equal and nearly equal ones are merged.
+        faces: Indices into ``vertices``, shape (m, 3).
+    """
+    points, merged, edges = weld_on_grids(vertices, faces)
+    corners = points[merged]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    extent = float(np.ptp(vertices[faces].reshape(-1, 3), axis=0).max())
+    sliver = np.linalg.norm(normals, axis=1) <= 1e-12 * extent**2
+    centered = corners - points.mean(axis=0)
+    volume = np.einsum("ij,ij->", centered[:, 0], np.cross(centered[:, 1], centered[:, 2])) / 6
+    return Surface(len(merged), edges.open_count, int(sliver.sum()), edges.cycle, float(volume))
+
+
+def hull_volume(path: str | Path) -> float | None:
+    """Compute the volume of a mesh file's convex hull in its unit cubed; None for a flat one."""
+    try:
+        hull = convex_hull(extreme_points(load_mesh(path).vertices))
+    except (MeshError, OSError, ValueError):
+        return None
+    return None if hull is None else float(hull.volume())
 
 
 def change_by_closing(path: str | Path) -> float | None:
@@ -27,7 +97,7 @@ def change_by_closing(path: str | Path) -> float | None:
         mesh = load_mesh(Path(path))
     except (MeshError, OSError):
         return None
-    points, faces, _ = welded(mesh.vertices, mesh.faces)
+    points, faces, _ = weld_on_grids(mesh.vertices, mesh.faces)
     corners = points[faces]
     areas = np.linalg.norm(
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1

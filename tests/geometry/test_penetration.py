@@ -5,7 +5,7 @@ import random
 
 import pytest
 
-from urdftool.model.convex import convex_of, overlap
+from urdftool.geometry.penetration import convex_of, overlap
 from urdftool.model.elements import Box, Capsule, Cylinder, Sphere
 from urdftool.model.pose import IDENTITY, Pose, rotation_of_rpy
 

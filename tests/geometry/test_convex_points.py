@@ -2,6 +2,7 @@
 
 import json
 import os
+from base64 import b64encode
 from threading import Thread
 
 import numpy as np
@@ -9,26 +10,21 @@ import pytest
 
 from tests.conftest import FIXTURES
 from urdftool.errors import MeshError
-from urdftool.meshes import outline as module
-from urdftool.meshes import positions
-from urdftool.meshes.load import load_mesh
-from urdftool.meshes.outline import Outline, extremes, outline, reach_of
-from urdftool.meshes.positions import columns_of
+from urdftool.geometry.convex_points import (
+    ConvexPoints,
+    extreme_points,
+    read_convex_points,
+    support_function_of,
+)
+from urdftool.geometry.load import load_mesh
 
 SOUND = ["cube.dae", "cube.glb", "cube.obj", "cube.ply", "cube.stl", "cube_ascii.stl"]
 SOUND += ["inch_y_up.dae", "instances.dae", "sphere.stl", "two_cubes.stl", "trailing_bytes.stl"]
 
 
-@pytest.fixture(params=["plain", "numpy"])
-def way(request, monkeypatch):
-    """Points are worked on in plain Python where they are few, and by numpy where many."""
-    for place in (positions, module):
-        monkeypatch.setattr(place, "is_much", lambda _: request.param == "numpy")
-
-
 @pytest.mark.parametrize("name", SOUND)
-def test_box_is_that_of_the_triangles(name, way):
-    found = outline(FIXTURES / "meshes" / name)
+def test_box_is_that_of_the_triangles(name):
+    found = read_convex_points(FIXTURES / "meshes" / name)
     mesh = load_mesh(FIXTURES / "meshes" / name)
     corners = mesh.vertices[mesh.faces].reshape(-1, 3)
     box = corners.min(axis=0), corners.max(axis=0)
@@ -42,8 +38,8 @@ TILTED = ((0.36, 0.48, -0.8), (-0.8, 0.6, 0.0), (0.48, 0.64, 0.6))
 
 
 @pytest.mark.parametrize("rotation", [QUARTER, TILTED])
-def test_box_of_a_mesh_that_is_scaled_turned_and_moved(rotation, way):
-    found = outline(FIXTURES / "meshes" / "instances.dae")
+def test_box_of_a_mesh_that_is_scaled_turned_and_moved(rotation):
+    found = read_convex_points(FIXTURES / "meshes" / "instances.dae")
     mesh = load_mesh(FIXTURES / "meshes" / "instances.dae", (2.0, -1.0, 0.5))
     corners = mesh.vertices[mesh.faces].reshape(-1, 3) @ np.array(rotation).T + (1, 2, 3)
     box = found.box((2.0, -1.0, 0.5), rotation, (1.0, 2.0, 3.0))
@@ -57,8 +53,8 @@ def test_box_of_a_mesh_that_is_scaled_turned_and_moved(rotation, way):
         *("entities.dae", "huge_claim.stl", "no_such_file.stl"),
     ],
 )
-def test_a_damaged_file_says_nothing(name, way):
-    assert outline(FIXTURES / "meshes" / name) is None
+def test_a_damaged_file_says_nothing(name):
+    assert read_convex_points(FIXTURES / "meshes" / name) is None
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with a name")
@@ -77,7 +73,7 @@ def test_what_never_ends_is_no_mesh(name, tmp_path):
     }
     (tmp_path / "beside.gltf").write_text(json.dumps(tree))
     found = []
-    reading = Thread(target=lambda: found.append(outline(tmp_path / name)), daemon=True)
+    reading = Thread(target=lambda: found.append(read_convex_points(tmp_path / name)), daemon=True)
     reading.start()
     reading.join(5)
     assert found == [None]
@@ -86,35 +82,42 @@ def test_what_never_ends_is_no_mesh(name, tmp_path):
 
 
 @pytest.mark.parametrize("count", [300, 5_000, 60_000])
-def test_few_of_many_points_reach_nearly_as_far(count, way):
+def test_few_of_many_points_reach_nearly_as_far(count):
     rng = np.random.default_rng(0)
     points = rng.normal(size=(count, 3))
     points *= (3, 2, 1) / np.linalg.norm(points, axis=1, keepdims=True)
-    kept = np.array(extremes(columns_of(points)))
+    kept = np.array(extreme_points(points))
     assert len(kept) < 200
     ways = rng.normal(size=(300, 3))
     far, near = (points @ ways.T).max(axis=0), (kept @ ways.T).max(axis=0)
     assert (near <= far + 1e-9).all()
     assert (near > (0.9 if count > 1_000 else 0.8) * far).all()
-    whole = Outline(columns_of(points))
+    whole = ConvexPoints(points)
     np.testing.assert_allclose((whole.low, whole.high), (points.min(axis=0), points.max(axis=0)))
-
-
-def test_numpy_is_imported_only_where_there_is_much(monkeypatch):
-    monkeypatch.setattr(positions, "sys", type("without", (), {"modules": {}}))
-    monkeypatch.setattr(positions, "_patience", [1000.0])
-    assert [positions.is_much(400) for _ in range(4)] == [False, False, True, True]
-    monkeypatch.setattr(positions, "_patience", [1000.0])
-    positions.expect(900)
-    assert not positions.is_much(400)
-    positions.expect(900)
-    assert positions.is_much(1)
 
 
 def test_support_function_reaches_from_the_middle():
     corners = [(x, y, z) for x in (0, 2) for y in (0, 4) for z in (0, 6)]
-    middle, radius, reach = reach_of(corners)
+    middle, radius, reach = support_function_of(corners)
     assert middle == (1, 2, 3)
     assert radius == pytest.approx(np.sqrt(14))
     assert reach(1, 0, 0) == 1
     assert reach(0, 0, -1) == 3
+
+
+def test_a_gltf_scene_of_which_one_node_is_moved(tmp_path):
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype="<f4").tobytes()
+    data = "data:application/octet-stream;base64," + b64encode(corners).decode()
+    tree = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": 36, "uri": data}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "nodes": [{"mesh": 0}, {"mesh": 0, "translation": [5, 0, 0]}],
+        "scenes": [{"nodes": [0, 1]}],
+    }
+    path = tmp_path / "two.gltf"
+    path.write_text(json.dumps(tree))
+    found = read_convex_points(path, "z")
+    assert (found.low, found.high) == ((0.0, 0.0, 0.0), (6.0, 1.0, 0.0))

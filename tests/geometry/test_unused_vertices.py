@@ -7,8 +7,8 @@ import struct
 import numpy as np
 import pytest
 
-from urdftool.meshes.load import load_mesh
-from urdftool.meshes.outline import outline
+from urdftool.geometry.convex_points import read_convex_points
+from urdftool.geometry.load import load_mesh
 
 TETRAHEDRON = [(0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.1, 0.0), (0.0, 0.0, 0.1)]
 FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
@@ -116,7 +116,7 @@ FILES = {
 def test_only_vertices_of_triangles_count(tmp_path, name):
     path = tmp_path / name
     path.write_bytes(FILES[name])
-    found = outline(path)
+    found = read_convex_points(path)
     assert found is not None
     np.testing.assert_allclose((found.low, found.high), ((0, 0, 0), (0.1, 0.1, 0.1)), atol=1e-6)
     mesh = load_mesh(path)
@@ -128,7 +128,7 @@ def test_only_vertices_of_triangles_count(tmp_path, name):
 def test_an_obj_without_faces_has_no_outline(tmp_path):
     path = tmp_path / "points.obj"
     path.write_bytes(_obj([]))
-    assert outline(path) is None
+    assert read_convex_points(path) is None
 
 
 def test_a_stray_vertex_changes_no_finding(tmp_path, urdftool):

@@ -1,4 +1,4 @@
-"""STL facts without a library."""
+"""Headers of STL files without a library, and their bounds."""
 
 import subprocess
 import sys
@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from urdftool.meshes.facts import is_lfs_pointer, stl_bounds, stl_facts
+from urdftool.geometry.stl import stl_bounds
+from urdftool.geometry.stl_header import is_lfs_pointer, read_stl_header
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "meshes"
 
@@ -25,7 +26,7 @@ FIXTURES = Path(__file__).parents[2] / "fixtures" / "meshes"
     ],
 )
 def test_kind(name, kind, triangles, solid, agrees):
-    facts = stl_facts(FIXTURES / name)
+    facts = read_stl_header(FIXTURES / name)
     assert (facts.kind, facts.triangles) == (kind, triangles)
     assert facts.begins_with_solid == solid
     assert facts.size_agrees == agrees
@@ -47,7 +48,8 @@ def test_lfs_pointer():
 
 def test_nothing_heavy_is_imported():
     code = (
-        "import sys, urdftool.meshes.facts, urdftool.meshes, urdftool.inertia;"
+        "import sys, urdftool.geometry.stl_header, urdftool.geometry.penetration;"
+        "import urdftool.inertia;"
         "print([m for m in ('numpy', 'trimesh', 'scipy', 'collada') if m in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

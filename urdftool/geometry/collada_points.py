@@ -1,4 +1,4 @@
-"""The positions of a COLLADA scene, without its faces, materials and skins."""
+"""Positions of a COLLADA scene, without its faces, materials and skins, by the XML parser."""
 
 from __future__ import annotations
 
@@ -7,14 +7,17 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from .positions import UPRIGHT, Affine, Columns, chosen, is_much, joined, moved, numbers, product
+import numpy as np
+
+from .mesh import Array, Points
+from .points import IDENTITY, select_points, transform_points
 
 _MAX_DEPTH = 64
 _FACES = ("triangles", "polylist", "polygons", "trifans", "tristrips")
 
 
-def collada_columns(path: Path) -> Columns | None:
-    """The corners of the scene's faces [m], in the axes of the file; None if it has none.
+def read_collada_points(path: Path) -> Points | None:
+    """Read the corners of the scene's faces [m], in the axes of the file; None if it has none.
 
     Raises:
         ValueError: The file is no COLLADA file, or its nodes form a circle.
@@ -36,7 +39,7 @@ def collada_columns(path: Path) -> Columns | None:
     for child in shown:
         if child.tag == f"{reader.space}node":
             reader.walk(child, _scale([factor] * 3), 0)
-    return joined(reader.found) if reader.found else None
+    return np.concatenate(reader.found) if reader.found else None
 
 
 class _Reader:
@@ -45,10 +48,10 @@ class _Reader:
     def __init__(self, root: Any) -> None:
         self.space = root.tag.partition("}")[0] + "}" if root.tag.startswith("{") else ""
         self.named = {element.get("id"): element for element in root.iter() if element.get("id")}
-        self.found: list[Columns] = []
-        self.read: dict[str, Columns] = {}
+        self.found: list[Points] = []
+        self.read: dict[str, Points] = {}
 
-    def walk(self, node: Any, above: Affine, depth: int) -> None:
+    def walk(self, node: Any, above: Array, depth: int) -> None:
         """Add the points of a node and of those below it."""
         if depth > _MAX_DEPTH:
             raise ValueError("nodes in a circle")
@@ -57,7 +60,7 @@ class _Reader:
             kind = child.tag[tag:]
             if kind in _TRANSFORMS:
                 values = [float(word) for word in (child.text or "").split()]
-                matrix = product(matrix, _TRANSFORMS[kind](values))
+                matrix = matrix @ _TRANSFORMS[kind](values)
             elif kind == "node":
                 self.walk(child, matrix, depth + 1)
             elif kind == "instance_node" and (other := self.target(child)) is not None:
@@ -71,7 +74,7 @@ class _Reader:
         """What an instance is one of."""
         return self.named.get((element.get("url") or "")[1:])
 
-    def add(self, geometry: Any, matrix: Affine) -> None:
+    def add(self, geometry: Any, matrix: Array) -> None:
         """Add the positions of a geometry's faces; points and lines are not a surface."""
         corners: dict[str, set[int]] = {}
         for child in geometry.iter():
@@ -84,8 +87,9 @@ class _Reader:
             rows = corners.get(vertices.get("id") or "", set())
             for entry in vertices.iterfind(f"{self.space}input"):
                 if entry.get("semantic") == "POSITION" and rows:
-                    columns = self.positions((entry.get("source") or "")[1:])
-                    self.found.append(moved(chosen(columns, rows), matrix))
+                    points = self.positions((entry.get("source") or "")[1:])
+                    used = select_points(points, rows)
+                    self.found.append(transform_points(used, matrix))
 
     def corners(self, primitive: Any) -> tuple[str, set[int]]:
         """The ``<vertices>`` that faces are made of, and the numbers of those that they have."""
@@ -100,7 +104,7 @@ class _Reader:
             rows |= _rows(p.text or "", offset, stride)
         return source, rows
 
-    def add_skin(self, controller: Any, matrix: Affine) -> None:
+    def add_skin(self, controller: Any, matrix: Array) -> None:
         """Add the positions of a skin in its bind shape."""
         skin = controller.find(f"{self.space}skin")
         geometry = self.named.get((skin.get("source") or "")[1:]) if skin is not None else None
@@ -108,62 +112,61 @@ class _Reader:
             return
         bind = skin.find(f"{self.space}bind_shape_matrix")
         if bind is not None and bind.text:
-            matrix = product(matrix, _matrix([float(word) for word in bind.text.split()]))
+            matrix = matrix @ _matrix([float(word) for word in bind.text.split()])
         self.add(geometry, matrix)
 
-    def positions(self, source: str) -> Columns:
-        """The rows of a ``<source>``."""
+    def positions(self, source: str) -> Points:
+        """Return the rows of a ``<source>``."""
         if source not in self.read:
             element = self.named[source]
             array = element.find(f"{self.space}float_array")
             accessor = element.find(f".//{self.space}accessor")
             stride = int(accessor.get("stride", 3)) if accessor is not None else 3
-            values = numbers((array.text or "").split())
+            values = np.array((array.text or "").split(), dtype=np.float64)
             whole = values[: len(values) // stride * stride]
-            self.read[source] = whole[0::stride], whole[1::stride], whole[2::stride]
+            self.read[source] = whole.reshape(-1, stride)[:, :3]
         return self.read[source]
 
 
 def _rows(text: str, offset: int, stride: int) -> set[int]:
-    """Every number of a text at one place of each group."""
-    if is_much(0.03 * len(text)):
-        import numpy as np
-
-        try:
-            numbers_of = np.fromstring(text, dtype=np.int64, sep=" ")
-        except (ValueError, DeprecationWarning) as error:  # not all of it is numbers
-            raise ValueError("corners are not numbers") from error
-        return set(np.unique(numbers_of[offset::stride]).tolist())
+    """Return every number of a text at one place of each group."""
     return set(map(int, set(text.split()[offset::stride])))
 
 
-def _matrix(values: list[float]) -> Affine:
+def _matrix(values: list[float]) -> Array:
     if len(values) != 16:
         raise ValueError("a matrix is not 16 numbers")
-    a, b, c = (tuple(values[row : row + 4]) for row in (0, 4, 8))
-    return a, b, c  # type: ignore[return-value]
+    matrix: Array = np.array(values).reshape(4, 4)
+    matrix[3] = IDENTITY[3]
+    return matrix
 
 
-def _translate(values: list[float]) -> Affine:
-    return tuple((*row[:3], value) for row, value in zip(UPRIGHT, values, strict=True))
-
-
-def _scale(values: list[float]) -> Affine:
+def _translate(values: list[float]) -> Array:
+    matrix: Array = IDENTITY.copy()
     x, y, z = values
-    return (x, 0.0, 0.0, 0.0), (0.0, y, 0.0, 0.0), (0.0, 0.0, z, 0.0)
+    matrix[:3, 3] = x, y, z
+    return matrix
 
 
-def _rotate(values: list[float]) -> Affine:
+def _scale(values: list[float]) -> Array:
+    x, y, z = values
+    matrix: Array = np.diag([x, y, z, 1.0])
+    return matrix
+
+
+def _rotate(values: list[float]) -> Array:
     (x, y, z), angle = values[:3], math.radians(values[3])
     length = math.hypot(x, y, z)
     x, y, z = (x / length, y / length, z / length) if length else (0.0, 0.0, 1.0)
     c, s = math.cos(angle), math.sin(angle)
     d = 1 - c
-    return (
-        (c + x * x * d, x * y * d - z * s, x * z * d + y * s, 0.0),
-        (y * x * d + z * s, c + y * y * d, y * z * d - x * s, 0.0),
-        (z * x * d - y * s, z * y * d + x * s, c + z * z * d, 0.0),
-    )
+    matrix: Array = IDENTITY.copy()
+    matrix[:3, :3] = [
+        [c + x * x * d, x * y * d - z * s, x * z * d + y * s],
+        [y * x * d + z * s, c + y * y * d, y * z * d - x * s],
+        [z * x * d - y * s, z * y * d + x * s, c + z * z * d],
+    ]
+    return matrix
 
 
 _TRANSFORMS = {"matrix": _matrix, "translate": _translate, "scale": _scale, "rotate": _rotate}

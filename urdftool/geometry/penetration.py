@@ -1,4 +1,4 @@
-"""Convex shapes and how deep two of them overlap, in plain Python.
+"""Convex shapes and their penetration depth, in plain Python: lint of primitives has no numpy.
 
 A convex shape is known by how far it reaches in each direction (its support function). Two shapes
 are apart if along some direction the one ends before the other begins; if they overlap, the least
@@ -13,10 +13,10 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
-from .elements import Box, Capsule, Cylinder, Geometry, Sphere, Vector
-from .pose import Pose, cross, norm, transpose
+from ..model.elements import Box, Capsule, Cylinder, Geometry, Sphere, Vector
+from ..model.pose import Pose, cross, norm, transpose
 
-Reach = Callable[[float, float, float], float]
+SupportFunction = Callable[[float, float, float], float]
 """How far a shape reaches along a direction [m], in its own frame."""
 
 
@@ -31,7 +31,7 @@ class Convex(NamedTuple):
     """
 
     pose: Pose
-    reach: Reach
+    reach: SupportFunction
     radius: float
     filled: bool = True
 
@@ -48,7 +48,7 @@ def convex_of(geometry: Geometry | None, pose: Pose) -> Convex | None:
     return Convex(pose, *made)
 
 
-def _reach_of(geometry: Geometry | None) -> tuple[Reach, float] | None:
+def _reach_of(geometry: Geometry | None) -> tuple[SupportFunction, float] | None:
     if isinstance(geometry, Box):
         a, b, c = (abs(side) / 2 for side in geometry.size)
         return lambda x, y, z: a * abs(x) + b * abs(y) + c * abs(z), math.hypot(a, b, c)
@@ -105,13 +105,14 @@ def overlap(one: Convex, other: Convex, enough: float = 0.0) -> float:
     return best
 
 
-_CORNERS = tuple(
+CORNER_DIRECTIONS = tuple(
     (x / n, y / n, z / n)
     for x in (-1, 0, 1)
     for y in (-1, 0, 1)
     for z in (-1, 0, 1)
     if (n := math.hypot(x, y, z))
 )
+"""Unit vectors to the faces, edges and corners of a cube."""
 
 
 def _directions(one: Convex, other: Convex, apart: Vector, distance: float) -> Iterator[Vector]:
@@ -122,7 +123,7 @@ def _directions(one: Convex, other: Convex, apart: Vector, distance: float) -> I
         for axis in transpose(shape.pose.rotation):
             yield axis
             yield _scaled(axis, -1.0)
-    yield from _CORNERS
+    yield from CORNER_DIRECTIONS
 
 
 def _around(way: Vector, step: float) -> Iterator[Vector]:

@@ -1,4 +1,4 @@
-"""Vectors in rows of three, worked on column by column.
+"""Vectors in rows of three, computed column by column.
 
 numpy goes through rows of three in steps of three, and its functions for them take ten times as
 long as the sums and products they consist of. The order of the sums is fixed, so that the same
@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..meshes.mesh import Points
+from ..geometry.mesh import Points
 
 
 def cross(one: Points, other: Points) -> Points:
-    """The cross products of rows, shape (n, 3)."""
+    """Compute the cross products of rows, shape (n, 3)."""
     ax, ay, az = one[:, 0], one[:, 1], one[:, 2]
     bx, by, bz = other[:, 0], other[:, 1], other[:, 2]
     made = np.empty((len(one), 3))
@@ -24,7 +24,7 @@ def cross(one: Points, other: Points) -> Points:
 
 
 def dot(one: Points, other: Points) -> Points:
-    """The products of rows, shape (n, 3), summed up."""
+    """Compute the dot products of rows, shape (n, 3)."""
     made = one[:, 0] * other[:, 0]
     made += one[:, 2] * other[:, 2]
     made += one[:, 1] * other[:, 1]
@@ -32,7 +32,7 @@ def dot(one: Points, other: Points) -> Points:
 
 
 def lengths(rows: Points) -> Points:
-    """The length of each row, shape (n, 3)."""
+    """Compute the length of each row, shape (n, 3)."""
     x, y, z = rows[:, 0], rows[:, 1], rows[:, 2]
     made = x * x
     made += y * y
@@ -41,12 +41,12 @@ def lengths(rows: Points) -> Points:
 
 
 def normals(corners: Points) -> Points:
-    """The normal of each triangle, shape (n, 3, 3), twice as long as its area is large."""
+    """Compute the normal of each triangle, shape (n, 3, 3), of twice its area as length."""
     first = corners[:, 0]
     return cross(corners[:, 1] - first, corners[:, 2] - first)
 
 
 def bounds(rows: Points) -> Points:
-    """The least and the largest of each column, shape (2, 3), of at least one row."""
+    """Compute the least and the largest of each column, shape (2, 3), of at least one row."""
     columns = [rows[:, axis] for axis in range(3)]
     return np.array([[column.min() for column in columns], [column.max() for column in columns]])

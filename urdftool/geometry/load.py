@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from ..errors import MeshError
-from .facts import is_lfs_pointer
 from .mesh import Mesh, Part, Piece, Reading
+from .stl_header import is_lfs_pointer
 
 if TYPE_CHECKING:
     from ..source.description import Description, GltfUp
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 # suffix -> module of this package with a function ``read``
 READERS = {
     "stl": "stl",
-    "obj": "wavefront",
+    "obj": "obj",
     "dae": "collada",
     "ply": "ply",
     "gltf": "gltf",

@@ -1,0 +1,207 @@
+"""The outermost points of a mesh, read without its faces.
+
+``load`` reads a mesh with its faces. A question of size or of contact needs points alone, and of
+those only the outermost: points inside the convex hull change neither the box around a mesh nor the
+distance between two hulls. So this module reads positions straight from the bytes and keeps the
+extreme ones in about a hundred directions. Units and axes are those of :func:`load.load_mesh`.
+
+The readers of COLLADA and glTF are not those of ``load``: pycollada keeps positions as 32-bit
+floats, and importing trimesh takes longer than all of ``lint``.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import MeshError
+from .mesh import Points
+from .penetration import SupportFunction
+from .points import read_obj_points, read_stl_points
+
+if TYPE_CHECKING:
+    from ..source.description import GltfUp
+
+Vector = tuple[float, float, float]
+Rotation = Sequence[Sequence[float]]
+
+LARGEST = 64_000_000
+"""Bytes of a file that is read at most."""
+
+_DIRECTIONS = 90
+_KEPT = 50_000  # points of a mesh that are all kept; of a larger one only the outermost
+_FEW = 3_000  # points of which equal ones are merged first
+_ALIGNED = 1e-12
+_BLOCK = 2048  # small enough that a product with 32 directions stays on one core
+
+
+class ConvexPoints:
+    """The points of a mesh in the frame of its file, unscaled.
+
+    Attributes:
+        low: The smallest corner of the box around it, along the axes of the file.
+        high: The largest.
+    """
+
+    def __init__(self, points: Points) -> None:
+        """Take the points, shape (n, 3); the outermost are selected on demand."""
+        self._all = points
+        self._outermost: list[Vector] | None = None
+        self._boxes: dict[tuple[Sequence[float], Rotation], tuple[Vector, Vector]] = {}
+        self.low, self.high = _box(points)
+        if len(points) > _KEPT:
+            self._all = np.array(self.points)
+
+    @property
+    def points(self) -> list[Vector]:
+        """The outermost points; their hull lies inside that of the mesh, and is nearly as large.
+
+        The box around them is that around the mesh.
+        """
+        if self._outermost is None:
+            points = self._all
+            if len(points) <= _FEW:
+                points = np.array(list(dict.fromkeys(map(tuple, points.tolist()))))
+            self._outermost = [(x, y, z) for x, y, z in extreme_points(points).tolist()]
+        return self._outermost
+
+    def box(self, scale: Sequence[float], rotation: Rotation, at: Vector) -> tuple[Vector, Vector]:
+        """Compute two corners of the box around the mesh, scaled, rotated and moved [m]."""
+        key = tuple(scale), tuple(map(tuple, rotation))
+        if key not in self._boxes:
+            self._boxes[key] = self._box(*key)
+        (a, b, c), (d, e, f) = self._boxes[key]
+        x, y, z = at
+        return (a + x, b + y, c + z), (d + x, e + y, f + z)
+
+    def _box(self, scale: Sequence[float], rotation: Rotation) -> tuple[Vector, Vector]:
+        rows = [[r * factor for r, factor in zip(row, scale, strict=True)] for row in rotation]
+        if any(sum(abs(entry) > _ALIGNED for entry in row) > 1 for row in rotation):
+            return _box(np.einsum("ij,kj->ki", np.array(rows), self._all))
+        low, high = [0.0] * 3, [0.0] * 3
+        for axis, row in enumerate(rows):
+            for factor, a, d in zip(row, self.low, self.high, strict=True):
+                low[axis] += min(factor * a, factor * d)
+                high[axis] += max(factor * a, factor * d)
+        return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
+
+def read_convex_points(path: str | Path, gltf_up: GltfUp = "y") -> ConvexPoints | None:
+    """Read the points of a mesh file.
+
+    Args:
+        path: An STL, OBJ, DAE, PLY, glTF or GLB file.
+        gltf_up: The axis of a glTF file that is up.
+
+    Returns:
+        None if the file cannot be read, is larger than :data:`LARGEST`, or has no point or one that
+        is not finite.
+    """
+    file = Path(path)
+    try:
+        if not file.is_file() or file.stat().st_size > LARGEST:
+            return None  # a device or a pipe is read without end
+        suffix = file.suffix.lower()
+        points = _gltf(file, gltf_up) if suffix in _GLTF else _READERS[suffix](file)
+    # a damaged file makes arithmetic raise anything; here it is only a file without points
+    except (MeshError, OSError, ValueError, LookupError, TypeError, AttributeError, struct.error):
+        return None
+    except (ArithmeticError, RecursionError):
+        return None
+    if points is None or not len(points) or not np.isfinite(points).all():
+        return None
+    return ConvexPoints(points)
+
+
+def _box(points: Points) -> tuple[Vector, Vector]:
+    (a, b, c), (d, e, f) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    return (a, b, c), (d, e, f)
+
+
+def extreme_points(points: Points) -> Points:
+    """Select the points that reach farthest in some direction, all six along the axes included.
+
+    Args:
+        points: Shape (n, 3); as few as twice the directions stay as they are.
+    """
+    if len(points) <= 2 * len(directions()):
+        return points
+    points = np.ascontiguousarray(points)
+    while len(points) > _BLOCK:
+        blocks = [points[first : first + _BLOCK] for first in range(0, len(points), _BLOCK)]
+        points = np.concatenate([_outermost(block) for block in blocks])
+        if len(points) > 0.7 * sum(map(len, blocks)):
+            break
+    return _outermost(points) if len(points) <= _BLOCK else points
+
+
+def _outermost(points: Points) -> Points:
+    ways = np.array(directions(), dtype=np.float32)
+    centered = (points - points.mean(axis=0)).astype(np.float32)
+    kept = np.zeros(len(points), dtype=bool)  # np.unique would import numpy.ma
+    for first in range(0, len(ways), 32):
+        kept[(centered @ ways[first : first + 32].T).argmax(axis=0)] = True
+    return np.asarray(points[kept])
+
+
+@cache
+def directions() -> list[Vector]:
+    """Return unit vectors: the axes, and a spiral that covers the sphere evenly."""
+    ways = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
+    ways += [(-x, -y, -z) for x, y, z in ways]
+    for number in range(_DIRECTIONS):
+        z = 1 - (2 * number + 1) / _DIRECTIONS
+        turn = (number + 0.5) * math.pi * (1 + math.sqrt(5))
+        radius = math.sqrt(1 - z * z)
+        ways.append((radius * math.cos(turn), radius * math.sin(turn), z))
+    return ways
+
+
+def _dae(path: Path) -> Points | None:
+    from .collada_points import read_collada_points
+
+    return read_collada_points(path)
+
+
+def _gltf(path: Path, gltf_up: GltfUp) -> Points | None:
+    from .gltf_points import read_gltf_points
+
+    return read_gltf_points(path, gltf_up)
+
+
+def _ply(path: Path) -> Points | None:
+    from .load import load_mesh
+
+    return load_mesh(path).vertices
+
+
+_READERS = {
+    ".stl": read_stl_points,
+    ".obj": read_obj_points,
+    ".ply": _ply,
+    ".dae": _dae,
+}
+_GLTF = (".gltf", ".glb")
+
+
+def support_function_of(points: Sequence[Vector]) -> tuple[Vector, float, SupportFunction]:
+    """Describe points as a convex shape.
+
+    Returns:
+        Their middle, the radius about it [m], and the function that gives how far their hull
+        reaches from the middle along a direction [m].
+    """
+    x, y, z = ((min(column) + max(column)) / 2 for column in zip(*points, strict=True))
+    centered: list[Vector] = [(a - x, b - y, c - z) for a, b, c in points]
+    radius = max(math.hypot(*point) for point in centered)
+
+    def reach(x: float, y: float, z: float) -> float:
+        return max([a * x + b * y + c * z for a, b, c in centered])
+
+    return (x, y, z), radius, reach

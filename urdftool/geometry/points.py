@@ -1,0 +1,92 @@
+"""Points of meshes as arrays: mapped, selected, and read from STL and OBJ files without faces."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Set
+from pathlib import Path
+
+import numpy as np
+
+from .mesh import Array, Points
+from .stl import read_corners
+from .stl_header import read_stl_header
+
+IDENTITY: Array = np.eye(4)
+
+
+def transform_points(points: Points, matrix: Array) -> Points:
+    """Map points, shape (n, 3), by an affine matrix, shape (4, 4)."""
+    if np.array_equal(matrix, IDENTITY):
+        return points
+    # einsum, as a product of matrices starts threads on all cores
+    mapped: Points = np.einsum("ij,kj->ki", matrix[:3, :3], points) + matrix[:3, 3]
+    return mapped
+
+
+def select_points(points: Points, rows: Set[int]) -> Points:
+    """Select the points of which a face has a corner, given by their rows.
+
+    Rows beyond the points are left out: readers reject a file with such faces.
+    """
+    used = np.fromiter(rows, dtype=np.int64, count=len(rows))
+    is_used = np.zeros(len(points), dtype=bool)
+    is_used[used[(used >= 0) & (used < len(points))]] = True
+    return points if is_used.all() else points[is_used]
+
+
+def as_points(values: object) -> Points:
+    """Convert numbers or their texts, three for each point, to points.
+
+    Raises:
+        ValueError: One of them is not a number, or they are not three for each.
+    """
+    return np.array(values, dtype=np.float64).reshape(-1, 3)
+
+
+def read_stl_points(path: Path) -> Points | None:
+    """Read the corners of an STL file's triangles; None if it is not one, or truncated.
+
+    Raises:
+        OSError: It cannot be read.
+        ValueError: A corner of a text file is not three numbers.
+    """
+    header = read_stl_header(path)
+    whole = bool(header.triangles) and header.bytes >= (header.expected_bytes or 0)
+    return read_corners(path, header) if header.kind == "ascii" or whole else None
+
+
+def read_obj_points(path: Path) -> Points | None:
+    """Read the points of an OBJ file's faces; None if there are none.
+
+    Raises:
+        OSError: It cannot be read.
+        ValueError: A point is not three numbers.
+    """
+    lines = _CONTINUED.sub(b" ", path.read_bytes()).splitlines()
+    rows = [line.split(None, 4)[1:4] for line in lines if line.startswith((b"v ", b"v\t"))]
+    return select_points(as_points(rows), _obj_corners(lines)) if rows else None
+
+
+_CONTINUED = re.compile(rb"\\\r?\n")
+_CORNER = re.compile(rb"\s(-?\d+)")
+
+
+def _obj_corners(lines: list[bytes]) -> set[int]:
+    """List the rows of the points that the faces of an OBJ file have, from 0.
+
+    A corner is written ``point/texture/normal``; a negative number counts back from the last point
+    above the face.
+    """
+    faces = [line for line in lines if line.startswith((b"f ", b"f\t"))]
+    words = set(_CORNER.findall(b"\n".join([b"", *faces])))
+    found = {int(word) - 1 for word in words if not word.startswith(b"-")}
+    if len(found) == len(words):
+        return found
+    above = 0
+    for line in lines:
+        if line.startswith((b"v ", b"v\t")):
+            above += 1
+        elif line.startswith((b"f ", b"f\t")):
+            found |= {above + int(word) for word in _CORNER.findall(line) if int(word) < 0}
+    return found

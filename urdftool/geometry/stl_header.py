@@ -1,0 +1,78 @@
+"""The first bytes of a mesh file: kind and claimed size of an STL file, git-lfs pointers.
+
+A binary STL file is 80 bytes of anything, the number of triangles as a little-endian 32-bit
+integer, and 50 bytes a triangle. Its size is therefore known from the header, and that, not the
+word "solid" at the beginning, tells it from a text file: one binary file in fifteen begins so.
+"""
+
+from __future__ import annotations
+
+import os
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+
+HEADER_BYTES = 84
+TRIANGLE_BYTES = 50
+LFS_MARK = b"version https://git-lfs.github.com/spec/"
+
+
+@dataclass(frozen=True)
+class StlHeader:
+    """The kind and size of an STL file, judged from its first bytes and its size."""
+
+    kind: str
+    """``"binary"``, ``"ascii"``, ``"lfs-pointer"``, ``"empty"`` or ``"unknown"``."""
+    bytes: int
+    """Size of the file."""
+    triangles: int | None = None
+    """Number of triangles a binary header claims; None for any other kind."""
+    begins_with_solid: bool = False
+    """The file begins with the word that is the mark of the text form."""
+
+    @property
+    def expected_bytes(self) -> int | None:
+        """The size a binary file must have for the triangles it claims."""
+        if self.triangles is None:
+            return None
+        return HEADER_BYTES + TRIANGLE_BYTES * self.triangles
+
+    @property
+    def size_agrees(self) -> bool:
+        """Whether a binary file is exactly as long as its header says; True for text."""
+        return self.kind == "ascii" or self.bytes == self.expected_bytes
+
+
+def read_stl_header(path: str | Path) -> StlHeader:
+    """Read the kind of an STL file, how many triangles it claims and its size.
+
+    Raises:
+        OSError: The file cannot be read.
+    """
+    with open(path, "rb") as file:
+        size = os.fstat(file.fileno()).st_size
+        head = file.read(1024)
+    if not size:
+        return StlHeader("empty", 0)
+    if head.startswith(LFS_MARK):
+        return StlHeader("lfs-pointer", size)
+    solid = head.lstrip().lower().startswith(b"solid")
+    claimed = struct.unpack_from("<I", head, 80)[0] if len(head) >= HEADER_BYTES else None
+    if claimed is not None and size == HEADER_BYTES + TRIANGLE_BYTES * claimed:
+        return StlHeader("binary", size, claimed, solid)
+    lines = head.lower()
+    if solid and (b"facet" in lines or b"endsolid" in lines):
+        return StlHeader("ascii", size, None, True)
+    if claimed is None:
+        return StlHeader("unknown", size, None, solid)
+    return StlHeader("binary", size, claimed, solid)
+
+
+def is_lfs_pointer(path: str | Path) -> bool:
+    """Whether the file is the text that git-lfs leaves in place of a file it has not fetched.
+
+    Raises:
+        OSError: The file cannot be read.
+    """
+    with open(path, "rb") as file:
+        return file.read(len(LFS_MARK)) == LFS_MARK
