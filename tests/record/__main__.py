@@ -47,12 +47,13 @@ def record(command: Command, folder: Path, program: Path) -> str:
             capture_output=True,
             check=False,
         )
-    roots = [(str(program), "ROOT"), (str(files.resolve()), "FILES")]
-    for name, data in (("stdout", done.stdout), ("stderr", done.stderr)):
-        text = data.decode("utf-8", "replace")
-        for root, sign in roots:
-            text = text.replace(root, sign)
-        (target / name).write_text(text, "utf-8")
+    (target / "stdout").write_bytes(done.stdout)
+    (target / "stderr").write_bytes(done.stderr)
+    for path in filter(Path.is_file, target.rglob("*")):
+        data = path.read_bytes()
+        for root, sign in ((program, b"ROOT"), (files.resolve(), b"FILES")):
+            data = data.replace(str(root).encode(), sign)
+        path.write_bytes(data)
     words = ["urdftool", *(word.replace(str(program), "ROOT") for word in arguments)]
     facts = {"command": words, "exit": done.returncode}
     (target / "run.json").write_text(json.dumps(facts, indent=1), "utf-8")

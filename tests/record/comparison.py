@@ -21,11 +21,12 @@ _TIME = re.compile(r"\d+(?:\.\d+)? (?:s|ms|seconds)\b")
 
 
 def _stripped(value: Any, leave_out: frozenset[str]) -> Any:
+    """Leave out keys of JSON, and round numbers to 12 digits."""
     if isinstance(value, dict):
         return {k: _stripped(v, leave_out) for k, v in value.items() if k not in leave_out}
     if isinstance(value, list):
         return [_stripped(item, leave_out) for item in value]
-    return value
+    return float(f"{value:.12g}") if isinstance(value, float) else value
 
 
 def _parsed(text: str) -> Any:
