@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 import sys
 import time
 from collections.abc import Iterable, Mapping
@@ -85,6 +84,8 @@ def write_folder(target: str | Path, files: Mapping[str, Content]) -> None:
     Raises:
         OutputError: It cannot be written; what was there is as it was.
     """
+    import shutil
+
     folder = Path(os.path.realpath(target))
     staged = _beside(folder, "tmp")
     made: list[Path] = []
@@ -99,7 +100,7 @@ def write_folder(target: str | Path, files: Mapping[str, Content]) -> None:
         if folder.is_dir():
             _carry_over(folder, staged)
         _take_place(staged, folder)
-    except (OSError, shutil.Error) as error:
+    except OSError as error:
         raise OutputError(f"cannot be written: {_reason(error)}", path=target) from None
     finally:
         shutil.rmtree(staged, ignore_errors=True)
@@ -142,6 +143,8 @@ def _beside(place: Path, kind: str) -> Path:
 
 
 def _write(path: Path, content: Content) -> None:
+    import shutil
+
     with open(path, "wb") as stream:
         if isinstance(content, bytes):
             stream.write(content)
@@ -154,6 +157,8 @@ def _write(path: Path, content: Content) -> None:
 
 def _keep(place: Path, old: Path) -> None:
     """Give a file, if there is one, a second name for the time until all are moved."""
+    import shutil
+
     old.unlink(missing_ok=True)
     if not os.path.lexists(place):
         return
@@ -172,6 +177,8 @@ def _restore(place: Path, old: Path, *, alone: bool) -> None:
 
 def _carry_over(folder: Path, staged: Path) -> None:
     """Copy what is in a folder and not yet in its new state."""
+    import shutil
+
     for place in sorted(folder.rglob("*")):
         copy = staged / place.relative_to(folder)
         if place.is_symlink() or not place.is_dir():
@@ -183,6 +190,8 @@ def _carry_over(folder: Path, staged: Path) -> None:
 
 
 def _take_place(staged: Path, folder: Path) -> None:
+    import shutil
+
     if not folder.exists():
         os.rename(staged, folder)
         return
@@ -196,7 +205,7 @@ def _take_place(staged: Path, folder: Path) -> None:
     shutil.rmtree(old, ignore_errors=True)
 
 
-def _reason(error: OSError | shutil.Error) -> str:
+def _reason(error: OSError) -> str:
     return getattr(error, "strerror", None) or str(error)
 
 

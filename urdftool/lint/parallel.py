@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from ..parallel import cores, in_order, map_tasks
 from .outcome import Options, Report
 from .run import known_report, lint_file
 
@@ -34,7 +33,12 @@ def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) 
 
 def _check(paths: Sequence[str], options: Options, jobs: int | None) -> Iterator[Report]:
     """A report for each description, whatever is known of it."""
-    wanted = jobs or (cores() if len(paths) >= WORTH_IT else 1)
+    if len(paths) < WORTH_IT and not jobs:  # most calls, which need not wait for an import
+        yield from (lint_file(path, options) for path in paths)
+        return
+    from ..parallel import cores, in_order, map_tasks
+
+    wanted = jobs or cores()
     workers = 1 if "-" in paths else wanted
     if workers > 1 and len(paths) > 1:
         yield lint_file(paths[0], options)  # imports the rules, which forked workers then have

@@ -17,10 +17,11 @@ from typing import TYPE_CHECKING, Union
 from ..source.document import Element
 from ..source.location import Place
 from ..workspace import Memo
-from .provenance import NOWHERE, Provenance
+from .provenance import NOWHERE
 
 if TYPE_CHECKING:
     from ..source.description import Description
+    from .provenance import Provenance
     from .tree import KinematicTree
 
 Vector = tuple[float, float, float]

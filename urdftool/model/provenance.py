@@ -2,25 +2,34 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from ..source.location import Place, SourceFile
+
+if TYPE_CHECKING:
+    from typing import Protocol
+
+    class Provenance(Protocol):
+        """Where a part was written: an element of URDF, or a :class:`Written`."""
+
+        @property
+        def place(self) -> Place:
+            """Get the bytes in the source."""
+
 
 NOWHERE = Place(SourceFile("", b""), 0, 0)
 """Place of a part that was not read from a file."""
 
 
-class Provenance(Protocol):
-    """Where a part was written: an :class:`Element` of URDF, or a :class:`Written` elsewhere."""
-
-    @property
-    def place(self) -> Place:
-        """Get the bytes in the source."""
-
-
-@dataclass(frozen=True, slots=True)
 class Written:
-    """Where a part was written in a file of another format than URDF."""
+    """Where a part was written in a file of another format than URDF.
 
-    place: Place
+    Attributes:
+        place: The bytes.
+    """
+
+    __slots__ = ("place",)
+
+    def __init__(self, place: Place) -> None:
+        """Keep the place."""
+        self.place = place

@@ -8,6 +8,7 @@ control, simulation), and the linter itself (lint). A rule is imported when it i
 from __future__ import annotations
 
 from collections.abc import Iterator, Set
+from functools import cache
 from importlib import import_module
 
 from .rule import Rule
@@ -29,6 +30,7 @@ FILE_OF = {
 FAMILY_OF = {name: file.partition(".")[0] for name, file in FILE_OF.items()}
 
 
+@cache
 def get_rule(name: str) -> Rule:
     """Get a rule by its name, importing it if needed.
 

@@ -12,9 +12,7 @@ from collections.abc import Iterator
 from ..finding import Severity
 from ..model.elements import Joint, Link, Robot
 from ..source.document import Element
-from .cross_file_references import check_alone
 from .fix import Change, FixContext, Proposal, set_attribute, set_text, unsafe
-from .moveit.semantic import references, semantics
 from .rule import Problem
 
 _LINK_AT = {"link": "name", "parent": "link", "child": "link"}
@@ -41,6 +39,9 @@ def rename_part(context: FixContext, part: Link | Joint, new: str) -> Proposal |
         robot.element, old
     )
     changes = [set_text(e, new) if not at else set_attribute(e, at, new) for e, at in namings]
+    from .cross_file_references import check_alone
+    from .moveit.semantic import references, semantics
+
     documents = semantics(robot, context.description)
     for document in documents:
         for element, attribute, _ in references(document.root, kind):

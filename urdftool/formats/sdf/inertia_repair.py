@@ -6,7 +6,7 @@ from functools import partial
 
 from ...mechanics.repair import nearest_consistent
 from ...mechanics.tensor import SymmetricTensor
-from ..common.extent import box_size
+from ...model.elements import Vector
 from ..common.inertia_repair import repair_tensor
 from .translation import Translation
 
@@ -26,9 +26,15 @@ def repair_inertia(t: Translation, name: str) -> tuple[SymmetricTensor, str]:
         made, for a message.
     """
     members = t.plan.members[name]
+
+    def measure_box() -> Vector | None:
+        from ..common.extent import box_size  # numpy, only for bodies that need it
+
+        return box_size(t.robot, ((t.robot.link[m], t.plan.in_owner[m]) for m in members))
+
     return repair_tensor(
         t.options.fix_inertia,
         t.plan.mass[name],
-        lambda: box_size(t.robot, ((t.robot.link[m], t.plan.in_owner[m]) for m in members)),
+        measure_box,
         lift=partial(nearest_consistent, margin=CLEAR),
     )

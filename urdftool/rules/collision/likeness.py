@@ -10,7 +10,6 @@ from ...model.elements import Collision, Cylinder, Link, Robot, Sphere, Visual
 from ...model.gltf_axes import is_gltf
 from ...source.description import Description
 from ..fix import FixContext, Proposal, depends_on_arguments, unsafe
-from ..mesh.formats import stl_facts_of
 from ..mesh.outlines import Reaches, reaches
 from ..mesh.uses import MeshUse, is_concave, mesh_uses
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
@@ -35,6 +34,8 @@ def faces_of(use: MeshUse) -> int:
     if use.path is None or use.path.suffix.lower() != ".stl":
         return 0
     try:
+        from ..mesh.formats import stl_facts_of
+
         facts = stl_facts_of(use.workspace, use.path)
     except OSError:
         return 0

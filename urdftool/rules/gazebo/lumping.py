@@ -17,7 +17,6 @@ from ..fix import (
     set_text,
     unsafe,
 )
-from ..inertia.corrections import give_small_inertial
 from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
 from ..words import quoted
 from .keywords import JOINT_KEYWORDS, SURFACE, is_true
@@ -216,6 +215,8 @@ def add_inertial_of_kept_link(problem: Problem, context: FixContext) -> Proposal
     child = context.robot.link.get(context.joint(problem).child)
     if child is None or problem.data["link"] != child.name:
         return None
+    from ..inertia.corrections import give_small_inertial
+
     return give_small_inertial(child)
 
 

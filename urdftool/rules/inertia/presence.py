@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from ...model.attached import attached_links, is_fixed_to_world
 from ...model.elements import MOVING_TYPES, Joint, Link, Robot
-from ..cross_file_references import check_not_included
 from ..fix import (
     Change,
     FixContext,
@@ -21,7 +20,6 @@ from ..gazebo.kept import kept_links
 from ..rule import ERROR, GAZEBO, INFO, ROS, UNSAFE, WARNING, Problem, rule
 from ..xml.vocabulary_table import misspelt_children
 from .bodies import bodies, mass_of
-from .corrections import give_small_inertial, inertial_of_shapes
 from .solids import DENSITY, solid_volume
 
 _SIMULATED = ("gazebo-classic", "gz", "mujoco")
@@ -147,6 +145,8 @@ def add_inertial(problem: Problem, context: FixContext) -> Proposal | None:
     link = context.link(problem)
     if problem.severity is INFO:
         return None  # the body has a mass, or needs none
+    from .corrections import inertial_of_shapes
+
     found = inertial_of_shapes(link, context)
     if found is None or found[0] < _LIGHTEST:
         return None
@@ -193,6 +193,8 @@ def massless_moving_body(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
 @massless_moving_body.fix(UNSAFE)
 def add_small_inertial(problem: Problem, context: FixContext) -> Proposal | None:
     """Add an inertial of a few grams to the frame."""
+    from .corrections import give_small_inertial
+
     return give_small_inertial(context.link(problem))
 
 
@@ -335,6 +337,8 @@ def add_root_link(problem: Problem, context: FixContext) -> Proposal | None:
         return None
     if context.targets & {"moveit", "pybullet"}:
         return None  # the SRDF names the root, and PyBullet gives a new one 1 kg
+    from ..cross_file_references import check_not_included
+
     check_not_included(context)
     made = (
         (f'<link name="{escape_attribute(name)}"/>',),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Material, Robot
@@ -159,6 +158,8 @@ _LETTERS = str.maketrans({"ß": "ss", "æ": "ae", "ø": "o", "ł": "l", "đ": "d
 @non_ascii_name.fix(UNSAFE, renames=True)
 def write_ascii(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the nearest ASCII letters; names in other scripts are left."""
+    import unicodedata
+
     name = problem.name
     plain = "".join(
         letter
