@@ -5,32 +5,29 @@ import pytest
 import urdftool
 from urdftool.formats.common.extent import box_size
 from urdftool.formats.common.inertia_repair import repair_tensor
+from urdftool.mechanics.spatial_inertia import SpatialInertia
 from urdftool.model.pose import IDENTITY, Pose
 
+TENSOR = (1.0, 0.0, 0.0, 1.0, 0.0, 4.0)
+"""Of no rigid body: izz exceeds ixx + iyy."""
 
-def choose(fix, edges):
-    tensor, _ = repair_tensor(
-        fix,
-        lambda: edges,
-        lift=lambda: "lifted",
-        balance=lambda: "balanced",
-        box=lambda size: f"box {size}",
-    )
-    return tensor
+BODY = SpatialInertia(12.0, (0.0, 0.0, 0.0), TENSOR)
+LIFTED = (9.0, 0.0, 0.0, 9.0, 0.0, 9.0)
 
 
 @pytest.mark.parametrize(
     ("fix", "edges", "made"),
     [
-        ("none", (1, 2, 3), "lifted"),
-        ("lift", (1, 2, 3), "lifted"),
-        ("balance", (1, 2, 3), "balanced"),
-        ("box", (1, 2, 3), "box (1, 2, 3)"),
-        ("box", None, "lifted"),
+        ("none", (1, 2, 3), LIFTED),
+        ("lift", (1, 2, 3), LIFTED),
+        ("balance", (1, 2, 3), (2.0, 0.0, 0.0, 2.0, 0.0, 2.0)),
+        ("box", (1, 2, 3), (13.0, 0.0, 0.0, 10.0, 0.0, 5.0)),
+        ("box", None, LIFTED),
     ],
 )
 def test_the_choice(fix, edges, made):
-    assert choose(fix, edges) == made
+    tensor, _ = repair_tensor(fix, BODY, lambda: edges, lift=lambda tensor: LIFTED)
+    assert tensor == pytest.approx(made)
 
 
 def test_the_box_is_that_of_collisions_before_visuals(write):
