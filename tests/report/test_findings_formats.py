@@ -102,6 +102,18 @@ def test_sarif_says_what_could_not_be_read(lint):
     assert invocation["toolExecutionNotifications"][0]["level"] == "error"
 
 
+def test_json_has_the_values_of_a_rule(lint, write):
+    joint = "<joint name='j' type='fixed'><parent link='bas'/><child link='arm'/></joint>"
+    links = "<link name='base'/><link name='arm'/>"
+    path = write("r.urdf", f"<robot name='r'>{links}{joint}</robot>")
+    (found,) = [
+        finding
+        for finding in json.loads(lint("json", path).out)["findings"]
+        if finding["rule"] == "unknown-parent-link"
+    ]
+    assert found["data"]["suggestion"] == "base"
+
+
 def test_github_annotations(lint, xacro_file):
     result = lint("github", xacro_file("r.urdf.xacro", WHEELS), "--select", "zero-axis")
     (line,) = result.out.splitlines()

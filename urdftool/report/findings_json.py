@@ -63,6 +63,8 @@ def finding_record(finding: Finding) -> dict[str, Any]:
         "hint": finding.hint or None,
         "fix": fix_record(finding.fix),
     }
+    if finding.data:
+        record["data"] = dict(finding.data)
     if finding.unchecked:
         record["not_checked"] = True
     if finding.variants:
