@@ -1,11 +1,11 @@
-"""Whether a mass can be where it is written: inside the box around the shapes, and so spread.
+"""Physical bounds on a mass distribution: is the written inertial possible within its geometry?
 
 Mass within an interval [lo, hi] with its mean at c has a variance of at most (hi − c)(c − lo)
-(Bhatia and Davis, "A Better Bound on the Variance", 2000), reached only by two lumps at the two
-ends. The variance along an axis is the second moment ½ tr(I) − Iₐₐ over the mass. A tensor beyond
-that cannot belong to a body that lies within the box, whatever its material. The bound grows with
-the square of the length, so the root of the ratio says how many times as long the box would have to
-be.
+(Bhatia and Davis, "A Better Bound on the Variance", 2000), reached only by two point masses at the
+ends. The variance along an axis is the second moment ½ tr(I) − Iₐₐ divided by the mass. A tensor
+beyond that bound cannot belong to a body inside the bounding box, whatever its density. The bound
+is quadratic in length, so the square root of the ratio is the factor by which the box would have to
+be longer.
 """
 
 from __future__ import annotations
@@ -19,29 +19,32 @@ from ..model.elements import Vector
 from .tensor import SymmetricTensor
 
 ALLOWED = 1.1
-"""By how much the variance may exceed what the box allows; twice as much of a mesh."""
+"""Largest allowed ratio of the variance to the bound of the box; doubled for meshes."""
 
 CERTAIN = 10.0
-"""By how much it has to exceed the box around a mesh, which may leave out what is heavy."""
+"""Ratio above which even the bounding box of a mesh, which may omit heavy parts, rules a tensor
+out."""
 
 ROUNDING = 0.01
-"""Part of ½ tr(I) that is allowed in addition: of a plate the difference is lost in rounding."""
+"""Part of ½ tr(I) that is tolerated in addition: rounding hides the second moment of a thin
+plate."""
 
 NEAR = 0.1
-"""Part of the length by which a center of mass is from an end, as far as the spread is judged."""
+"""Part of the box's length by which the center of mass counts as away from the ends of the box."""
 
 MARGIN = 0.02
-"""Part of the box's diagonal by which a center of mass may be outside; of a mesh twice that."""
+"""Part of the box's diagonal by which the center of mass may lie outside; doubled for meshes."""
 
 
 class Misfit(NamedTuple):
-    """A mass that cannot be where it is written.
+    """A mass distribution that does not fit into the bounding box of the geometry.
 
     Attributes:
-        sentence: What is wrong, without whose it is: ``is 0.3 m outside its shapes along x …``.
-        axis: Along which axis it is worst: 0, 1 or 2.
-        amount: How far outside [m], or how many times as long the shapes would have to be.
-        certain: Whether it is wrong; else a mesh may leave out what is heavy.
+        sentence: The fact without its subject: ``is 0.3 m outside its shapes along x …``.
+        axis: Axis of the largest deviation: 0, 1 or 2.
+        amount: Distance outside the box [m], or the factor by which the geometry would have to be
+            longer.
+        certain: Whether it is physically impossible; if not, a mesh may omit heavy parts.
     """
 
     sentence: str
@@ -51,7 +54,7 @@ class Misfit(NamedTuple):
 
 
 def shapes_in_words(attached: Iterable[str], shown: int = 2) -> str:
-    """Name the shapes in the box around a link: its own, and those of the attached links."""
+    """Name the shapes in the bounding box of a link: its own, and those of attached links."""
     names = [f"'{name}'" for name in attached]
     if not names:
         return "its shapes"
@@ -62,18 +65,18 @@ def shapes_in_words(attached: Iterable[str], shown: int = 2) -> str:
 def spread_ratio(
     box: Bounds, mass: float, com: Vector, tensor: SymmetricTensor, rounding: float = ROUNDING
 ) -> tuple[float, int]:
-    """Compare the variance of a mass with the largest that fits into a box.
+    """Compute the ratio of the variance of a mass to the largest that fits into a box.
 
     Args:
-        box: The box around the body's shapes [m].
+        box: Bounding box of the body's shapes [m].
         mass: Mass [kg], above zero.
         com: Center of mass [m].
         tensor: Inertia about the center of mass, along the axes of the box [kg·m²].
-        rounding: Part of ½ tr(I) that is allowed in addition.
+        rounding: Part of ½ tr(I) that is tolerated in addition.
 
     Returns:
-        By how much the variance exceeds it, and along which axis that is worst. Above 1 is
-        impossible; 0 along an axis on which the center of mass is outside.
+        The largest ratio and its axis. A ratio above 1 is impossible. An axis on which the center
+        of mass is outside the box is skipped; if all are, the ratio is 0.
     """
     xx, _, _, yy, _, zz = tensor
     half_trace = (xx + yy + zz) / 2
@@ -86,10 +89,10 @@ def spread_ratio(
 
 
 def _room(box: Bounds, com: Vector, axis: int) -> float:
-    """Return the largest variance [m²] of a mass in a box; 0 where its center is outside.
+    """Return the largest variance [m²] of a mass in a box; 0 if its center is outside.
 
-    A center that is very near to an end counts as a tenth of the length away from it: where it is
-    wrong it is the center that is, and not the spread.
+    A center near an end of the box is moved to ``NEAR`` of the length from it: there the center of
+    mass is suspect, not the variance.
     """
     low, high, center = box[0][axis], box[1][axis], com[axis]
     if not low <= center <= high:
@@ -111,19 +114,19 @@ def misfit_of_spread(
     rounding: float = ROUNDING,
     shapes: str = "its shapes",
 ) -> Misfit | None:
-    """Judge how far the mass of a body is spread; None where its shapes allow it.
+    """Check the variance of a mass against its bounding box; return None if it fits.
 
     Args:
-        box: The box around the body's shapes [m].
+        box: Bounding box of the body's shapes [m].
         mass: Mass [kg].
         com: Center of mass [m].
         tensor: Inertia about the center of mass, along the axes of the box [kg·m²].
-        rough: Whether the shapes may differ from the body: a mesh may leave out what sticks out,
-            and visuals without a collision may be markers.
-        allowed: By how much the variance may exceed what the box allows; twice that of rough ones.
-        certain: By how much it has to exceed the box of rough shapes to be wrong.
-        rounding: As for :func:`spread_ratio`.
-        shapes: The shapes in the box, in words.
+        rough: Whether the shapes may differ from the body: a mesh may omit protruding parts, and
+            visuals without a collision may be markers.
+        allowed: Largest allowed ratio of the variance to the bound; doubled for rough shapes.
+        certain: Ratio above which rough shapes rule the tensor out, too.
+        rounding: Part of ½ tr(I) that is tolerated, see :func:`spread_ratio`.
+        shapes: Name of the shapes in the box, for the message.
     """
     ratio, axis = spread_ratio(box, mass, com, tensor, rounding)
     if ratio <= allowed * (2 if rough else 1):
@@ -146,15 +149,15 @@ def misfit_of_com(
     margin: float = MARGIN,
     shapes: str = "its shapes",
 ) -> Misfit | None:
-    """Judge where the center of mass of a body is; None where it is inside the box.
+    """Check the center of mass against its bounding box; return None if it is inside.
 
     Args:
-        box: The box around the body's shapes [m].
+        box: Bounding box of the body's shapes [m].
         com: Center of mass [m].
-        has_mesh: Whether a shape of it is a mesh, which often shows the cover and not the motor;
-            then it is wrong only beyond half a diagonal.
-        margin: Part of the box's diagonal that is allowed outside; of a mesh twice that.
-        shapes: The shapes in the box, in words.
+        has_mesh: Whether a shape is a mesh, which often covers the housing but not the motor; then
+            only a distance of at least half a diagonal is certainly wrong.
+        margin: Part of the box's diagonal that is tolerated outside; doubled for meshes.
+        shapes: Name of the shapes in the box, for the message.
     """
     diagonal = math.dist(*box)
     slack = margin * diagonal * (2 if has_mesh else 1)

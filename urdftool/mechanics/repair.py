@@ -1,4 +1,4 @@
-"""Three ways to replace an inertia tensor that is physically inconsistent."""
+"""Replacements for an inertia tensor that is physically inconsistent."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from .tensor import SymmetricTensor, diagonal_tensor, principal_axes, tensor_of_
 
 
 def nearest_consistent(tensor: SymmetricTensor, margin: float = 0.0) -> SymmetricTensor:
-    """Return the nearest tensor of a rigid body, with the same principal axes.
+    """Return the nearest physically consistent tensor with the same principal axes.
 
-    Negative eigenvalues of the second moments ∫ x xᵀ dm, and those below the margin, are raised to
-    it (Wensing, Kim and Slotine 2018).
+    Eigenvalues of the second moment matrix ∫ x xᵀ dm below the margin are raised to it (Wensing,
+    Kim and Slotine 2018).
 
     Args:
         tensor: Inertia about the center of mass [kg·m²].
-        margin: Least second moment, relative to the largest principal moment, so that a reader
-            that computes principal moments with rounding finds the result consistent too.
+        margin: Smallest second moment, relative to the largest principal moment. A value above 0
+            keeps the result consistent in readers that round principal moments.
     """
     import numpy as np
 
@@ -26,7 +26,7 @@ def nearest_consistent(tensor: SymmetricTensor, margin: float = 0.0) -> Symmetri
 
 
 def sphere_tensor(tensor: SymmetricTensor) -> SymmetricTensor:
-    """Return a sphere's tensor with the same mean moment, as MuJoCo's ``balanceinertia`` does."""
+    """Return the sphere tensor of equal mean moment, as MuJoCo's ``balanceinertia`` does."""
     mean = max(trace_of(tensor) / 3, 0.0)
     return diagonal_tensor(mean, mean, mean)
 

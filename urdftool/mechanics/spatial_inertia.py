@@ -45,37 +45,41 @@ class SpatialInertia:
 
     @classmethod
     def from_arrays(cls, mass: float, com: Array, inertia: Array) -> SpatialInertia:
-        """Make one of arrays: center of mass [m], shape (3,), and tensor [kg·m²], shape (3, 3)."""
+        """Create one from a center of mass [m], shape (3,), and a tensor [kg·m²], shape (3, 3)."""
         x, y, z = com.tolist()
         return cls(float(mass), (x, y, z), tensor_of_matrix(inertia))
 
     @property
     def inertia(self) -> Array:
-        """The tensor [kg·m²] as an array, shape (3, 3)."""
+        """Return the tensor [kg·m²] as an array, shape (3, 3)."""
         return matrix_of(self.tensor)
 
     @property
     def is_thin(self) -> bool:
-        """Whether the body has no inertia about some axis, except for rounding."""
+        """Tell whether the inertia about some axis is zero, except for rounding."""
         return principal_moments(self.tensor)[0] <= noise_of(self.mass)
 
     @property
     def is_finite(self) -> bool:
-        """Whether all ten numbers are finite."""
+        """Tell whether mass, center of mass and tensor are finite."""
         return all(map(math.isfinite, (self.mass, *self.com, *self.tensor)))
 
     @property
     def about_origin(self) -> SymmetricTensor:
-        """The tensor about the origin of the frame [kg·m²]."""
+        """Return the tensor about the origin of the frame [kg·m²]."""
         return shift_from_com(self.tensor, self.mass, self.com)
 
     def moved(self, pose: Pose) -> SpatialInertia:
-        """Express the body in the frame in which its own frame has a pose."""
+        """Express the body in the parent frame, in which its own frame has this pose."""
         tensor = rotate_tensor(self.tensor, pose.rotation)
         return SpatialInertia(self.mass, pose.transform(self.com), tensor)
 
     def rotated(self, rotation: Rotation) -> SpatialInertia:
-        """Express the body in a frame of the same origin, see :func:`tensor.rotate_tensor`."""
+        """Express the body in a rotated frame of the same origin.
+
+        Args:
+            rotation: As for :func:`tensor.rotate_tensor`.
+        """
         tensor = rotate_tensor(self.tensor, rotation)
         return SpatialInertia(self.mass, rotate(rotation, self.com), tensor)
 
@@ -84,7 +88,7 @@ class SpatialInertia:
 
         Args:
             point: A point of the axis [m].
-            axis: Its direction, of any length above zero.
+            axis: Its direction, of nonzero length.
         """
         length = norm(axis)
         unit = x, y, z = axis[0] / length, axis[1] / length, axis[2] / length
@@ -95,9 +99,9 @@ class SpatialInertia:
         return about_com + self.mass * dot(arm, arm)
 
     def with_mass(self, mass: float) -> SpatialInertia:
-        """Return the same body of another density, so that it has a mass [kg] above zero."""
+        """Scale the density of the body so that its mass is this one [kg], above zero."""
         factor = mass / self.mass
-        if math.isinf(factor):  # the body's own size is in both, and may bring them together
+        if math.isinf(factor):  # the density ratio alone may overflow
             tensor = as_tensor([value / self.mass * mass for value in self.tensor])
             return SpatialInertia(mass, self.com, tensor)
         return SpatialInertia(mass, self.com, scale_tensor(self.tensor, factor))
@@ -112,11 +116,11 @@ class SpatialInertia:
 
 
 def combine(bodies: Iterable[SpatialInertia]) -> SpatialInertia:
-    """Combine bodies of one frame into one rigid body, by the parallel axis theorem.
+    """Combine bodies in one frame into one rigid body, by the parallel axis theorem.
 
     Returns:
-        Masses added, tensors added about the common center of mass; where the masses add up to
-        zero, the center of mass is the origin and tensors are added as they are.
+        The sum of the masses, and the sum of the tensors about the common center of mass. If the
+        total mass is zero, the center of mass is the origin and tensors are added unshifted.
     """
     parts = list(bodies)
     mass = _sum(part.mass for part in parts)
@@ -154,10 +158,9 @@ def link_inertia(link: Link) -> SpatialInertia:
 
 
 def combine_links(members: Attached) -> SpatialInertia:
-    """Combine the written mass properties of links that are rigidly attached to each other.
+    """Combine the written mass properties of rigidly attached links.
 
-    Links without a mass and those with a negative one are left out; a missing tensor counts as
-    zero.
+    Links without a positive mass are skipped; a missing tensor counts as zero.
 
     Args:
         members: Links with their poses in one frame.

@@ -23,30 +23,29 @@ if TYPE_CHECKING:
 SymmetricTensor = tuple[float, float, float, float, float, float]
 
 COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-"""The names of the six numbers in URDF, in their order."""
+"""URDF names of the six numbers, in their order."""
 
 ZERO_TENSOR: SymmetricTensor = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 MIN_GYRATION_RADIUS = 1e-5
-"""The smallest radius of gyration [m] that counts: below it moments are noise."""
+"""Smallest meaningful radius of gyration [m]; moments below it are rounding noise."""
 
 _CLOSE = 1e-6
 _SMALL = 1e-60
 
 
 class Consistency(NamedTuple):
-    """How far a tensor is from that of a rigid body.
+    """Deviation of a tensor from physical consistency.
 
-    A rigid body has no negative principal moment, and none above the sum of the other two. The
-    second follows for the largest one only if the first holds, so ``excess`` judges both; a body
-    whose mass is in a plane has an excess of 0.
+    A rigid body has no negative principal moment, and none above the sum of the other two (the
+    triangle inequality). A negative moment breaks the inequality, too, so ``excess`` alone decides
+    both. A body with all mass in a plane has an excess of 0.
 
     Attributes:
         moments: Principal moments [kg·m²], ascending.
-        size: The largest of them by absolute value [kg·m²].
-        excess: Largest moment less the sum of the others, relative to ``size``; 0 where that is 0.
-        negativity: The smallest moment with the other sign, relative to ``size``; never above the
-            excess.
+        size: Largest absolute principal moment [kg·m²], or ``least_size`` if that is larger.
+        excess: Largest moment minus the sum of the others, relative to ``size``; 0 if that is 0.
+        negativity: Smallest moment, negated, relative to ``size``; never above the excess.
     """
 
     moments: Vector
@@ -56,12 +55,12 @@ class Consistency(NamedTuple):
 
 
 def consistency(tensor: SymmetricTensor, *, least_size: float = 0.0) -> Consistency:
-    """Measure how far a tensor is from that of a rigid body; the caller chooses a tolerance.
+    """Measure the deviation of a tensor from physical consistency; the caller picks a tolerance.
 
     Args:
         tensor: Inertia about the center of mass [kg·m²].
-        least_size: Size [kg·m²] that excess and negativity are relative to if the tensor's own is
-            smaller, see :func:`noise_of`.
+        least_size: Smallest size [kg·m²] to which excess and negativity are relative, see
+            :func:`noise_of`.
     """
     moments = low, middle, high = principal_moments(tensor)
     size = max(abs(low), abs(high), least_size)
@@ -71,7 +70,7 @@ def consistency(tensor: SymmetricTensor, *, least_size: float = 0.0) -> Consiste
 
 
 def noise_of(mass: float) -> float:
-    """Return the moment [kg·m²] below which those of a body of this mass [kg] are noise."""
+    """Return the moment [kg·m²] below which moments of a body of this mass [kg] are noise."""
     return abs(mass) * MIN_GYRATION_RADIUS**2
 
 
@@ -79,8 +78,9 @@ def noise_of(mass: float) -> float:
 def principal_moments(tensor: SymmetricTensor) -> Vector:
     """Compute the eigenvalues, ascending.
 
-    In closed form, which is good to half the digits where two are equal; where one is near zero, or
-    near the sum or difference of the others, by Jacobi's rotations, which are good to all of them.
+    Uses the closed form, which has half the digits if two eigenvalues are equal. If one is near
+    zero, or near the sum or difference of the others, uses Jacobi rotations, which are exact to
+    rounding.
     """
     xx, xy, xz, yy, yz, zz = tensor
     off = xy * xy + xz * xz + yz * yz
@@ -88,7 +88,7 @@ def principal_moments(tensor: SymmetricTensor) -> Vector:
         low, middle, high = sorted((xx, yy, zz))
         return low, middle, high
     size = max(map(abs, tensor))
-    if 0.0 < size <= _SMALL or 1 / _SMALL <= size < math.inf:  # its cube would leave the range
+    if 0.0 < size <= _SMALL or 1 / _SMALL <= size < math.inf:  # avoids overflow in the cube
         low, middle, high = principal_moments(as_tensor([part / size for part in tensor]))
         return low * size, middle * size, high * size
     mean = (xx + yy + zz) / 3
@@ -163,13 +163,13 @@ def rotate_tensor(tensor: SymmetricTensor, rotation: Rotation) -> SymmetricTenso
 
 
 def shift_from_com(tensor: SymmetricTensor, mass: float, offset: Vector) -> SymmetricTensor:
-    """Take a tensor about a point instead of the center of mass (parallel axis theorem).
+    """Shift a tensor from the center of mass to another point (parallel axis theorem).
 
     I' = I + m (|d|² E − d dᵀ), also named after Huygens and Steiner.
 
     Args:
         tensor: About the center of mass [kg·m²].
-        mass: Of the body [kg].
+        mass: Mass of the body [kg].
         offset: From the point to the center of mass, or back [m].
     """
     xx, xy, xz, yy, yz, zz = tensor
@@ -185,14 +185,14 @@ def shift_from_com(tensor: SymmetricTensor, mass: float, offset: Vector) -> Symm
 
 
 def shift_to_com(tensor: SymmetricTensor, mass: float, offset: Vector) -> SymmetricTensor:
-    """Take a tensor about the center of mass instead of a point, see :func:`shift_from_com`."""
+    """Shift a tensor from another point to the center of mass, see :func:`shift_from_com`."""
     return shift_from_com(tensor, -mass, offset)
 
 
 def second_moment(tensor: SymmetricTensor) -> SymmetricTensor:
     """Return S = ∫ x xᵀ dm [kg·m²] of an inertia tensor: S = ½ tr(I) E − I.
 
-    A tensor belongs to a rigid body exactly when S has no negative eigenvalue (Wensing, Kim and
+    A tensor is physically consistent exactly if S has no negative eigenvalue (Wensing, Kim and
     Slotine, "Linear Matrix Inequalities for Physically Consistent Inertial Parameter
     Identification", 2018).
     """
@@ -209,7 +209,7 @@ def inertia_from_second_moment(moment: SymmetricTensor) -> SymmetricTensor:
 
 
 def written_tensor(inertia: Inertia | None) -> SymmetricTensor:
-    """Return the six numbers of an ``<inertia>`` [kg·m²]; zeros where there is none."""
+    """Return the six numbers of an ``<inertia>`` [kg·m²]; zeros if it is None."""
     return ZERO_TENSOR if inertia is None else inertia.six
 
 
@@ -219,7 +219,7 @@ def diagonal_of(tensor: SymmetricTensor) -> Vector:
 
 
 def diagonal_tensor(xx: float, yy: float, zz: float) -> SymmetricTensor:
-    """Return the tensor with these moments and no products."""
+    """Return the tensor with these moments and zero products of inertia."""
     return xx, 0.0, 0.0, yy, 0.0, zz
 
 
@@ -229,7 +229,7 @@ def trace_of(tensor: SymmetricTensor) -> float:
 
 
 def as_tensor(values: Sequence[float]) -> SymmetricTensor:
-    """Return six numbers as a tensor."""
+    """Convert a sequence of six numbers to a tensor."""
     xx, xy, xz, yy, yz, zz = values
     return xx, xy, xz, yy, yz, zz
 
@@ -245,7 +245,7 @@ def add_tensors(*tensors: SymmetricTensor) -> SymmetricTensor:
 
 
 def scale_tensor(tensor: SymmetricTensor, factor: float) -> SymmetricTensor:
-    """Multiply all six numbers."""
+    """Multiply a tensor by a factor."""
     return as_tensor([factor * value for value in tensor])
 
 

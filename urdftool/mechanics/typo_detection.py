@@ -1,8 +1,9 @@
-"""The one typing error that explains an inconsistent tensor, or one that misfits the geometry.
+"""Detection of the typing error that explains a wrong inertia tensor.
 
-A wrong tensor is often a right one mistyped: a decimal point, a sign, the order of the six numbers,
-a unit, a frame. Each such error is undone in turn; the result is kept only if it is physically
-consistent, if it fits the geometry, and if no other error explains the tensor as well.
+A tensor that is inconsistent or does not fit the geometry is often a correct one mistyped: a
+decimal point, a sign, the order of the six numbers, a unit, a frame. Each such error is undone in
+turn. A result is kept only if it is physically consistent and fits the geometry, and if no other
+error explains the tensor as well.
 """
 
 from __future__ import annotations
@@ -19,37 +20,39 @@ from ..model.pose import Rotation, transpose
 from .tensor import COMPONENTS, SymmetricTensor, consistency, rotate_tensor, shift_to_com
 
 DIAGONAL = (0, 3, 5)
-"""Where the three moments are among the six numbers."""
+"""Positions of the three moments among the six numbers."""
 
 POWERS = tuple(power for power in range(-9, 10) if power)
-"""Powers of ten by which all numbers may be off: -9 is g·mm², -6 kg·mm², -3 g·m², and back."""
+"""Powers of ten by which all six numbers may be off: -9 is g·mm², -6 kg·mm², -3 g·m², and
+inverse."""
 
 SLIPS = tuple(power for power in range(-6, 7) if power)
 """Powers of ten by which one number may be off."""
 
 GROSS = 0.3
-"""Distance from the geometry's tensor, relative to it, beyond which it is in doubt."""
+"""Distance to the geometry's tensor, relative to its norm, above which a tensor is suspect."""
 
 FIT = 0.25
-"""Distance from the geometry's tensor, relative to it, within which a repair fits."""
+"""Distance to the geometry's tensor, relative to its norm, within which a repair fits."""
 
 LOOSE_FIT = 0.5
-"""The same for a physically inconsistent tensor, which needs an explanation more."""
+"""Value of ``FIT`` for a physically inconsistent tensor, which is certainly wrong."""
 
 SPREAD = 1.1
-"""How far beyond the spread of mass that the bounding box allows a tensor may be."""
+"""Factor by which a second moment may exceed the bound of the bounding box."""
 
 BOX_MARGIN = 0.02
-"""By how much the box is widened on every side, relative to its diagonal."""
+"""Margin of the bounding box on every side, relative to its diagonal."""
 
 ROUNDING = 0.01
-"""By how much, relatively, written numbers may break the triangle inequality by rounding."""
+"""Relative violation of the triangle inequality that rounding of written numbers explains."""
 
 SIMILAR = 2.5
-"""Factor within which a moment goes with the other two, in the proportions of the box."""
+"""Factor by which a moment may differ from what the other two imply, in the proportions of the
+box."""
 
 FILLED = (0.3, 3.0)
-"""Moments of real bodies, relative to those of a solid box of their size."""
+"""Range of the moments of real bodies, relative to those of a solid box of their size."""
 
 _LARGEST = 1e60
 
@@ -67,7 +70,7 @@ _REORDERED = tuple(
     (meant, tuple(COMPONENTS.index(taken[wanted.index(name)]) for name in COMPONENTS))
     for (meant, wanted), (_, taken) in permutations(_ORDERS.items(), 2)
 )
-"""The numbers read in one of the usual orders and written in another."""
+"""Permutations: the numbers intended in one of the usual orders and written in another."""
 
 _ENTRY = ((0, 1, 2), (1, 3, 4), (2, 4, 5))
 
@@ -79,20 +82,20 @@ _EXCHANGED = tuple(
     for a, b, c in permutations(range(3))
     if (a, b, c) != (0, 1, 2)
 )
-"""The tensor with its axes exchanged, as between a frame with Y up and one with Z up."""
+"""Permutations: the tensor with its axes exchanged, for example Y up instead of Z up."""
 
 
 class Proposal(NamedTuple):
-    """The tensor that was probably intended, and why."""
+    """The tensor that was probably intended, and the reason."""
 
     kind: str
     """``decimal``, ``sign``, ``order``, ``axes``, ``unit``, ``origin``, ``frame`` or ``copied``."""
     tensor: SymmetricTensor
-    """The tensor [kg·m²] about the centre of mass, along the axes the given one had."""
+    """Tensor [kg·m²] about the center of mass, along the axes of the written tensor."""
     sentence: str
-    """What to change, and what speaks for it."""
+    """The change and the evidence for it."""
     name: str = ""
-    """The one number to change, where it is one."""
+    """URDF name of the one number to change; empty if several change."""
 
 
 class _Candidate(NamedTuple):
@@ -112,23 +115,23 @@ def infer_intended_tensor(
     box: Bounds | None = None,
     rotation: Rotation | None = None,
 ) -> Proposal | None:
-    """Find the one typing error that, undone, makes a tensor consistent and fit the geometry.
+    """Find the one typing error that explains an inconsistent or unfitting tensor.
 
-    Everything is in one frame: that of the link, or that of the inertial if its axes differ.
+    All arguments are in one frame: the link's, or the inertial's if its axes differ.
 
     Args:
         mass: Mass [kg] as written.
-        com: Centre of mass [m] as written.
-        tensor: Tensor [kg·m²] as written, about the centre of mass.
+        com: Center of mass [m] as written.
+        tensor: Tensor [kg·m²] as written, about the center of mass.
         solid: Tensor of the geometry with a uniform density and that mass [kg·m²].
-        box: The box around the geometry [m].
-        rotation: Matrix of the inertial's own ``rpy``, if it is not zero: a tensor may have been
-            written along the link's axes in spite of it, or have been rotated twice.
+        box: Bounding box of the geometry [m].
+        rotation: Rotation matrix of the inertial's ``rpy``, if not zero: the tensor may be written
+            along the link's axes, or may have been rotated twice.
 
     Returns:
-        None if the tensor is consistent and agrees with the geometry, or if no typing error, or
-        more than one, explains it. Without geometry only an inconsistent tensor is doubtful, and
-        only a sign or the order of the numbers can be found.
+        None if the tensor is consistent and fits the geometry, or if no typing error, or more than
+        one, explains it. Without geometry only an inconsistent tensor is suspect, and decimal
+        points are not checked.
     """
     if not (mass > 0 and 1 / _LARGEST < max(map(abs, tensor)) < _LARGEST):
         return None
@@ -156,7 +159,7 @@ def infer_intended_tensor(
     if not found:
         return None
     found.sort(key=lambda pair: pair[0])
-    if len(found) > 1:  # only if the geometry clearly speaks for the first
+    if len(found) > 1:  # accepted only if it fits the geometry three times better
         (first, _), (second, _) = found[:2]
         if second <= 9 * first:
             return None
@@ -164,18 +167,18 @@ def infer_intended_tensor(
 
 
 def infer_intended_moment(mass: float, tensor: SymmetricTensor, size: Vector) -> Proposal | None:
-    """Move the decimal point of the one moment that makes a tensor inconsistent.
+    """Find the decimal point error in the one moment that makes a tensor inconsistent.
 
-    The other two show how the body fills its bounding box, and so the size of the third, well
-    within a power of ten.
+    The other two moments show how the body fills its bounding box, which determines the third to
+    much better than a power of ten.
 
     Args:
         mass: Mass [kg].
         tensor: Physically inconsistent tensor [kg·m²].
-        size: Of the box around the geometry [m], along the axes of the tensor.
+        size: Edges of the bounding box of the geometry [m], along the axes of the tensor.
 
     Returns:
-        None if no moment, or more than one, can be the wrong one, or if a product of inertia can.
+        None if no moment, or more than one, can be wrong, or if a product of inertia can.
     """
     x, y, z = (length * length for length in size)
     solid = tuple(mass / 12 * part for part in (y + z, x + z, x + y))
@@ -198,7 +201,7 @@ def infer_intended_moment(mass: float, tensor: SymmetricTensor, size: Vector) ->
 
 
 def _is_in_proportion(tensor: SymmetricTensor, solid: tuple[float, ...], axis: int) -> bool:
-    """Whether a moment goes with the other two, and those with a body of the size of the box."""
+    """Tell whether a moment agrees with the other two, and those with the bounding box."""
     filled = [tensor[i] / moment for i, moment in zip(DIAGONAL, solid, strict=True)]
     own = filled.pop(axis)
     if not all(FILLED[0] <= part <= FILLED[1] for part in filled):
@@ -208,10 +211,10 @@ def _is_in_proportion(tensor: SymmetricTensor, solid: tuple[float, ...], axis: i
 
 
 def is_consistent(tensor: SymmetricTensor) -> bool:
-    """Whether a rigid body can have this tensor, except for the rounding of written numbers."""
+    """Tell whether a tensor is physically consistent, except for rounding of written numbers."""
     xx, _, _, yy, _, zz = tensor
     largest = max(xx, yy, zz)
-    # what holds of the principal moments holds along any axes; this sorts out most
+    # a necessary condition along any axes that rejects most candidates cheaply
     if largest <= 0.0 or min(xx, yy, zz) < -1e-5 * largest:
         return False
     if 2 * largest > (xx + yy + zz) * (1 + 2 * ROUNDING):
@@ -262,10 +265,10 @@ def _alike(tensor: SymmetricTensor, other: SymmetricTensor) -> bool:
 
 
 def _is_near(candidate: _Candidate, solid: SymmetricTensor | None, room: Vector | None) -> bool:
-    """Whether a number whose decimal point was moved is within a quarter of the geometry's.
+    """Tell whether a number with its decimal point moved is within 25 % of the geometry's.
 
-    A small number next to two large ones adds little to the distance, whatever its decimal point.
-    Without any geometry no decimal point can be judged.
+    A small number among large ones adds little to the distance of the tensors, so it is compared by
+    itself. Without a ``solid`` it is accepted only if there is a bounding box.
     """
     if solid is None:
         return room is not None
@@ -274,7 +277,7 @@ def _is_near(candidate: _Candidate, solid: SymmetricTensor | None, room: Vector 
 
 
 def _copied(tensor: SymmetricTensor, solid: SymmetricTensor) -> Proposal | None:
-    """Return the geometry's tensor, if one of its three moments was written on all three axes."""
+    """Return the geometry's tensor if one of its moments was written on all three axes."""
     moment = tensor[0]
     if not moment == tensor[3] == tensor[5] or tensor[1] or tensor[2] or tensor[4]:
         return None
@@ -323,7 +326,7 @@ def _candidates(
 
 
 def _moved(value: float, power: int) -> float:
-    """Move the decimal point of a number; a division is rounded better than times 1e-3."""
+    """Move the decimal point of a number; dividing by 1e3 rounds better than times 1e-3."""
     return float(value * 10**power if power > 0 else value / 10**-power)
 
 
@@ -335,7 +338,7 @@ def _unit(power: int) -> str:
 
 
 def _proposal(candidate: _Candidate, tensor: SymmetricTensor, fits: bool) -> Proposal:
-    """Make the proposal with its sentence."""
+    """Create the proposal with its sentence."""
     kind, meant, detail, entry = candidate
     is_so = "is possible and fits the geometry" if fits else "is possible"
     are_so = "are possible and fit the geometry" if fits else "are possible"
