@@ -3,10 +3,10 @@
 This package imports nothing by itself; its modules are:
 
 - ``load``: ``load_mesh`` for every format, with ``stl``, ``obj``, ``ply``, ``collada``, ``gltf``;
-- ``mesh``: ``Mesh`` and its ``Part``, what it returns;
+- ``mesh``: its result, ``Mesh`` with ``Part``;
 - ``stl_header``: kind and claimed size of an STL file, without numpy;
-- ``convex_points``: the outermost points of a mesh, read without its faces;
-- ``topology``: edges, closedness, winding, bodies; ``surface``: what lint reports of them;
+- ``convex_points``: the extreme points of a mesh, read without its faces;
+- ``topology``: edges, closedness, winding, bodies; ``surface``: their defects, for lint;
 - ``hull``, ``tessellate``: convex hulls, and triangles of primitives;
-- ``penetration``: how deep two convex shapes overlap, without numpy.
+- ``penetration``: penetration depth of convex shapes, without numpy.
 """

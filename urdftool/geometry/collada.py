@@ -1,12 +1,12 @@
 """COLLADA (.dae): a scene of nodes with geometries, in the unit the file declares.
 
-What the consumers of a robot description do with ``<asset>``, read in their sources:
+How the consumers of a robot description read ``<asset>``, according to their sources:
 
 - ``<unit meter>``: RViz (assimp puts it into the root node) and Gazebo (``ColladaLoader`` in Gazebo
-  Classic and gz-common scales the finished mesh) both apply it. So does this reader.
-- ``<up_axis>``: RViz sets assimp's IGNORE_UP_DIRECTION, Gazebo's loader never looks at the element,
-  and MoveIt drops the rotation assimp makes of it. All three show Y_UP files unturned, and so they
-  are read here. PyBullet does turn them, and a note says when it matters.
+  Classic and gz-common scales the finished mesh) apply it. So does this reader.
+- ``<up_axis>``: RViz sets assimp's IGNORE_UP_DIRECTION, Gazebo's loader ignores the element, and
+  MoveIt drops the rotation that assimp derives from it. All three leave Y_UP files unrotated, as
+  this reader does. PyBullet rotates them; a note reports that if it matters.
 """
 
 from __future__ import annotations
@@ -25,17 +25,21 @@ from ..extras import missing
 from .mesh import MeshNote, Piece, Points, Reading
 
 MAX_DEPTH = 256
-"""Nodes within nodes; deeper files are refused, instances may form a circle."""
+"""Largest depth of nested nodes; deeper files are rejected, as instances may form a cycle."""
 
 
 def read(path: Path) -> Reading:
-    """The triangles of a COLLADA scene in metres, one piece for each primitive of each instance.
+    """Read the triangles of a COLLADA scene [m], one piece per primitive of each instance.
 
-    Node transforms are applied in full, mirrored ones with their winding turned. Skins are shown
-    in their bind shape, without their joints. Lines are left out.
+    Node transforms are applied in full; mirrored instances have their winding reversed. Skins are
+    read in their bind shape, without joints. Lines are skipped.
 
     Args:
         path: The file.
+
+    Raises:
+        MeshError: The file is malformed, declares XML entities or an invalid unit, or has no scene.
+        MissingDependency: pycollada is not installed.
     """
     notes: list[MeshNote] = []
     document = _parse(path, notes)
@@ -87,7 +91,7 @@ def _parse(path: Path, notes: list[MeshNote]) -> Any:
             mended.seek(0)
             document = collada.Collada(mended, ignore=[collada.common.DaeError])
         return document
-    # the parser meets malformed files with whatever its arithmetic raises
+    # the parser raises arbitrary exceptions for malformed files
     except Exception as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         raise MeshError(
@@ -96,7 +100,7 @@ def _parse(path: Path, notes: list[MeshNote]) -> Any:
 
 
 def _drop_broken_materials(document: Any) -> bool:
-    """Unbind materials that could not be read, with which their geometries were left out."""
+    """Remove bindings to broken materials, with which pycollada drops the geometry, too."""
     known = {f"#{material.id}" for material in document.materials}
     broken = [
         (parent, child)
@@ -149,13 +153,13 @@ def _node_pieces(
 def _geometry_pieces(geometry: Any, bound: Any, matrix: Points, path: Path) -> Iterator[Piece]:
     materials = {material.symbol: material for material in bound}
     for written in geometry.primitives:
-        # polygons are cut into fans
+        # triangleset() splits polygons into fans
         try:
             counts, index = getattr(written, "vcounts", None), getattr(written, "index", ())
             if counts is not None and len(counts) and np.sum(counts, dtype=float) > len(index):
                 raise ValueError(f"they want {counts.sum()} corners, and there are {len(index)}")
             primitive = written.triangleset() if hasattr(written, "triangleset") else written
-        except (ValueError, IndexError, TypeError) as error:  # counts that are no counts
+        except (ValueError, IndexError, TypeError) as error:  # invalid counts
             raise MeshError(
                 f"the polygons of geometry {geometry.id!r} of the COLLADA file cannot be cut into "
                 f"triangles ({error}); export or fetch it again",
@@ -187,7 +191,11 @@ def _geometry_pieces(geometry: Any, bound: Any, matrix: Points, path: Path) -> I
 
 
 def _uv(primitive: Any, material: Any) -> Points | None:
-    """The texture coordinates of each corner: those its image is bound to, else the first."""
+    """Return the texture coordinates bound to the image of each corner, or else the first set.
+
+    Returns:
+        Shape (m, 3, 2); None if there are none or they are out of range.
+    """
     sets = getattr(primitive, "texcoordset", None)
     if not sets:
         return None
@@ -219,6 +227,6 @@ def _diffuse(
     image = getattr(getattr(surface, "image", None), "path", None)
     if not image:
         return None, None
-    # an image is named by a URI, in practice also by a Windows path
+    # images are named by URIs, in practice also by Windows paths
     name = unquote(urlsplit(str(image)).path) if str(image).startswith("file:") else str(image)
     return None, path.parent / unquote(name).replace("\\", "/")

@@ -1,4 +1,4 @@
-"""Positions of a COLLADA scene, without its faces, materials and skins, by the XML parser."""
+"""Positions of a COLLADA scene, without faces, materials and skins, by the XML parser."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def read_collada_points(path: Path) -> Points | None:
     """Read the corners of the scene's faces [m], in the axes of the file; None if it has none.
 
     Raises:
-        ValueError: The file is no COLLADA file, or its nodes form a circle.
+        ValueError: The file is not a COLLADA file, or its nodes form a cycle.
     """
     data = path.read_bytes()
     if b"<!ENTITY" in data or "<!ENTITY".encode("utf-16-le") in data:
@@ -43,7 +43,7 @@ def read_collada_points(path: Path) -> Points | None:
 
 
 class _Reader:
-    """A scene on its way to being points; sources are read once."""
+    """Traversal of a scene that collects its points; each source is parsed once."""
 
     def __init__(self, root: Any) -> None:
         self.space = root.tag.partition("}")[0] + "}" if root.tag.startswith("{") else ""
@@ -52,7 +52,11 @@ class _Reader:
         self.read: dict[str, Points] = {}
 
     def walk(self, node: Any, above: Array, depth: int) -> None:
-        """Add the points of a node and of those below it."""
+        """Add the points of a node and its descendants.
+
+        Raises:
+            ValueError: The nodes are nested too deep, as in a cycle.
+        """
         if depth > _MAX_DEPTH:
             raise ValueError("nodes in a circle")
         matrix, tag = above, len(self.space)
@@ -71,11 +75,11 @@ class _Reader:
                 self.add_skin(other, matrix)
 
     def target(self, element: Any) -> Any:
-        """What an instance is one of."""
+        """Return the element to which an instance refers."""
         return self.named.get((element.get("url") or "")[1:])
 
     def add(self, geometry: Any, matrix: Array) -> None:
-        """Add the positions of a geometry's faces; points and lines are not a surface."""
+        """Add the positions of a geometry's faces, but not of points and lines."""
         corners: dict[str, set[int]] = {}
         for child in geometry.iter():
             if child.tag[len(self.space) :] in _FACES:
@@ -92,7 +96,7 @@ class _Reader:
                     self.found.append(transform_points(used, matrix))
 
     def corners(self, primitive: Any) -> tuple[str, set[int]]:
-        """The ``<vertices>`` that faces are made of, and the numbers of those that they have."""
+        """Return the id of a primitive's ``<vertices>`` and the indices that its faces use."""
         source, offset, stride = "", 0, 1
         for entry in primitive.iterfind(f"{self.space}input"):
             at = int(entry.get("offset") or 0)
@@ -116,7 +120,7 @@ class _Reader:
         self.add(geometry, matrix)
 
     def positions(self, source: str) -> Points:
-        """Return the rows of a ``<source>``."""
+        """Return the rows of a ``<source>``, shape (n, 3)."""
         if source not in self.read:
             element = self.named[source]
             array = element.find(f"{self.space}float_array")
@@ -129,7 +133,7 @@ class _Reader:
 
 
 def _rows(text: str, offset: int, stride: int) -> set[int]:
-    """Return every number of a text at one place of each group."""
+    """Return the distinct numbers at one offset of each group of ``stride`` numbers."""
     return set(map(int, set(text.split()[offset::stride])))
 
 

@@ -1,12 +1,12 @@
-"""The outermost points of a mesh, read without its faces.
+"""Extreme points of a mesh, read without its faces.
 
-``load`` reads a mesh with its faces. A question of size or of contact needs points alone, and of
-those only the outermost: points inside the convex hull change neither the box around a mesh nor the
-distance between two hulls. So this module reads positions straight from the bytes and keeps the
-extreme ones in about a hundred directions. Units and axes are those of :func:`load.load_mesh`.
+``load`` reads a mesh with its faces. Size and contact depend on the convex hull alone: points
+inside it change neither the bounding box nor the distance between two hulls. So this module reads
+positions directly from the bytes and keeps the extreme ones in about a hundred directions. Units
+and axes are those of :func:`load.load_mesh`.
 
-The readers of COLLADA and glTF are not those of ``load``: pycollada keeps positions as 32-bit
-floats, and importing trimesh takes longer than all of ``lint``.
+COLLADA and glTF have their own readers here: pycollada stores positions as 32-bit floats, and
+importing trimesh takes longer than all of ``lint``.
 """
 
 from __future__ import annotations
@@ -32,25 +32,25 @@ Vector = tuple[float, float, float]
 Rotation = Sequence[Sequence[float]]
 
 LARGEST = 64_000_000
-"""Bytes of a file that is read at most."""
+"""Size of the largest file that is read [bytes]."""
 
 _DIRECTIONS = 90
-_KEPT = 50_000  # points of a mesh that are all kept; of a larger one only the outermost
-_FEW = 3_000  # points of which equal ones are merged first
+_KEPT = 50_000  # larger meshes keep only their extreme points
+_FEW = 3_000  # meshes up to this size are deduplicated first
 _ALIGNED = 1e-12
-_BLOCK = 2048  # small enough that a product with 32 directions stays on one core
+_BLOCK = 2048  # small enough that the product with 32 directions stays on one core
 
 
 class ConvexPoints:
-    """The points of a mesh in the frame of its file, unscaled.
+    """Points of a mesh in the frame of its file, unscaled.
 
     Attributes:
-        low: The smallest corner of the box around it, along the axes of the file.
-        high: The largest.
+        low: Lower corner of the bounding box, along the axes of the file.
+        high: Upper corner.
     """
 
     def __init__(self, points: Points) -> None:
-        """Take the points, shape (n, 3); the outermost are selected on demand."""
+        """Store the points, shape (n, 3); extreme points are selected on demand."""
         self._all = points
         self._outermost: list[Vector] | None = None
         self._boxes: dict[tuple[Sequence[float], Rotation], tuple[Vector, Vector]] = {}
@@ -60,9 +60,9 @@ class ConvexPoints:
 
     @property
     def points(self) -> list[Vector]:
-        """The outermost points; their hull lies inside that of the mesh, and is nearly as large.
+        """Return the extreme points; their hull lies inside the mesh's hull and is nearly as large.
 
-        The box around them is that around the mesh.
+        Both have the same bounding box.
         """
         if self._outermost is None:
             points = self._all
@@ -72,7 +72,13 @@ class ConvexPoints:
         return self._outermost
 
     def box(self, scale: Sequence[float], rotation: Rotation, at: Vector) -> tuple[Vector, Vector]:
-        """Compute two corners of the box around the mesh, scaled, rotated and moved [m]."""
+        """Compute lower and upper corner of the transformed mesh's bounding box [m].
+
+        Args:
+            scale: Factors along the axes of the file, applied first.
+            rotation: Rotation matrix.
+            at: Translation [m].
+        """
         key = tuple(scale), tuple(map(tuple, rotation))
         if key not in self._boxes:
             self._boxes[key] = self._box(*key)
@@ -97,19 +103,19 @@ def read_convex_points(path: str | Path, gltf_up: GltfUp = "y") -> ConvexPoints 
 
     Args:
         path: An STL, OBJ, DAE, PLY, glTF or GLB file.
-        gltf_up: The axis of a glTF file that is up.
+        gltf_up: Up axis of a glTF file.
 
     Returns:
-        None if the file cannot be read, is larger than :data:`LARGEST`, or has no point or one that
-        is not finite.
+        None if the file cannot be read, is larger than :data:`LARGEST`, or has no points or a point
+        that is not finite.
     """
     file = Path(path)
     try:
         if not file.is_file() or file.stat().st_size > LARGEST:
-            return None  # a device or a pipe is read without end
+            return None  # reading a device or a pipe would not end
         suffix = file.suffix.lower()
         points = _gltf(file, gltf_up) if suffix in _GLTF else _READERS[suffix](file)
-    # a damaged file makes arithmetic raise anything; here it is only a file without points
+    # parsers raise arbitrary exceptions for damaged files, which have no points
     except (MeshError, OSError, ValueError, LookupError, TypeError, AttributeError, struct.error):
         return None
     except (ArithmeticError, RecursionError):
@@ -125,10 +131,10 @@ def _box(points: Points) -> tuple[Vector, Vector]:
 
 
 def extreme_points(points: Points) -> Points:
-    """Select the points that reach farthest in some direction, all six along the axes included.
+    """Select the extreme points of many directions, including all six along the axes.
 
     Args:
-        points: Shape (n, 3); as few as twice the directions stay as they are.
+        points: Shape (n, 3); returned unchanged if at most twice as many as the directions.
     """
     if len(points) <= 2 * len(directions()):
         return points
@@ -152,7 +158,7 @@ def _outermost(points: Points) -> Points:
 
 @cache
 def directions() -> list[Vector]:
-    """Return unit vectors: the axes, and a spiral that covers the sphere evenly."""
+    """Return unit vectors: both directions of each axis, and an even spiral over the sphere."""
     ways = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
     ways += [(-x, -y, -z) for x, y, z in ways]
     for number in range(_DIRECTIONS):
@@ -191,11 +197,11 @@ _GLTF = (".gltf", ".glb")
 
 
 def support_function_of(points: Sequence[Vector]) -> tuple[Vector, float, SupportFunction]:
-    """Describe points as a convex shape.
+    """Describe the convex hull of points by its support function.
 
     Returns:
-        Their middle, the radius about it [m], and the function that gives how far their hull
-        reaches from the middle along a direction [m].
+        The center of the bounding box, the radius about it [m], and the support function relative
+        to it [m].
     """
     x, y, z = ((min(column) + max(column)) / 2 for column in zip(*points, strict=True))
     centered: list[Vector] = [(a - x, b - y, c - z) for a, b, c in points]

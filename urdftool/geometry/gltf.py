@@ -1,10 +1,10 @@
-"""glTF 2.0 (.gltf, .glb): a scene in metres with Y up, by its own standard.
+"""glTF 2.0 (.gltf, .glb): a scene in meters with Y up, as its standard defines.
 
-What the consumers of a robot description do, read in their sources: RViz turns the scene by +90°
-about X so that Y becomes Z (rviz_rendering since 2025; older releases show it lying), and so do
-Drake and Blender. Gazebo (gz-common's ``AssimpLoader``) keeps the file's axes. PyBullet and MuJoCo
-do not read glTF. It is turned here, as the standard means it and RViz shows it, unless the user
-says that Z is up in the file already (``--gltf-up z``); a note says so.
+How the consumers of a robot description read it, according to their sources: RViz (rviz_rendering
+since 2025), Drake and Blender rotate the scene by +90° about X so that Y becomes Z. Older releases
+of RViz and Gazebo (gz-common's ``AssimpLoader``) keep the file's axes. PyBullet and MuJoCo do not
+read glTF. This reader rotates it, as the standard requires, unless the user declares that Z is up
+(``--gltf-up z``); a note reports either.
 """
 
 from __future__ import annotations
@@ -37,11 +37,14 @@ _NOTES = {
 
 
 def read(path: Path, *, gltf_up: GltfUp = "y") -> Reading:
-    """The triangles of a glTF scene, one piece for each primitive of each instance.
+    """Read the triangles of a glTF scene, one piece per primitive of each instance.
 
     Args:
         path: The file.
-        gltf_up: The axis of the file that is up; ``y`` is turned so that it becomes Z.
+        gltf_up: Up axis of the file; ``y`` is rotated to Z.
+
+    Raises:
+        MeshError: The file is malformed, or a buffer or an image is missing.
     """
     import trimesh
 
@@ -53,7 +56,7 @@ def read(path: Path, *, gltf_up: GltfUp = "y") -> Reading:
             process=False,
             resolver=trimesh.resolvers.FilePathResolver(str(path)),
         )
-    # the parser meets malformed files with whatever its arithmetic raises
+    # the parser raises arbitrary exceptions for malformed files
     except Exception as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         raise MeshError(
@@ -77,7 +80,7 @@ def read(path: Path, *, gltf_up: GltfUp = "y") -> Reading:
         texture, image = looks.get(str(getattr(material, "name", "")), (None, None))
         points = getattr(geometry.visual, "uv", None)
         uv = None
-        whole = not faces.size or faces.max() < len(vertices)  # else refused with its number
+        whole = not faces.size or faces.max() < len(vertices)  # load.py rejects others
         if points is not None and len(points) == len(vertices) and whole:
             uv = np.asarray(points, dtype=np.float64)[faces]
         pieces.append(Piece(vertices, faces, str(name), _rgba(material), texture, image, uv))
@@ -95,11 +98,11 @@ def _rgba(material: Any) -> tuple[float, float, float, float] | None:
 
 
 Image = tuple[Path | None, bytes | None]
-"""A file, or the image itself."""
+"""Path of an image file, or the content of an embedded image."""
 
 
 def _looks(path: Path) -> tuple[dict[str, Image], BytesIO]:
-    """The images of base colours by material, and the file with its materials named by number."""
+    """Return the base color images by material, and the file with materials renamed to indices."""
     data = path.read_bytes()
     binary = data[:4] == b"glTF"
     rest = b""
@@ -124,7 +127,7 @@ def _looks(path: Path) -> tuple[dict[str, Image], BytesIO]:
 
 
 def _check_files(tree: dict[str, Any], path: Path) -> None:
-    """Refuse what is no file: a device or a pipe is read without end."""
+    """Raise ValueError if a referenced file is missing, a device or a pipe."""
     for thing in (*tree.get("buffers", ()), *tree.get("images", ())):
         uri = str(thing.get("uri", "data:"))
         if not uri.startswith("data:") and not os.path.isfile(path.parent / unquote(uri)):
@@ -140,7 +143,7 @@ def _image(tree: dict[str, Any], image: dict[str, Any], path: Path, rest: bytes)
     view = tree["bufferViews"][image["bufferView"]]
     start = view.get("byteOffset", 0)
     buffer = tree["buffers"][view["buffer"]].get("uri")
-    if buffer is None:  # the binary chunk, after its own head
+    if buffer is None:  # the binary chunk, after its header
         content = rest[8:]
     elif buffer.startswith("data:"):
         content = b64decode(buffer.partition(",")[2])

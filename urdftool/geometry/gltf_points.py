@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _MAX_DEPTH = 64
 _FLOAT = 5126
-_TRIANGLES = 4  # and 5, 6 for strips and fans of them
+_TRIANGLES = 4  # 5 and 6 are strips and fans
 _UNSIGNED = {5121: "u1", 5123: "<u2", 5125: "<u4"}
 _UP: Array = np.array(
     [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
@@ -29,11 +29,13 @@ _UP: Array = np.array(
 def read_gltf_points(path: Path, gltf_up: GltfUp = "y") -> Points | None:
     """Read the corners of the scene's triangles [m]; None if there are none.
 
-    Y becomes Z where it is up.
+    Args:
+        path: The file.
+        gltf_up: Up axis of the file; ``y`` is rotated to Z.
 
     Raises:
-        ValueError: The file is no glTF file, or its nodes form a circle. What else a damaged one
-            raises (LookupError, TypeError, struct.error) is left to the caller.
+        ValueError: The file is not a glTF file, or its nodes form a cycle. A damaged file may also
+            raise LookupError, TypeError or struct.error.
     """
     data = path.read_bytes()
     chunk = b""
@@ -104,7 +106,7 @@ def _matrix(node: Any) -> Array:
 
 def _points(tree: Any, accessor: Any, path: Path, chunk: bytes) -> Points:
     if "bufferView" not in accessor or accessor["componentType"] != _FLOAT:
-        return _corners(accessor["min"], accessor["max"])  # packed, but its box is said
+        return _corners(accessor["min"], accessor["max"])  # compressed; its box is declared
     view = tree["bufferViews"][accessor["bufferView"]]
     content = _content(tree, view, path, chunk)
     start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
@@ -116,7 +118,7 @@ def _points(tree: Any, accessor: Any, path: Path, chunk: bytes) -> Points:
 
 
 def _rows(tree: Any, accessor: Any, path: Path, chunk: bytes) -> set[int] | None:
-    """Return the rows of the points that triangles have; None where they are packed."""
+    """Return the point indices that the triangles use; None if they are compressed."""
     kind = _UNSIGNED.get(accessor["componentType"])
     if "bufferView" not in accessor or kind is None:
         return None
@@ -130,7 +132,7 @@ def _rows(tree: Any, accessor: Any, path: Path, chunk: bytes) -> set[int] | None
 
 
 def _content(tree: Any, view: Any, path: Path, chunk: bytes) -> bytes:
-    """The bytes of the buffer that a view is one of."""
+    """Return the content of the buffer of a view."""
     uri = tree["buffers"][view["buffer"]].get("uri")
     if uri is None:
         return chunk
@@ -139,12 +141,12 @@ def _content(tree: Any, view: Any, path: Path, chunk: bytes) -> bytes:
 
         return b64decode(uri.partition(",")[2])
     beside = path.parent / unquote(uri)
-    if not beside.is_file():  # a device or a pipe is read without end
+    if not beside.is_file():  # reading a device or a pipe would not end
         raise ValueError(f"there is no file '{uri}' beside it")
     return beside.read_bytes()
 
 
 def _corners(low: Sequence[float], high: Sequence[float]) -> Points:
-    """Return the corners of a box."""
+    """Return the eight corners of a box, shape (8, 3)."""
     ends = list(zip(low, high, strict=True))
     return np.array([[float(ends[axis][k >> axis & 1]) for axis in range(3)] for k in range(8)])

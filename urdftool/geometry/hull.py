@@ -1,4 +1,4 @@
-"""Convex hulls, by Manifold: it is there in milliseconds, scipy's in a third of a second."""
+"""Convex hulls by Manifold, which imports in milliseconds (scipy takes a third of a second)."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ if TYPE_CHECKING:
     from manifold3d import Manifold
 
 FLAT = 1e-12
-"""The volume of a hull without any, as a part of the cube of its points' extent."""
+"""Smallest volume of a hull, relative to the cube of the extent of its points."""
 
 
 def convex_hull(points: Points) -> Manifold | None:
-    """The convex hull of points, shape (n, 3); None where they lie in a plane or are no numbers.
+    """Compute the convex hull of points, shape (n, 3); None if they are coplanar or not finite.
 
-    A point that is beyond the others' hull by less than about 1e-7 of their extent may be left out.
-    The same points in the same order have the same hull, to the bit.
+    Points outside the others' hull by less than about 1e-7 of the extent may be dropped. The same
+    points in the same order give the same hull, bit for bit.
     """
     from manifold3d import Manifold
 
@@ -31,10 +31,10 @@ def convex_hull(points: Points) -> Manifold | None:
 
 
 def hull_surface(hull: Manifold) -> tuple[Points, Faces]:
-    """Corners (n, 3) and triangles (m, 3) of a hull, counter-clockwise seen from outside."""
+    """Return vertices (n, 3) and triangles (m, 3) of a hull, counter-clockwise from outside."""
     mesh = hull.to_mesh64()
     faces = np.array(mesh.tri_verts, dtype=np.int64)
-    # the triangles of a large one come in another order each time
+    # Manifold returns the triangles of large hulls in a random order
     first = faces.argmin(axis=1)[:, None]
     faces = np.take_along_axis(faces, (first + np.arange(3)) % 3, axis=1)
     return np.array(mesh.vert_properties[:, :3]), faces[np.lexsort(faces.T[::-1])]

@@ -1,4 +1,4 @@
-"""The way in for every mesh file."""
+"""Reading of mesh files in all supported formats."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ READERS = {
 }
 
 FARTHEST = 1e12
-"""Where a mesh must end [m]: beyond it, squares and cubes of lengths leave the numbers."""
+"""Largest coordinate [m]; the cubes of lengths beyond it would overflow."""
 
 
 def load_mesh(
@@ -39,26 +39,27 @@ def load_mesh(
     *,
     gltf_up: GltfUp = "y",
 ) -> Mesh:
-    """The triangles of a mesh file [m], as RViz would show them in the frame of the ``<geometry>``.
+    """Read the triangles of a mesh file [m], in the frame of the ``<geometry>`` as in RViz.
 
-    The unit and the axes of each format:
+    Unit and axes of each format:
 
-    - STL, OBJ, PLY: numbers are taken as metres, axes as they are.
-    - COLLADA: ``<unit meter>`` is applied; ``<up_axis>`` is not, which is what RViz, Gazebo and
-      MoveIt do (PyBullet turns the mesh).
-    - glTF: metres; Y becomes Z, which is what the standard means and RViz does (Gazebo leaves it),
-      unless Z is said to be up.
+    - STL, OBJ, PLY: coordinates are in meters, axes are kept.
+    - COLLADA: ``<unit meter>`` is applied; ``<up_axis>`` is ignored, as by RViz, Gazebo and MoveIt
+      (PyBullet rotates the mesh).
+    - glTF: meters; Y becomes Z, as in the standard and in RViz (Gazebo keeps the axes), unless
+      ``gltf_up`` is ``z``.
 
     Args:
-        path: A file whose suffix, in any case, says its format: stl, obj, dae, ply, gltf or glb.
-        scale: The three factors of URDF's ``<mesh scale>``, applied last. Where their product is
-            negative the mesh is mirrored and the winding turned, so that its volume keeps its sign.
-        gltf_up: The axis of a glTF file that is up; ``z`` keeps its axes.
+        path: A file whose suffix, in any case, is its format: stl, obj, dae, ply, gltf or glb.
+        scale: The three factors of URDF's ``<mesh scale>``, applied last. If their product is
+            negative, the mesh is mirrored and its winding reversed, so that its volume keeps its
+            sign.
+        gltf_up: Up axis of a glTF file; ``z`` keeps its axes.
 
     Raises:
-        MeshError: There is no such file, it is a folder, empty, a git-LFS pointer, truncated or of
-            another format, it has no face, a coordinate that is no number or beyond all sizes, or
-            the scale is not three finite factors other than zero.
+        MeshError: The file does not exist, is a folder, empty, a git-LFS pointer, truncated or of
+            another format; it has no face, or a coordinate that is not finite or too large; or the
+            scale is not three finite nonzero factors.
     """
     file = Path(path)
     factors = _factors(scale, file)
@@ -75,7 +76,7 @@ def load_mesh(
 def load_named(
     description: Description, uri: str, scale: Sequence[float] = (1.0, 1.0, 1.0)
 ) -> Mesh:
-    """A mesh as a description means it: where it finds the file, and which axis is up in it.
+    """Read a mesh with the URI resolution and the glTF up axis of a description.
 
     Raises:
         UrdftoolError: The file is not found, or as :func:`load_mesh`.
@@ -122,9 +123,9 @@ def _checked_format(file: Path) -> str:
 
 
 def _used(piece: Piece) -> Piece:
-    """Leave out the vertices of no face, which are a part of no surface."""
+    """Drop the vertices that no face uses."""
     if piece.faces.min() < 0 or piece.faces.max() >= len(piece.vertices):
-        return piece  # which is refused
+        return piece  # rejected by _assemble
     is_used = np.zeros(len(piece.vertices), dtype=bool)
     is_used[piece.faces.ravel()] = True
     if is_used.all():

@@ -1,4 +1,4 @@
-"""A triangle mesh and the pieces it is made of."""
+"""Triangle meshes and their parts."""
 
 from __future__ import annotations
 
@@ -16,32 +16,32 @@ Faces = npt.NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Part:
-    """A run of a mesh's faces that share an object and a material."""
+    """A range of a mesh's faces that share an object and a material."""
 
     name: str
-    """The object's or material's name in the file; empty where it has none."""
+    """Name of the object or material in the file; may be empty."""
     first: int
-    """Row of ``Mesh.faces`` at which the part begins."""
+    """First row of the part in ``Mesh.faces``."""
     count: int
-    """How many faces it has."""
+    """Number of faces."""
     rgba: tuple[float, float, float, float] | None = None
-    """Diffuse colour, each in 0 … 1; None where the file gives none."""
+    """Diffuse color, each component in 0 … 1; None if the file has none."""
     texture: Path | None = None
-    """Image of the diffuse colour beside the mesh; None where there is none or it is embedded."""
+    """Path of the image of the diffuse color; None if there is none or it is embedded."""
     image: bytes | None = field(default=None, repr=False)
-    """The image itself where it is embedded in the mesh file."""
+    """Content of the image if it is embedded in the mesh file."""
     uv: Points | None = field(default=None, repr=False, compare=False)
-    """Where each corner lies in the image, shape (count, 3, 2): from its lower left corner, which
-    is 0 0, to its upper right one, which is 1 1. None where the file does not say."""
+    """Texture coordinates of each corner, shape (count, 3, 2), from the lower left (0, 0) to the
+    upper right (1, 1) of the image. None if the file has none."""
 
 
 class MeshNote(NamedTuple):
-    """Something a user should know of how a mesh file was read or converted.
+    """A note to the user on how a mesh file was read or converted.
 
     Attributes:
-        code: What kind of thing, such as ``obj-without-materials``. Code reads this.
+        code: Identifier such as ``obj-without-materials``, for code.
         message: A complete sentence for people.
-        lossy: Whether something of the file is lost or changed.
+        lossy: Whether a part of the file is lost or changed.
     """
 
     code: str
@@ -54,17 +54,17 @@ class Mesh:
     """Triangles in the frame of the URDF ``<geometry>``, scaled."""
 
     vertices: Points
-    """Points [m], shape (n, 3). Equal points may occur more than once."""
+    """Points [m], shape (n, 3). Points may occur more than once."""
     faces: Faces
     """Indices into ``vertices``, shape (m, 3), counter-clockwise seen from outside."""
     parts: tuple[Part, ...]
-    """Pieces by object and material, in the order of ``faces``, which they cover."""
+    """Parts by object and material, in the order of ``faces``; together they cover all faces."""
     format: str
     """Suffix of the format in lower case, without its dot: ``"stl"``, ``"dae"`` …"""
     path: Path
-    """The file it was read from."""
+    """The file from which it was read."""
     notes: tuple[MeshNote, ...] = ()
-    """What a user should know of how the file was read."""
+    """Notes on how the file was read."""
 
     @property
     def note_texts(self) -> tuple[str, ...]:
@@ -72,13 +72,13 @@ class Mesh:
         return tuple(note.message for note in self.notes)
 
     def part_faces(self, part: Part) -> Faces:
-        """The faces of one of ``parts``."""
+        """Return the faces of one of ``parts``, shape (count, 3)."""
         return self.faces[part.first : part.first + part.count]
 
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """What a reader of one format found: a part with its own vertices, unscaled."""
+    """A part with its own vertices, unscaled, as a reader of one format returns it."""
 
     vertices: Points
     faces: Faces
@@ -91,7 +91,7 @@ class Piece:
 
 @dataclass(frozen=True)
 class Reading:
-    """All that a reader of one format found: pieces in metres, and what should be said of them."""
+    """Result of a reader of one format: pieces [m] and notes."""
 
     pieces: list[Piece]
     notes: list[MeshNote]

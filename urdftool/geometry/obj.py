@@ -1,4 +1,4 @@
-"""Wavefront OBJ with its MTL: objects, groups, polygons, colours and images, in no unit."""
+"""Wavefront OBJ with MTL: objects, groups, polygons, colors and images; it declares no unit."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from .mesh import MeshNote, Piece, Points, Reading
 Rgba = tuple[float, float, float, float]
 
 _MOST = 2**48
-"""No file has so many points; numpy could not hold the number of one beyond."""
+"""Largest vertex index; a larger one would overflow in numpy."""
 
 
 @dataclass
 class Material:
-    """Diffuse colour and image of one ``newmtl``."""
+    """Diffuse color and image of a ``newmtl``."""
 
     rgb: tuple[float, float, float] | None = None
     opacity: float = 1.0
@@ -29,15 +29,18 @@ class Material:
 
     @property
     def rgba(self) -> Rgba | None:
-        """The colour with its opacity; None where the file gives no ``Kd``."""
+        """Return the color with its opacity; None if the file has no ``Kd``."""
         return (*self.rgb, self.opacity) if self.rgb else None
 
 
 def read(path: Path) -> Reading:
-    """The faces of an OBJ file, one piece for each run of an object and a material.
+    """Read the faces of an OBJ file, one piece per run of an object and a material.
 
-    Polygons are cut into fans from their first corner: in the plane of the polygon the signed
-    triangles add up to it even where it is not convex. Lines, points and curves are left out.
+    Polygons are split into fans from their first corner: the signed triangles sum to a planar
+    polygon even if it is not convex. Lines, points and curves are skipped.
+
+    Raises:
+        MeshError: As :func:`parse`, or a vertex is not three numbers.
     """
     written = parse(path)
     notes: list[MeshNote] = []
@@ -68,7 +71,7 @@ def read(path: Path) -> Reading:
 
 
 def _texture_points(texels: list[str]) -> Points | None:
-    """The ``vt`` statements, shape (n, 2); None where there are none, or one is no number."""
+    """Parse the ``vt`` statements, shape (n, 2); None if there are none or one is not a number."""
     try:
         rows = [[*texel.split(), "0"][:2] for texel in texels]
         return np.array(rows, dtype=np.float64) if rows else None
@@ -77,7 +80,7 @@ def _texture_points(texels: list[str]) -> Points | None:
 
 
 def _uv(texture_points: Points | None, run: Run) -> Points | None:
-    """The texture coordinates of a run's corners; None unless each of them has one."""
+    """Return the texture coordinates of a run's corners, shape (m, 3, 2); None if some lack one."""
     rows = np.array(run.texels, dtype=np.int64).reshape(-1, 3)
     if texture_points is None or not rows.size or 3 * len(rows) != len(run.corners):
         return None
@@ -112,7 +115,7 @@ def _materials(path: Path, libraries: list[str], notes: list[MeshNote]) -> dict[
             elif keyword in ("Kd", "d", "Tr") and words:
                 _colour(current, keyword, words)
             elif keyword == "map_Kd" and words:
-                # options stand before the name, which is last
+                # options precede the name
                 current.texture = path.parent / words[-1].replace("\\", "/")
     return materials
 
@@ -132,23 +135,23 @@ def _colour(material: Material, keyword: str, words: list[str]) -> None:
 
 @dataclass
 class Run:
-    """Triangles of one object and material: rows of their corners, from zero."""
+    """Triangles of one object and material, as zero-based vertex indices of their corners."""
 
     name: str
     material: str
     corners: list[int] = field(default_factory=list)
     texels: list[int] = field(default_factory=list)
-    """Rows of texture coordinates, -1 for none; as long as ``corners``, or empty."""
+    """Indices of texture coordinates, -1 for none; as long as ``corners``, or empty."""
 
 
 class Statements(NamedTuple):
-    """The statements of an OBJ file.
+    """Statements of an OBJ file.
 
     Attributes:
-        points: What follows ``v``.
-        texels: What follows ``vt``.
-        runs: The faces.
-        libraries: The files of materials.
+        points: Arguments of the ``v`` statements.
+        texels: Arguments of the ``vt`` statements.
+        runs: Faces.
+        libraries: Material files.
     """
 
     points: list[str]
@@ -158,10 +161,10 @@ class Statements(NamedTuple):
 
 
 def parse(path: Path) -> Statements:
-    """The statements of an OBJ file, polygons as fans of triangles.
+    """Parse the statements of an OBJ file; polygons become fans of triangles.
 
     Raises:
-        MeshError: It is binary, or a face names a point that is not there.
+        MeshError: The file is binary, or a face refers to an invalid vertex.
     """
     points: list[str] = []
     texels: list[str] = []
@@ -192,7 +195,11 @@ def parse(path: Path) -> Statements:
 
 
 def logical_lines(path: Path) -> Iterator[tuple[int, str]]:
-    """Lines without comments, joined where they end in a backslash, with tabs as blanks."""
+    """Yield numbered lines without comments, joined at trailing backslashes, tabs as spaces.
+
+    Raises:
+        MeshError: The file is binary.
+    """
     text = path.read_text(encoding="utf-8", errors="replace").replace("\t", " ")
     if "\x00" in text[:1024]:
         raise MeshError("the file is binary; an OBJ file is text", path=path)
@@ -208,7 +215,7 @@ def logical_lines(path: Path) -> Iterator[tuple[int, str]]:
 
 
 def _fan(rest: str, points: int, corners: list[int], path: Path, number: int) -> None:
-    """Add the triangles of one ``f`` statement."""
+    """Add the triangles of one ``f`` statement to ``corners``."""
     polygon = []
     for word in rest.split():
         try:
@@ -217,7 +224,7 @@ def _fan(rest: str, points: int, corners: list[int], path: Path, number: int) ->
             raise MeshError(
                 f"line {number} of the OBJ file: {word!r} is not the number of a vertex", path=path
             ) from error
-        # negative numbers count back from the vertex read last
+        # negative indices count back from the last vertex so far
         index = index - 1 if index > 0 else points + index
         if not 0 <= index < _MOST or word.startswith("0"):
             raise MeshError(

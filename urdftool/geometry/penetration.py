@@ -1,10 +1,10 @@
-"""Convex shapes and their penetration depth, in plain Python: lint of primitives has no numpy.
+"""Penetration depth of convex shapes, in plain Python, so that lint of primitives needs no numpy.
 
-A convex shape is known by how far it reaches in each direction (its support function). Two shapes
-are apart if along some direction the one ends before the other begins; if they overlap, the least
-overlap of all directions is the distance by which one has to move to be free: the penetration
-depth. It is looked for among the directions that decide in most cases and then by smaller and
-smaller steps from the best of them, so what is returned is an upper bound, and close.
+A convex shape is described by its support function. Two shapes are separate if they do not overlap
+along some direction. Otherwise the smallest overlap over all directions is the penetration depth:
+the distance by which one shape must move to be free. The search starts from the directions that
+usually decide and refines the best of them by decreasing steps. The result is therefore a close
+upper bound.
 """
 
 from __future__ import annotations
@@ -17,17 +17,17 @@ from ..model.elements import Box, Capsule, Cylinder, Geometry, Sphere, Vector
 from ..model.pose import Pose, cross, norm, transpose
 
 SupportFunction = Callable[[float, float, float], float]
-"""How far a shape reaches along a direction [m], in its own frame."""
+"""Support function: the largest extent of a shape along a direction [m], in its own frame."""
 
 
 class Convex(NamedTuple):
     """A convex shape.
 
     Attributes:
-        pose: Of its own frame.
-        reach: Its support function in that frame.
-        radius: Of a sphere about the origin of that frame that holds it [m].
-        filled: Whether it is the shape itself, not the hull of something hollow.
+        pose: Pose of the shape's frame.
+        reach: Support function in that frame.
+        radius: Radius of a bounding sphere about the origin of that frame [m].
+        filled: Whether it is the shape itself, not the hull of a shape with cavities.
     """
 
     pose: Pose
@@ -36,12 +36,12 @@ class Convex(NamedTuple):
     filled: bool = True
 
     def moved(self, pose: Pose) -> Convex:
-        """The same in the frame in which ``pose`` is that of its present one."""
+        """Express the shape in the parent frame, in which its present frame has this pose."""
         return Convex(pose @ self.pose, self.reach, self.radius, self.filled)
 
 
 def convex_of(geometry: Geometry | None, pose: Pose) -> Convex | None:
-    """A primitive in the frame of its link; None for any other shape, or one without a size."""
+    """Return a primitive as a convex shape; None for other geometry or without a size."""
     made = _reach_of(geometry)
     if made is None or not 0 < made[1] < math.inf:
         return None
@@ -65,7 +65,14 @@ def _reach_of(geometry: Geometry | None) -> tuple[SupportFunction, float] | None
 
 
 def overlap(one: Convex, other: Convex, enough: float = 0.0) -> float:
-    """How deep two shapes overlap [m]; ``enough`` or less as soon as it cannot be more."""
+    """Compute the penetration depth of two shapes [m], an upper bound.
+
+    Args:
+        one: A shape.
+        other: A shape in the same frame.
+        enough: The search stops as soon as the depth is known to be at most this [m], and returns
+            ``enough`` or less.
+    """
     apart = _difference(other.pose.translation, one.pose.translation)
     distance = norm(apart)
     if distance >= one.radius + other.radius - enough:
@@ -75,7 +82,7 @@ def overlap(one: Convex, other: Convex, enough: float = 0.0) -> float:
     reach, reached = one.reach, other.reach
 
     def along(d: Vector) -> float:
-        """Where the one ends less where the other begins."""
+        """Return the overlap along a unit direction [m]."""
         a, b, c = d
         (p, q, r), (s, t, u), (v, w, k) = turn
         first = reach(p * a + q * b + r * c, s * a + t * b + u * c, v * a + w * b + k * c)
@@ -116,7 +123,7 @@ CORNER_DIRECTIONS = tuple(
 
 
 def _directions(one: Convex, other: Convex, apart: Vector, distance: float) -> Iterator[Vector]:
-    """Those that most probably decide first."""
+    """Yield the directions that usually decide, the most probable first."""
     if distance > 1e-9:
         yield _scaled(apart, 1 / distance)
     for shape in (one, other):
@@ -127,7 +134,7 @@ def _directions(one: Convex, other: Convex, apart: Vector, distance: float) -> I
 
 
 def _around(way: Vector, step: float) -> Iterator[Vector]:
-    """Eight unit vectors at an angle to one [rad]."""
+    """Yield eight unit vectors around a direction, at about ``step`` [rad] from it."""
     least = min(range(3), key=lambda axis: abs(way[axis]))
     first = cross(way, tuple(float(axis == least) for axis in range(3)))  # type: ignore[arg-type]
     first = _scaled(first, 1 / norm(first))

@@ -1,4 +1,4 @@
-"""PLY, text and binary: triangles and polygons of one object, in no unit (URDF takes metres)."""
+"""PLY, text and binary: triangles and polygons of one object; it declares no unit."""
 
 from __future__ import annotations
 
@@ -11,12 +11,16 @@ from .mesh import Piece, Reading
 
 
 def read(path: Path) -> Reading:
-    """The faces of a PLY file; colours of single vertices are not used."""
+    """Read the faces of a PLY file; vertex colors are ignored.
+
+    Raises:
+        MeshError: The file is malformed or has no faces.
+    """
     import trimesh
 
     try:
         mesh = trimesh.load_mesh(path, file_type="ply", process=False)
-    # the parser meets malformed files with whatever its arithmetic raises
+    # the parser raises arbitrary exceptions for malformed files
     except Exception as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         raise MeshError(

@@ -1,4 +1,4 @@
-"""Points of meshes as arrays: mapped, selected, and read from STL and OBJ files without faces."""
+"""Mesh points as arrays: transformed, selected, and read from STL and OBJ files without faces."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ def transform_points(points: Points, matrix: Array) -> Points:
     """Map points, shape (n, 3), by an affine matrix, shape (4, 4)."""
     if np.array_equal(matrix, IDENTITY):
         return points
-    # einsum, as a product of matrices starts threads on all cores
+    # a matrix product would start threads on all cores
     mapped: Points = np.einsum("ij,kj->ki", matrix[:3, :3], points) + matrix[:3, 3]
     return mapped
 
 
 def select_points(points: Points, rows: Set[int]) -> Points:
-    """Select the points of which a face has a corner, given by their rows.
+    """Select the points that faces use, given by their rows.
 
-    Rows beyond the points are left out: readers reject a file with such faces.
+    Rows out of range are ignored; readers reject files with such faces.
     """
     used = np.fromiter(rows, dtype=np.int64, count=len(rows))
     is_used = np.zeros(len(points), dtype=bool)
@@ -36,19 +36,19 @@ def select_points(points: Points, rows: Set[int]) -> Points:
 
 
 def as_points(values: object) -> Points:
-    """Convert numbers or their texts, three for each point, to points.
+    """Convert numbers or numeric strings, three per point, to an array of shape (n, 3).
 
     Raises:
-        ValueError: One of them is not a number, or they are not three for each.
+        ValueError: One of them is not a number, or their count is not a multiple of three.
     """
     return np.array(values, dtype=np.float64).reshape(-1, 3)
 
 
 def read_stl_points(path: Path) -> Points | None:
-    """Read the corners of an STL file's triangles; None if it is not one, or truncated.
+    """Read the corners of an STL file's triangles; None if it is not an STL file or is truncated.
 
     Raises:
-        OSError: It cannot be read.
+        OSError: The file cannot be read.
         ValueError: A corner of a text file is not three numbers.
     """
     header = read_stl_header(path)
@@ -57,10 +57,10 @@ def read_stl_points(path: Path) -> Points | None:
 
 
 def read_obj_points(path: Path) -> Points | None:
-    """Read the points of an OBJ file's faces; None if there are none.
+    """Read the points that the faces of an OBJ file use; None if there are none.
 
     Raises:
-        OSError: It cannot be read.
+        OSError: The file cannot be read.
         ValueError: A point is not three numbers.
     """
     lines = _CONTINUED.sub(b" ", path.read_bytes()).splitlines()
@@ -73,9 +73,9 @@ _CORNER = re.compile(rb"\s(-?\d+)")
 
 
 def _obj_corners(lines: list[bytes]) -> set[int]:
-    """List the rows of the points that the faces of an OBJ file have, from 0.
+    """Collect the zero-based indices of the points that the faces of an OBJ file use.
 
-    A corner is written ``point/texture/normal``; a negative number counts back from the last point
+    A corner is written ``point/texture/normal``; a negative index counts back from the last point
     above the face.
     """
     faces = [line for line in lines if line.startswith((b"f ", b"f\t"))]

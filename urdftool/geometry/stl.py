@@ -1,4 +1,4 @@
-"""STL, binary and text: triangles without objects or colors, in no unit (URDF takes meters)."""
+"""STL, binary and text: triangles without objects or colors; it declares no unit."""
 
 from __future__ import annotations
 
@@ -13,13 +13,16 @@ from .stl_header import HEADER_BYTES, TRIANGLE_BYTES, StlHeader, read_stl_header
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
-_CHUNK = 500_000  # triangles that are read at a time
+_CHUNK = 500_000  # triangles read at a time
 
 
 def read(path: Path) -> Reading:
-    """Read the triangles of an STL file; normals and attribute bytes are not used.
+    """Read the triangles of an STL file; normals and attribute bytes are ignored.
 
-    A binary file with bytes after its last triangle is read, with a note, as RViz and Gazebo do.
+    Bytes after the last triangle of a binary file are ignored with a note, as in RViz and Gazebo.
+
+    Raises:
+        MeshError: The file is truncated or is not an STL file.
     """
     header = read_stl_header(path)
     notes: list[MeshNote] = []
@@ -39,9 +42,9 @@ def read_corners(
 
     Args:
         path: An STL file.
-        header: Its header; that of a binary file must not claim more triangles than it has.
-        first: Of a binary file the first triangle that is read.
-        count: Of a binary file how many are read at most; None for all.
+        header: Its header; a binary one must not claim more triangles than the file has.
+        first: First triangle to read, for binary files.
+        count: Largest number of triangles to read, for binary files; None for all.
 
     Raises:
         ValueError: A corner of a text file is not three numbers.
@@ -62,10 +65,10 @@ def read_corners(
 def stl_bounds(
     path: str | Path,
 ) -> tuple[tuple[float, float, float], tuple[float, float, float]] | None:
-    """Compute the smallest and largest corner of a binary STL file's triangles, in its unit.
+    """Compute lower and upper corner of a binary STL file's bounding box, in the file's unit.
 
     Returns:
-        None for a text file, one without triangles, or one with a coordinate that is not finite.
+        None for a text file, a file without triangles, or a coordinate that is not finite.
 
     Raises:
         OSError: The file cannot be read.
@@ -88,7 +91,7 @@ def stl_bounds(
 
 
 def sample_extent(path: Path, header: StlHeader, count: int) -> tuple[float, float, float] | None:
-    """Measure the box around triangles from the beginning, the middle and the end of a file.
+    """Measure the bounding box of triangles from the beginning, the middle and the end of a file.
 
     Args:
         path: A binary STL file.
@@ -96,7 +99,7 @@ def sample_extent(path: Path, header: StlHeader, count: int) -> tuple[float, flo
         count: Triangles of each sample.
 
     Returns:
-        Lengths along x, y, z in the file's unit; None where one is not finite.
+        Lengths along x, y, z in the file's unit; None if one is not finite.
     """
     last = max(0, (header.triangles or 0) - count)
     firsts = sorted({0, last // 2, last})
@@ -106,7 +109,7 @@ def sample_extent(path: Path, header: StlHeader, count: int) -> tuple[float, flo
 
 
 def _require_whole(path: Path, header: StlHeader, notes: list[MeshNote]) -> None:
-    """Refuse a binary file that is shorter than its header claims; note one that is longer."""
+    """Reject a binary file that is shorter than its header claims; add a note to a longer one."""
     claimed, expected = header.triangles, header.expected_bytes
     if claimed is None or expected is None:
         raise MeshError(

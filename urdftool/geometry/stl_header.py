@@ -1,8 +1,8 @@
-"""The first bytes of a mesh file: kind and claimed size of an STL file, git-lfs pointers.
+"""First bytes of a mesh file: kind and claimed size of an STL file, git-LFS pointers.
 
-A binary STL file is 80 bytes of anything, the number of triangles as a little-endian 32-bit
-integer, and 50 bytes a triangle. Its size is therefore known from the header, and that, not the
-word "solid" at the beginning, tells it from a text file: one binary file in fifteen begins so.
+A binary STL file is 80 arbitrary bytes, the number of triangles as a little-endian 32-bit integer,
+and 50 bytes per triangle. The header thus implies the file size, which distinguishes it from a text
+file. The word "solid" does not: one binary file in fifteen begins with it.
 """
 
 from __future__ import annotations
@@ -19,32 +19,32 @@ LFS_MARK = b"version https://git-lfs.github.com/spec/"
 
 @dataclass(frozen=True)
 class StlHeader:
-    """The kind and size of an STL file, judged from its first bytes and its size."""
+    """Kind and size of an STL file, from its first bytes and its length."""
 
     kind: str
     """``"binary"``, ``"ascii"``, ``"lfs-pointer"``, ``"empty"`` or ``"unknown"``."""
     bytes: int
-    """Size of the file."""
+    """File size."""
     triangles: int | None = None
-    """Number of triangles a binary header claims; None for any other kind."""
+    """Number of triangles that a binary header claims; None for other kinds."""
     begins_with_solid: bool = False
-    """The file begins with the word that is the mark of the text form."""
+    """Whether the file begins with "solid", as text files do."""
 
     @property
     def expected_bytes(self) -> int | None:
-        """The size a binary file must have for the triangles it claims."""
+        """Return the size that a binary file must have for its claimed triangles."""
         if self.triangles is None:
             return None
         return HEADER_BYTES + TRIANGLE_BYTES * self.triangles
 
     @property
     def size_agrees(self) -> bool:
-        """Whether a binary file is exactly as long as its header says; True for text."""
+        """Tell whether a binary file is exactly as long as its header implies; True for text."""
         return self.kind == "ascii" or self.bytes == self.expected_bytes
 
 
 def read_stl_header(path: str | Path) -> StlHeader:
-    """Read the kind of an STL file, how many triangles it claims and its size.
+    """Read the kind of an STL file, its claimed number of triangles and its size.
 
     Raises:
         OSError: The file cannot be read.
@@ -69,7 +69,7 @@ def read_stl_header(path: str | Path) -> StlHeader:
 
 
 def is_lfs_pointer(path: str | Path) -> bool:
-    """Whether the file is the text that git-lfs leaves in place of a file it has not fetched.
+    """Tell whether the file is a git-LFS pointer, which stands for a file that was not fetched.
 
     Raises:
         OSError: The file cannot be read.

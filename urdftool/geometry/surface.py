@@ -1,6 +1,6 @@
-"""The surface of a mesh file: closed, wound outwards, without slivers, convex, sensitive to holes.
+"""Surface of a mesh file: closedness, winding, slivers, hull volume, effect of holes.
 
-Nothing here needs scipy, which takes longer to import than a mesh to be read.
+This module avoids scipy, which takes longer to import than a mesh takes to read.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ from .mesh import Faces, Points
 from .topology import weld_on_grids
 
 LARGEST = 32_000_000
-"""Bytes of a file whose surface is read at most."""
+"""Size of the largest file whose surface is read [bytes]."""
 
 
 class Surface(NamedTuple):
     """Properties of the surface of a mesh.
 
     Attributes:
-        faces: Triangles.
-        open_edges: Edges with an odd number of triangles; 0 for a closed surface.
-        flat: Triangles without an area.
-        consistent: Whether neighbors are wound the same way round.
+        faces: Number of triangles.
+        open_edges: Number of edges with an odd number of triangles; 0 for a closed surface.
+        flat: Number of triangles without area.
+        consistent: Whether adjacent triangles have the same winding.
         volume: Signed volume in the file's unit cubed; meaningless for an open surface.
     """
 
@@ -40,12 +40,12 @@ class Surface(NamedTuple):
 
     @property
     def inside_out(self) -> bool:
-        """Whether a closed surface faces inwards."""
+        """Tell whether a closed surface faces inward."""
         return not self.open_edges and self.consistent and self.volume < 0
 
 
 def read_surface(path: str | Path) -> Surface | None:
-    """Measure the surface of a mesh file; None if it cannot be read or is above LARGEST."""
+    """Measure the surface of a mesh file; None if it cannot be read or is larger than LARGEST."""
     file = Path(path)
     try:
         if file.stat().st_size > LARGEST:
@@ -60,7 +60,7 @@ def measure_surface(vertices: Points, faces: Faces) -> Surface:
     """Measure the surface of triangles.
 
     Args:
-        vertices: Points, shape (n, 3); equal and nearly equal ones are merged.
+        vertices: Points, shape (n, 3); equal and nearly equal points are merged.
         faces: Indices into ``vertices``, shape (m, 3).
     """
     points, merged, edges = weld_on_grids(vertices, faces)
@@ -74,7 +74,11 @@ def measure_surface(vertices: Points, faces: Faces) -> Surface:
 
 
 def hull_volume(path: str | Path) -> float | None:
-    """Compute the volume of a mesh file's convex hull in its unit cubed; None for a flat one."""
+    """Compute the volume of a mesh file's convex hull in its unit cubed.
+
+    Returns:
+        None if the mesh is flat or cannot be read.
+    """
     try:
         hull = convex_hull(extreme_points(load_mesh(path).vertices))
     except (MeshError, OSError, ValueError):
@@ -83,15 +87,15 @@ def hull_volume(path: str | Path) -> float | None:
 
 
 def change_by_closing(path: str | Path) -> float | None:
-    """Compare a mesh file as it is with itself, each hole being closed by a fan from its middle.
+    """Compute how much the mass properties of a mesh change if its holes are closed.
 
-    As it is, volume and moments are sums over tetrahedra whose tip is the mean of the surface, as
-    MuJoCo computes them.
+    Each hole is closed by a fan from its center. Without closing, volume and moments are sums over
+    tetrahedra with their apex at the mean of the surface, as MuJoCo computes them.
 
     Returns:
-        The largest relative change of the volume, of the center of mass (of the mesh's largest
-        length) and of the second moments; infinite where the closed mesh has no volume, and None
-        where the file cannot be read.
+        The largest relative change of the volume, the center of mass (relative to the mesh's
+        extent) and the second moments; infinite if the closed mesh has no volume, None if the file
+        cannot be read or has no area.
     """
     try:
         mesh = load_mesh(Path(path))
@@ -130,7 +134,7 @@ def _moments(corners: Points) -> Points:
 
 
 def _fans(points: Points, faces: Faces) -> Points:
-    """Make the triangles that close each hole: from the middle of a rim to its edges, turned."""
+    """Create the triangles that close each hole, from the center of its rim to its edges."""
     starts, ends = faces.reshape(-1), np.roll(faces, -1, axis=1).reshape(-1)
     both = np.sort(np.stack([starts, ends], axis=1), axis=1)
     edges, which = np.unique(both, axis=0, return_inverse=True)
@@ -153,7 +157,7 @@ def _fans(points: Points, faces: Faces) -> Points:
 
 
 def _rims(count: int, edges: Faces) -> Faces:
-    """Label each point with the smallest point that edges connect it with."""
+    """Label each point with the smallest index of its connected component."""
     labels = np.arange(count)
     while True:
         least = labels[edges].min(axis=1)

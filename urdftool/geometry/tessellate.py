@@ -1,4 +1,4 @@
-"""Triangles of the shapes that URDF has: boxes, cylinders, spheres and capsules."""
+"""Triangles of primitives: boxes, cylinders, spheres and capsules."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ import numpy as np
 from .mesh import Faces, Points
 
 AROUND = 96
-"""Corners of a circle; its chords stay within 0.05 % of the radius."""
+"""Corners of a circle; its chords deviate by at most 0.05 % of the radius."""
 
 
 def tessellate(kind: str, size: Sequence[float], around: int = AROUND) -> tuple[Points, Faces]:
-    """The surface of a shape about its own centre, closed, seen from outside.
+    """Create the closed surface of a primitive about its center, wound outward.
 
     Args:
         kind: ``"box"``, ``"cylinder"``, ``"capsule"`` or ``"sphere"``.
-        size: Lengths [m]: a box's three edges; radius and length of a cylinder or capsule, whose
-            length is that of the part between the caps; a sphere's radius.
+        size: Lengths [m]: three edges of a box; radius and length of a cylinder or capsule (length
+            between the caps); radius of a sphere.
         around: Corners of a circle, an even number.
 
     Returns:
@@ -35,7 +35,7 @@ def _box(size: Sequence[float]) -> tuple[Points, Faces]:
 
 
 def _profile(kind: str, size: Sequence[float], around: int) -> Points:
-    """Radius and height of the rings from bottom to top; the first and last are points."""
+    """Return radius and height of each ring from bottom to top; the first and last are points."""
     radius = size[0]
     if kind == "cylinder":
         half = size[1] / 2
@@ -52,7 +52,7 @@ def _profile(kind: str, size: Sequence[float], around: int) -> Points:
 
 
 def _turned(profile: Points, around: int) -> tuple[Points, Faces]:
-    """The surface that a profile sweeps about z."""
+    """Create the surface of revolution of a profile about z."""
     angles = 2 * np.pi * np.arange(around) / around
     circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     inner = profile[1:-1]

@@ -1,9 +1,9 @@
 """Topology of triangles: edges, closedness, winding, bodies.
 
-A mesh is *closed* when every edge has an even number of faces (no rim), and *consistently wound*
-when each edge is walked equally often in both directions. Both together make it the boundary of a
-solid (in the algebraic sense: a cycle), which is exactly what the volume integrals need; an edge
-shared by four faces, where two bodies touch, is no fault.
+A mesh is *closed* if every edge has an even number of faces (no rim), and *consistently wound* if
+faces traverse each edge equally often in both directions. Both together make it the boundary of a
+solid (algebraically, a cycle), which is exactly what the volume integrals require. An edge shared
+by four faces, where two bodies touch, is valid.
 """
 
 from __future__ import annotations
@@ -16,55 +16,55 @@ import numpy.typing as npt
 from .mesh import Faces, Points
 
 WELD_TOLERANCE = 1e-6
-"""Points nearer than this part of the mesh's largest extent may be rounded copies of one."""
+"""Distance, relative to the mesh's extent, below which points may be rounded copies of one
+point."""
 
 LARGE_EXTENT = 10.0
-"""A link's largest extent [m] above which its mesh is probably in millimetres."""
+"""Extent of a link's mesh [m] above which its unit is probably the millimeter."""
 
 SMALL_EXTENT = 0.001
-"""A link's largest extent [m] below which its mesh was probably scaled twice."""
+"""Extent of a link's mesh [m] below which it was probably scaled twice."""
 
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """The edges of a mesh, with the faces at each."""
+    """Edges of a mesh with their adjacent faces."""
 
     pairs: Faces
-    """The two vertices of each edge, smaller first, shape (e, 2)."""
+    """The two vertices of each edge, smaller index first, shape (e, 2)."""
     forward: npt.NDArray[np.int64]
-    """How many faces walk the edge from its smaller to its larger vertex."""
+    """Number of faces that traverse the edge from its smaller to its larger vertex."""
     backward: npt.NDArray[np.int64]
-    """How many faces walk it the other way."""
+    """Number of faces that traverse it in the other direction."""
     order: npt.NDArray[np.int64]
-    """All half edges (3 a face: row // 3 is the face) sorted by edge."""
+    """All half-edges (three per face: row // 3 is the face), sorted by edge."""
     starts: npt.NDArray[np.int64]
-    """Where in ``order`` each edge begins."""
+    """First row of each edge in ``order``."""
 
     @property
     def closed(self) -> bool:
-        """Whether every edge has an even number of faces."""
+        """Tell whether every edge has an even number of faces."""
         return self.open_count == 0
 
     @property
     def open_count(self) -> int:
-        """How many edges have an odd number of faces."""
+        """Return the number of edges with an odd number of faces."""
         return int(np.count_nonzero((self.forward + self.backward) % 2))
 
     @property
     def cycle(self) -> bool:
-        """Whether every edge is walked equally often in both directions."""
+        """Tell whether faces traverse every edge equally often in both directions."""
         return bool(np.array_equal(self.forward, self.backward))
 
 
 def unit_suspicion(extent: float) -> str | None:
-    """Explain why the size of one link's mesh hints at a wrong unit; None if it does not.
+    """Explain why the size of one link's mesh suggests a wrong unit; None if it does not.
 
-    Of 4,325 meshes in public robots the largest extent lies below 2.03 m in all but ten, and those
-    ten are above 99 m: millimetres read as metres. At the other end, meshes below 1 mm are metres
-    that were scaled by 0.001 nevertheless.
+    Of 4,325 meshes in public robots, all but ten have an extent below 2.03 m. Those ten are above
+    99 m: millimeters read as meters. Meshes below 1 mm are in meters but were scaled by 0.001.
 
     Args:
-        extent: Largest side of the scaled mesh's bounding box [m].
+        extent: Longest edge of the scaled mesh's bounding box [m].
     """
     if extent > LARGE_EXTENT:
         return (
@@ -80,10 +80,13 @@ def unit_suspicion(extent: float) -> str | None:
 
 
 def weld(vertices: Points, faces: Faces) -> tuple[Points, Faces, Edges]:
-    """Merge equal points of a mesh, and find the edges of the faces that have an area.
+    """Merge equal points of a mesh, and find the edges of the faces that do not collapse.
 
-    Points are taken as one where they are equal; if that leaves the surface open or inconsistent,
-    where they are nearer than ``WELD_TOLERANCE`` of its size, provided this closes it.
+    Equal points are merged. If the surface is then not closed and consistently wound, points within
+    ``WELD_TOLERANCE`` of its extent are merged if that reduces the number of open edges.
+
+    Returns:
+        Points, faces on them, and edges.
     """
     points, merged = merge_vertices(vertices, faces)
     edges = edges_of(merged[~collapsed(merged)])
@@ -98,14 +101,17 @@ def weld(vertices: Points, faces: Faces) -> tuple[Points, Faces, Edges]:
 
 
 def weld_on_grids(vertices: Points, faces: Faces) -> tuple[Points, Faces, Edges]:
-    """Merge equal points of a mesh; nearly equal ones too where that closes it.
+    """Merge equal points of a mesh, and nearly equal ones if that closes it.
 
     Unlike :func:`weld` this needs no scipy: nearly equal points are those in one cell of a grid.
+
+    Returns:
+        Points, faces on them, and edges.
     """
     best: tuple[Points, Faces, Edges] | None = None
     grid = WELD_TOLERANCE * float(np.ptp(vertices, axis=0).max())
     for shift in (None, 0.0, 0.5):
-        # two points of one place may lie on two sides of a cell's border, but not of both grids'
+        # copies of one point may straddle a cell border, but not of both shifted grids
         rounded = vertices if shift is None else np.floor(vertices / (grid or 1.0) + shift)
         _, merged = merge_vertices(rounded, faces)
         points = np.empty((int(merged.max()) + 1, 3))
@@ -122,12 +128,12 @@ def weld_on_grids(vertices: Points, faces: Faces) -> tuple[Points, Faces, Edges]
 def merge_vertices(
     vertices: Points, faces: Faces, *, tolerance: float = 0.0
 ) -> tuple[Points, Faces]:
-    """Merge points, so that each occurs once; points of no face are dropped.
+    """Merge points so that each occurs once; points that no face uses are dropped.
 
     Args:
         vertices: Points [m], shape (n, 3).
         faces: Indices into ``vertices``.
-        tolerance: Distance [m] within which points are one; 0 for exact equality.
+        tolerance: Distance [m] within which points are merged; 0 for exact equality.
     """
     if tolerance > 0:
         from scipy.spatial import cKDTree
@@ -136,7 +142,7 @@ def merge_vertices(
         inverse = components(len(vertices), pairs[:, 0], pairs[:, 1])
         first = np.unique(inverse, return_index=True)[1]
     else:
-        # adding zero turns -0.0, another bit pattern for the same place, into 0.0
+        # adding zero maps -0.0 to 0.0, so that equal points have equal bits
         bits = np.ascontiguousarray(vertices + 0.0).view(np.uint64)
         _, first, inverse = np.unique(_hashes(bits), return_index=True, return_inverse=True)
         if not np.array_equal(bits[first[inverse]], bits):
@@ -173,7 +179,7 @@ def edges_of(faces: Faces) -> Edges:
 
 
 def neighbors(edges: Edges) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-    """Pairs of faces that share an edge; at an edge of more than two, a chain through them."""
+    """Return pairs of faces that share an edge; an edge of more than two faces gives a chain."""
     face = edges.order // 3
     same = np.ones(len(face), dtype=bool)
     same[edges.starts] = False
@@ -182,14 +188,14 @@ def neighbors(edges: Edges) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64
 
 
 def body_labels(count: int, edges: Edges) -> npt.NDArray[np.int64]:
-    """Number the bodies, from 0, for each of ``count`` faces."""
+    """Number the connected bodies from 0, and return the number of each of ``count`` faces."""
     return components(count, *neighbors(edges))
 
 
 def components(
     count: int, first: npt.NDArray[np.int64], second: npt.NDArray[np.int64]
 ) -> npt.NDArray[np.int64]:
-    """Number the groups for each of ``count`` items; ``first[i]`` goes with ``second[i]``."""
+    """Number the connected components of items; ``first[i]`` is linked to ``second[i]``."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
@@ -199,7 +205,7 @@ def components(
 
 
 def _hashes(bits: npt.NDArray[np.uint64]) -> npt.NDArray[np.uint64]:
-    """Hash each row of three; equal rows have equal hashes, others hardly ever."""
+    """Hash each row of three; equal rows have equal hashes, and collisions are rare."""
     mixed = np.zeros(len(bits), dtype=np.uint64)
     for axis, factor in enumerate((0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9)):
         part = bits[:, axis] * np.uint64(factor)
