@@ -1,12 +1,12 @@
-"""Pictures of robots, drawn on the processor alone, the same bytes each time.
+"""Pictures of robots, rendered on the CPU alone and reproducible byte for byte.
 
-One module an idea, each imported on its own (this package loads nothing by itself):
+This package imports nothing by itself; its modules are:
 
-- ``shapes``: ``robot_shapes``, the triangles of a robot with their colours, link by link;
-- ``camera``: ``Camera``, where a picture is taken from;
-- ``picture``: ``draw``, shapes at poses to pixels; ``png_file``: ``png``, pixels to a file;
-- ``contact_sheet``: every joint at both its limits;
-- ``gif_file``: pictures one after the other; ``chart``: curves over time;
-- ``gather``, ``normals``, ``materials``, ``texture``: how a surface looks;
-- ``raster``, ``clip``, ``scene``, ``light``, ``ground``: how it is drawn.
+- ``shapes``: ``robot_shapes``, the colored triangles of a robot, by link;
+- ``camera``: ``Camera``, the viewpoint of a picture;
+- ``picture``: ``draw``, from shapes at poses to pixels; ``png_file``: ``png``, pixels to a file;
+- ``contact_sheet``: every joint at both limits;
+- ``gif_file``: animations; ``lettering``: text on pictures;
+- ``gather``, ``normals``, ``materials``, ``texture``: appearance of surfaces;
+- ``raster``, ``clip``, ``scene``, ``light``, ``ground``, ``visibility``: rendering.
 """

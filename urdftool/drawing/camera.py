@@ -1,4 +1,4 @@
-"""Where a picture is taken from."""
+"""Cameras: viewpoint, perspective and framing of a picture."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from .points import bounds, extent, shifted, turned
 from .raster import Floats
 
 MARGIN = 0.06
-"""Part of the picture's width or height that stays free at either side."""
+"""Part of the picture's width or height that stays empty on each side."""
 
 
 @dataclass(frozen=True)
 class View:
-    """A camera in its place.
+    """A camera at a fixed position.
 
     Attributes:
-        axes: Right, up and towards the viewer in the world, as rows.
-        eye: Where it is [m].
-        reach: Half the width and half the height of what is seen at a distance of one.
+        axes: Right, up and backward (toward the viewer) in the world, as rows.
+        eye: Position [m].
+        reach: Half the width and half the height of the view at distance 1.
         size: Width and height of the picture in pixels.
     """
 
@@ -31,11 +31,11 @@ class View:
     size: tuple[int, int]
 
     def seen(self, points: Floats) -> Floats:
-        """Points [m] of the world in the camera's axes, from the eye; what is ahead has z < 0."""
+        """Transform world points [m] to the camera frame; points in front of it have z < 0."""
         return turned(shifted(points, -self.eye), self.axes)
 
     def pixels(self, points: Floats) -> Floats:
-        """Where points of the world are in the picture: column and row, from the upper left."""
+        """Project world points to the picture: column and row, from the upper left."""
         seen = self.seen(points)
         flat = seen[..., :2] / -seen[..., 2:]
         half = np.array(self.size) / 2
@@ -44,15 +44,15 @@ class View:
 
 @dataclass(frozen=True)
 class Camera:
-    """A direction to look from, upright, with perspective.
+    """A view direction, upright, with perspective.
 
     Attributes:
-        azimuth: Where it stands about the vertical [rad]: 0 is in front, where x points, and
-            π/2 to the left of the robot, where y points.
-        elevation: How high it stands over the horizon [rad].
-        distance: From what it looks at [m]; None for where all of it just fits.
-        target: What it looks at [m], in the world; None for the middle of all that is seen.
-        field_of_view: The angle that the shorter side of the picture spans [rad].
+        azimuth: Angle of the camera about the vertical [rad]: 0 is in front of the robot (+x), π/2
+            on its left (+y).
+        elevation: Angle of the camera above the horizon [rad].
+        distance: Distance to the target [m]; None to fit all points.
+        target: World point at the center of the picture [m]; None for the center of all points.
+        field_of_view: Angle spanned by the shorter side of the picture [rad].
     """
 
     azimuth: float = math.radians(-40.0)
@@ -63,13 +63,13 @@ class Camera:
 
     @property
     def axes(self) -> Floats:
-        """Right, up and towards the viewer, as rows."""
+        """Return right, up and backward (toward the viewer), as rows."""
         ca, sa = math.cos(self.azimuth), math.sin(self.azimuth)
         ce, se = math.cos(self.elevation), math.sin(self.elevation)
         return np.array([[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]])
 
     def view(self, points: Floats, size: tuple[int, int]) -> View:
-        """The camera in its place for a picture of points [m], shape (n, 3), n > 0."""
+        """Position the camera for a picture of points [m], shape (n, 3), n > 0."""
         axes = self.axes
         half = math.tan(self.field_of_view / 2)
         shorter = min(size)
@@ -89,10 +89,11 @@ class Camera:
 
 
 def _fitted(placed: Floats, reach: tuple[float, float]) -> Floats:
-    """The nearest eye, in the camera's axes, that has all points in its sight.
+    """Compute the nearest eye, in the camera's axes, from which all points are in view.
 
-    A point (r, u, b) is in sight of an eye (x, y, z) where |r - x| ≤ t (z - b), and so upwards:
-    of each side of the picture the outermost point sets a bound that is linear in the eye.
+    A point (r, u, b) is in view of an eye (x, y, z) if |r - x| ≤ t (z - b), with t half the width
+    of the view at distance 1; likewise for u. For each side of the picture the outermost point sets
+    a bound that is linear in the eye.
     """
     middle, apart = [], []
     back = placed[:, 2]

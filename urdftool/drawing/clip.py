@@ -1,4 +1,4 @@
-"""Triangles on the picture, cut where they reach behind the camera."""
+"""Projection of triangles, clipped at a plane in front of the camera."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ import numpy as np
 from .raster import Floats, Indices
 
 NEAREST = 1e-4
-"""Distance of the plane at which triangles are cut, relative to the farthest corner."""
+"""Distance of the clipping plane, relative to the farthest corner."""
 
 
 def nearest(corners: Floats) -> float:
-    """The distance at which the triangles of a scene are cut."""
+    """Return the distance of the clipping plane for the triangles of a scene."""
     return max(float(-corners[..., 2].min(initial=0.0)) * NEAREST, 1e-300)
 
 
 def clipped(
     corners: Floats, reach: tuple[float, float], size: tuple[int, int], plane: float
 ) -> tuple[Floats, Indices]:
-    """Triangles as :func:`raster.front` takes them, and the rows they come from.
+    """Project triangles for :func:`raster.front`, and return the rows they come from.
 
     Args:
-        corners: In the camera's axes, from the eye [m], shape (m, 3, 3); ahead is -z.
-        reach: Half the width and height of what is seen at a distance of one.
+        corners: In the camera's axes, from the eye [m], shape (m, 3, 3); forward is -z.
+        reach: Half the width and height of the view at distance 1.
         size: Columns and rows of samples.
-        plane: Distance at which triangles are cut; nearness is measured by it.
+        plane: Distance of the clipping plane, where nearness is 1.
     """
     depth = -corners[..., 2]
     ahead = depth > plane
@@ -35,7 +35,7 @@ def clipped(
         cut = np.flatnonzero(count == inside)
         if not len(cut):
             continue
-        # turned so that the corner that is alone on its side comes first
+        # rotated so that the corner alone on its side of the plane is first
         alone = np.argmax(ahead[cut] == (inside == 1), axis=1)
         turned = (alone[:, None] + np.arange(3)) % 3
         a, b, c = (corners[cut, turned[:, k]] for k in range(3))
@@ -56,7 +56,7 @@ def clipped(
 
 
 def _met(one: Floats, other: Floats, plane: float) -> Floats:
-    """Where the edges between two rows of points meet the plane at a distance ahead."""
+    """Intersect the edges between two rows of points with the clipping plane."""
     d0, d1 = -one[:, 2] - plane, -other[:, 2] - plane
     part = d0 / (d0 - d1)
     return np.asarray(one + (other - one) * part[:, None])

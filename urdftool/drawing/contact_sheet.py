@@ -1,4 +1,4 @@
-"""Every joint at both its limits, as one picture to look over."""
+"""Contact sheet: every joint at both limits, in one picture."""
 
 from __future__ import annotations
 
@@ -20,27 +20,27 @@ from .shapes import Shapes
 from .visibility import Cloud, best_camera, draw_through
 
 TURN = math.pi / 2
-"""How far a joint without limits is turned [rad]."""
+"""Displacement of a joint without limits [rad]."""
 
-_SLIDE = 0.25  # of the robot's size, for a slider without limits
+_SLIDE = 0.25  # of the robot's size, for a prismatic joint without limits
 _PAPER = (250, 250, 251)
 _GREY, _FADED = np.array([0.80, 0.81, 0.82]), 0.82
 _CHILD, _AFTER = np.array([0.95, 0.42, 0.10]), np.array([0.97, 0.68, 0.42])
 _MARGIN, _GAP = 16, 6
-_HIGH = math.radians(55.0)  # how high a camera stands that looks down
-_FULL = 2 * math.pi - math.radians(2.0)  # limits as far apart show a joint twice in one place
-_SHAPE = 1.35  # width over height that a sheet is to have
+_HIGH = math.radians(55.0)  # elevation of the upper cameras
+_FULL = 2 * math.pi - math.radians(2.0)  # limits this far apart show the same pose twice
+_SHAPE = 1.35  # desired width over height of a sheet
 
 
 @dataclass(frozen=True)
 class Sweep:
-    """A joint with the positions at which it is shown [rad, m].
+    """A joint with the two positions at which it is drawn [rad or m].
 
     Attributes:
-        joint: It.
+        joint: The joint.
         ends: Both positions.
-        bounded: Whether these are its limits; otherwise it has none, or may turn all around.
-        followers: Joints that mimic it.
+        bounded: Whether these are its limits; if not, it has no limits or may turn fully.
+        followers: Joints that mimic it, directly or not.
     """
 
     joint: Joint
@@ -52,14 +52,14 @@ class Sweep:
 def sweeps_of(
     robot: Robot, *, slide: float = 0.1, shown: Collection[str] | None = None
 ) -> list[Sweep]:
-    """The joints that move on their own, in the order of the file; what mimics follows.
+    """List the joints that move independently, in the order of the file, with their mimic joints.
 
-    A joint without limits, or with limits a full turn apart, is turned by 90° to either side.
+    A joint without limits, or with limits a full turn apart, moves 90° to either side.
 
     Args:
         robot: The robot.
-        slide: How far a prismatic joint without limits is moved [m].
-        shown: Links with triangles; joints that move none of them are left out. None keeps all.
+        slide: Displacement of a prismatic joint without limits [m].
+        shown: Links with triangles; joints that move none of them are skipped. None keeps all.
     """
     movable = movable_joints(robot)
     leaders = {
@@ -85,7 +85,7 @@ def sweeps_of(
 
 
 def shown_links(shapes: Shapes) -> set[str]:
-    """The links that have triangles."""
+    """Return the links that have triangles."""
     return {shapes.links[row] for row in np.unique(shapes.link)}
 
 
@@ -98,24 +98,23 @@ def contact_sheet(
     cell: tuple[int, int] | None = None,
     progress: Callable[[int, int, str], None] = lambda *_: None,
 ) -> Image:
-    """Two pictures a joint, at its lower and its upper limit, side by side, with its name.
+    """Draw two pictures per joint, at its lower and its upper limit, with its name.
 
-    The link that it moves is drawn in a strong color, its descendants in a lighter one, the rest in
-    gray; where the rest hides them, they shine through it. Both pictures of a joint are taken from
-    one place. Joints that move no triangle are left out.
+    The joint's child link has a strong color, its descendants a lighter one, the rest is gray.
+    Moving links are visible through the rest. Both pictures of a joint have the same viewpoint.
+    Joints that move no triangle are skipped.
 
     Args:
         robot: The robot.
         shapes: Its shapes.
-        positions: Where the other joints are [rad, m]; at zero without it. Mimics follow.
-        camera: Where the pictures are taken from; without it, from where most of the links is
-            visible that the joint moves.
-        cell: Width and height of one picture in pixels; by the number of joints without it.
-        progress: Told of each joint before it is drawn: its number, how many, its name.
+        positions: Positions of the other joints [rad or m]; zero by default. Mimic joints follow.
+        camera: The viewpoint; by default the one from which most of the moved links is visible.
+        cell: Width and height of one picture in pixels; by default from the number of joints.
+        progress: Called before each joint is drawn, with its number, the number of joints and its
+            name.
 
     Returns:
-        Rows of pixels, shape (height, width, 3); for a robot whose joints do not move, a blank
-        sheet that says so.
+        Pixels, shape (height, width, 3); a sheet with only a title if no joint moves.
     """
     given = dict(positions or {})
     corners, _, there = shapes.posed(link_poses(robot, with_mimics(robot, given)))
@@ -149,11 +148,11 @@ def contact_sheet(
 
 @dataclass(frozen=True)
 class Layout:
-    """Where things are on a sheet, in pixels.
+    """Layout of a sheet, in pixels.
 
     Attributes:
-        columns: Joints side by side.
-        rows: Joints one below the other.
+        columns: Number of joints per row.
+        rows: Number of joints per column.
         cell: Width and height of one picture.
         letter: Height of letters.
     """
@@ -165,41 +164,41 @@ class Layout:
 
     @property
     def caption(self) -> int:
-        """Height of the words over the pictures of a joint."""
+        """Return the height of the text above the pictures of a joint."""
         return 2 * self.letter + 14
 
     @property
     def block(self) -> tuple[int, int]:
-        """Width and height of a joint's part, with the space after it."""
+        """Return width and height of a joint's block, including the margin after it."""
         return 2 * self.cell[0] + _GAP + _MARGIN, self.cell[1] + self.caption + _MARGIN
 
     @property
     def head(self) -> int:
-        """Height of the title."""
+        """Return the height of the title."""
         return self.letter + 2 * _MARGIN
 
     @property
     def width(self) -> int:
-        """Of the sheet."""
+        """Return the width of the sheet."""
         return self.columns * self.block[0] + _MARGIN
 
     @property
     def height(self) -> int:
-        """Of the sheet."""
+        """Return the height of the sheet."""
         return self.head + self.rows * self.block[1] + _MARGIN // 2
 
     def place(self, number: int) -> tuple[int, int]:
-        """Column and row of the upper left corner of a joint's part; joints go down a column."""
+        """Return column and row of a block's upper left corner; blocks fill columns first."""
         column, row = divmod(number, max(self.rows, 1))
         return _MARGIN + column * self.block[0], self.head + row * self.block[1]
 
 
 def layout_of(count: int, cell: tuple[int, int] | None = None) -> Layout:
-    """As many columns as make the sheet about as wide as a screen.
+    """Choose the number of columns that gives the sheet roughly the shape of a screen.
 
     Args:
         count: Number of joints.
-        cell: Width and height of one picture in pixels; smaller for many joints without it.
+        cell: Width and height of one picture in pixels; by default smaller for many joints.
     """
     cell = cell or _cell(count)
     letter = min(max(cell[1] // 16, 11), 22)
@@ -216,7 +215,7 @@ def _off(layout: Layout) -> float:
 
 
 def _cell(count: int) -> tuple[int, int]:
-    """Smaller pictures for many joints."""
+    """Choose the size of a picture, smaller for many joints."""
     if count <= 8:
         return 360, 300
     if count <= 24:
@@ -225,7 +224,7 @@ def _cell(count: int) -> tuple[int, int]:
 
 
 def _leader(name: str, leaders: Mapping[str, str]) -> str | None:
-    """The joint at the end of a chain of mimics; None for a loop of them."""
+    """Return the joint at the end of a chain of mimic joints; None for a cycle."""
     seen: set[str] = set()
     while name in leaders and name not in seen:
         seen.add(name)
@@ -242,7 +241,7 @@ def _pair(
     camera: Camera | None,
     cell: tuple[int, int],
 ) -> list[Image]:
-    """A joint at both ends, from one place."""
+    """Draw a joint at both positions, from one viewpoint."""
     painted = _painted(robot, shapes, sweep)
     names = _moved(robot, sweep)
     moved = np.zeros(len(shapes), dtype=bool)
@@ -263,7 +262,7 @@ def _pair(
 
 
 def _cameras() -> list[Camera]:
-    """The sides from which a joint may be shown, the usual one first."""
+    """Return the candidate viewpoints of a joint, the default first."""
     usual = Camera()
     around = [usual.azimuth + turn * math.pi / 4 for turn in (0, 2, -2, 4, 1, -1, 3, -3)]
     return [
@@ -274,7 +273,7 @@ def _cameras() -> list[Camera]:
 
 
 def _moved(robot: Robot, sweep: Sweep) -> set[str]:
-    """The links that a joint and its followers move."""
+    """Return the links that a joint and its followers move."""
     moved: set[str] = set()
     for name in (sweep.joint.name, *sweep.followers):
         child = robot.joint[name].child
@@ -283,7 +282,7 @@ def _moved(robot: Robot, sweep: Sweep) -> set[str]:
 
 
 def _painted(robot: Robot, shapes: Shapes, sweep: Sweep) -> Shapes:
-    """The shapes in grey, but for the links that a joint moves."""
+    """Color the shapes gray, except for the links that a joint moves."""
     own = shapes.colors[:, :3].mean(axis=1, keepdims=True)
     colors = shapes.colors.copy()
     colors[:, :3] = own * (1 - _FADED) + _GREY * _FADED
@@ -320,7 +319,7 @@ def _unbounded(joint: Joint) -> str:
 
 
 def position_text(joint: Joint, value: float) -> str:
-    """A position with its unit: degrees and radians, or metres."""
+    """Format a position with its unit: degrees and radians, or meters."""
     if joint.type == "prismatic":
         return f"{value:.4g} m"
     return f"{math.degrees(value):.4g}° ({value:.4g} rad)"

@@ -1,4 +1,4 @@
-"""The surface of one visual or collision, with what its files say of how it looks."""
+"""Surfaces of visuals and collisions, with the colors and images of their mesh files."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ from .raster import Floats, Indices
 from .texture import Texels, read_texture
 
 OVERLAY: Rgba = (0.08, 0.70, 0.42, 0.36)
-"""Colour of collisions that are drawn over visuals."""
+"""Color of collision geometry drawn over visual geometry."""
 
 TOUCHED: Rgba = (0.47, 0.80, 0.64, 1.0)
-"""Colour of collisions that are drawn alone."""
+"""Color of collision geometry drawn alone."""
 
 AROUND = 64
 """Corners of a circle."""
@@ -44,10 +44,10 @@ LARGEST = 1e30
 
 @dataclass
 class Surface:
-    """Triangles of one shape in the frame of its ``<geometry>``, with what its file says of them.
+    """Triangles of one shape in the frame of its ``<geometry>``, with their appearance.
 
-    ``image`` numbers the images of the gathering; ``colored`` marks triangles whose colour, and
-    not only their place, is from the file.
+    ``image`` holds rows of ``Gathering.images``, -1 for none. ``colored`` marks triangles whose
+    color comes from the mesh file.
     """
 
     corners: Points
@@ -61,7 +61,7 @@ class Surface:
 
 @dataclass
 class Gathering:
-    """What was read of a robot so far: each file once, and what was wrong with it."""
+    """State of reading a robot's geometry: each file is read once; problems are collected."""
 
     robot: Robot
     materials: Materials
@@ -71,7 +71,7 @@ class Gathering:
     surfaces: dict[tuple[str, Vector], Surface | MeshError] = field(default_factory=dict)
 
     def image(self, source: object, at: MeshGeometry | Material) -> int:
-        """The row of an image; -1 where it cannot be read, which is noted."""
+        """Return the row of an image; -1 with a problem recorded if it cannot be read."""
         if source not in self.image_rows:
             self.image_rows[source] = -1
             try:
@@ -82,7 +82,7 @@ class Gathering:
         return self.image_rows[source]
 
     def note(self, message: str, at: MeshGeometry | Material | Visual | Collision) -> None:
-        """Keep a problem, once for each place."""
+        """Record a problem, once per place."""
         error = MeshError(message, at=at.place)
         self.problems.setdefault(str(error), error)
 
@@ -90,14 +90,14 @@ class Gathering:
 def shape_surface(
     gathering: Gathering, shape: Visual | Collision, *, over: bool = False
 ) -> Surface | None:
-    """A visual or collision in the frame of its link; None where it cannot be drawn.
+    """Read a visual or collision in the frame of its link; None if it cannot be drawn.
 
-    Why it cannot is noted, unless it has no shape that URDF knows.
+    The reason is recorded as a problem, unless the geometry is missing, unknown or empty.
 
     Args:
-        gathering: What was read so far.
+        gathering: State of the reading.
         shape: The visual or collision.
-        over: Whether collisions are drawn over visuals.
+        over: Whether collision geometry is drawn over visual geometry.
     """
     surface = _surface(gathering, shape)
     if surface is None:
@@ -133,7 +133,7 @@ def _surface(gathering: Gathering, shape: Visual | Collision) -> Surface | None:
 
 
 def _sized(geometry: Geometry | None) -> tuple[str, Vector] | None:
-    """The kind and lengths of a primitive."""
+    """Return kind and lengths of a primitive; None for other geometry."""
     if isinstance(geometry, Box):
         return "box", geometry.size
     if isinstance(geometry, Cylinder):
@@ -159,10 +159,10 @@ def _bare(vertices: Points, faces: Faces) -> Surface:
 
 
 def _mesh_surface(gathering: Gathering, geometry: MeshGeometry) -> Surface:
-    """A mesh file at a scale, read once.
+    """Read a mesh file at a scale, once.
 
     Raises:
-        UrdftoolError: It is not found, or cannot be read.
+        UrdftoolError: The file is not found or cannot be read.
     """
     from ..geometry.load import load_named
 
@@ -190,16 +190,16 @@ def _mesh_surface(gathering: Gathering, geometry: MeshGeometry) -> Surface:
 def _look(
     gathering: Gathering, geometry: MeshGeometry, surface: Surface, mesh: Mesh, part: Part
 ) -> None:
-    """Give a part the colour and image that its file says."""
+    """Apply the color and image of a mesh part to its triangles."""
     some = slice(part.first, part.first + part.count)
     image = part.texture if part.image is None else part.image
     row = -1 if image is None else gathering.image(image, geometry)
-    linear = mesh.format in ("gltf", "glb")  # its factors are of linear light
+    linear = mesh.format in ("gltf", "glb")  # glTF colors are linear
     rgba = from_linear(part.rgba) if part.rgba is not None and linear else part.rgba
     if part.uv is not None:
         surface.uv[some], surface.has_uv[some] = part.uv, True
     if row >= 0:
-        # of an image only glTF says that the colour is multiplied with it
+        # only glTF multiplies the image by the color
         opacity = 1.0 if part.rgba is None else part.rgba[3]
         color = clean(rgba if rgba is not None and linear else (1.0, 1.0, 1.0, opacity))
         if part.uv is None:
@@ -232,7 +232,7 @@ def _placed(surface: Surface, pose: Pose) -> Surface:
 def _dressed(
     gathering: Gathering, surface: Surface, shape: Visual | Collision, *, over: bool
 ) -> Surface:
-    """The surface in the colours of its visual or collision."""
+    """Color the surface by its visual's material, or as collision geometry."""
     count = len(surface.corners)
     if isinstance(shape, Collision):
         color = OVERLAY if over else TOUCHED

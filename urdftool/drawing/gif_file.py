@@ -1,4 +1,4 @@
-"""Pictures one after the other as the bytes of a GIF file."""
+"""Animations as GIF files."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ import numpy as np
 
 from .png_file import Image
 
-_SEEN = 12  # pictures from which the palette is made
-_COLORS = 255  # one is left for what does not change
+_SEEN = 12  # pictures sampled for the palette
+_COLORS = 255  # one entry is reserved for unchanged pixels
 
 
 def gif(frames: Sequence[Image], seconds: Sequence[float]) -> bytes:
-    """A film that starts again when it is over, in one palette.
+    """Encode an endless animation with one palette as a GIF file.
 
     Args:
-        frames: At least one, all of one size.
-        seconds: How long each is shown; a GIF counts in hundredths.
+        frames: At least one picture, all of one size.
+        seconds: Display time of each [s], rounded to 0.01 s, at least 0.02 s.
     """
     from PIL import Image as Pillow
 

@@ -1,4 +1,4 @@
-"""What is behind the robot: a light backdrop, and a floor with a grid and soft shadows."""
+"""Background of a picture: a light backdrop, and a floor with a grid and soft shadows."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from .light import Colors, ShadowMap, blurred, sampled, spacing, to_linear
 from .raster import Floats
 
 BACKDROP = ((0.985, 0.987, 0.99), (0.87, 0.885, 0.905))
-"""Colours of the backdrop at its upper and lower edge, as a screen shows them."""
+"""Colors of the backdrop at its upper and lower edge, as displayed."""
 
 _FLOOR = (0.80, 0.815, 0.835)
 _LINE = (0.66, 0.68, 0.71)
 _SHADE, _CONTACT = 0.50, 0.45
-_SOFT, _NEAR = 0.010, 0.016  # of the width of the map
+_SOFT, _NEAR = 0.010, 0.016  # relative to the width of the map
 _CONTACT_MAP = 256
 _FAR = 3.0
 
 
 def backdrop(size: tuple[int, int], color: tuple[float, float, float] | None) -> Colors:
-    """Rows of pixels in linear light: one colour, or from light to less light."""
+    """Return one color or a vertical gradient in linear light, shape (height, width, 3)."""
     width, height = size
     if color is not None:
         return np.array(np.broadcast_to(to_linear(np.array(color)), (height, width, 3)))
@@ -30,22 +30,22 @@ def backdrop(size: tuple[int, int], color: tuple[float, float, float] | None) ->
 
 
 class Ground:
-    """A level floor under a robot of size one about the origin.
+    """A level floor under a robot scaled to size 1 about the origin.
 
     Attributes:
-        height: Of it.
+        height: Height of the floor.
     """
 
     def __init__(
         self, height: float, corners: Floats, shadow: ShadowMap | None, scale: float
     ) -> None:
-        """A floor under triangles, shape (m, 3, 3), that throw the shadow.
+        """Create a floor under triangles, shape (m, 3, 3).
 
         Args:
-            height: Of the floor.
+            height: Height of the floor.
             corners: The triangles.
-            shadow: What they keep from the light.
-            scale: Metres of one unit, for the grid.
+            shadow: Shadow map of the key light.
+            scale: Length of one unit [m], for the grid.
         """
         self.height = height
         self._grid = spacing(scale) / scale
@@ -57,7 +57,7 @@ class Ground:
         self._touch = self._contact(corners)
 
     def _contact(self, corners: Floats) -> tuple[ShadowMap, Colors] | None:
-        """What is close to the floor, seen from below."""
+        """Map the triangles close to the floor from below; None if there are none."""
         reach = 0.10
         low = corners[corners[..., 2].min(axis=1) < self.height + reach]
         if not len(low):
@@ -67,14 +67,14 @@ class Ground:
         return seen, blurred(np.square(1 - gap), _NEAR * _CONTACT_MAP)
 
     def paint(self, pixels: Colors, view: View) -> None:
-        """Draw it onto a backdrop, rows of pixels in linear light, as far as it is ahead."""
+        """Paint the visible floor onto a backdrop of pixels in linear light."""
         if view.eye[2] <= self.height:
             return
         width, height = view.size
         x = ((np.arange(width) + 0.5) / width * 2 - 1) * view.reach[0]
         y = (1 - (np.arange(height) + 0.5) / height * 2) * view.reach[1]
         right, up, back = view.axes
-        # upright, so each row of pixels has one slope
+        # the camera is upright, so each row of pixels has one slope
         falls = np.flatnonzero(y * up[2] - back[2] < -1e-6)
         along = (self.height - view.eye[2]) / (y[falls] * up[2] - back[2])
         forward = view.eye[:2] + along[:, None] * (y[falls, None] * up[:2] - back[:2])
@@ -86,7 +86,7 @@ class Ground:
         points = at[there]
         strength = np.clip((_FAR - np.hypot(points[:, 0], points[:, 1])) / 2.4, 0, 1)
         strength = strength * strength * (3 - 2 * strength)
-        # how much floor a pixel spans: more where it is seen at a slant
+        # extent of a pixel on the floor, larger at grazing angles
         lean = np.maximum((back[2] - y[falls] * up[2]) / np.sqrt(1 + y[falls] ** 2), 0.05)
         span = (2 * view.reach[1] / height * along / np.sqrt(lean)).astype(np.float32)[rows]
         line = self._lines(points, span)[:, None]
@@ -102,7 +102,7 @@ class Ground:
         near = np.abs(points - np.round(points / width) * width)
         near = np.minimum(near[:, 0], near[:, 1])
         thick = 0.006 * width
-        # a line thinner than a pixel is fainter instead
+        # fade lines that are thinner than a pixel
         cover = np.clip((thick + span / 2 - near) / span, 0, 1)
         cover *= np.minimum(2 * thick / span + 0.35, 1)
         return np.asarray(cover * np.clip(1.5 - span * 6 / width, 0, 1), dtype=np.float32)

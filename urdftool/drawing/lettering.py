@@ -1,4 +1,4 @@
-"""Words on pictures, in the font that Pillow carries: the same on every machine."""
+"""Text on pictures, in Pillow's built-in font, which is the same on every machine."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ class Words(NamedTuple):
     """A line of text.
 
     Attributes:
-        text: What it says.
+        text: The text.
         at: Column and row of its upper left corner.
-        width: Pixels it may take; a longer one loses its middle.
-        height: Of the letters, in pixels.
+        width: Available width in pixels; a longer text is shortened in its middle.
+        height: Height of the letters in pixels.
         color: Red, green and blue, 0 … 255.
     """
 
@@ -32,7 +32,7 @@ class Words(NamedTuple):
 
 
 def lettered(image: Image, lines: Iterable[Words]) -> Image:
-    """A picture with lines of text on it."""
+    """Draw lines of text onto a copy of a picture."""
     from PIL import Image as Pillow
     from PIL import ImageDraw, ImageFont
 
@@ -51,7 +51,7 @@ def lettered(image: Image, lines: Iterable[Words]) -> Image:
 
 
 def shown(text: str) -> str:
-    """A text in letters that can be drawn: accents are left out, controls are a middle dot."""
+    """Replace characters that cannot be drawn: drop accents, print controls as a middle dot."""
     plain = "".join(
         letter
         for letter in unicodedata.normalize("NFKD", text)

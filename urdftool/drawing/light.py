@@ -1,4 +1,4 @@
-"""Light on surfaces: a key light that throws shadows, a fill light, and the sky."""
+"""Shading: a key light with shadows, a fill light, and ambient light from the sky."""
 
 from __future__ import annotations
 
@@ -13,38 +13,38 @@ from .points import bounds, turned
 from .raster import Floats, front
 
 Colors = npt.NDArray[np.float32]
-"""Red, green and blue; linear light unless said otherwise."""
+"""Red, green and blue, in linear light unless stated otherwise."""
 
 GAMMA = 2.2
 
 _SKY, _EARTH = 0.47, 0.25
 _KEY, _FILL, _SHINE = 0.60, 0.16, 0.10
 _HARDNESS = 28.0
-_BLACK = np.float32(0.006)  # of light the blackest plastic throws back; it would have no form
+_BLACK = np.float32(0.006)  # least reflectance; a perfectly black surface would show no shape
 _TAPS = ((0.0, 0.0), (-1.1, -0.4), (0.4, -1.1), (1.1, 0.4), (-0.4, 1.1))
 
 
 def to_linear(colors: npt.NDArray[np.floating]) -> Colors:
-    """Colours as files have them, in linear light."""
+    """Convert colors from files or the screen to linear light."""
     return np.asarray(np.power(np.maximum(colors, 0), GAMMA), dtype=np.float32)
 
 
 def to_screen(colors: npt.NDArray[np.floating]) -> npt.NDArray[np.uint8]:
-    """Linear light as eight bits a channel."""
+    """Convert linear light to eight bits per channel."""
     shown = np.power(np.clip(colors, 0, 1), 1 / GAMMA)
     return np.asarray(shown * 255 + 0.5).astype(np.uint8)
 
 
 @dataclass(frozen=True)
 class Lights:
-    """Unit vectors towards the lights, in the world."""
+    """Unit vectors toward the lights, in the world."""
 
     key: Floats
     fill: Floats
 
 
 def lights_of(view: View) -> Lights:
-    """Lights that stand still relative to the camera: the key over its left shoulder."""
+    """Place the lights relative to the camera: the key light over its left shoulder."""
     right, toward = view.axes[0], np.cross(view.axes[0], [0.0, 0.0, 1.0])
     key = -0.55 * right + 0.55 * toward + np.array([0.0, 0.0, 1.05])
     fill = 0.9 * right + 0.6 * toward + np.array([0.0, 0.0, 0.35])
@@ -52,13 +52,13 @@ def lights_of(view: View) -> Lights:
 
 
 def shade(albedo: Colors, normals: Colors, to_eye: Colors, lit: Colors, lights: Lights) -> Colors:
-    """What light comes from points of surfaces.
+    """Compute the light that points of surfaces send to the eye.
 
     Args:
-        albedo: Their colours, shape (n, 3).
-        normals: Unit normals on the side that is seen, shape (n, 3).
+        albedo: Their colors, shape (n, 3).
+        normals: Unit normals on the visible side, shape (n, 3).
         to_eye: Unit vectors to the eye, shape (n, 3).
-        lit: How much of the key light reaches each, shape (n,).
+        lit: Part of the key light that reaches each point, shape (n,).
         lights: The lights.
     """
     key, fill = lights.key.astype(np.float32), lights.fill.astype(np.float32)
@@ -74,7 +74,7 @@ def shade(albedo: Colors, normals: Colors, to_eye: Colors, lit: Colors, lights: 
 
 
 class ShadowMap:
-    """What stands in the way of parallel light.
+    """Shadow map of a parallel light.
 
     Attributes:
         resolution: Rows and columns of samples.
@@ -82,7 +82,7 @@ class ShadowMap:
     """
 
     def __init__(self, corners: Floats, direction: Floats, resolution: int) -> None:
-        """Draw triangles, shape (m, 3, 3), as they are seen from where the light comes."""
+        """Render triangles, shape (m, 3, 3), from ``direction``, which points to the light."""
         side = np.cross([0.0, 0.0, 1.0], direction)
         length = float(np.linalg.norm(side))
         side = side / length if length > 1e-9 else np.array([1.0, 0.0, 0.0])
@@ -103,26 +103,26 @@ class ShadowMap:
         return 1.0 + (along - self._low) / self._range
 
     def covered(self) -> Colors:
-        """How much of each sample is in shadow, for every second row and column of the map."""
+        """Return the shadowed part of each block of 2 × 2 samples, as a square map."""
         half = self.resolution // 2
         square = (self._nearness > 0).reshape(half, 2, half, 2)
         return np.asarray(square.mean(axis=(1, 3)), dtype=np.float32)
 
     def depths(self) -> Colors:
-        """How far along the light the first thing lies, rows of the map; -inf where none is."""
+        """Return the first surface's coordinate toward the light by sample; -inf if none."""
         square = self._nearness.reshape(self.resolution, self.resolution)
         along = (square - 1) * np.float32(self._range) + np.float32(self._low)
         return np.asarray(np.where(square > 0, along, -np.inf), dtype=np.float32)
 
     def place(self, points: Colors) -> Colors:
-        """Columns and rows of points in the map, shape (2, n)."""
+        """Return columns and rows of points in the map, shape (2, n)."""
         axes = (self._axes[:2] / self.texel).astype(np.float32)
         corner = (self._corner / self.texel).astype(np.float32)
         return np.asarray(axes @ points.T - corner[:, None])
 
     def lit(self, points: Colors, normals: Colors) -> Colors:
-        """How much of the light reaches points with unit normals: 0 … 1, shape (n,)."""
-        # lifted off the surface, which would shade itself where the map is coarse
+        """Compute the part of the light, 0 … 1, that reaches points with unit normals."""
+        # offset along the normal to avoid self-shadowing of coarse samples
         lifted = points + normals * np.float32(1.6 * self.texel)
         x, y = self.place(lifted)
         own = self._near(lifted @ self._axes[2].astype(np.float32))
@@ -137,7 +137,7 @@ class ShadowMap:
 
 
 def blurred(values: Colors, radius: float) -> Colors:
-    """A square of values, smoothed thrice by a box, which is nearly a Gaussian."""
+    """Smooth a square of values by three box filters, which approximate a Gaussian."""
     reach = max(1, round(radius))
     for axis in (0, 1, 0, 1, 0, 1):
         padding = [(0, 0), (0, 0)]
@@ -150,7 +150,7 @@ def blurred(values: Colors, radius: float) -> Colors:
 
 
 def sampled(values: Colors, at: Colors) -> Colors:
-    """A map at columns and rows, shape (2, n), mixed between its samples; 0 outside of it."""
+    """Sample a map at columns and rows, shape (2, n), bilinearly; 0 outside."""
     height, width = values.shape
     x, y = at[0] - 0.5, at[1] - 0.5
     inside = (x >= 0) & (y >= 0) & (x < width - 1) & (y < height - 1)
@@ -165,7 +165,7 @@ def sampled(values: Colors, at: Colors) -> Colors:
 
 
 def spacing(size: float) -> float:
-    """The width of a grid for something of a size [m]: 1, 2 or 5 times a power of ten."""
+    """Return the grid width for an object of a size [m]: 1, 2 or 5 times a power of ten."""
     rough = max(size, 1e-12) / 4
     power = 10.0 ** math.floor(math.log10(rough))
     return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= rough * 1.0000001)

@@ -1,4 +1,4 @@
-"""Which colour or image a visual's ``<material>`` means."""
+"""Resolution of a visual's ``<material>`` to a color or image."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from ..model.elements import Material, Robot, Visual
 Rgba = tuple[float, float, float, float]
 
 PLAIN: Rgba = (0.76, 0.78, 0.80, 1.0)
-"""What has no colour of its own."""
+"""Color of visuals without a color."""
 
 
 TINTS: tuple[Rgba, ...] = (
@@ -18,16 +18,16 @@ TINTS: tuple[Rgba, ...] = (
     (0.80, 0.65, 0.63, 1.0),
     (0.70, 0.66, 0.80, 1.0),
 )
-"""Colors by which the links of a robot without any are told apart."""
+"""Colors that distinguish the links of a robot that defines no colors."""
 
 
 class Materials:
-    """The materials of a robot, by name."""
+    """Materials of a robot, by name."""
 
     def __init__(self, robot: Robot) -> None:
-        """Index the definitions: of one name the first counts, wherever it stands.
+        """Index the definitions; the first definition of a name counts, on any level.
 
-        So does urdfdom, from which RViz has its materials.
+        urdfdom, from which RViz reads materials, does the same.
         """
         self._defined: dict[str, Material] = {}
         for material in (
@@ -45,11 +45,11 @@ class Materials:
         }
 
     def tint(self, visual: Visual) -> Rgba:
-        """Choose a color for a visual without one: that of its link, in a robot without colors."""
+        """Return a color for a visual without one: by link if the robot defines no colors."""
         return self._tints.get(id(visual), PLAIN)
 
     def of(self, visual: Visual) -> Material | None:
-        """The material with the colour or image of a visual; None where it has neither."""
+        """Return the material with the color or image of a visual; None if it has neither."""
         material = visual.material
         if material is None:
             return None
@@ -58,12 +58,12 @@ class Materials:
 
 
 def clean(rgba: Rgba) -> Rgba:
-    """A colour whose parts are in 0 … 1, and white where one is no number."""
+    """Clamp the components of a color to 0 … 1; NaN becomes 1."""
     red, green, blue, alpha = (min(max(part, 0.0), 1.0) if part == part else 1.0 for part in rgba)
     return red, green, blue, alpha
 
 
 def from_linear(rgba: Rgba) -> Rgba:
-    """A colour of linear light as a screen has it; its opacity as it is."""
+    """Convert a color from linear light to the screen; opacity is unchanged."""
     red, green, blue, alpha = clean(rgba)
     return red ** (1 / 2.2), green ** (1 / 2.2), blue ** (1 / 2.2), alpha

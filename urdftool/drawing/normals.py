@@ -1,4 +1,4 @@
-"""Normals at the corners of triangles: smooth where the surface is, sharp at its edges."""
+"""Normals at the corners of triangles: smooth except at sharp edges."""
 
 from __future__ import annotations
 
@@ -10,18 +10,23 @@ from ..geometry.mesh import Faces, Points
 from .raster import Floats, Indices
 
 CREASE = math.cos(math.radians(38.0))
-"""Cosine of the angle of two faces from which on the edge between them is sharp."""
+"""Cosine of the angle between two faces above which their common edge is sharp."""
 
 _MANY = 40
 _PAIRS_AT_ONCE = 4_000_000
 
 
 def corner_normals(vertices: Points, faces: Faces) -> Floats:
-    """The unit normal at each corner of each face, shape (m, 3, 3).
+    """Compute the unit normal at each corner of each face, shape (m, 3, 3).
 
-    It is the mean of the faces that meet in the point and are no edge apart, weighted by their
-    angle there. Vertices at one place are taken for one. Where very many faces meet (the hub of a
-    fan), a corner has its face's own. A face without an area has normals of zero.
+    It is the mean of the normals of the faces that meet at the point without a sharp edge to this
+    face, weighted by their angle there. Coincident vertices count as one. If more than ``_MANY``
+    faces meet, as at the hub of a fan, a corner has its face's normal. A face without area has zero
+    normals.
+
+    Args:
+        vertices: Points [m], shape (n, 3).
+        faces: Indices into ``vertices``, shape (m, 3).
     """
     corners = vertices[faces]
     flat, angles = _flat(corners)
@@ -33,7 +38,7 @@ def corner_normals(vertices: Points, faces: Faces) -> Floats:
     starts = np.cumsum(counts) - counts
     sound = np.flatnonzero((counts > 1) & (counts <= _MANY))
     weighted = flat[order // 3] * angles.reshape(-1)[order][:, None]
-    for size in np.unique(counts[sound]):  # points where as many faces meet, as one array
+    for size in np.unique(counts[sound]):  # one array per number of faces at a point
         begin = starts[counts == size]
         step = max(1, _PAIRS_AT_ONCE // int(size * size))
         for first in range(0, len(begin), step):
@@ -48,7 +53,7 @@ def corner_normals(vertices: Points, faces: Faces) -> Floats:
 
 
 def _flat(corners: Points) -> tuple[Floats, Floats]:
-    """The normals of faces, and the angles of their corners [rad]."""
+    """Compute the unit normals of faces and the angles at their corners [rad]."""
     sides = np.roll(corners, -1, axis=1) - corners
     largest = np.abs(sides).max(axis=(1, 2), initial=0.0)
     sides = sides / np.where(largest > 0, largest, 1.0)[:, None, None]
@@ -62,8 +67,8 @@ def _flat(corners: Points) -> tuple[Floats, Floats]:
 
 
 def _points(vertices: Points) -> Indices:
-    """The number of the place of each vertex, by a hash of its coordinates' bits."""
-    bits = np.ascontiguousarray(vertices + 0.0).view(np.uint64)  # no negative zeros
+    """Number the distinct positions of vertices, by a hash of their coordinates' bits."""
+    bits = np.ascontiguousarray(vertices + 0.0).view(np.uint64)  # avoids negative zeros
     mixed = np.zeros(len(bits), dtype=np.uint64)
     for axis in range(3):
         mixed = (mixed ^ bits[:, axis]) * np.uint64(0x9E3779B97F4A7C15)

@@ -1,4 +1,4 @@
-"""Pixels as the bytes of a PNG file."""
+"""Encoding of pictures as PNG files."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ import numpy.typing as npt
 from ..extras import missing
 
 Image = npt.NDArray[np.uint8]
-"""Rows of pixels, each red, green and blue: shape (height, width, 3)."""
+"""Pixels: red, green and blue, shape (height, width, 3)."""
 
 
 def png(image: npt.NDArray[np.uint8], *, level: int = 6) -> bytes:
-    """Return an image as a PNG file.
+    """Encode a picture as a PNG file.
 
     Args:
-        image: Rows of pixels, shape (height, width, 3), or with transparency (height, width, 4).
-        level: How well zlib packs it, from 0 to 9.
+        image: Pixels, shape (height, width, 3), or with opacity (height, width, 4).
+        level: Compression level of zlib, from 0 to 9.
 
     Raises:
         MissingDependency: Pillow is not installed.

@@ -1,4 +1,4 @@
-"""Which triangle is in front at each sample: rows to spans to samples, in whole arrays."""
+"""Rasterization: the nearest triangle at each sample, computed in whole arrays."""
 
 from __future__ import annotations
 
@@ -14,40 +14,39 @@ Owners = npt.NDArray[np.int32]
 Nearness = npt.NDArray[np.float32]
 
 NOBODY = -1
-"""Owner of a sample where nothing is."""
+"""Owner of a sample that no triangle covers."""
 
-# as many as the processor's cache holds
+# sized for the processor's cache
 _ROWS_AT_ONCE = 100_000
 _SAMPLES_AT_ONCE = 250_000
 
 
 class Samples(NamedTuple):
-    """Samples that triangles cover, a row for each pair of the two."""
+    """Samples that triangles cover, one row per pair of triangle and sample."""
 
     triangle: Indices
     """Row of the triangle."""
     sample: Indices
-    """Column + row × width of the sample."""
+    """Index of the sample: column + row × width."""
     nearness: Nearness
-    """As given for the corners, linear between them."""
+    """Nearness, interpolated linearly between the corners."""
 
 
 def front(corners: Floats, size: tuple[int, int]) -> tuple[Owners, Nearness]:
-    """The nearest triangle at the middle of each sample; of equally near ones the last.
+    """Find the nearest triangle at the center of each sample; of equally near ones the last.
 
     Args:
-        corners: Columns and rows in samples, from the upper left corner, and nearness, which is
-            above zero, larger where nearer, and linear on the picture; shape (m, 3, 3). Triangles
-            are seen from both sides.
+        corners: Column and row in samples, from the upper left corner, and nearness, which is above
+            zero, larger when nearer, and linear on the picture; shape (m, 3, 3). Both sides of a
+            triangle are visible.
         size: Columns and rows of samples.
 
     Returns:
-        Rows of triangles, ``NOBODY`` where there is none, and their nearness, 0 where there is
-        none; each of shape (columns * rows,).
+        Rows of triangles, or ``NOBODY``, and their nearness, or 0; each of shape (columns * rows,).
     """
     keys = np.zeros(size[0] * size[1], dtype=np.uint64)
     for found in covered(corners, size):
-        # positive floats are in the order of their bits
+        # positive floats sort like their bits
         near = np.maximum(found.nearness, np.float32(0)).view(np.uint32).astype(np.uint64)
         key = (near << np.uint64(32)) | (found.triangle + 1).astype(np.uint64)
         np.maximum.at(keys, found.sample, key)
@@ -56,14 +55,14 @@ def front(corners: Floats, size: tuple[int, int]) -> tuple[Owners, Nearness]:
 
 
 def covered(corners: Floats, size: tuple[int, int]) -> Iterator[Samples]:
-    """The samples whose middle each triangle covers, some at a time; arguments as :func:`front`."""
+    """Yield the samples that triangles cover, in blocks; arguments as :func:`front`."""
     width, height = size
     (ax, ay, _), (bx, by, _), (cx, cy, _) = np.ascontiguousarray(corners.transpose(1, 2, 0))
     left, right = np.minimum(np.minimum(ax, bx), cx), np.maximum(np.maximum(ax, bx), cx)
     top, bottom = np.minimum(np.minimum(ay, by), cy), np.maximum(np.maximum(ay, by), cy)
     low = np.clip(np.ceil(top - 0.5), 0, height)
     rows = np.clip(np.floor(bottom - 0.5), -1, height - 1) - low + 1
-    # between the middles of two columns there is no sample
+    # a triangle between two columns of sample centers covers none
     seen = (rows > 0) & (right > 0) & (left < width) & (np.ceil(left - 0.5) <= right - 0.5)
     used = np.flatnonzero(seen)
     counts = rows[used].astype(np.int64)
@@ -80,7 +79,7 @@ def covered(corners: Floats, size: tuple[int, int]) -> Iterator[Samples]:
 def _samples(
     triangles: Indices, corners: Floats, low: Floats, rows: Indices, width: int
 ) -> Iterator[Samples]:
-    """Rows to spans, and spans to samples."""
+    """Split triangles into spans, one per row, and spans into samples."""
     a, b, c = np.ascontiguousarray(corners.transpose(1, 2, 0))
     ab, ac = b - a, c - a
     area = ab[0] * ac[1] - ab[1] * ac[0]
@@ -96,7 +95,7 @@ def _samples(
     begin, end = np.full(len(span), -np.inf), np.full(len(span), np.inf)
     for one, other in ((a, b), (b, c), (c, a)):
         dx, dy = other[0] - one[0], other[1] - one[1]
-        # an edge bounds the span on the side that its direction says; a level one does not
+        # an edge bounds the span on the side given by its direction, unless it is horizontal
         side = np.where(area > 0, dy, -dy)
         ratio = dx / np.where(dy == 0, 1.0, dy)
         at = (one[0] - one[1] * ratio)[span] + y * ratio[span]
@@ -125,6 +124,6 @@ def _samples(
 
 
 def _within(counts: Indices) -> Indices:
-    """0, 1, 2 … for each count, one after the other."""
+    """Concatenate 0, 1, 2 … for each count."""
     ends = np.cumsum(counts)
     return np.asarray(np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - counts, counts))

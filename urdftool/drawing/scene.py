@@ -1,4 +1,4 @@
-"""What is seen at samples of surfaces: their point, normal, colour and light."""
+"""Shading of samples: point, normal, color and light of the surface at each."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from .shapes import Shapes
 from .texture import looked_up
 
 OPAQUE = 0.995
-"""Opacity from which on nothing is seen through."""
+"""Opacity above which a surface counts as opaque."""
 
 
 @dataclass
 class Scene:
-    """Triangles in the world, and how they are seen.
+    """Triangles with camera and lights.
 
     Attributes:
-        shapes: What they are taken from.
+        shapes: The shapes that contain the triangles.
         view: The camera.
         lights: The lights.
-        shadow: What is between the key light and what it lights.
-        rows: Their rows in ``shapes``.
-        corners: Their corners in the camera's axes, from the eye.
-        normals: Their normals at the corners, in the world.
+        shadow: Shadow map of the key light.
+        rows: Rows of the triangles in ``shapes``.
+        corners: Corners in the camera's axes, from the eye.
+        normals: Normals at the corners, in the world.
         size: Columns and rows of samples.
     """
 
@@ -41,16 +41,20 @@ class Scene:
     size: tuple[int, int]
 
     def shaded(self, triangles: Indices, samples: Indices) -> tuple[Colors, Colors, Colors]:
-        """Light, opacity, and height in the world at samples that triangles cover.
+        """Compute light, opacity, and height in the world at samples that triangles cover.
 
-        A ray d from the eye meets the plane of a triangle a b c where its barycentric weights are
-        as d·(b×c), d·(c×a) and d·(a×b); their sum is d·n with n = (b-a)×(c-a).
+        A ray d from the eye meets the plane of a triangle a b c at barycentric weights proportional
+        to d·(b×c), d·(c×a) and d·(a×b); their sum is d·n with n = (b-a)×(c-a).
+
+        Args:
+            triangles: Row of the triangle of each sample, shape (n,).
+            samples: Indices of the samples, shape (n,).
         """
         used, row = _compact(triangles, len(self.corners))
         a, b, c = (self.corners[used, k] for k in range(3))
         areas = np.stack([_cross(b, c), _cross(c, a), _cross(a, b)], axis=1)
         planes = _cross(b - a, c - a)
-        # scaled, so that single precision does not run out
+        # scaled to stay within single precision
         largest = np.abs(areas).max(axis=(1, 2), initial=0.0)
         largest = np.where(largest > 0, largest, 1.0)[:, None]
         offsets = (np.einsum("ij,ij->i", a, planes)[:, None] / largest).astype(np.float32)[:, 0]
@@ -61,7 +65,7 @@ class Scene:
         slant = np.einsum("ni,ni->n", planes[row], rays)
         weights = np.clip(weights / np.where(slant == 0, 1, slant)[:, None], 0, 1)
         weights /= np.maximum(weights.sum(axis=1, keepdims=True), np.float32(1e-9))
-        # just before an edge-on plane the ray goes on for ever; the corners say how far it may
+        # a ray nearly parallel to its plane has an unbounded hit; the corners limit its depth
         depth = -self.corners[used, :, 2].astype(np.float32)
         far = offsets[row] / np.where(slant == 0, 1, slant)
         far = np.clip(far, depth.min(axis=1)[row], depth.max(axis=1)[row])
@@ -80,7 +84,7 @@ class Scene:
         return shade(colors, normals, to_eye, lit, self.lights), opacity, world[:, 2]
 
     def _rays(self, samples: Indices) -> Colors:
-        """Rays from the eye through samples, in the camera's axes, one long towards -z."""
+        """Return rays from the eye through samples, in the camera's axes, with z = -1."""
         width, height = self.size
         rays = np.empty((len(samples), 3), dtype=np.float32)
         line, column = np.divmod(samples, width)
@@ -90,7 +94,7 @@ class Scene:
         return rays
 
     def _colors(self, used: Indices, row: Indices, weights: Colors) -> tuple[Colors, Colors]:
-        """Colours in linear light, and opacities; of images, that at the point."""
+        """Return colors in linear light and opacities, including images."""
         plain = self.shapes.colors[used]
         colors = to_linear(plain[:, :3])[row]
         images = self.shapes.image[used]
@@ -103,7 +107,7 @@ class Scene:
 
 
 def _compact(triangles: Indices, count: int) -> tuple[Indices, Indices]:
-    """The triangles that occur, in order, and for each sample the place of its own among them."""
+    """Return the distinct triangles, sorted, and for each sample its index among them."""
     there = np.zeros(count, dtype=bool)
     there[triangles] = True
     number = np.cumsum(there) - 1
@@ -111,7 +115,7 @@ def _compact(triangles: Indices, count: int) -> tuple[Indices, Indices]:
 
 
 def _cross(one: Floats, other: Floats) -> Floats:
-    """Cross products of rows; numpy's own is several times slower."""
+    """Compute cross products of rows, several times faster than numpy."""
     made = np.empty_like(one)
     for axis, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
         made[:, axis] = one[:, i] * other[:, j] - one[:, j] * other[:, i]
@@ -119,6 +123,6 @@ def _cross(one: Floats, other: Floats) -> Floats:
 
 
 def _unit(rows: Colors) -> None:
-    """Make rows one long, in place."""
+    """Normalize rows in place."""
     length = np.sqrt(np.einsum("ni,ni->n", rows, rows))
     rows /= np.maximum(length, np.float32(1e-9))[:, None]

@@ -1,4 +1,4 @@
-"""The triangles of a robot with their colours, link by link."""
+"""Colored triangles of a robot, by link."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ class Shapes:
         links: Names of the links, in the order of the file.
         corners: Corners [m], shape (m, 3, 3).
         normals: Unit normals at the corners, shape (m, 3, 3).
-        colors: Red, green, blue and opacity in 0 … 1, as files have them, shape (m, 4).
-        uv: Where each corner lies in its image, shape (m, 3, 2); from its lower left corner.
+        colors: Red, green, blue and opacity in 0 … 1, as in the files, shape (m, 4).
+        uv: Texture coordinates of the corners, from the image's lower left, shape (m, 3, 2).
         image: Row of ``images``, -1 for none, shape (m,).
         link: Row of ``links``, shape (m,).
-        images: The images that are used.
-        problems: What could not be loaded, each with its place in the description.
+        images: Images in use.
+        problems: Geometry and images that could not be loaded, with their places.
     """
 
     links: tuple[str, ...]
@@ -52,11 +52,11 @@ class Shapes:
     problems: tuple[UrdftoolError, ...] = ()
 
     def __len__(self) -> int:
-        """How many triangles there are."""
+        """Return the number of triangles."""
         return len(self.corners)
 
     def painted(self, colors: Floats) -> Shapes:
-        """The same triangles in other colours, shape (m, 4), and without images."""
+        """Return the same triangles in other colors, shape (m, 4), without images."""
         none = np.full(len(self), -1, dtype=np.int64)
         return Shapes(
             self.links, self.corners, self.normals, colors, self.uv, none, self.link, (),
@@ -64,9 +64,9 @@ class Shapes:
         )  # fmt: skip
 
     def posed(self, poses: Mapping[str, Pose]) -> tuple[Floats, Floats, npt.NDArray[np.bool_]]:
-        """Corners and normals in the world, and which triangles are to be seen there.
+        """Transform corners and normals to the world, and return a mask of the visible triangles.
 
-        Those of links without a pose are not, nor those that are endlessly far away.
+        Triangles of links without a pose, or with one that is infinite or too far away, are masked.
         """
         corners, normals = np.zeros_like(self.corners), np.zeros_like(self.normals)
         there = np.zeros(len(self), dtype=bool)
@@ -86,11 +86,11 @@ class Shapes:
 
 
 def bare_shapes(groups: Iterable[tuple[Points, Faces, Rgba]], link: str = "") -> Shapes:
-    """Triangles that are of no robot, as those of one link.
+    """Create shapes of one link from triangles.
 
     Args:
-        groups: Vertices [m], shape (n, 3), faces, shape (m, 3), and the colour of each group.
-        link: What the link is called.
+        groups: Vertices [m], shape (n, 3), faces, shape (m, 3), and color of each group.
+        link: Name of the link.
     """
     corners, normals, colors = [np.zeros((0, 3, 3))], [np.zeros((0, 3, 3))], [np.zeros((0, 4))]
     for vertices, faces, rgba in groups:
@@ -112,18 +112,19 @@ def bare_shapes(groups: Iterable[tuple[Points, Faces, Rgba]], link: str = "") ->
 def robot_shapes(
     robot: Robot, *, show: str = "visual", progress: Progress = lambda *_: None
 ) -> Shapes:
-    """What is to be seen of a robot.
+    """Read the visual or collision geometry of a robot.
 
-    Colours are as RViz has them: what a mesh file says of its own parts comes first, then the
-    visual's material; of several materials of one name the first counts.
+    Colors follow RViz: those of a mesh file's parts take precedence over the visual's material; the
+    first material of a name counts.
 
     Args:
-        robot: The robot, read from a description, which finds its packages.
-        show: ``"visual"``, ``"collision"``, or ``"both"``, the collisions see-through.
-        progress: Told of each mesh before it is read: its number, how many, its URI.
+        robot: The robot, with the description that resolves its URIs.
+        show: ``"visual"``, ``"collision"``, or ``"both"`` with transparent collisions.
+        progress: Called before each mesh is read, with its number, the number of meshes and its
+            URI.
 
     Raises:
-        ValueError: ``show`` is none of the three.
+        ValueError: ``show`` is not one of the three.
     """
     if show not in SHOWS:
         raise ValueError(f"show is one of {', '.join(SHOWS)}, not {show!r}")

@@ -1,4 +1,4 @@
-"""Images that lie on surfaces."""
+"""Images on surfaces."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from ..errors import MeshError
 from .raster import Floats
 
 Texels = npt.NDArray[np.uint8]
-"""Rows of red, green, blue and opacity, the lowest first: shape (height, width, 4)."""
+"""Red, green, blue and opacity, lowest row first: shape (height, width, 4)."""
 
 LARGEST = 2048
 """Width and height in pixels to which larger images are reduced."""
 
 
 def read_texture(source: Path | bytes) -> Texels:
-    """An image file, or the bytes of one.
+    """Read an image file, or the content of one.
 
     Raises:
-        MeshError: It is not there, or no image.
+        MeshError: The file does not exist or is not an image.
     """
     from PIL import Image
 
@@ -35,7 +35,7 @@ def read_texture(source: Path | bytes) -> Texels:
             if max(image.size) > LARGEST:
                 image.thumbnail((LARGEST, LARGEST))
             pixels = np.asarray(image.convert("RGBA"))
-    # image readers meet damaged files with whatever their arithmetic raises
+    # image readers raise arbitrary exceptions for damaged files
     except Exception as error:
         path = None if isinstance(source, bytes) else source
         if isinstance(error, FileNotFoundError):
@@ -46,9 +46,10 @@ def read_texture(source: Path | bytes) -> Texels:
 
 
 def looked_up(texels: Texels, uv: Floats) -> Floats:
-    """The colours at points of an image, which is repeated beyond its edges, shape (n, 4).
+    """Sample an image bilinearly at texture coordinates; it repeats beyond its edges.
 
-    Between the middles of four pixels they are mixed.
+    Returns:
+        Red, green, blue and opacity in 0 … 1, shape (n, 4).
     """
     height, width = texels.shape[:2]
     finite = np.where(np.isfinite(uv), uv, 0.0)

@@ -1,4 +1,4 @@
-"""What of some triangles is visible, and drawing them through what hides them."""
+"""Visibility of triangles, and rendering of hidden ones through what hides them."""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ from .shapes import Shapes
 Mask = npt.NDArray[np.bool_]
 
 POINTS = 12_000
-"""Points on the triangles by which views are compared; each stands for an equal area."""
+"""Number of sampled points for comparing views; each represents an equal area."""
 
-_GRID = (72, 60)  # pixels of the pictures that are compared
-_THROUGH = 0.55  # of a hidden pixel's color is that of what is hidden
-_NEAR = 0.01  # of the scene's depth: points of one surface are this close to each other
+_GRID = (72, 60)  # pixels of the compared pictures
+_THROUGH = 0.55  # weight of the hidden surface in a blended pixel
+_NEAR = 0.01  # points this close in depth, relative to the scene's, are of one surface
 
 
 class Cloud:
-    """Points spread over the triangles of a robot, each in the frame of its link.
+    """Points sampled from the triangles of a robot, each in the frame of its link.
 
     Attributes:
         links: Names of the links.
         link: Row of ``links`` of each point, shape (n,).
-        points: Where each is [m], shape (n, 3).
+        points: Positions [m], shape (n, 3).
     """
 
     def __init__(self, shapes: Shapes) -> None:
-        """Spread points over triangles by their area, the same each time."""
+        """Sample points from triangles by area, with a fixed seed."""
         self.links = shapes.links
         edges = shapes.corners[:, 1:] - shapes.corners[:, :1]
         areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
@@ -52,7 +52,7 @@ class Cloud:
         self.link = shapes.link[chosen]
 
     def at(self, poses: Mapping[str, Pose]) -> Floats:
-        """The points in the world, not a number where a link has no pose, shape (n, 3)."""
+        """Transform the points to the world, shape (n, 3); NaN if a link has no pose."""
         placed = np.full_like(self.points, np.nan)
         for row in np.unique(self.link):
             pose = poses.get(self.links[row])
@@ -69,14 +69,14 @@ def best_camera(
     moved: Collection[str],
     cameras: Iterable[Camera],
 ) -> Camera:
-    """The camera in whose pictures most of the moved links is visible.
+    """Choose the camera whose pictures show most of the moved links.
 
-    The first camera is taken unless another shows clearly more.
+    The first camera is preferred unless another shows over 1.5 times as many pixels.
 
     Args:
         cloud: Points on the robot.
-        poses: Of the links, of each picture.
-        moved: The links that move.
+        poses: Poses of the links, for each picture.
+        moved: Links that move.
         cameras: At least one.
     """
     moves = np.isin(cloud.link, [row for row, name in enumerate(cloud.links) if name in moved])
@@ -98,7 +98,7 @@ def best_camera(
 
 
 def _visible(points: Sequence[tuple[Floats, Mask]], view: View) -> int:
-    """How many pixels of a view show moved points, of the picture with the fewest of them."""
+    """Count the pixels that show moved points, in the picture with the fewest."""
     counts = []
     for placed, moves in points:
         seen = view.seen(placed)
@@ -117,7 +117,7 @@ def _visible(points: Sequence[tuple[Floats, Mask]], view: View) -> int:
 
 
 def hidden_pixels(shapes: Shapes, poses: Mapping[str, Pose], moved: Mask, view: View) -> Mask:
-    """The pixels at which others are in front of moved triangles, shape (height, width)."""
+    """Mask the pixels where other triangles hide moved ones, shape (height, width)."""
     corners, _, there = shapes.posed(poses)
     rows = np.flatnonzero(there)
     hidden = np.zeros(view.size[0] * view.size[1], dtype=bool)
@@ -134,13 +134,13 @@ def hidden_pixels(shapes: Shapes, poses: Mapping[str, Pose], moved: Mask, view: 
 def draw_through(
     shapes: Shapes, poses: Mapping[str, Pose], moved: Mask, *, view: View, ground: float
 ) -> Image:
-    """A picture of shapes in which moved triangles shine through what hides them.
+    """Draw a picture of shapes in which moved triangles are visible through what hides them.
 
     Args:
-        shapes: All of them.
-        poses: Of the links.
-        moved: Which triangles shine through, shape (m,).
-        view: The camera in its place.
+        shapes: All shapes.
+        poses: Poses of the links.
+        moved: Mask of the moved triangles, shape (m,).
+        view: The camera.
         ground: Height of the floor [m].
     """
     image = draw(shapes, poses, camera=view, ground=ground)
