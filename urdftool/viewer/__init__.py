@@ -1,12 +1,13 @@
 """A page in the browser that shows a robot and moves its joints.
 
-One module an idea, each imported on its own (this package loads nothing by itself):
+This package imports nothing by itself; its modules are:
 
-- ``page``: what is on the page and what happens there; ``panels``: its texts, tables and choices;
-- ``sliders``: which joint goes from where to where, and in which unit;
-- ``body``: the robot in the scene; ``looks``: its surfaces as the page wants them, ``glb`` for
-  those with an image;
-- ``numbers``: links and joints in words; ``marks``: which link a finding is about;
-- ``watch``: whether a file has changed;
-- ``server``: one address, one port, and nothing of the network.
+- ``page``: contents and events of the page; ``panels``: its texts, tables and controls;
+- ``joints``, ``sliders``: the joint sliders, their bounds and units;
+- ``body``: the robot in the scene; ``looks``: its surfaces as meshes, ``glb`` for textured ones;
+  ``equal_box``: inertia boxes;
+- ``surroundings``: light, ground and viewpoint;
+- ``numbers``: properties of links and joints; ``marks``: the links of findings;
+- ``watch``: changes of files;
+- ``server``: a local server that only its own page can use.
 """

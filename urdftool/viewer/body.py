@@ -1,4 +1,4 @@
-"""The robot in the scene: a node for each link, its surfaces, and what is drawn beside them."""
+"""The robot in the scene: a node per link, its surfaces, and markers such as frames and axes."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
     from ..drawing.shapes import Shapes
 
 KINDS = ("visual", "collision", "frames", "names", "axes", "com", "inertia", "errors", "warnings")
-"""What of a robot can be shown and hidden."""
+"""Parts of a robot's display that can be shown and hidden."""
 
 CLEAR = 0.35
-"""Opacity of a visual that is seen through."""
+"""Opacity of visual geometry in see-through mode."""
 
 COLLISION = (240, 140, 40)
 BOXES = {True: (60, 120, 230), False: (220, 30, 30)}
-"""Inertia that a rigid body can have, and that none has."""
+"""Color of the inertia box by whether the inertia is physically consistent."""
 
 SELECTED = (255, 196, 0)
 COLORS = {Severity.ERROR: (220, 30, 30), Severity.WARNING: (240, 130, 0)}
@@ -39,10 +39,10 @@ EDGES = [(0, 1), (0, 2), (0, 4), (3, 1), (3, 2), (3, 7), (5, 1), (5, 4), (5, 7),
 
 
 class Body:
-    """One robot in a scene.
+    """A robot in a scene.
 
-    What is not shown at first is made when it is shown for the first time. Links are nodes below
-    their parents, so a joint that moves is one message, however much hangs on it.
+    Parts that are hidden at first are created when first shown. Links are nodes below their
+    parents, so a joint motion takes one message, whatever the number of descendants.
     """
 
     def __init__(
@@ -54,14 +54,14 @@ class Body:
         *,
         root: str = "/robot",
     ) -> None:
-        """Make the nodes of the links; nothing of them is shown yet.
+        """Create the nodes of the links; nothing is shown yet.
 
         Args:
-            scene: Where.
+            scene: The scene.
             robot: The robot.
-            load: Gives the triangles of ``"visual"`` or ``"collision"``.
-            clicked: Told the link whose surface somebody clicks.
-            root: The name of the node that all others are below.
+            load: Returns the triangles of ``"visual"`` or ``"collision"``.
+            clicked: Called with the link whose surface the user clicks.
+            root: Name of the node above all others.
         """
         self.scene, self.robot = scene, robot
         self.shapes: dict[str, Shapes] = {}
@@ -93,18 +93,18 @@ class Body:
 
     @property
     def links(self) -> tuple[str, ...]:
-        """The links that are in the scene; those that hang on no root are not."""
+        """Return the links in the scene; those without a path to a root are missing."""
         return tuple(self._paths)
 
     def remove(self) -> None:
-        """Take it out of the scene."""
+        """Remove the robot from the scene."""
         self._root.remove()
 
     def move(self, positions: Mapping[str, float]) -> int:
-        """Put joints where they are to be [rad, m]; those that are there already stay.
+        """Move joints to positions [rad or m]; joints without one move to 0.
 
         Returns:
-            How many links were sent a new pose.
+            Number of links with a new pose.
         """
         moved = 0
         for name, frame in self._frames.items():
@@ -121,7 +121,14 @@ class Body:
         return moved
 
     def measure(self, poses: Mapping[str, Pose]) -> tuple[Vector, Vector]:
-        """The box around all that is seen, or around the frames where nothing is [m]."""
+        """Compute the bounding box of the loaded geometry and the link frames [m].
+
+        Args:
+            poses: Poses of the links, by name.
+
+        Returns:
+            Lower and upper corner. ``size`` becomes the length of the diagonal.
+        """
         points = [[*pose.translation] for name, pose in poses.items() if name in self._paths]
         points = [point for point in points if all(map(math.isfinite, point))]
         for shapes in self.shapes.values():
@@ -135,7 +142,7 @@ class Body:
         return (low[0], low[1], low[2]), (high[0], high[1], high[2])
 
     def load(self, kind: str) -> Shapes:
-        """The triangles of ``"visual"`` or ``"collision"``, read once."""
+        """Return the triangles of ``"visual"`` or ``"collision"``, read once."""
         if kind not in self.shapes:
             self.shapes[kind] = self._load(kind)
         return self.shapes[kind]
@@ -150,18 +157,18 @@ class Body:
             node.visible = wanted
 
     def see_through(self, wanted: bool) -> None:
-        """Have visuals let see what is in them, or not; those with an image stay as they are."""
+        """Make visual geometry see-through or restore it; textured meshes are unchanged."""
         for _, node in self._nodes.get("visual", []):
             if hasattr(node, "opacity"):
                 before = self._opacity.setdefault(node.name, node.opacity)
                 node.opacity = min(before or 1.0, CLEAR) if wanted else before
 
     def mark(self, findings: Mapping[str, list[Finding]], shown: Iterable[str]) -> None:
-        """Say at each link what was found on it.
+        """Mark each link with its findings.
 
         Args:
-            findings: By link.
-            shown: Which of ``"errors"`` and ``"warnings"`` are seen.
+            findings: Findings by link.
+            shown: Visible kinds, of ``"errors"`` and ``"warnings"``.
         """
         self._findings = findings
         for kind in ("errors", "warnings"):
@@ -170,7 +177,7 @@ class Body:
             self.show(kind, kind in shown)
 
     def select(self, link: str | None) -> None:
-        """Highlight a link; None for none."""
+        """Highlight a link; None to highlight none."""
         for node, color in self._tinted:
             node.color = color
         for node in self._outline:
@@ -287,7 +294,7 @@ class Body:
         return self._marks(Severity.WARNING, "center-left")
 
     def _marks(self, severity: Severity, anchor: Any) -> Iterable[tuple[str, Any]]:
-        """A ball and a label at each link with findings of a severity."""
+        """Create a ball and a label at each link with findings of a severity."""
         for link, path in self._paths.items():
             some = [f for f in self._findings.get(link, []) if f.severity == severity]
             if not some:
@@ -313,7 +320,7 @@ def _thickness(pixels: float) -> dict[str, Any]:
 
 
 def axis_of(joint: Joint | None) -> Vector | None:
-    """The unit axis of a joint that turns about or slides along one; None for others."""
+    """Return the unit axis of a revolute, continuous or prismatic joint; None if it has none."""
     if joint is None or joint.type not in MOVABLE:
         return None
     x, y, z = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
@@ -324,11 +331,11 @@ def axis_of(joint: Joint | None) -> Vector | None:
 
 
 def sound(pose: Pose) -> Pose:
-    """The pose, or where it is no pose of finite numbers, the identity."""
+    """Return the pose if all its numbers are finite, or else the identity."""
     numbers = (*(part for row in pose.rotation for part in row), *pose.translation)
     return pose if all(map(math.isfinite, numbers)) else IDENTITY
 
 
 def quaternion(pose: Pose) -> Quaternion:
-    """The rotation of a pose as the scene wants it."""
+    """Return the rotation of a pose as a quaternion in the scene's order (w, x, y, z)."""
     return quaternion_of_rotation(pose.rotation)

@@ -1,4 +1,4 @@
-"""The box that turns like a link: of uniform density, with its mass and principal moments."""
+"""Inertia box: a box of uniform density with the mass and inertia of a link."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ class EqualBox:
     """A box in the frame of its link.
 
     Attributes:
-        size: Its edges [m].
-        pose: Of its middle, along its edges.
-        possible: Whether a rigid body can have the inertia; an edge whose square would be negative
-            is drawn without length.
+        size: Edges [m].
+        pose: Pose of its center, along its edges.
+        possible: Whether the inertia is physically consistent; if not, an edge whose square would
+            be negative has length 0.
     """
 
     size: Vector
@@ -29,13 +29,13 @@ class EqualBox:
 
 
 def equal_box(inertial: Inertial | None) -> EqualBox | None:
-    """The box of uniform density with the mass and inertia of a link.
+    """Compute the box of uniform density with the mass and inertia of a link.
 
-    With the principal second moments s = ∫ x² dm of the tensor an edge is √(12 s / m), since that
-    of a box along its edge a is m a² / 12.
+    The edge along a principal axis is √(12 s / m), with s = ∫ x² dm the second moment, which is m
+    a² / 12 for a box of edge a.
 
     Returns:
-        None where mass or inertia is not written, not above zero or not finite.
+        None if mass or inertia is missing, not positive or not finite.
     """
     if inertial is None or inertial.inertia is None or not inertial.mass:
         return None

@@ -1,4 +1,4 @@
-"""A textured mesh as a binary glTF, by the specification of glTF 2.0."""
+"""Encoding of a textured mesh as binary glTF (glTF 2.0 specification)."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ def glb(
     *,
     clear: bool,
 ) -> bytes:
-    """One mesh under one image.
+    """Encode one mesh with one image as a GLB file.
 
     Args:
-        vertices: Points [m], shape (n, 3); the axes are kept as they are.
-        faces: Rows of them, shape (m, 3).
+        vertices: Points [m], shape (n, 3); axes are unchanged.
+        faces: Indices into ``vertices``, shape (m, 3).
         normals: Unit normals, shape (n, 3).
-        uv: Where each point lies in the image, shape (n, 2); 0 0 is its lower left corner.
+        uv: Texture coordinates of the points from the image's lower left corner, shape (n, 2).
         image: The image as a PNG file.
-        rgba: What the image is multiplied with.
-        clear: Whether something can be seen through it.
+        rgba: Factors of the image's channels.
+        clear: Whether the mesh is transparent.
     """
     down = np.stack([uv[:, 0], 1.0 - uv[:, 1]], axis=1)  # glTF counts v from the top
     pieces = [

@@ -1,4 +1,4 @@
-"""The sliders on the page, and where the joints are."""
+"""Joint sliders of the page and the current joint positions."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _LONGEST = 40
 
 
 class Joints:
-    """The positions of a robot's joints, with a slider for each."""
+    """Joint positions of a robot, with a slider for each joint."""
 
     def __init__(
         self,
@@ -30,14 +30,14 @@ class Joints:
         safely: Callable[..., None],
         start: Mapping[str, float],
     ) -> None:
-        """Make the buttons; the sliders come with a robot.
+        """Create the buttons; sliders are created with a robot.
 
         Args:
-            gui: The page's controls.
-            tab: Where on the page.
-            moved: Told the positions of all joints [rad, m] when some have changed.
-            safely: Calls a function with arguments; one after the other, whatever fails.
-            start: Positions to begin with, which may be beyond limits.
+            gui: GUI of the page.
+            tab: Tab for the sliders.
+            moved: Called with the positions of all joints [rad or m] when some have changed.
+            safely: Calls a function with arguments, serialized and with errors handled.
+            start: Initial positions, which may be outside the limits.
         """
         self._gui, self._tab, self._moved, self._safely = gui, tab, moved, safely
         self._start = dict(start)
@@ -52,20 +52,20 @@ class Joints:
 
     @property
     def positions(self) -> dict[str, float]:
-        """Where each joint is [rad, m]."""
+        """Return the position of each joint [rad or m]."""
         return dict(self._positions)
 
     @property
     def sliders(self) -> tuple[Slider, ...]:
-        """The sliders, in the order of the file."""
+        """Return the sliders, in the order of the file."""
         return tuple(self._sliders)
 
     def take(self, robot: Robot, reach: float) -> None:
-        """Make the sliders of a robot; joints that were there before stay where they are.
+        """Create the sliders of a robot; joints with a known position keep it.
 
         Args:
             robot: The robot.
-            reach: How far a sliding joint without limits goes [m].
+            reach: Travel to either side of a prismatic joint without limits [m].
         """
         self._robot = robot
         sliders = sliders_of(robot, self._start, reach)
@@ -105,7 +105,7 @@ class Joints:
         return handle
 
     def _slid(self, slider: Slider) -> None:
-        """Somebody, or this page, has moved a slider."""
+        """Handle a slider update, by the user or by this page."""
         handle = self._handles.get(slider.name)
         if handle is None or slider.locked or slider not in self._sliders:
             return
@@ -113,11 +113,11 @@ class Joints:
             self.move({slider.name: slider.meant(handle.value)}, leader=slider.name)
 
     def move(self, wanted: Mapping[str, float], leader: str = "") -> None:
-        """Put joints somewhere [rad, m], and with them those that follow; the others stay.
+        """Move joints [rad or m] and the joints that mimic them; the others stay.
 
         Args:
             wanted: Positions by name.
-            leader: The joint whose slider is there already.
+            leader: The joint whose slider is already updated.
         """
         if self._robot is None:
             return
@@ -135,7 +135,7 @@ class Joints:
                 handle.value = slider.shown(value)
 
     def put(self, where: str) -> None:
-        """Put every joint that follows no other at one of ``WHERE``."""
+        """Move every joint that does not mimic another to one of ``WHERE``."""
         free = self._free()
         if where == "random":
             self.move({slider.name: random.uniform(slider.lower, slider.upper) for slider in free})

@@ -1,4 +1,4 @@
-"""Surfaces as a page wants them: a mesh for each colour, with normals that three.js finds again."""
+"""Surfaces as meshes for three.js: one per color, with vertices split at sharp edges."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Look:
-    """Triangles of one link in one colour or under one image, in the link's frame.
+    """Triangles of one link with one color or one image, in the link's frame.
 
     Attributes:
-        vertices: Points [m], shape (n, 3). A point at a sharp edge is there once for each side, so
-            that normals which are means over the faces at a vertex are smooth where the surface is.
-        faces: Rows of ``vertices``, shape (m, 3).
+        vertices: Points [m], shape (n, 3). Points on a sharp edge occur once per side, so that the
+            renderer's averaged vertex normals are smooth only on smooth surfaces.
+        faces: Indices into ``vertices``, shape (m, 3).
         rgb: Red, green and blue in 0 … 255.
-        opacity: In 0 … 1.
-        glb: The same as a binary glTF where an image lies on it; None elsewhere.
+        opacity: Opacity in 0 … 1.
+        glb: The same as binary glTF if it is textured, or None.
     """
 
     vertices: npt.NDArray[np.float32]
@@ -37,7 +37,7 @@ class Look:
 
 
 def looks_of(shapes: Shapes) -> Iterator[tuple[str, Look]]:
-    """The surfaces of each link, with its name."""
+    """Yield the surfaces of each link, with its name."""
     bounds = np.searchsorted(shapes.link, np.arange(len(shapes.links) + 1))
     images: dict[int, bytes] = {}
     for row, link in enumerate(shapes.links):
@@ -53,14 +53,14 @@ def looks_of(shapes: Shapes) -> Iterator[tuple[str, Look]]:
 
 
 def box_around(shapes: Shapes) -> dict[str, tuple[npt.NDArray[np.float64], ...]]:
-    """The smallest and largest corner of each link that has triangles, in its own frame [m]."""
+    """Return lower and upper corner of each link with triangles, in its own frame [m]."""
     bounds = np.searchsorted(shapes.link, np.arange(len(shapes.links) + 1))
     found: dict[str, tuple[npt.NDArray[np.float64], ...]] = {}
     for row, link in enumerate(shapes.links):
         points = shapes.corners[bounds[row] : bounds[row + 1]].reshape(-1, 3)
         if len(points):
             low, high = points.min(axis=0), points.max(axis=0)
-            if link in found:  # links of one name
+            if link in found:  # links with the same name
                 low, high = np.minimum(low, found[link][0]), np.maximum(high, found[link][1])
             found[link] = (low, high)
     return found
@@ -87,7 +87,7 @@ def _look(
     if image >= 0:
         number = int(image)
         if number not in images:
-            images[number] = png(shapes.images[number][::-1], level=1)  # lowest row first
+            images[number] = png(shapes.images[number][::-1], level=1)  # texels are bottom-up
         clear = opacity < 1.0 or bool((shapes.images[number][..., 3] < 255).any())
         rgba = (red / 255, green / 255, blue / 255, opacity)
         packed = glb(vertices, faces, normals[first], uv[first], images[number], rgba, clear=clear)
@@ -95,7 +95,11 @@ def _look(
 
 
 def _distinct(rows: npt.NDArray[np.int32]) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
-    """The first of equal rows, and for each row which one it is; by a hash of 64 bits."""
+    """Find the distinct rows by a 64-bit hash.
+
+    Returns:
+        Index of the first row of each group, and the group of each row.
+    """
     factors = np.random.default_rng(8733).integers(1, 2**62, rows.shape[1]) * 2 + 1
     with np.errstate(over="ignore"):
         keys = (rows.astype(np.int64) * factors).sum(axis=1)

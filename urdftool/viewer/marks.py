@@ -1,4 +1,4 @@
-"""Which link a finding is about."""
+"""Assignment of findings to links."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ Owners = dict[tuple[str, tuple[Call, ...]], list[tuple[int, str]]]
 
 
 def by_link(robot: Robot, findings: Iterable[Finding]) -> dict[str, list[Finding]]:
-    """The findings on each link they concern, by the link's name, in their order.
+    """Group findings by the names of the links that they concern, in their order.
 
-    What is about a joint is on its child, the link that it moves. A finding that names no link or
-    joint is on the link in whose XML it stands, or that of its joint; one that stands in neither is
-    on none. Of one with several instances each is on its own link.
+    A finding on a joint belongs to its child link. A finding that names no link or joint belongs to
+    the link whose XML contains it, or to the child of the joint whose XML does; if neither does, it
+    is dropped. Each instance of a finding counts for its own link.
     """
     owners: Owners | None = None
     found: dict[str, list[Finding]] = {}
@@ -37,12 +37,12 @@ def by_link(robot: Robot, findings: Iterable[Finding]) -> dict[str, list[Finding
 
 
 def worst(findings: Iterable[Finding]) -> Severity | None:
-    """The highest severity among findings; None where there are none."""
+    """Return the highest severity among findings; None if there are none."""
     return max((finding.severity for finding in findings), default=None)
 
 
 def counted(findings: Iterable[Finding]) -> str:
-    """``2 errors, 1 warning``; empty where there are none."""
+    """Format counts such as ``2 errors, 1 warning``; empty if there are none."""
     counts = dict.fromkeys(sorted(Severity, reverse=True), 0)
     for finding in findings:
         counts[finding.severity] += 1
@@ -64,7 +64,7 @@ def _named(robot: Robot, kind: str, name: str) -> str | None:
 
 
 def _owners(robot: Robot) -> Owners:
-    """Where each tag in a link or joint begins, with the link, in the order of each file."""
+    """Map file and macro calls to the start of each tag in a link or joint, with the link."""
     starts: Owners = {}
     for part, link in (
         *((link, link.name) for link in robot.links),
@@ -78,7 +78,7 @@ def _owners(robot: Robot) -> Owners:
 
 
 def _owner(owners: Owners, place: Place, calls: tuple[Call, ...]) -> str | None:
-    """The link that has the tag which goes over a place."""
+    """Return the link with the innermost tag that contains a place."""
     rows = owners.get((place.file.path, calls), [])
     index = bisect_right(rows, place.start, key=itemgetter(0)) - 1
     if index < 0:

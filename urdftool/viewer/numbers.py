@@ -1,4 +1,4 @@
-"""Links and joints in words, as pieces of HTML in which nothing that a file says is markup."""
+"""Properties of links and joints as HTML, with all text from files escaped."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from ..model.pose import Pose, pose_of, rpy_of_rotation
 from .sliders import in_words
 
 LONGEST = 60
-"""Letters of a name that are shown; a longer one loses its middle."""
+"""Maximum length of a displayed name; a longer one is shortened in its middle."""
 
 Row = tuple[str, str]
 
 
 def shortened(name: str, longest: int = LONGEST) -> str:
-    """A name fit to be seen: in one line, without what turns or hides text, and not endless."""
+    """Escape unprintable characters of a name and shorten it in its middle."""
     text = "".join(
         part if part.isprintable() else part.encode("unicode_escape").decode() for part in name
     )
@@ -40,12 +40,12 @@ def shortened(name: str, longest: int = LONGEST) -> str:
 
 
 def safe(text: str) -> str:
-    """Text as HTML that shows just this text."""
+    """Escape text for HTML."""
     return html.escape(shortened(text, 2000), quote=True)
 
 
 def table(rows: Iterable[Row]) -> str:
-    """Rows of a label and a text."""
+    """Format rows of a label and a text as an HTML table."""
     cells = "".join(
         f"<tr><td style='opacity:.6;padding:0 .7em .1em 0;vertical-align:top;white-space:nowrap'>"
         f"{safe(label)}</td><td style='overflow-wrap:anywhere'>{safe(text)}</td></tr>"
@@ -55,12 +55,12 @@ def table(rows: Iterable[Row]) -> str:
 
 
 def link_rows(robot: Robot, link: Link, pose: Pose | None = None) -> Iterator[Row]:
-    """The numbers of a link, and of the joint above it.
+    """Yield the properties of a link.
 
     Args:
-        robot: Its robot.
+        robot: The robot.
         link: The link.
-        pose: Where it is in the frame of the root.
+        pose: Current pose of the link in the root frame.
     """
     joint = robot.tree.parent_joint(link.name)
     below = robot.tree.child_joints(link.name)
@@ -100,7 +100,7 @@ def _mass_rows(link: Link) -> Iterator[Row]:
 
 
 def joint_rows(joint: Joint) -> Iterator[Row]:
-    """The numbers of a joint."""
+    """Yield the properties of a joint."""
     turns = joint.type != "prismatic"
     yield "type", joint.type or "none is written"
     yield "from", joint.parent or "none is written"
@@ -136,7 +136,7 @@ def joint_rows(joint: Joint) -> Iterator[Row]:
 
 
 def shape_words(shape: Visual | Collision) -> str:
-    """A shape with its lengths, and its name where it has one."""
+    """Format a shape with its dimensions and its name, if any."""
     geometry = shape.geometry
     if isinstance(geometry, Box):
         said = f"box {_lengths(geometry.size)}"

@@ -1,4 +1,4 @@
-"""What is on the page, and what happens there."""
+"""Contents and events of the page."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ if TYPE_CHECKING:
     from ..drawing.shapes import Shapes
 
 PAUSE = 0.2
-"""Seconds between two looks at the files."""
+"""Time between two checks of the files [s]."""
 
 PATIENCE = 2.0
-"""Seconds after which a broken description is read again, as what it misses may have come."""
+"""Time after which a broken description is read again [s]; a missing file may exist by then."""
 
 LABELS = {
     "visual": "visual",
@@ -56,9 +56,9 @@ Check = Callable[[Robot], list[Finding]]
 
 
 class Page:
-    """A robot on a page, with the choices that were made there.
+    """A page with a robot and the user's settings.
 
-    All browsers that look at it see the same; what one does the others see.
+    All connected browsers share one state.
     """
 
     def __init__(
@@ -75,13 +75,13 @@ class Page:
         """Put a robot on the page.
 
         Args:
-            server: What serves the page.
-            robot: The robot, which :func:`worthy` lets pass.
-            read: Reads the description as it is now.
-            load: Gives the triangles of a robot's ``"visual"`` or ``"collision"``.
-            check: Lints a robot; None where nobody wants that.
-            start: Positions of joints to begin with [rad, m].
-            shown: Which of ``KINDS`` are seen to begin with.
+            server: The server of the page.
+            robot: The robot, checked by :func:`worthy`.
+            read: Reads the current description.
+            load: Returns the triangles of a robot's ``"visual"`` or ``"collision"``.
+            check: Lints a robot; None to skip lint.
+            start: Initial positions of joints [rad or m].
+            shown: Those of ``KINDS`` that are visible initially.
         """
         self.server, self.robot = server, robot
         self._read, self._load, self._check = read, load, check
@@ -99,15 +99,15 @@ class Page:
         self._watch = Watch(sources(robot))
         self._put()
 
-    # What is seen
+    # Display
 
     @property
     def title(self) -> str:
-        """What the browser calls the page."""
+        """Return the title of the browser window."""
         return f"{shortened(self.robot.name) or 'robot'} · urdftool"
 
     def _furnish(self, shown: tuple[str, ...], start: Mapping[str, float]) -> None:
-        """Make all but what depends on the robot."""
+        """Create the controls, which do not depend on the robot."""
         gui, scene = self.server.gui, self.server.scene
         gui.configure_theme(show_share_button=False, show_logo=False, brand_color=(30, 110, 200))
         light(scene)
@@ -145,7 +145,7 @@ class Page:
         )
 
     def _put(self) -> None:
-        """Fill the page with the robot as it is."""
+        """Fill the page with the current robot."""
         robot, body = self.robot, self.body
         shapes = [body.load(kind) for kind in ("visual", "collision") if self._boxes[kind].value]
         self._low, self._high = body.measure(link_poses(robot))
@@ -165,7 +165,7 @@ class Page:
         self.server.gui.set_panel_label(shortened(robot.name, 30) or "robot")
 
     def _say(self, shapes: list[Shapes]) -> None:
-        """Fill in what is said of the robot and of the findings."""
+        """Update the notices, the summary, the tables and the marks of findings."""
         robot, body = self.robot, self.body
         lost = [link.name for link in robot.links if link.name not in body.links]
         said = [str(problem) for part in shapes for problem in part.problems]
@@ -192,16 +192,16 @@ class Page:
         lay_ground(self.server.scene, self.body.size, self._floor, self._grid_box.value)
 
     def _camera(self) -> None:
-        """Have new browsers see all of the robot."""
+        """Set the initial camera so that new browsers show all of the robot."""
         camera, (eye, middle) = self.server.initial_camera, eye_for(self._low, self._high)
         camera.position, camera.look_at, camera.up = eye, middle, np.array([0.0, 0.0, 1.0])
         camera.fov, camera.near, camera.far = VIEW, self.body.size / 1000, self.body.size * 200
 
     def _greet(self, client: viser.ClientHandle) -> None:
-        """Step back where the browser is higher than wide, as on a telephone.
+        """Move the camera back in a portrait window, as on a phone.
 
-        The camera of all browsers may come after the one that is set here; so it is looked at again
-        for some seconds, until somebody has moved it.
+        viser may set the initial camera after this method does, so it is checked for five seconds,
+        until the user moves it.
         """
         camera = client.camera
         aspect = camera.image_width / max(camera.image_height, 1)
@@ -241,7 +241,7 @@ class Page:
             self.select(link)
 
     def select(self, link: str | None) -> None:
-        """Highlight a link and show its numbers; None for none."""
+        """Highlight a link and show its properties; None for none."""
         self._selected = link
         self.body.select(link)
         label = next((label for label, name in self._links.items() if name == link), NOBODY)
@@ -250,7 +250,7 @@ class Page:
         self._tell()
 
     def _tell(self) -> None:
-        """Show the numbers of the chosen link, where it is now."""
+        """Show the properties of the selected link at its current pose."""
         if self._selected is None:
             self._set(self._one, panels.box("Click a link, or choose one, to see its numbers."))
             return
@@ -260,7 +260,7 @@ class Page:
         self._set(self._one, panels.one_link(self.robot, self._selected, rows))
 
     def refresh(self, kind: str) -> None:
-        """Show one of ``KINDS`` or not, as its box says."""
+        """Show or hide one of ``KINDS`` according to its checkbox."""
         with self.server.atomic():
             self.body.show(kind, self._boxes[kind].value)
             self._clear()
@@ -270,7 +270,7 @@ class Page:
     # Files
 
     def tend(self) -> None:
-        """Look after the page once: lint what is new, and read again what has changed."""
+        """Poll once: read the description again if files changed, and lint a new robot."""
         changed = self._watch.changed()
         late = self._error is not None and time.monotonic() - self._tried > PATIENCE
         if changed or late:
@@ -286,13 +286,13 @@ class Page:
             self._safely(self._lint, findings)
 
     def run(self) -> None:
-        """Look after the page until somebody stops it."""
+        """Poll until the process is interrupted."""
         while True:
             self.tend()
             time.sleep(PAUSE)
 
     def reload(self) -> None:
-        """Read the description again; where it is broken the last robot stays."""
+        """Read the description again; keep the last robot if it is broken."""
         self._tried = time.monotonic()
         self._watch.take({*self._watch.paths, *sources(self.robot)})
         try:
@@ -322,7 +322,7 @@ class Page:
             self._say(list(self.body.shapes.values()))
 
     def _safely(self, action: Callable[..., None], *arguments: Any) -> None:
-        """Do one thing at a time; what fails is said on the page, which goes on."""
+        """Run an action under the lock; an exception is shown on the page, which continues."""
         with self._lock:
             try:
                 action(*arguments)
@@ -331,10 +331,10 @@ class Page:
 
 
 def worthy(robot: Robot) -> Robot:
-    """The robot, if there is something of it to be shown.
+    """Return the robot if it can be displayed.
 
     Raises:
-        ModelError: It has no link, or all of them hang on each other.
+        ModelError: It has no link, or no root link because joints form a loop.
     """
     if not robot.links:
         raise ModelError("there is no link in it, so there is nothing to view", at=robot.place)

@@ -1,4 +1,4 @@
-"""The texts of the page: what is wrong, what was found, and all links and joints with numbers."""
+"""Texts of the page: errors, notices, findings, and the properties of links and joints."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from .numbers import joint_rows, link_rows, safe, shortened, table
 COLORS = {Severity.ERROR: "#e03131", Severity.WARNING: "#e8590c", Severity.INFO: "#1c7ed6"}
 
 MOST = 300
-"""Findings that are listed."""
+"""Maximum number of listed findings."""
 
 SAID = 12
-"""Meshes and the like that are named at the top."""
+"""Maximum number of notices."""
 
 _SMALL = "font-size:.85em;line-height:1.35;padding:.2em .75em"
 
 
 def box(inner: str) -> str:
-    """A piece of the page in the size of its other words."""
+    """Wrap HTML in the font size of the page."""
     return f"<div style='{_SMALL}'>{inner}</div>"
 
 
 def broken(error: UrdftoolError) -> str:
-    """Why the description cannot be read as it is now."""
+    """Format the error of a description that cannot be read."""
     lines = [str(error)]
     lines += [
         f"from {call.file.path}:{call.line}:{call.column}: {call.what}" for call in error.calls
@@ -38,13 +38,13 @@ def broken(error: UrdftoolError) -> str:
 
 
 def bug(error: BaseException) -> str:
-    """What to do when the page itself is at fault."""
+    """Format an exception of the page itself."""
     what = safe(f"{type(error).__name__}: {error}")
     return _alert(f"This is a bug in urdftool, not in your robot: {what}", "#e03131")
 
 
 def notices(messages: Iterable[str]) -> str:
-    """What is not as the description wants it; empty where all is."""
+    """Format problems with meshes, joints and links; empty if there are none."""
     lines = list(messages)
     if not lines:
         return ""
@@ -61,7 +61,7 @@ def _alert(inner: str, color: str) -> str:
 
 
 def summary(robot: Robot, findings: Iterable[Finding] | None) -> str:
-    """The robot in a line."""
+    """Summarize the robot in one line."""
     mass = sum(link.mass for link in robot.links)
     moving = f" ({len(robot.moving_joints)} moving)" if robot.joints else ""
     words = [
@@ -79,7 +79,7 @@ def _count(number: int, what: str) -> str:
 
 
 def one_link(robot: Robot, name: str, rows: Iterable[tuple[str, str]]) -> str:
-    """The link that is chosen, with the joint above it."""
+    """Format the properties of the selected link and its parent joint."""
     text = f"<b style='overflow-wrap:anywhere'>{safe(name)}</b>{table(rows)}"
     joint = robot.tree.parent_joint(name)
     if joint is not None:
@@ -89,7 +89,7 @@ def one_link(robot: Robot, name: str, rows: Iterable[tuple[str, str]]) -> str:
 
 
 def all_parts(robot: Robot, found: Mapping[str, list[Finding]]) -> str:
-    """Every link and every joint, each to be unfolded."""
+    """Format every link and every joint as a collapsible item."""
     links = "".join(
         _unfolding(
             link.name, _link_hint(link.mass, found.get(link.name, [])), link_rows(robot, link)
@@ -123,7 +123,7 @@ def _unfolding(name: str, hint: str, rows: Iterable[tuple[str, str]]) -> str:
 
 
 def list_of(findings: list[Finding] | None, found: Mapping[str, list[Finding]]) -> str:
-    """What lint finds, the worst first; None is not known yet."""
+    """Format the findings, the most severe first; None while lint is running."""
     if findings is None:
         return box("linting …")
     if not findings:

@@ -1,9 +1,9 @@
-"""The server of the page: one address, one port, and nothing of the network.
+"""Local server of the page, restricted to one address and one port.
 
-viser's own server listens on the next port when one is taken, tells so on standard output, lets any
-page of the web talk to it, and opens a tunnel to a server of its makers when a page asks for one.
-What is served here does none of this: the port is looked at beforehand; a request has to come from
-the page itself; and a Content-Security-Policy forbids the page to fetch anything from elsewhere.
+viser's own server uses the next port if one is taken, prints it on standard output, lets any
+website talk to it, and opens a tunnel to its makers' server on request of a page. This server does
+none of that: the port is checked in advance, requests must come from the page itself, and a
+Content-Security-Policy forbids the page to fetch anything from elsewhere.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ if TYPE_CHECKING:
 
 LOOPBACK = "127.0.0.1"
 PORT = 8733
-"""The port where none is asked for: URDF on the keys of a telephone."""
+"""Default port: "URDF" on a phone keypad."""
 
 TRIED = 20
-"""How many ports are tried from there."""
+"""Number of ports tried from there."""
 
-_SECONDS = 10.0  # for the first request to a server of this computer
+_SECONDS = 10.0  # timeout of the first request to the server
 
 _ORIGINAL_TITLE = b"<title>Viser</title>"
 
 
 def is_loopback(host: str) -> bool:
-    """Whether an address can be reached from this computer alone."""
+    """Tell whether an address is reachable from this computer only."""
     if host == "localhost":
         return True
     try:
@@ -51,16 +51,16 @@ def is_loopback(host: str) -> bool:
 
 
 def address(host: str, port: int) -> str:
-    """The page's URL; an IPv6 address stands in brackets."""
+    """Return the URL of the page; an IPv6 address is put in brackets."""
     return f"http://{f'[{host}]' if ':' in host else host}:{port}/"
 
 
 def choose_port(host: str, wanted: int | None) -> int:
-    """A free port: the one that is wanted, or the first from ``PORT`` on.
+    """Return a free port: the requested one, or the first from ``PORT`` on.
 
     Raises:
-        AddressError: The wanted one is taken, none of those tried is free, or the host is no
-            address of this computer.
+        AddressError: The requested port or all tried ports are taken, or the host is not an address
+            of this computer.
     """
     if wanted is not None:
         if not is_free(host, wanted):
@@ -78,10 +78,10 @@ def choose_port(host: str, wanted: int | None) -> int:
 
 
 def is_free(host: str, port: int) -> bool:
-    """Whether a server could listen there.
+    """Tell whether a server could listen on the port.
 
     Raises:
-        AddressError: Not for the port's sake.
+        AddressError: The port is not permitted, or the host is not an address of this computer.
     """
     try:
         found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
@@ -105,16 +105,17 @@ def is_free(host: str, port: int) -> bool:
 
 
 def start(host: str, port: int, title: Callable[[], str]) -> viser.ViserServer:
-    """Listen on an address.
+    """Start the server on an address.
 
     Args:
         host: The address.
         port: A free port.
-        title: Gives the title of the page when it is asked for.
+        title: Returns the title of the page, on each request.
 
     Raises:
         MissingDependency: viser is not installed.
-        AddressError: Somebody took the port in between.
+        AddressError: Another process took the port in the meantime, or the server cannot be
+            restricted.
     """
     try:
         import rich
@@ -126,7 +127,7 @@ def start(host: str, port: int, title: Callable[[], str]) -> viser.ViserServer:
         """viser's server without its tunnel."""
 
         def request_share_url(self, verbose: bool = True) -> None:
-            """Refuse: nothing goes beyond the address that was asked for."""
+            """Do nothing, so that no tunnel to the internet is opened."""
 
     rich.reconfigure(quiet=True)  # viser prints its address and more on standard output
     logging.getLogger("websockets").setLevel(logging.CRITICAL)
@@ -142,14 +143,14 @@ def start(host: str, port: int, title: Callable[[], str]) -> viser.ViserServer:
 
 
 def _guard(server: Any, host: str, title: Callable[[], str]) -> None:
-    """Let a server that has just started answer by :func:`_answer`.
+    """Install :func:`_answer` as the request handler of a server that has just started.
 
-    viser takes no handler of requests. The server of websockets has one as an attribute, and each
-    connection knows its server, so the first connection is made here. Whoever connected before the
-    handler is set has seen an empty page, and is disconnected.
+    viser accepts no request handler. The server of websockets has one as an attribute, and each
+    connection refers to its server, so this function makes the first connection. Clients that
+    connected before the handler was set got an empty page and are disconnected.
 
     Raises:
-        AddressError: The server does not answer as it should.
+        AddressError: This version of viser or websockets does not support it.
     """
     import viser
     from websockets.exceptions import WebSocketException
@@ -185,7 +186,7 @@ def _guard(server: Any, host: str, title: Callable[[], str]) -> None:
 
 
 def _refuses_others(host: str, port: int) -> bool:
-    """Tell whether a request from another site is refused."""
+    """Tell whether a request from another website is refused."""
     link = HTTPConnection(host.strip("[]"), port, timeout=_SECONDS)
     try:
         link.request("GET", "/", headers={"Origin": "http://another-site.invalid"})
@@ -195,7 +196,7 @@ def _refuses_others(host: str, port: int) -> bool:
 
 
 def _answer(host: str, title: Callable[[], str], answer: Any, connection: Any, request: Any) -> Any:
-    """Refuse what another site asks for; send the page under our title and policy."""
+    """Refuse requests of other websites; add title, policy and headers to the page."""
     asked = request.headers.get("Host", "")
     origin = request.headers.get("Origin")
     if is_loopback(host) and not is_loopback(urlsplit(f"//{asked}").hostname or ""):
@@ -223,7 +224,11 @@ def _answer(host: str, title: Callable[[], str], answer: Any, connection: Any, r
 
 
 def policy(asked: str) -> str:
-    """What the page may load: itself, what it carries, and its own websocket."""
+    """Return the Content-Security-Policy: the page, its embedded data and its websocket only.
+
+    Args:
+        asked: Host header of the request; ignored if malformed.
+    """
     safe = asked if urlsplit(f"//{asked}").netloc == asked and not set(asked) & set("; ,") else ""
     return (
         "default-src 'self' data: blob: 'unsafe-inline' 'unsafe-eval'; "

@@ -1,4 +1,4 @@
-"""Which joint goes from where to where, in which unit, and how that is said."""
+"""Bounds, units and labels of joint sliders."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from ..model.elements import Joint, Robot
 from ..model.kinematics import limits_of, movable_joints, with_mimics
 
 TURN = math.pi
-"""How far a joint without limits is turned either way [rad]."""
+"""Range to either side of a rotational joint without limits [rad]."""
 
 FARTHEST = 1e6
-"""A limit beyond that [rad, m] is taken for none."""
+"""Magnitude [rad or m] beyond which a limit counts as missing."""
 
 
 @dataclass(frozen=True)
 class Slider:
-    """A joint with one position, as the page moves it.
+    """Slider of a joint with one degree of freedom.
 
     Attributes:
-        name: The joint's.
-        turns: Whether it turns [rad]; else it slides [m].
-        lower: Its smallest position.
-        upper: Its largest position.
-        note: What should be known of it; empty where nothing.
-        locked: Whether nobody can move it: it follows another, or its limits leave no room.
-        follows: Whether it follows another.
+        name: Name of the joint.
+        turns: Whether it is rotational [rad] or prismatic [m].
+        lower: Smallest position.
+        upper: Largest position.
+        note: Hint for the user; may be empty.
+        locked: Whether the user cannot move it: it mimics another joint, or its range is empty.
+        follows: Whether it mimics another joint.
     """
 
     name: str
@@ -40,50 +40,50 @@ class Slider:
 
     @property
     def digits(self) -> int:
-        """Decimals in which a position is shown and chosen."""
+        """Return the number of decimals of a displayed position."""
         span = self.upper - self.lower
         return 3 if span >= 0.5 else 4 if span >= 0.02 else 6
 
     @property
     def step(self) -> float:
-        """The smallest move [rad, m]."""
+        """Return the step of the slider [rad or m]."""
         return float(10.0**-self.digits)
 
     @property
     def shown_bounds(self) -> tuple[float, float]:
-        """The bounds in as many decimals as are shown, not narrower than they are."""
+        """Return the bounds, rounded outward to the displayed decimals."""
         scale = 10.0**self.digits
         low = math.floor(self.lower * scale + 1e-6) / scale
         high = math.ceil(self.upper * scale - 1e-6) / scale
         return low, high
 
     def shown(self, position: float) -> float:
-        """A position in as many decimals as are shown, within the shown bounds."""
+        """Round a position to the displayed decimals, within the displayed bounds."""
         low, high = self.shown_bounds
         return min(max(round(position, self.digits), low), high)
 
     def meant(self, shown: float) -> float:
-        """The position that somebody means who chooses a shown one."""
+        """Return the position for a displayed value, within the exact bounds."""
         return min(max(shown, self.lower), self.upper)
 
     @property
     def zero(self) -> float:
-        """Zero, or the middle where zero is beyond a limit, as joint_state_publisher has it."""
+        """Return zero, or the middle if zero is out of range, as joint_state_publisher does."""
         return 0.0 if self.lower <= 0.0 <= self.upper else (self.lower + self.upper) / 2
 
     def words(self, position: float) -> str:
-        """A position in the unit people think in: degrees, or millimetres."""
+        """Format a position in degrees or millimeters."""
         return in_words(position, self.turns)
 
     def brief(self, position: float) -> str:
-        """The same without decimals, where it need not be exact; a label breaks after a point."""
+        """Format a position in few digits for a label, which would wrap after a decimal point."""
         if self.turns:
             return _signed(f"{math.degrees(position):.0f}") + "°"
         return _signed(f"{position * 1000:.{0 if abs(position) >= 0.01 else 1}f}") + " mm"
 
 
 def in_words(value: float, turns: bool) -> str:
-    """An angle [rad] in degrees, or a length [m] in millimetres, in few digits."""
+    """Format an angle [rad] in degrees, or a length [m] in millimeters, in few digits."""
     if not math.isfinite(value):
         return "no limit"
     if turns:
@@ -95,19 +95,19 @@ def in_words(value: float, turns: bool) -> str:
 
 
 def _signed(number: str) -> str:
-    """A number with a minus that no line breaks after; minus nothing is nothing."""
+    """Replace the hyphen by a minus sign, which does not wrap, and drop it before zero."""
     return number.lstrip("-") if not number.strip("-0.") else number.replace("-", "−")
 
 
 def sliders_of(
     robot: Robot, start: Mapping[str, float] | None = None, reach: float = 1.0
 ) -> list[Slider]:
-    """A slider for each joint that has one position, in the order of the file.
+    """Create a slider for each joint with one degree of freedom, in the order of the file.
 
     Args:
-        robot: Any robot, also a broken one.
-        start: Positions that have to be within the bounds, whatever the limits say.
-        reach: How far a sliding joint without limits goes either way [m].
+        robot: Any robot, even a broken one.
+        start: Positions that the bounds must include, regardless of limits.
+        reach: Travel to either side of a prismatic joint without limits [m].
     """
     start = start or {}
     movable = movable_joints(robot)
@@ -131,7 +131,7 @@ def sliders_of(
 
 
 def unmovable(robot: Robot) -> list[str]:
-    """What cannot be moved by one number, in words: the joints of type floating and planar."""
+    """List messages on the joints without a single position: floating and planar ones."""
     return [
         f"{joint.name} is {joint.type}: it has no single position, and stays where it is"
         for joint in robot.joints
@@ -140,7 +140,7 @@ def unmovable(robot: Robot) -> list[str]:
 
 
 def _bounds(joint: Joint, reach: float) -> tuple[float, float, str]:
-    """From where to where a joint is moved, and what should be known of that."""
+    """Return the bounds of a joint and a hint for the user."""
     free = TURN if joint.type != "prismatic" else reach
     if joint.type == "continuous":
         return -free, free, "turns without end"
@@ -157,7 +157,7 @@ def _bounds(joint: Joint, reach: float) -> tuple[float, float, str]:
 def _extremes(
     robot: Robot, bounds: Mapping[str, tuple[float, float, str]]
 ) -> dict[str, tuple[float, ...]]:
-    """Where each joint that follows another comes to at the ends of what it follows."""
+    """Compute the positions of mimic joints at both bounds of the joints they follow."""
     moved = {
         name: joint
         for name, joint in movable_joints(robot).items()

@@ -1,4 +1,4 @@
-"""Light, ground and where one looks from; cheap enough for a browser that has no graphics card."""
+"""Light, ground and viewpoint, cheap enough for browsers without a graphics card."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ if TYPE_CHECKING:
     import viser
 
 VIEW = math.radians(40.0)
-"""The angle that the browser's height spans."""
+"""Vertical field of view [rad]."""
 
 SHEET = 0.55
-"""Part of a telephone's height, from below, that the controls cover."""
+"""Part of a phone's height, from below, that the controls cover."""
 
 AZIMUTH, ELEVATION = math.radians(-40.0), math.radians(22.0)
 
 CELLS = 6
-"""Cells of the ground from its middle to its edge."""
+"""Number of ground cells from the center to the edge."""
 
 LINE, MIDDLE = (205, 209, 214), (150, 155, 162)
 
 
 def light(scene: viser.SceneApi) -> None:
-    """One light from above the viewer's left, and a bright sky over a darker ground.
+    """Add one light from above the viewer's left, and a bright sky over a darker ground.
 
-    viser's own image-based light takes five times as long to draw on a processor.
+    viser's image-based light takes five times as long to render on a CPU.
     """
     scene.configure_environment_map(None)
     scene.configure_default_lights(enabled=False)
@@ -45,13 +45,16 @@ def light(scene: viser.SceneApi) -> None:
 def eye_for(
     low: Vector, high: Vector, aspect: float = 1.6, covered: float = 0.0
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Where to look from, and at what, to see all that is between two corners [m].
+    """Compute a viewpoint that shows a bounding box.
 
     Args:
-        low: The smallest corner.
-        high: The largest corner.
-        aspect: Width of the browser by its height.
-        covered: Part of its height, from below, in which nothing need be seen.
+        low: Lower corner [m].
+        high: Upper corner [m].
+        aspect: Width over height of the window.
+        covered: Part of its height, from below, that the controls cover.
+
+    Returns:
+        Position of the camera and the point it looks at [m].
     """
     ca, sa = math.cos(AZIMUTH), math.sin(AZIMUTH)
     ce, se = math.cos(ELEVATION), math.sin(ELEVATION)
@@ -64,16 +67,16 @@ def eye_for(
 
 
 def lay_ground(scene: viser.SceneApi, size: float, height: float, shown: bool) -> float:
-    """Lines on the ground around the origin, in cells of 1, 2 or 5 times a power of ten.
+    """Draw a grid around the origin, in cells of 1, 2 or 5 times a power of ten.
 
     Args:
-        scene: Where.
-        size: Of the robot [m].
-        height: Of the ground [m].
-        shown: Whether it is seen.
+        scene: The scene.
+        size: Size of the robot [m].
+        height: Height of the ground [m].
+        shown: Whether it is visible.
 
     Returns:
-        The edge of a cell [m].
+        Width of a cell [m].
     """
     cell = cell_for(size)
     ticks = np.arange(-CELLS, CELLS + 1) * cell
@@ -91,7 +94,7 @@ def lay_ground(scene: viser.SceneApi, size: float, height: float, shown: bool) -
 
 
 def cell_for(size: float) -> float:
-    """A seventh to a third of a robot's size [m], in a round number."""
+    """Return a round number between a seventh and a third of a robot's size [m]."""
     wanted = max(size, 1e-6) / 3
     power = 10.0 ** math.floor(math.log10(wanted))
     return float(power * max(step for step in (1, 2, 5) if step * power <= wanted * 1.0000001))

@@ -1,4 +1,4 @@
-"""Whether a file has changed since it was looked at last."""
+"""Detection of file changes."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ State = tuple[int, int, int] | None
 
 
 class Watch:
-    """A set of files, some of which may not be there.
+    """A set of watched files, some of which may not exist.
 
-    An editor writes a file in several steps, so a change counts once it has come to rest: when two
-    looks in a row see the same.
+    Editors write a file in several steps, so a change is reported once two consecutive checks see
+    the same state.
     """
 
     def __init__(self, paths: Iterable[str | os.PathLike[str]] = ()) -> None:
-        """Take the files as they are now."""
+        """Record the current state of the files."""
         self._seen: dict[str, State] = {}
         self._moving: dict[str, State] | None = None
         self.take(paths)
 
     @property
     def paths(self) -> tuple[str, ...]:
-        """The files."""
+        """Return the watched files."""
         return tuple(self._seen)
 
     def take(self, paths: Iterable[str | os.PathLike[str]]) -> None:
         """Watch these files from now on.
 
-        One that was watched already keeps the state it was seen in, so that what is written while
-        it is being read counts as a change.
+        A file that was watched already keeps its recorded state, so that a write during reading
+        counts as a change.
         """
         wanted = {os.path.abspath(path) for path in paths}
         self._seen = {
@@ -40,7 +40,7 @@ class Watch:
         self._moving = None
 
     def changed(self) -> list[str]:
-        """The files that have changed and come to rest, each said once."""
+        """Return the files that have changed and come to rest, each change once."""
         now = {path: _state(path) for path in self._seen}
         if now == self._seen:
             self._moving = None
