@@ -1,7 +1,7 @@
-"""Bodies without a density: what a piece of geometry encloses, ready to be weighed.
+"""Bodies of unit density: volume, center of mass and inertia of meshes, before mass is assigned.
 
-A piece of unit density is all that is needed of it: mass properties are proportional to density,
-and a scaled mesh follows from the unscaled one, so that each file is read and integrated once.
+Mass properties are proportional to density, and those of a scaled mesh follow from the unscaled
+one, so each file is read and integrated only once.
 """
 
 from __future__ import annotations
@@ -23,22 +23,22 @@ from .inertia_error import InertiaError
 
 @dataclass(frozen=True, eq=False)
 class MeshBody:
-    """What a mesh encloses, or its surface, at a density of one."""
+    """The solid that a mesh encloses, or its surface as a shell, at unit density."""
 
     path: Path
     unit: SpatialInertia
-    """At 1 kg/m³, or 1 kg/m² for a surface, in the frame of the mesh."""
+    """Mass properties at 1 kg/m³, or 1 kg/m² for a surface, in the frame of the mesh."""
     lower: Array
-    """Smallest corner of the box around it [m]."""
+    """Lower corner of the bounding box [m]."""
     upper: Array
-    """Largest corner of the box around it [m]."""
+    """Upper corner of the bounding box [m]."""
     method: str
-    """As ``Estimate.method``; ``"surface"`` for a shell."""
+    """Method as in ``Estimate.method``; ``"surface"`` for a shell."""
     reliable: bool
     error: float
-    """Estimated error of the volume, relative to it."""
+    """Estimated relative error of the volume."""
     hull_measure: float | None
-    """Volume [m³] of the convex hull; None where the result is exact."""
+    """Volume [m³] of the convex hull; None if the result is exact."""
     bodies: int
     triangles: int
     notes: tuple[str, ...]
@@ -46,14 +46,15 @@ class MeshBody:
 
     @property
     def measure(self) -> float:
-        """Volume [m³]; area [m²] of a surface."""
+        """Return the volume [m³], or the area [m²] of a surface."""
         return self.unit.mass
 
     def scaled(self, factors: tuple[float, float, float]) -> MeshBody:
-        """The same mesh scaled along its axes; negative factors mirror it.
+        """Scale the mesh along its axes; negative factors mirror it.
 
         Raises:
-            InertiaError: A factor is zero or not finite, or they are unequal for a surface.
+            InertiaError: A factor is zero or not finite, or the factors of a surface have different
+                absolute values.
         """
         x, y, z = factors
         if not all(math.isfinite(factor) and factor for factor in factors):
@@ -85,14 +86,14 @@ class MeshBody:
         return found._with_suspicion()
 
     def _with_suspicion(self) -> MeshBody:
-        """With a note where the size hints at a wrong unit."""
+        """Add a note if the size suggests a wrong unit."""
         from ..geometry.topology import unit_suspicion
 
         hint = unit_suspicion(float((self.upper - self.lower).max()))
         return replace(self, notes=(*self.notes, hint)) if hint else self
 
     def as_dict(self) -> dict[str, Any]:
-        """The JSON form of all but the mass properties."""
+        """Return the JSON form of everything but the mass properties."""
         return {
             "method": self.method,
             "reliable": self.reliable,
@@ -106,15 +107,15 @@ class MeshBody:
 
 
 def mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> MeshBody:
-    """What a mesh file encloses, unscaled.
+    """Integrate a mesh file at unit density, unscaled.
 
     Args:
         path: An STL, OBJ, DAE, PLY, glTF or GLB file.
-        surface: Take its surface as a thin shell instead of what it encloses.
-        gltf_up: The axis of a glTF file that is up.
+        surface: Whether to integrate its surface as a thin shell instead of the enclosed solid.
+        gltf_up: Up axis of a glTF file.
 
     Raises:
-        MeshError: The file cannot be read, or encloses nothing.
+        MeshError: The file cannot be read or encloses no volume.
     """
     from ..geometry.load import load_mesh
 
@@ -154,10 +155,16 @@ def mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> Me
 def weighed(
     unit: SpatialInertia, what: str, *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
-    """A body of unit density with the mass [kg] or density [kg/m³] it has.
+    """Scale a body of unit density to a mass [kg] or a density [kg/m³].
+
+    Args:
+        unit: Mass properties at unit density.
+        what: Name of the body in error messages.
+        mass: Mass [kg]; give this or ``density``.
+        density: Density [kg/m³].
 
     Raises:
-        InertiaError: Not just one of the two is given, or it is not above zero.
+        InertiaError: Not exactly one of the two is given, or it is not above zero.
     """
     if (mass is None) == (density is None):
         raise InertiaError(f"a {what} needs either a mass [kg] or a density [kg/m³], not both")

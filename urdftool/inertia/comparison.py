@@ -1,4 +1,4 @@
-"""How far the written inertia of a link is from what its geometry implies."""
+"""Deviation of a link's written inertia from the inertia that its geometry implies."""
 
 from __future__ import annotations
 
@@ -13,19 +13,18 @@ from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import principal_axes
 
 ALIKE = 0.05
-"""Two principal moments that differ by less, relatively, leave their axes undetermined."""
+"""Relative difference of two principal moments below which their axes are undetermined."""
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """Written against implied, both at the written mass.
+    """Written inertia relative to implied inertia, both at the written mass.
 
     Attributes:
-        ratio: Principal moments, written by implied, from the smallest to the largest.
-        angle: Largest angle [rad] between corresponding principal axes; None where the moments are
-            too much alike to have axes.
-        distance: Between the two centres of mass [m].
-        density: The written mass by the volume of the geometry [kg/m³].
+        ratio: Ratios of principal moments, written over implied, in ascending order of the moments.
+        angle: Largest angle [rad] between corresponding principal axes; None if none is determined.
+        distance: Distance between the centers of mass [m].
+        density: Written mass divided by the volume of the geometry [kg/m³].
     """
 
     ratio: tuple[float, float, float]
@@ -34,7 +33,7 @@ class Comparison:
     density: float
 
     def as_dict(self) -> dict[str, Any]:
-        """The JSON form."""
+        """Return the JSON form."""
         return {
             "moment_ratio": list(self.ratio),
             "axis_angle": self.angle,
@@ -44,7 +43,7 @@ class Comparison:
 
 
 def compare(written: SpatialInertia, unit: SpatialInertia) -> Comparison:
-    """Compare what is written with a body of unit density, in the same frame."""
+    """Compare written mass properties with a body of unit density in the same frame."""
     implied = unit.with_mass(written.mass)
     there, axes = principal_axes(written.tensor)
     meant, implied_axes = principal_axes(implied.tensor)
@@ -58,13 +57,20 @@ def compare(written: SpatialInertia, unit: SpatialInertia) -> Comparison:
 
 
 def axis_angle(moments: Array, axes: Array, others: Array, other_axes: Array) -> float | None:
-    """The largest angle [rad] between axes of one rank, where both tensors determine them."""
+    """Return the largest angle [rad] between corresponding axes that both tensors determine.
+
+    Args:
+        moments: Principal moments, ascending, shape (3,).
+        axes: Principal axes as columns, shape (3, 3).
+        others: Principal moments of the other tensor.
+        other_axes: Principal axes of the other tensor.
+    """
     angles = [
         math.acos(min(1.0, abs(float(axes[:, i] @ other_axes[:, i]))))
         for i in range(3)
         if _stands_out(moments, i) and _stands_out(others, i)
     ]
-    # acos turns a rounding error of 1e-16 into an angle of 1e-8
+    # acos amplifies a rounding error of 1e-16 to an angle of 1e-8
     return max((angle if angle > 1e-7 else 0.0 for angle in angles), default=None)
 
 

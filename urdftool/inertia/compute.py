@@ -1,4 +1,4 @@
-"""Mass properties of one link from its geometry: the Python side of ``urdftool inertia robot``."""
+"""Mass properties of one link from its geometry: the Python API of ``urdftool inertia robot``."""
 
 from __future__ import annotations
 
@@ -27,25 +27,25 @@ def compute_inertia(
     packages: Mapping[str, str | Path] | None = None,
     package_paths: Iterable[str | Path] = (),
 ) -> SpatialInertia:
-    """Mass [kg], centre of mass [m] and inertia [kg·m²] that the geometry of a link implies.
+    """Compute the mass properties that the geometry of a link implies, in the link frame.
 
-    All pieces are solid and of one density; a closed mesh is integrated exactly, any other is
-    repaired or estimated. The result is in the link frame, the inertia about the centre of mass.
+    All shapes are solid and of the same density. A closed mesh is integrated exactly; any other is
+    repaired or estimated. The inertia [kg·m²] is about the center of mass.
 
     Args:
         link: A link of a robot that was loaded.
-        density: Density [kg/m³]; give this or ``mass``. With neither, the mass that is written.
+        density: Density [kg/m³]; give this or ``mass``. By default, the written mass is used.
         mass: Mass of the link [kg].
-        source: ``"collision"`` or ``"visual"``; None takes the collisions, or the visuals where
-            there are no collisions or they cannot be weighed.
+        source: ``"collision"`` or ``"visual"``; None for the collisions, or the visuals if there
+            are no collisions or their volume is unknown.
         packages: Folders of ROS packages by name; others are found as on the command line.
-        package_paths: Folders with ROS packages below.
+        package_paths: Folders that contain ROS packages.
 
     Raises:
-        InertiaError: The link has no geometry, or mass or density are not above zero, or both or
-            neither are there.
-        MeshError: A mesh cannot be read or encloses nothing.
-        PackageNotFound: A mesh is in a package that is nowhere.
+        InertiaError: The link has no geometry, mass or density is not above zero, or both or
+            neither are known.
+        MeshError: A mesh cannot be read or encloses no volume.
+        PackageNotFound: The package of a mesh is not found.
     """
     if density is None and mass is None:
         mass = link.mass or None

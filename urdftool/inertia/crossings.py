@@ -1,8 +1,8 @@
-"""Winding numbers of closed surfaces: what a ray straight up from a point goes through.
+"""Winding numbers of closed surfaces, from the triangles that a vertical ray crosses.
 
-For a surface without a border this is the generalised winding number of :mod:`.winding`, exact and
-for a fraction of the work, as a point meets the triangles above and below it alone. Across a hole
-it would jump.
+For a surface without a border this equals the generalized winding number of :mod:`.winding`. It is
+exact and much faster, as only the triangles above and below a point matter. For an open surface it
+would jump at holes.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy.typing as npt
 from ..geometry.mesh import Array
 
 STRIPS = 160
-"""The most into which the points are sorted, seen from above."""
+"""Largest number of strips along y into which the points are sorted."""
 
 _AT_ONCE = 500_000
 
@@ -23,14 +23,14 @@ _Numbers = npt.NDArray[np.int64]
 
 
 def crossing_numbers(points: Array, corners: Array) -> Array:
-    """How often a closed surface winds round each point.
+    """Compute the winding number of a closed surface at each point, shape (n,).
 
-    The ray from a point must not meet an edge in the last digit, as it does not for points that
-    are spread without regard to the surface.
+    No ray may hit an edge to within rounding. Points chosen independently of the surface fulfill
+    this.
 
     Args:
         points: Points [m], shape (n, 3).
-        corners: The triangles [m], shape (m, 3, 3), counterclockwise seen from outside.
+        corners: Triangles [m], shape (m, 3, 3), counter-clockwise from outside.
     """
     low, high = points.min(axis=0), points.max(axis=0)
     least, most = corners.min(axis=1), corners.max(axis=1)
@@ -62,7 +62,7 @@ def crossing_numbers(points: Array, corners: Array) -> Array:
 
 
 def _strips_of(y: Array, strips: int) -> Iterator[tuple[_Numbers, _Numbers]]:
-    """Each triangle with each strip that it reaches into, many at a time."""
+    """Yield the pairs of a triangle and a strip it overlaps, in blocks."""
     lowest, highest = y.min(axis=1), y.max(axis=1)
     first = np.clip(np.floor(lowest), 0, strips - 1).astype(np.int64)
     last = np.clip(np.floor(highest), 0, strips - 1).astype(np.int64)
@@ -71,7 +71,7 @@ def _strips_of(y: Array, strips: int) -> Iterator[tuple[_Numbers, _Numbers]]:
 
 
 def _pairs(begin: _Numbers, end: _Numbers) -> Iterator[tuple[_Numbers, _Numbers]]:
-    """Each run with each number in it, many at a time."""
+    """Yield the pairs of a range and an index in it, in blocks."""
     yield from _ranges(begin, np.maximum(end - begin, 0))
 
 
@@ -89,7 +89,7 @@ def _ranges(first: _Numbers, counts: _Numbers) -> Iterator[tuple[_Numbers, _Numb
 
 
 def _span(x: Array, y: Array, strip: _Numbers) -> tuple[Array, Array]:
-    """From where to where triangles reach within a strip, along X."""
+    """Compute the interval along x that each triangle covers within its strip."""
     left, right = np.full(len(strip), np.inf), np.full(len(strip), -np.inf)
     for k in range(3):
         x0, x1, y0, y1 = x[:, k], x[:, k - 1], y[:, k], y[:, k - 1]
@@ -105,14 +105,14 @@ def _span(x: Array, y: Array, strip: _Numbers) -> tuple[Array, Array]:
 
 
 def _passes_below(points: Array, corners: Array) -> Array:
-    """+1 where a ray up from a point leaves through its triangle, −1 where it enters, else 0."""
+    """Return +1 if an upward ray leaves through the point's triangle, −1 if it enters, else 0."""
     a, b, c = (corners[:, k] - points for k in range(3))
-    # twice the areas, seen from above, of the point with each edge
+    # twice the areas, projected along z, of the triangles of the point with each edge
     u = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
     v = c[:, 0] * a[:, 1] - c[:, 1] * a[:, 0]
     w = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
     outward = (u > 0) & (v > 0) & (w > 0)
     inward = (u < 0) & (v < 0) & (w < 0)
-    # the height of the triangle over the point, times the whole area, which has the same sign
+    # height of the triangle above the point, times its projected area, which has the same sign
     height = u * a[:, 2] + v * b[:, 2] + w * c[:, 2]
     return np.where(outward & (height > 0), 1.0, 0.0) - np.where(inward & (height < 0), 1.0, 0.0)

@@ -1,18 +1,17 @@
-"""Mass properties of any triangle mesh, with the method used and whether to rely on it.
+"""Mass properties of any triangle mesh, with the method used and its reliability.
 
-The methods, best first; the first that holds is taken:
+The first applicable method is used, from best to worst:
 
-- ``exact``: every body is closed and consistently wound, so the polyhedral integrals hold. Bodies
-  that are inside out are turned; how nested bodies count is said in ``nesting``.
-- ``repaired``: the same after faces written twice are dropped, the winding is made consistent and
-  small holes are closed with flat caps, as long as the caps cannot matter much, or the winding
-  numbers agree with them.
-- ``winding-number``: evenly spread points, each judged by the generalised winding number, where
-  holes are too large for that or bodies share much of their space.
-- ``convex-hull``: the hull of the points, where nothing is inside. An upper bound, never reliable.
+- ``exact``: every body is closed and consistently wound, so the polyhedral integrals apply.
+  Inverted bodies are flipped; see ``nesting`` for nested bodies.
+- ``repaired``: the same after duplicate faces are dropped, the winding is made consistent and small
+  holes are closed by flat caps, if the caps are negligible or winding numbers confirm them.
+- ``winding-number``: evenly spread points, classified by the generalized winding number, if holes
+  are too large or bodies overlap considerably.
+- ``convex-hull``: the hull of the points, if no point is inside. An upper bound, never reliable.
 
-A surface that crosses itself within one body is integrated as it is wound, so that space it winds
-round twice counts twice; finding that out costs more than everything else here.
+A surface that intersects itself within one body is integrated as it is wound, so doubly enclosed
+space counts twice. Detecting that would cost more than everything else here.
 """
 
 from __future__ import annotations
@@ -36,16 +35,16 @@ from .requirements import require_consistent
 from .sampling import sampled_moments
 
 ACCEPTED_ERROR = 0.02
-"""Relative error of the volume up to which a result counts as reliable."""
+"""Relative error of the volume up to which a result is reliable."""
 
 ACCEPTED_OVERLAP = 0.03
-"""Part of the volume that bodies may share before their exact sum gives way to a sampled union."""
+"""Part of the volume that bodies may share before a sampled union replaces their exact sum."""
 
 AGREEMENT = 0.03
-"""Difference of two independent results within which one confirms the other."""
+"""Largest difference of two independent results that confirm each other."""
 
 LARGE_OPENING = 0.1
-"""Part of the surface that may be holes before closing them is a guess about the shape."""
+"""Part of the surface above which closing holes is a guess about the shape."""
 
 _SHEET = 1e-6
 """Volume of a body, relative to its area to the power of 3/2, below which it is a sheet."""
@@ -53,29 +52,29 @@ _SHEET = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """Mass properties of a mesh, and how far they can be trusted."""
+    """Mass properties of a mesh, with their method and reliability."""
 
     properties: SpatialInertia
-    """In the frame of the mesh."""
+    """Mass properties in the frame of the mesh."""
     volume: float
     """Volume [m³] of the solid."""
     method: str
     """``"exact"``, ``"repaired"``, ``"winding-number"`` or ``"convex-hull"``."""
     reliable: bool
-    """Whether the properties are within some 3 % of those of the intended solid."""
+    """Whether the properties are within about 3 % of those of the intended solid."""
     error: float
-    """Estimated error of the volume, relative to it; 0 for an exact result."""
+    """Estimated relative error of the volume; 0 for an exact result."""
     hull_volume: float | None
-    """Volume [m³] of the convex hull, to compare; None for an exact result."""
+    """Volume [m³] of the convex hull, for comparison; None for an exact result."""
     bodies: int
-    """How many separate surfaces the mesh has."""
+    """Number of separate surfaces of the mesh."""
     notes: tuple[str, ...]
-    """What was found and done, complete sentences."""
+    """Complete sentences on defects and repairs."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Solid:
-    """Moments with the story of how they came about."""
+    """Moments with the method, its error and notes."""
 
     moments: Moments
     method: str
@@ -91,17 +90,17 @@ def estimate_mass_properties(
     mass: float | None = None,
     density: float | None = None,
 ) -> Estimate:
-    """Mass properties of the solid a mesh stands for, closed or not.
+    """Compute the mass properties of the solid that a mesh represents, closed or not.
 
     Args:
-        vertices: Points [m], shape (n, 3); equal ones are taken as one.
+        vertices: Points [m], shape (n, 3); equal points are merged.
         faces: Indices into ``vertices``, shape (m, 3).
-        mass: Mass of the whole [kg]; give this or ``density``.
+        mass: Total mass [kg]; give this or ``density``.
         density: Density of the solid [kg/m³].
 
     Raises:
-        MeshError: The mesh encloses nothing, as a flat plate does.
-        InertiaError: Mass or density is not above zero, or the result could be no rigid body's.
+        MeshError: The mesh encloses no volume, for example a flat plate.
+        InertiaError: Mass or density is not above zero, or the result is physically inconsistent.
     """
     _check_amount(mass, density)
     points, merged, _ = weld(vertices, faces)
@@ -110,7 +109,7 @@ def estimate_mass_properties(
         raise MeshError(
             f"the mesh has {len(kept)} triangles that are no lines; a solid needs four at least"
         )
-    # a unit of the mesh's own size keeps every threshold below free of units
+    # normalized to size 1, so that thresholds are independent of units
     middle, size = _frame(points)
     points = (points - middle) / size
     bodies = int(body_labels(len(kept), edges_of(kept)).max()) + 1
@@ -156,7 +155,7 @@ def _frame(points: Points) -> tuple[Array, float]:
 
 
 def _exact(points: Points, faces: Faces) -> _Solid | None:
-    """The integrals, where each body is closed and consistently wound; else None."""
+    """Integrate bodies that are all closed and consistently wound; None for others."""
     edges = edges_of(faces)
     if not edges.cycle:
         return None
@@ -180,7 +179,7 @@ def _exact(points: Points, faces: Faces) -> _Solid | None:
     corners = [points[faces[runs[body]]] for body in solid]
     nesting = nest(corners, volumes[solid])
     notes += _nesting_notes(nesting)
-    # −1 for the faces of a solid body that is inside out and of a cavity that is not
+    # −1 for inverted solids and for cavities that are not inverted
     turn = nesting.share * np.where(volumes[solid] < 0, -1, 1)
     chosen = [
         faces[runs[body]] if sign > 0 else faces[runs[body]][:, ::-1]
@@ -194,7 +193,7 @@ def _exact(points: Points, faces: Faces) -> _Solid | None:
 
 
 def _measures(points: Points, faces: Faces, labels: npt.NDArray[np.int64]) -> tuple[Array, Array]:
-    """Signed volume and area of each body."""
+    """Compute signed volume and area of each body."""
     corners = points[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     triple = np.einsum("ij,ij->i", corners[:, 0], normals)
@@ -218,7 +217,7 @@ def _nesting_notes(nesting: Nesting) -> list[str]:
 
 
 def _without_overlap(corners: Array, summed: Moments, notes: list[str]) -> _Solid:
-    """The union of bodies that reach into each other, or their sum where it hardly differs."""
+    """Sample the union of overlapping bodies, or return their sum if it hardly differs."""
     halves = sampled_moments(corners)
     if halves is None:
         return _Solid(summed, "exact", 1.0, False, (*notes, "Bodies overlap by an unknown amount."))
@@ -238,10 +237,10 @@ def _without_overlap(corners: Array, summed: Moments, notes: list[str]) -> _Soli
 
 
 def _average(first: Moments, second: Moments) -> tuple[Moments, float]:
-    """The mean of two independent results, and how far they are apart, relative to it.
+    """Average two independent results, and return their relative difference.
 
-    The largest difference counts: of the volume, of the second moments along X, Y and Z, or of the
-    centroid, relative to the radius of gyration.
+    The difference is the largest of those of the volume, of the second moments along x, y and z,
+    and of the centroid relative to the radius of gyration.
     """
     volume = 0.5 * (first.measure + second.measure)
     moment = 0.5 * (first.second + second.second)
@@ -256,7 +255,7 @@ def _average(first: Moments, second: Moments) -> tuple[Moments, float]:
 
 
 def _mended(points: Points, faces: Faces) -> _Solid:
-    """What repair, samples or the hull make of a mesh that is not closed."""
+    """Estimate a mesh that is not closed: by repair, samples or its convex hull."""
     notes: list[str] = []
     unique = drop_duplicates(faces)
     if len(unique) < len(faces):
@@ -297,7 +296,7 @@ def _sampled(
         notes.append(f"Flat caps and winding numbers differ by {difference:.1%}.")
         missed = filling.volume_error / filled.moments.measure
         if max(difference, missed) <= AGREEMENT and opening <= LARGE_OPENING:
-            # the caps are free of the samples' noise, and the samples of the caps' guess
+            # caps have no sampling noise, and sampling does not depend on caps
             return _Solid(filled.moments, "repaired", difference, True, tuple(notes))
         error = max(noise, difference)
     else:

@@ -1,10 +1,9 @@
-"""Inertia written into the source of a robot: what is added or changed, and what cannot be.
+"""Edits that write inertia into the source of a robot.
 
-A robot's source may be several files, and one place of it may be many links: what a macro writes
-appears once for each of its calls. A place is edited only if every element that comes from it is
-to change in the same way, and a number only where it is written as a number: in the tag itself, or
-as the argument of the macro call that passes it on. Everything else is refused, with what to change
-and where. A link is edited whole or not at all.
+The source may span several files, and a tag in a macro produces one element per call. A place is
+edited only if all its elements require the same change, and a number only where it is a literal: in
+the tag itself, or in the argument of the macro call that passes it. Other edits are refused, with
+advice on what to change where. A link is edited completely or not at all.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ _PARAMETER = re.compile(r"\$\{\s*(\w+)\s*\}")
 
 
 class Site(NamedTuple):
-    """A place of the source: a file, the byte a tag starts at, and an attribute or new child."""
+    """A place in the source: file, byte offset of a tag, and an attribute or new child."""
 
     path: str
     start: int
@@ -40,7 +39,7 @@ class Site(NamedTuple):
 
 @dataclass(frozen=True)
 class Refusal:
-    """A link that is not edited: why, and what to change where."""
+    """A link that is not edited, with the reason and the changes to make by hand."""
 
     link: str
     reason: str
@@ -50,15 +49,15 @@ class Refusal:
 
 @dataclass
 class Filling:
-    """What becomes of a robot's source.
+    """Plan of the edits to a robot's source.
 
     Attributes:
         written: Links whose inertia is added or changed.
-        unchanged: Links that are right already, or that are not asked for.
-        refused: Links that should be edited and cannot be.
-        left: Links without what is needed to compute their inertia, with the reason.
+        unchanged: Links that are already correct or were not requested.
+        refused: Links that require an edit but cannot be edited.
+        left: Links whose inertia cannot be computed, with the reason.
         edits: Edits by the path of the file.
-        still_wrong: Something that cannot be stays as it is.
+        still_wrong: Whether a physically inconsistent inertia remains.
     """
 
     written: list[Wanted] = field(default_factory=list)
@@ -77,14 +76,14 @@ def fill(
     single: bool = False,
     through_calls: bool = True,
 ) -> Filling:
-    """The edits that give each reviewed link the inertia that its geometry implies.
+    """Plan the edits that give each reviewed link the inertia that its geometry implies.
 
     Args:
         robot: The robot, read from a description.
-        found: Its links, looked over.
-        masses: How they were weighed; ``anew`` replaces what is written, too.
-        single: Only the description itself may be edited, not what it includes.
-        through_calls: Arguments of macro calls may be edited.
+        found: Reviews of its links.
+        masses: Mass assignment; with ``anew``, written values are replaced, too.
+        single: Whether only the description itself may be edited, not its includes.
+        through_calls: Whether arguments of macro calls may be edited.
     """
     filling = Filling()
     todo = [
@@ -145,7 +144,7 @@ class _RefusedError(Exception):
 
 
 class _Editor:
-    """Decides which places may be edited."""
+    """Decision on which places of the source may be edited."""
 
     def __init__(self, robot: Robot, single: bool, through_calls: bool) -> None:
         assert robot.source is not None
@@ -159,7 +158,7 @@ class _Editor:
             self.users.setdefault((element.file.path, element.start), []).append(element)
 
     def settle(self, todo: list[Wanted], filling: Filling) -> None:
-        """Sort the links into written and refused, and make the edits of the former."""
+        """Divide the links into written and refused, and create the edits of the former."""
         refused: dict[int, str] = {}
         sites: dict[int, list[tuple[Site, Want]]] = {}
         for wanted in todo:
@@ -199,7 +198,7 @@ class _Editor:
         return changes
 
     def _conflict(self, site: Site, want: Want, changes: dict[Site, list[Want]]) -> str:
-        """Why a place cannot be edited, or nothing."""
+        """Return the reason why a place cannot be edited, or an empty string."""
         wants = changes[site]
         if any((other.value, other.lines) != (want.value, want.lines) for other in wants):
             return "it comes from a macro whose other expansions need other numbers"
@@ -221,7 +220,11 @@ class _Editor:
             return False
 
     def site(self, want: Want) -> Site:
-        """Where a change is to be made in the source."""
+        """Find the place in the source where a change must be made.
+
+        Raises:
+            _RefusedError: The element or attribute is computed or in a file that may not be edited.
+        """
         element = want.element
         source = self._source(element.file)
         if element.start not in source.elements:
@@ -254,7 +257,7 @@ class _Editor:
         return self.sources[file.path]
 
     def _check_file(self, file: SourceFile) -> None:
-        """Refuse files that are not the user's to edit."""
+        """Raise ``_RefusedError`` for files outside the user's package."""
         if file.path == self.main:
             return
         if self.single:
@@ -284,7 +287,7 @@ def _place(want: Want) -> Place:
 
 
 def _said(want: Want) -> str:
-    """What to do, and in which expansion of a macro."""
+    """Describe a change, and the macro expansion it is for."""
     call = next((call for call in want.element.calls if call.macro), None)
     if call is None:
         return want.said

@@ -1,4 +1,4 @@
-"""Proof that an edited source is the same robot but for the inertia that was to change."""
+"""Verification that an edited source is the same robot except for the inertia to change."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from .requirements import is_consistent
 def checked_filling(
     robot: Robot, found: Sequence[LinkReview], masses: Masses, *, single: bool = False
 ) -> tuple[Filling, dict[str, bytes]]:
-    """As :func:`fill`, with the new bytes of each edited file, once they are proved.
+    """Plan edits as :func:`fill` does, verify them, and return the new content of each file.
 
-    Where an argument of a macro call turns out to serve more than inertia, arguments are left as
-    they are.
+    If an argument of a macro call also affects other elements, the plan is repeated without editing
+    arguments.
 
     Raises:
-        SourceError: The edits would do more than they should.
+        SourceError: The edits would change more than they should.
     """
     assert robot.source is not None
     files = {file.path: file for file in robot.source.files}
@@ -44,15 +44,15 @@ def checked_filling(
 
 
 def check_filling(robot: Robot, filling: Filling, edited: Mapping[str, bytes]) -> str:
-    """What is wrong with an edited source; empty where nothing is.
+    """Verify an edited source; return the problem, or an empty string.
 
-    The edited text is parsed, and expanded with the edited copies of what it includes; then each
-    element is compared with what was there.
+    The edited text is parsed and expanded with the edited includes; then each element is compared
+    with the original.
 
     Args:
         robot: The robot as it was read.
-        filling: What was to change.
-        edited: The new bytes of each edited file.
+        filling: The planned changes.
+        edited: New content of each edited file.
     """
     assert robot.source is not None
     try:
@@ -94,7 +94,7 @@ def _read(robot: Robot, edited: Mapping[str, bytes]) -> Document:
 def _outside(
     root: Element, names: set[str]
 ) -> Iterator[tuple[str, tuple[tuple[str, str], ...], str]]:
-    """Every element but the inertials of the named links."""
+    """Yield every element except the inertials of the named links."""
     todo = [root]
     while todo:
         element = todo.pop()
@@ -106,7 +106,7 @@ def _outside(
 
 
 def _has(link: Link, meant: SpatialInertia, *, exact: bool) -> bool:
-    """Whether a link has an inertia that is possible and, if ``exact``, the one that was meant."""
+    """Tell whether a link's inertia is consistent and, if ``exact``, equal to the intended one."""
     inertial = link.inertial
     if inertial is None or inertial.mass is None or inertial.inertia is None:
         return False

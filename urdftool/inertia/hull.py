@@ -1,4 +1,4 @@
-"""The convex hull: the most that a surface of whatever quality can enclose."""
+"""Convex hull: an upper bound for the solid that any surface encloses."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .polyhedron import Moments, solid_moments
 
 
 def hull_moments(points: Points) -> Moments:
-    """The moments of the smallest convex solid around points [m].
+    """Compute the moments of the convex hull of points [m], shape (n, 3).
 
     Raises:
         MeshError: The points lie in a plane.

@@ -1,7 +1,7 @@
-"""The error raised when numbers cannot belong to a rigid body."""
+"""The error for numbers that are not physically possible."""
 
 from ..errors import UrdftoolError
 
 
 class InertiaError(UrdftoolError, ValueError):
-    """A size, mass or tensor that no rigid body has; the sentence says what would be right."""
+    """A size, mass or tensor that is physically impossible; the message contains the remedy."""

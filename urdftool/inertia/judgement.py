@@ -1,4 +1,4 @@
-"""What of a link's inertia is written, and what of that cannot be."""
+"""Review of a link's written inertia: missing values and physical inconsistencies."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _LARGEST = 1e60
 
 
 def read_written(item: LinkReview) -> None:
-    """Take what is written of a link's inertia, what is missing, and what is no number."""
+    """Set the written inertia of a review, its missing values and its unreadable numbers."""
     inertial = item.link.inertial
     if inertial is None:
         item.missing = () if item.link.is_frame else ("inertial",)
@@ -57,7 +57,7 @@ def read_written(item: LinkReview) -> None:
 
 
 def _unreadable(inertial: Inertial, tag: str, name: str, item: LinkReview) -> bool:
-    """Whether an attribute is there and is no number, which is a fault."""
+    """Tell whether an attribute is present but not a number, and add a fault if so."""
     element = inertial.element.child(tag)
     text = element.get(name) if element is not None else None
     if element is None or text is None or number(text) is not None:
@@ -71,11 +71,11 @@ def _unreadable(inertial: Inertial, tag: str, name: str, item: LinkReview) -> bo
 
 
 class Context(NamedTuple):
-    """What a link is judged with.
+    """Data for judging a link.
 
     Attributes:
         robot: The robot.
-        meshes: What its meshes enclose.
+        meshes: Bodies of its meshes.
     """
 
     robot: Robot
@@ -83,9 +83,9 @@ class Context(NamedTuple):
 
 
 def judge(item: LinkReview, context: Context) -> None:
-    """Compare what is written with the geometry, find what cannot be, propose a repair.
+    """Compare written inertia with the geometry, and add faults and a proposed repair.
 
-    The verdict is that of ``urdftool lint``: what is no more than a remark there is a note here.
+    The verdict agrees with ``urdftool lint``: what lint reports as information is a note here.
     """
     inertial, written = item.link.inertial, item.written
     if inertial is None or inertial.mass is None:
@@ -109,7 +109,7 @@ def judge(item: LinkReview, context: Context) -> None:
 
 
 def _judge_mass(item: LinkReview, inertial: Inertial, robot: Robot) -> None:
-    """Judge the mass; 0 is right for a part of a body that has one, and for a static root."""
+    """Judge the mass; 0 is valid for a part of a body with mass, and for a static root."""
     mass = inertial.element.child("mass")
     at = mass.attribute_place("value") if mass is not None else inertial.place
     assert inertial.mass is not None
@@ -165,7 +165,7 @@ def _judge_tensor(item: LinkReview, written: SpatialInertia, at: Place, robot: R
 
 
 def _is_added(robot: Robot, link: Link) -> bool:
-    """Whether a link's inertia is added to that of a body which has one, or never matters."""
+    """Tell whether a link is attached to a body with inertia, or fixed to the world."""
     members = attached_links(robot, link)
     if is_fixed_to_world(robot, link):
         return True
@@ -173,10 +173,10 @@ def _is_added(robot: Robot, link: Link) -> bool:
 
 
 def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_com: bool) -> None:
-    """Whether the mass fits into the box around the shapes, as lint judges it.
+    """Judge whether the mass fits into the bounding box of the shapes, as lint does.
 
-    First with the geometry that counts; then with all shapes of the link, and with those of
-    attached links that hardly have a mass of their own.
+    The shapes of ``item.body`` are tried first, then all shapes of the link, then those of attached
+    links with little mass, too.
     """
     tensor, mass, link = inertial.inertia, inertial.mass, item.link
     if tensor is None or not mass:
@@ -234,7 +234,7 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
 
 
 def _box_of_shapes(shapes: Sequence[Shape], at: Pose, context: Context) -> Bounds | None:
-    """The box around shapes whose link has a pose; None where there is none or one is not known."""
+    """Compute the bounding box of shapes at a pose of their link; None if one is unknown."""
     box: Bounds | None = None
     for shape in shapes:
         pose, geometry = at @ pose_of(shape.origin), shape.geometry
@@ -249,7 +249,7 @@ def _box_of_shapes(shapes: Sequence[Shape], at: Pose, context: Context) -> Bound
 
 
 def _box_of_mesh(mesh: Mesh, pose: Pose, context: Context) -> Bounds | None:
-    """The box around a mesh; its points are only read where the box in its file is not enough."""
+    """Compute the bounding box of a mesh; points are read only if its body's box is of no use."""
     body, source = context.meshes.known.get(mesh.filename), context.robot.source
     if 0 in mesh.scale or source is None:
         return None
@@ -267,18 +267,18 @@ def _box_of_mesh(mesh: Mesh, pose: Pose, context: Context) -> Bounds | None:
         if points is None:
             return None
         box = Bounds(*points.box(mesh.scale, *pose))
-    # one in another unit is judged by its size, and says nothing of the link
+    # a mesh in a wrong unit is reported for its size and is not evidence here
     return box if SMALLEST < max(box.size) < LARGEST else None
 
 
 LARGEST, SMALLEST = 10.0, 0.001
-"""Sizes of a mesh [m] beyond which it is in another unit."""
+"""Range of the extent of a mesh [m]; outside it, its unit is probably wrong."""
 
 
 def _judge_placeholder(item: LinkReview, inertia: Inertia, mass: float) -> bool:
-    """Whether a tensor is a power of ten about every axis, which nobody measured.
+    """Tell whether a tensor is the same power of ten about every axis: a placeholder.
 
-    A large one is a fault, and a small one a note, as in lint.
+    A large one is added as a fault, a small one as a note, as in lint.
     """
     xx, xy, xz, yy, yz, zz = inertia.six
     if not (xx == yy == zz > 0 and xy == xz == yz == 0):
@@ -299,7 +299,7 @@ def _judge_placeholder(item: LinkReview, inertia: Inertia, mass: float) -> bool:
 
 
 def _proposal(item: LinkReview, inertial: Inertial, written: SpatialInertia) -> Proposal | None:
-    """The repair of the tensor along the axes of the inertial's own frame, as it is written."""
+    """Propose a repair of the tensor, along the axes of the inertial's frame."""
     assert item.body is not None
     rotation = inertial_rotation(inertial)
     back = transpose(rotation)

@@ -1,4 +1,4 @@
-"""What is known of one link: written, implied, compared, judged."""
+"""Review of one link: written and implied mass properties, their comparison, and faults."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from .pieces import LinkBody
 
 @dataclass(frozen=True)
 class Fault:
-    """Something that cannot be.
+    """A value that is invalid or physically inconsistent.
 
     Attributes:
         kind: ``"unreadable"``, ``"mass"``, ``"positivity"``, ``"triangle"``, ``"box"``,
             ``"copied"`` or ``"placeholder"``.
-        message: What is wrong, with what would be right.
-        place: Where it is written.
+        message: The fault and the remedy.
+        place: Location of the value.
     """
 
     kind: str
@@ -31,20 +31,20 @@ class Fault:
 
 @dataclass(eq=False)
 class LinkReview:
-    """One link.
+    """Review of one link.
 
     Attributes:
         link: The link.
-        body: What its geometry encloses; None where it has none.
-        written: Its mass properties as written, in the link frame; None where they are not whole.
-        missing: What of them is not written: ``inertial``, ``mass``, ``inertia``, or single
-            numbers such as ``ixy``.
-        mass: What it weighs [kg], written or wanted; None where nothing says.
-        implied: The geometry's mass properties at that mass, in the link frame.
-        comparison: Written against implied.
-        faults: What cannot be.
-        proposal: The one simple slip that explains a wrong tensor.
-        notes: What else is to be said.
+        body: Solid of its geometry; None if it has no geometry.
+        written: Written mass properties, in the link frame; None if incomplete.
+        missing: Missing values: ``inertial``, ``mass``, ``inertia``, or single numbers such as
+            ``ixy``.
+        mass: Mass [kg], written or assigned; None if unknown.
+        implied: Mass properties of the geometry at that mass, in the link frame.
+        comparison: Written relative to implied properties.
+        faults: Invalid or physically inconsistent values.
+        proposal: The one typing error that explains a wrong tensor.
+        notes: Remarks.
     """
 
     link: Link
@@ -60,12 +60,12 @@ class LinkReview:
 
     @property
     def volume(self) -> float | None:
-        """Volume of its geometry [m³]; None where it is not all known."""
+        """Return the volume of its geometry [m³]; None if it is not fully known."""
         return self.body.volume if self.body is not None and self.body.complete else None
 
     @property
     def status(self) -> str:
-        """``wrong``, ``doubtful``, ``frame``, ``missing``, ``incomplete`` or ``ok``."""
+        """Return ``wrong``, ``doubtful``, ``frame``, ``missing``, ``incomplete`` or ``ok``."""
         if self.faults:
             return "wrong"
         if self.proposal is not None:

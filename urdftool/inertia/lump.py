@@ -1,7 +1,7 @@
-"""Links that move as one, and the whole robot at a pose.
+"""Mass properties of rigidly attached links, and of the whole robot at a pose.
 
-Links joined by fixed joints are one rigid body; its mass properties are given in the frame of the
-link the others hang on. Those of the whole robot are in the frame of its root.
+Links joined by fixed joints are one rigid body, whose mass properties are in the frame of its
+topmost link. Those of the whole robot are in the frame of its root link.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ class Lump:
     """Links that are one rigid body.
 
     Attributes:
-        link: The link the others hang on.
-        members: All of them, in the order of the tree.
-        properties: In the frame of ``link``; None where none of them weighs anything.
+        link: The topmost link.
+        members: All links, in the order of the tree.
+        properties: Mass properties in the frame of ``link``; None if no member has a known mass.
     """
 
     link: str
@@ -34,14 +34,14 @@ class Lump:
 
 @dataclass(frozen=True, eq=False)
 class Lumped:
-    """A robot's rigid bodies, and all of them at a pose.
+    """Rigid bodies of a robot, and the whole robot at a pose.
 
     Attributes:
-        lumps: In the order of the tree.
-        root: The link in whose frame the whole is given.
-        whole: The whole robot; None where it weighs nothing.
-        positions: The position of each movable joint [rad or m].
-        notes: What is to be said: links that are left out, positions beyond limits.
+        lumps: Rigid bodies, in the order of the tree.
+        root: The root link, in whose frame the whole is given.
+        whole: Mass properties of the robot; None if no link has a known mass.
+        positions: Position of each movable joint [rad or m].
+        notes: Remarks on skipped links and positions outside limits.
     """
 
     lumps: tuple[Lump, ...]
@@ -52,15 +52,16 @@ class Lumped:
 
 
 def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -> Lumped:
-    """Mass properties of each rigid body, and of the robot at a pose.
+    """Compute the mass properties of each rigid body, and of the robot at a pose.
 
     Args:
         robot: The robot.
-        found: Its links, looked over; a link without an inertial counts with what is implied.
-        pose: Positions of joints [rad or m] by name; 0 for the others, and what mimics follows.
+        found: Reviews of its links; a link without written inertia counts with its implied inertia.
+        pose: Joint positions [rad or m] by name; others are 0 or follow as mimic joints.
 
     Raises:
-        InertiaError: A joint is not in the robot or cannot be put anywhere, or there is no root.
+        InertiaError: The robot does not have exactly one root link, or the pose contains an unknown
+            or immovable joint.
     """
     if len(robot.tree.roots) != 1:
         names = ", ".join(link.name for link in robot.tree.roots) or "none"

@@ -1,8 +1,8 @@
-"""Inertia as xacro macros: the formulas of ``solids`` written for xacro to evaluate.
+"""Inertia as xacro macros: the formulas of ``solids`` as xacro expressions.
 
-Each macro takes the mass [kg] and the sizes [m] of its shape and, as ``xyz`` and ``rpy``, where the
-shape's own frame is in the link; give it what the ``<origin>`` of the geometry has. Its numbers are
-rounded to the twelve digits that ``rounding`` keeps.
+Each macro takes the mass [kg] and the sizes [m] of its shape and, as ``xyz`` and ``rpy``, the pose
+of the shape in the link, as in the ``<origin>`` of the geometry. Its numbers are rounded to the
+twelve digits of ``rounding``.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ _HEAD = f"""<?xml version="1.0"?>
 
 
 class Formula(NamedTuple):
-    """A shape's moments as xacro expressions.
+    """Moments of a shape as xacro expressions.
 
     Attributes:
-        values: Properties to compute first, in order, by name.
-        moments: ixx, iyy, izz about the centre of mass.
-        rise: Where on the shape's Z axis the centre of mass is; empty for the origin.
+        values: Properties to compute first, in order: name and expression.
+        moments: ixx, iyy, izz about the center of mass.
+        rise: Position of the center of mass on the shape's z axis; empty for the origin.
     """
 
     values: tuple[tuple[str, str], ...]
@@ -141,7 +141,7 @@ FORMULAS = {
 
 
 def macro_file() -> str:
-    """A xacro file with a macro for each shape, solid and hollow."""
+    """Return a xacro file with a macro for each shape, solid and hollow."""
     names = [(shape, False) for shape in SHAPES]
     names += [(shape, True) for shape in SHAPES if shape.hollow]
     body = "\n".join(_indented(shape_macro(shape, hollow=hollow)) for shape, hollow in names)
@@ -149,7 +149,7 @@ def macro_file() -> str:
 
 
 def shape_macro(shape: Shape, *, hollow: bool = False) -> str:
-    """The macro of one shape, ready to paste into a xacro file."""
+    """Return the macro of one shape, to paste into a xacro file."""
     name = f"hollow_{shape.name}" if hollow else shape.name
     formula = FORMULAS[name]
     params = ["mass", *(size.name for size in shape.sizes)]
@@ -184,7 +184,17 @@ def shape_call(
     xyz: tuple[float, ...] = (0, 0, 0),
     rpy: tuple[float, ...] = (0, 0, 0),
 ) -> str:
-    """The call of a shape's macro with its numbers."""
+    """Return the call of a shape's macro with numbers.
+
+    Args:
+        shape: The shape.
+        sizes: Its sizes [m] by name.
+        mass: Mass [kg].
+        thickness: Wall of a hollow shape [m]; None for a solid one.
+        closed: Whether a hollow cylinder has end plates.
+        xyz: Position of the shape in the link [m].
+        rpy: Orientation of the shape in the link [rad].
+    """
     name = shape.name if thickness is None else f"hollow_{shape.name}"
     written = {"mass": number_text(mass)}
     for key, value in sizes.items():
@@ -199,7 +209,7 @@ def shape_call(
 
 
 def mass_macro(name: str, properties: SpatialInertia) -> str:
-    """A macro of a body of any shape, that takes its mass; of the body as it is by default."""
+    """Return a macro for a body of any shape; its mass parameter defaults to the body's mass."""
     unit = components_of(as_tensor([part / properties.mass for part in properties.tensor]))
     six = [f'{key}="{_rounded(f"mass * {value!r}")}"' for key, value in unit.items()]
     return "\n".join(
@@ -225,7 +235,7 @@ def _rounded(expression: str) -> str:
 
 
 def _raised(rise: str) -> str:
-    """``xyz``, or the point that lies ``rise`` along the turned Z axis from it."""
+    """Return ``xyz``, or the point at ``rise`` along the rotated z axis from it."""
     if not rise:
         return "${xyz}"
     roll, pitch, yaw = (f"float(rpy.split()[{i}])" for i in range(3))

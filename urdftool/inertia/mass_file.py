@@ -13,13 +13,13 @@ MAX_BYTES = 4 * 1024 * 1024
 
 
 def read_masses(path: str | Path) -> dict[str, float]:
-    """Masses [kg] by link.
+    """Read masses [kg] by link.
 
-    A CSV file may have a heading (``link,mass``) and comments that start with ``#``; columns are
+    A CSV file may have a header (``link,mass``) and comments that start with ``#``; columns are
     separated by commas, semicolons or tabs.
 
     Raises:
-        SourceError: The file cannot be read, or a line of it is not a link and a number.
+        SourceError: The file cannot be read, or a line is not a link and a number.
     """
     file = Path(path)
     try:

@@ -1,4 +1,4 @@
-"""What each link of a robot weighs: said for it, shared out, or as it is written."""
+"""Mass of each link of a robot: given, distributed by volume, or as written."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from .inertia_error import InertiaError
 
 @dataclass(frozen=True)
 class Masses:
-    """How links are to be weighed.
+    """Mass assignment.
 
     Attributes:
-        by_link: Masses [kg] of single links, which come before all else.
+        by_link: Masses [kg] of single links, which take precedence.
         density: Density [kg/m³] of the others.
-        total: Mass [kg] of the whole robot; what the weighed links leave of it is shared by volume.
-        anew: Masses that are written give way to ``density`` and ``total``.
+        total: Mass [kg] of the whole robot; links without a mass share the remainder by volume.
+        anew: Whether ``density`` and ``total`` replace written masses.
     """
 
     by_link: Mapping[str, float] = field(default_factory=dict)
@@ -28,10 +28,11 @@ class Masses:
 
 
 def check_masses(masses: Masses, names: Sequence[str]) -> None:
-    """Refuse what cannot be done with the links there are.
+    """Check masses against the links of a robot.
 
     Raises:
-        InertiaError: A link is not in the robot, or a number is not above zero.
+        InertiaError: A link is not in the robot, a number is not above zero, or both a density and
+            a total mass are given.
     """
     for name, mass in masses.by_link.items():
         if name not in names:
@@ -64,17 +65,17 @@ def weigh(
     volumes: Mapping[str, float | None],
     unknown: Sequence[str] = (),
 ) -> dict[str, float | None]:
-    """What each link weighs [kg]; None where nothing says.
+    """Compute the mass of each link [kg]; None if unknown.
 
     Args:
-        masses: What is wanted.
-        written: The mass of each link as it is written; None where it is not, or is not above 0.
-        volumes: The volume [m³] of each link's geometry; None where it is not known.
-        unknown: Links that have a geometry whose volume is not known.
+        masses: The requested assignment.
+        written: Written mass of each link; None if it is missing or not above 0.
+        volumes: Volume [m³] of each link's geometry; None if unknown.
+        unknown: Links with geometry whose volume is unknown.
 
     Raises:
-        InertiaError: A total mass cannot be shared: the links that are weighed already leave
-            nothing of it, or the volume of one that is to share is not known.
+        InertiaError: A total mass cannot be distributed: nothing remains of it, no link takes a
+            share, or the volume of a link is unknown.
     """
     found: dict[str, float | None] = {}
     shared: list[str] = []

@@ -1,4 +1,4 @@
-"""The meshes of a robot, each read and integrated once, several at a time where that is faster."""
+"""Reading and integration of a robot's meshes, each once, in parallel if that is faster."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..source.description import Description, GltfUp
 from .bodies import MeshBody, mesh_body
 
 WORTH_IT = 4_000_000
-"""Bytes of meshes from which on starting further processes takes less time than it saves."""
+"""Total size of meshes [bytes] above which additional processes save time."""
 
 Progress = Callable[[int, int, str], None]
 ReadMeshes = Callable[[Sequence[str]], "dict[str, MeshBody | UrdftoolError]"]
@@ -25,13 +25,16 @@ def read_meshes(
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> dict[str, MeshBody | UrdftoolError]:
-    """What each mesh encloses, or why that is not known, by its name as it is written.
+    """Integrate each mesh at unit density.
 
     Args:
-        description: The robot's, which knows where packages are.
-        names: Mesh files as the robot names them.
-        jobs: Processes to use; None is one per core where it is worth it.
-        progress: Called with how many are done, of how many, and which comes next.
+        description: The description of the robot, which resolves URIs.
+        names: Mesh URIs as written.
+        jobs: Number of processes; None for one per core if the meshes are large enough.
+        progress: Called after each mesh, with the number done, the total and the file name.
+
+    Returns:
+        The body of each mesh by its written URI, or the error.
     """
     found: dict[str, MeshBody | UrdftoolError] = {}
     paths: dict[str, Path] = {}
@@ -55,7 +58,7 @@ def _bodies(
     paths: list[Path], jobs: int | None, gltf_up: GltfUp
 ) -> Iterator[tuple[Path, MeshBody | UrdftoolError]]:
     workers = jobs or _worthwhile(paths)
-    if workers > 1:  # the slowest first, so that none is left alone at the end
+    if workers > 1:  # largest first, so that all processes finish at about the same time
         paths = sorted(paths, key=_size, reverse=True)
     read = partial(_body, gltf_up=gltf_up)
     for index, body in map_tasks(read, paths, workers=workers, on_lost=_lost):
@@ -72,7 +75,7 @@ def _body(path: Path, gltf_up: GltfUp) -> MeshBody | UrdftoolError:
     try:
         return mesh_body(path, gltf_up=gltf_up)
     except UrdftoolError as error:
-        # without the chain of causes it goes from one process to another
+        # the chain of causes cannot be sent between processes
         return UrdftoolError(error.message, path=error.path)
     except (MemoryError, RecursionError) as error:
         return UrdftoolError(
@@ -94,15 +97,15 @@ def _size(path: Path) -> int:
 
 
 class Meshes:
-    """Meshes that have been read, and more where they are wanted."""
+    """Cache of mesh bodies, read on demand."""
 
     def __init__(self, read: ReadMeshes) -> None:
-        """Start with none."""
+        """Create an empty cache."""
         self.read = read
         self.known: dict[str, MeshBody | UrdftoolError] = {}
 
     def want(self, names: Iterator[str] | Sequence[str]) -> dict[str, MeshBody | UrdftoolError]:
-        """All that have been read, with these among them."""
+        """Read missing meshes, and return all that have been read."""
         new = [name for name in dict.fromkeys(names) if name not in self.known]
         if new:
             self.known |= self.read(new)

@@ -1,11 +1,11 @@
-"""Several closed bodies in one mesh: solids, cavities, bodies within bodies.
+"""Several closed bodies in one mesh: solids, cavities, nested bodies.
 
-What counts as solid is where the winding number, added up over all bodies, is above zero:
+Space is solid where the winding number, summed over all bodies, is above zero:
 
-- a body that lies in no other is solid, also when it is inside out, which is taken as a slip;
+- a body that lies in no other is solid, even if it is inverted, which is treated as an error;
 - a body within another, wound the opposite way, is a cavity;
-- a body within another, wound the same way, adds nothing: that space is solid already, and one
-  density cannot be there twice. (Adding volumes instead would count it twice.)
+- a body within another, wound the same way, adds nothing, as that space is already solid (a sum of
+  volumes would count it twice);
 - a solid within a cavity counts.
 """
 
@@ -23,35 +23,35 @@ from .sampling import spread_points
 from .winding import boxes_of, winding_numbers
 
 PROBES = 24
-"""Corners of a body that are looked at to tell whether it lies within another."""
+"""Number of corners of a body that are tested for lying within another."""
 
 
 _ASIDE = np.array([3.7e-7, 6.1e-7, 5.3e-7])
-"""By how much of a body's size corners are moved, so that no ray meets an edge that is above."""
+"""Offset of tested corners, relative to the size of the outer body, so that no ray hits an edge."""
 
 
 @dataclass(frozen=True, eq=False)
 class Nesting:
-    """What each closed body contributes to the solid."""
+    """Contribution of each closed body to the solid."""
 
     share: npt.NDArray[np.int64]
-    """+1 solid, −1 cavity, 0 nothing."""
+    """+1 for a solid, −1 for a cavity, 0 for no contribution."""
     overlaps: bool
-    """Whether two bodies reach into each other in part."""
+    """Whether two bodies overlap partly."""
     turned: int
-    """How many bodies were inside out."""
+    """Number of inverted bodies."""
     swallowed: int
-    """How many lie in the solid of another and add nothing."""
+    """Number of bodies within the solid of another, which add nothing."""
     cavities: int
-    """How many are cavities."""
+    """Number of cavities."""
 
 
 def nest(corners: list[Array], volumes: Array) -> Nesting:
-    """How closed bodies lie within each other.
+    """Determine how closed bodies are nested.
 
     Args:
-        corners: The triangles [m] of each body, shape (m, 3, 3).
-        volumes: The signed volume [m³] of each body.
+        corners: Triangles [m] of each body, shape (m, 3, 3).
+        volumes: Signed volume [m³] of each body.
     """
     count = len(corners)
     low = np.array([body.reshape(-1, 3).min(axis=0) for body in corners])
@@ -70,7 +70,7 @@ def nest(corners: list[Array], volumes: Array) -> Nesting:
             state = _relation(number, (bodies[inner], bodies[outer]), *shared)
             within[inner, outer] = state == "within"
             overlaps = overlaps or state == "overlap"
-    # the largest first, so that a body's hosts are settled before it
+    # largest first, so that enclosing bodies are settled before enclosed ones
     share = np.zeros(count, dtype=np.int64)
     settled = sign.copy()
     turned = 0
@@ -92,14 +92,14 @@ def nest(corners: list[Array], volumes: Array) -> Nesting:
 
 
 def _outermost_sign(within: npt.NDArray[np.bool_], sign: npt.NDArray[np.int64], body: int) -> int:
-    """The winding of the body that lies around all others around this one, or its own."""
+    """Return the winding of the outermost body around this one, or its own if there is none."""
     hosts = np.flatnonzero(within[body])
     roots = [host for host in hosts if not within[host].any()]
     return int(sign[roots[0]] if roots else sign[body])
 
 
 class _Body(NamedTuple):
-    """A closed body: its triangles, and the box around each of them."""
+    """A closed body: its triangles and the bounding box of each."""
 
     corners: Array
     low: Array
@@ -109,10 +109,10 @@ class _Body(NamedTuple):
 def _probed(
     outer: int, inners: list[int], bodies: list[_Body], low: Array, high: Array
 ) -> list[Array]:
-    """How often a body winds round some corners of others, for each of them.
+    """Compute the winding number of a body at some corners of each other body.
 
-    Crossings tell for a fraction of the work of whom no corner is inside; only for the others are
-    solid angles looked at, which know what lies on the surface.
+    Ray crossings are fast and exclude most bodies that have no corner inside. Only for the others
+    are solid angles computed, which are also valid for points on the surface.
     """
     if not inners:
         return []
@@ -134,15 +134,15 @@ def _probed(
 
 
 def _relation(number: Array, pair: tuple[_Body, _Body], low: Array, high: Array) -> str:
-    """``"within"``, ``"overlap"`` or ``"apart"``, of two bodies whose bounding boxes meet.
+    """Return ``"within"``, ``"overlap"`` or ``"apart"`` for two bodies whose bounding boxes meet.
 
     Args:
-        number: How often the outer winds round some corners of the inner.
+        number: Winding numbers of the outer body at corners of the inner one.
         pair: The inner and the outer body.
-        low: Smallest corner of the space that both boxes share.
-        high: Its largest corner.
+        low: Lower corner of the intersection of the boxes.
+        high: Upper corner of the intersection.
     """
-    # near one half the probe lies on the other's surface and says nothing
+    # a value near one half is on the other's surface and is inconclusive
     inside, outside = np.any(number > 0.9), np.any(number < 0.1)
     if inside and outside:
         return "overlap"

@@ -1,4 +1,4 @@
-"""What the geometry of a link encloses: its pieces, put together in the link frame."""
+"""Solid of a link's geometry, assembled from its visuals or collisions in the link frame."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ Shape = Visual | Collision
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """One visual or collision, at a density of 1 kg/m³, in the link frame."""
+    """One visual or collision at a density of 1 kg/m³, in the link frame."""
 
     shape: Shape
     what: str
@@ -55,7 +55,7 @@ class Piece:
 
 @dataclass(frozen=True)
 class Lack:
-    """A visual or collision that has no volume to weigh, and why."""
+    """A visual or collision whose volume is unknown, with the reason."""
 
     shape: Shape
     reason: str
@@ -67,8 +67,8 @@ class LinkBody:
 
     Attributes:
         source: ``"collision"`` or ``"visual"``.
-        pieces: Those that could be weighed.
-        lacks: Those that could not.
+        pieces: Shapes with a known volume.
+        lacks: Shapes without one.
     """
 
     source: str
@@ -77,27 +77,27 @@ class LinkBody:
 
     @property
     def complete(self) -> bool:
-        """Whether every piece could be weighed, and there is one."""
+        """Tell whether there is a piece and the volume of every shape is known."""
         return bool(self.pieces) and not self.lacks
 
     @property
     def reliable(self) -> bool:
-        """Whether every piece is within some 3 % of what was meant."""
+        """Tell whether every piece is within about 3 % of the intended solid."""
         return self.complete and all(piece.reliable for piece in self.pieces)
 
     @property
     def unit(self) -> SpatialInertia:
-        """All pieces as one body of 1 kg/m³; space that two share counts twice."""
+        """Return all pieces as one body of 1 kg/m³; overlapping space counts twice."""
         return combine(piece.unit for piece in self.pieces)
 
     @property
     def volume(self) -> float:
-        """Sum of the pieces' volumes [m³]."""
+        """Return the sum of the pieces' volumes [m³]."""
         return float(sum(piece.unit.mass for piece in self.pieces))
 
     @property
     def box(self) -> tuple[Array, Array]:
-        """Smallest and largest corner [m] of the box around them, along the link's axes."""
+        """Return lower and upper corner [m] of the bounding box, along the link's axes."""
         return (
             np.min([piece.lower for piece in self.pieces], axis=0),
             np.max([piece.upper for piece in self.pieces], axis=0),
@@ -105,24 +105,24 @@ class LinkBody:
 
 
 def shapes_of(link: Link, source: str) -> Sequence[Shape]:
-    """The visuals or collisions of a link."""
+    """Return the visuals or collisions of a link."""
     return link.visuals if source == "visual" else link.collisions
 
 
 def mesh_names(shapes: Sequence[Shape]) -> Iterator[str]:
-    """The mesh files that shapes name, as they are written."""
+    """Yield the mesh URIs of shapes, as written."""
     for shape in shapes:
         if isinstance(shape.geometry, Mesh):
             yield shape.geometry.filename
 
 
 def link_body(link: Link, source: str, meshes: Meshes) -> LinkBody | None:
-    """The body that a link's collisions or visuals make; None where it has none of them.
+    """Assemble the solid of a link's collisions or visuals; None if there are none.
 
     Args:
         link: The link.
         source: ``"collision"`` or ``"visual"``.
-        meshes: What each mesh file encloses, or why it is not known, by its name as written.
+        meshes: Body of each mesh, or the error, by its URI as written.
     """
     pieces, lacks = [], []
     for shape in shapes_of(link, source):
@@ -159,7 +159,7 @@ def _piece(shape: Shape, meshes: Meshes) -> Piece:
 
 
 def _primitive(geometry: Geometry) -> tuple[SpatialInertia, Array]:
-    """A primitive at 1 kg/m³ in its own frame, and half the edges [m] of the box around it."""
+    """Return a primitive at 1 kg/m³ and half the edges [m] of its bounding box, in its frame."""
     make, half = _PRIMITIVES[type(geometry)]
     return make(geometry), np.array(half(geometry), dtype=np.float64)
 
@@ -189,13 +189,17 @@ _PRIMITIVES: dict[
 def _placed(
     shape: Shape, unit: SpatialInertia, box: tuple[Array, Array]
 ) -> tuple[SpatialInertia, Array, Array]:
-    """A body and its box, by the ``<origin>`` of its shape moved into the link frame."""
+    """Transform a body and its bounding box into the link frame by the shape's ``<origin>``.
+
+    Raises:
+        ArithmeticError: A size, mass or position is beyond the range of floats.
+    """
     pose = pose_of(shape.origin)
     rotation = np.array(pose.rotation, dtype=np.float64)
     xyz = np.array(pose.translation, dtype=np.float64)
     size = max(map(abs, unit.tensor))
     place = max(float(np.abs(values).max()) for values in (xyz, *box))
-    # beyond these, numbers lose their meaning on the way
+    # values beyond these would overflow or underflow in products
     if not (_MIN < size < _MAX and _MIN < unit.mass < _MAX and place < _FAR):
         raise ArithmeticError
     middle, half = (box[0] + box[1]) / 2, (box[1] - box[0]) / 2

@@ -1,6 +1,6 @@
-"""Exact mass properties of a closed triangle mesh, and of a thin shell along one.
+"""Exact mass properties of a closed triangle mesh, and of a thin shell along a mesh.
 
-The solid is the signed sum of the tetrahedra between each triangle and one point; over one of them
+The solid is the signed sum of the tetrahedra between each triangle and one point. Over one of them
 (volume d/6, d the triple product of a, b, c) the integrals are polynomials of its corners:
 
     ∫ x dV = d/24 · s,   ∫ x xᵀ dV = d/120 · (a aᵀ + b bᵀ + c cᵀ + s sᵀ),   s = a + b + c
@@ -10,8 +10,8 @@ Coordinates", 2004; the same integrals by the divergence theorem: Mirtich, "Fast
 Computation of Polyhedral Mass Properties", 1996, and Eberly, "Polyhedral Mass Properties
 (Revisited)", 2002). For a triangle of area A, ∫ x xᵀ dA = A/12 · (a aᵀ + b bᵀ + c cᵀ + s sᵀ).
 
-A mesh far from its origin loses digits to cancellation when integrated about that origin, so the
-second moments are taken about the centroid, which a first pass finds.
+Second moments are taken about the centroid, which a first pass computes, because integrals about a
+distant origin lose digits to cancellation.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Faces = npt.NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Moments:
-    """Integrals over a solid or a surface, without a density."""
+    """Integrals over a solid or a surface, at unit density."""
 
     measure: float
     """Signed volume [m³] of a solid, area [m²] of a shell."""
@@ -41,30 +41,30 @@ class Moments:
     """∫ x xᵀ about the centroid, shape (3, 3), [m⁵] of a solid, [m⁴] of a shell."""
 
     def with_density(self, density: float) -> SpatialInertia:
-        """The body of this shape and ``density``, [kg/m³] of a solid, [kg/m²] of a shell."""
+        """Return the body with a density, [kg/m³] of a solid, [kg/m²] of a shell."""
         x, y, z = self.centroid.tolist()
         second = tensor_of_matrix(density * self.second)
         return SpatialInertia(density * self.measure, (x, y, z), inertia_from_second_moment(second))
 
     def with_mass(self, mass: float) -> SpatialInertia:
-        """The body of this shape that weighs ``mass`` [kg]."""
+        """Return the body with a mass [kg]."""
         return self.with_density(mass / self.measure)
 
 
 def signed_volume(vertices: Array, faces: Faces) -> float:
-    """The volume [m³] a closed mesh encloses; negative where its faces look inwards."""
+    """Compute the volume [m³] that a closed mesh encloses; negative if its faces point inward."""
     corners = (vertices - _middle(vertices))[faces]
     return float(_triple(corners).sum() / 6)
 
 
 def solid_moments(vertices: Array, faces: Faces) -> Moments:
-    """The integrals over the inside of a closed, consistently wound mesh.
+    """Compute the integrals over the inside of a closed, consistently wound mesh.
 
-    Closedness is not checked here: see ``estimate`` for meshes of unknown quality.
+    Closedness is not checked; use ``estimate`` for meshes of unknown quality.
 
     Args:
         vertices: Points [m], shape (n, 3).
-        faces: Indices into ``vertices``, shape (m, 3), counter-clockwise seen from outside.
+        faces: Indices into ``vertices``, shape (m, 3), counter-clockwise from outside.
 
     Raises:
         MeshError: The mesh encloses no volume.
@@ -85,14 +85,18 @@ def solid_moments(vertices: Array, faces: Faces) -> Moments:
     second = _corner_products(corners, triple) / 120
     rest = triple @ corners.sum(axis=1) / 24
     volume = float(triple.sum()) / 6
-    # the first pass leaves the centroid a rounding error away
+    # removes the rounding error of the centroid from the first pass
     centroid_error = rest / volume
     second -= volume * np.outer(centroid_error, centroid_error)
     return Moments(volume, middle + centroid + centroid_error, second)
 
 
 def shell_moments(vertices: Array, faces: Faces) -> Moments:
-    """The integrals over the surface of a mesh, open or closed, whichever way it is wound.
+    """Compute the integrals over the surface of a mesh, open or closed, with any winding.
+
+    Args:
+        vertices: Points [m], shape (n, 3).
+        faces: Indices into ``vertices``, shape (m, 3).
 
     Raises:
         MeshError: The mesh has no area.
@@ -118,7 +122,7 @@ def _middle(vertices: Array) -> Array:
 
 def _triple(corners: Array) -> Array:
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    # written out: np.cross moves its axes about and takes three times as long
+    # np.cross takes three times as long, as it moves axes
     return np.asarray(
         a[:, 0] * (b[:, 1] * c[:, 2] - b[:, 2] * c[:, 1])
         + a[:, 1] * (b[:, 2] * c[:, 0] - b[:, 0] * c[:, 2])
@@ -127,7 +131,7 @@ def _triple(corners: Array) -> Array:
 
 
 def _corner_products(corners: Array, weights: Array) -> Array:
-    """Σ w (a aᵀ + b bᵀ + c cᵀ + s sᵀ) over all triangles."""
+    """Sum w (a aᵀ + b bᵀ + c cᵀ + s sᵀ) over all triangles."""
     total: Array = np.zeros((3, 3))
     for points in (corners[:, 0], corners[:, 1], corners[:, 2], corners.sum(axis=1)):
         total += (points * weights[:, None]).T @ points

@@ -1,7 +1,7 @@
-"""Sound repairs of a triangle surface: twice-written faces, winding, small holes.
+"""Conservative repairs of a triangle surface: duplicate faces, winding, small holes.
 
-Nothing here moves a vertex. Faces are only dropped where they are written twice, turned where their
-neighbours agree on it, and added to close a rim.
+No vertex is moved. Only duplicate faces are dropped, faces are flipped only to agree with their
+neighbors, and faces are added only to close a rim.
 """
 
 from __future__ import annotations
@@ -15,29 +15,29 @@ from ..geometry.mesh import Faces, Points
 from ..geometry.topology import components, edges_of
 
 CAP_RISE = 0.1
-"""How far a surface may bulge over a hole, relative to the hole's size, in the error of a cap."""
+"""Assumed bulge of a surface over a hole, relative to the hole's size, for the error of a cap."""
 
 
 @dataclass(frozen=True, eq=False)
 class Filling:
-    """A surface without rims, and what closing them may have cost."""
+    """A surface without rims, with the error estimate of its caps."""
 
     vertices: Points
     faces: Faces
     holes: int
-    """How many rims were closed."""
+    """Number of closed rims."""
     area: float
-    """Area [m²] of all caps together."""
+    """Total area [m²] of all caps."""
     volume_error: float
-    """Volume [m³] by which the caps may miss the surface that was there."""
+    """Estimated volume [m³] between the caps and the missing surface."""
 
 
 def drop_duplicates(faces: Faces) -> Faces:
-    """The faces without those written twice.
+    """Drop duplicate faces.
 
-    Faces on the same three vertices that look opposite ways cancel: they are a wall between two
-    bodies that touch. Only where cancelling would take most of the surface away was each face
-    written once for either side, and then one of the two is kept.
+    Faces on the same three vertices with opposite winding cancel: they are a wall between two
+    adjacent bodies. If cancelling would remove most of the surface, each face was written once per
+    side instead, and one of the two is kept.
     """
     ordered = np.sort(faces, axis=1)
     _, first, inverse = np.unique(ordered, axis=0, return_index=True, return_inverse=True)
@@ -54,12 +54,12 @@ def drop_duplicates(faces: Faces) -> Faces:
 
 
 def orient(vertices: Points, faces: Faces) -> tuple[Faces, int]:
-    """The faces turned so that neighbours agree, and how many were turned.
+    """Flip faces so that neighbors agree, and return the number of flipped faces.
 
-    Faces that share an edge with exactly one other are linked to it, once as they are and once
-    turned, and the faces that hang together so have one common winding (two, if the surface is
-    a Möbius strip, which is left alone). Of that winding and its opposite the one is taken that
-    keeps more of the area as it was, so a cavity stays one.
+    Two faces that alone share an edge are linked, both as written and flipped, which gives each
+    connected component one winding (two for a Möbius strip, which is left unchanged). Of that
+    winding and its opposite, the one that keeps more of the area is used, so a cavity stays a
+    cavity.
     """
     count = len(faces)
     edges = edges_of(faces)
@@ -83,17 +83,18 @@ def orient(vertices: Points, faces: Faces) -> tuple[Faces, int]:
 
 
 def fill_holes(vertices: Points, faces: Faces) -> Filling:
-    """The surface with every rim closed by a fan about the middle of its loop.
+    """Close every rim by a fan about the center of its loop.
 
-    The rims of a consistently wound surface can always be walked in closed loops, and a fan closes
-    each exactly; for a flat loop it is the right surface, whatever the loop's shape. The error
-    of a cap is its area times the loop's departure from a plane plus ``CAP_RISE`` of its size.
+    The rims of a consistently wound surface always form closed loops, and a fan closes each
+    exactly. For a flat loop the fan is the correct surface, whatever the loop's shape. The error of
+    a cap is its area times the sum of the loop's deviation from a plane and ``CAP_RISE`` times its
+    size.
     """
     edges = edges_of(faces)
     surplus = edges.forward - edges.backward
     rim = np.flatnonzero(surplus)
     repeat = np.abs(surplus[rim])
-    # a cap walks the rim against the face that is there
+    # a cap traverses the rim in the direction opposite to the adjacent face
     ends = np.where(surplus[rim, None] > 0, edges.pairs[rim][:, ::-1], edges.pairs[rim])
     loops = _loops(np.repeat(ends, repeat, axis=0))
     caps: list[Faces] = []
@@ -121,14 +122,14 @@ def fill_holes(vertices: Points, faces: Faces) -> Filling:
 
 
 def _odd(faces: Faces) -> npt.NDArray[np.bool_]:
-    """Whether sorting a face's vertices turns it over."""
+    """Tell for each face whether sorting its vertices reverses its winding."""
     a, b, c = faces.T
     inversions = (a > b).astype(int) + (a > c) + (b > c)
     return np.asarray(inversions % 2 == 1)
 
 
 def _loops(directed: Faces) -> list[Faces]:
-    """Closed loops without a repeated vertex that use each directed edge once."""
+    """Split directed edges into closed loops without repeated vertices."""
     onward: dict[int, list[int]] = {}
     for begin, end in directed.tolist():
         onward.setdefault(begin, []).append(end)

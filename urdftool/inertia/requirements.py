@@ -1,4 +1,4 @@
-"""What mass properties have to fulfill before they are computed with or written."""
+"""Conditions that mass properties must fulfill before they are used or written."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from ..mechanics.tensor import consistency, moments_text
 from .inertia_error import InertiaError
 
 ROUNDING = 1e-9
-"""Excess of a tensor, relative to its size, that rounding explains."""
+"""Largest excess of a tensor, relative to its size, that rounding explains."""
 
 
 def is_consistent(properties: SpatialInertia, *, tolerance: float = ROUNDING) -> bool:
-    """Whether a rigid body can have these mass properties, and some inertia.
+    """Tell whether mass properties are finite, physically consistent and have some inertia.
 
     Args:
         properties: Mass properties.
-        tolerance: Excess over the triangle inequality that is allowed, relative to the largest
-            principal moment.
+        tolerance: Allowed excess over the triangle inequality, relative to the largest principal
+            moment.
     """
     if not properties.is_finite:
         return False
@@ -29,10 +29,14 @@ def is_consistent(properties: SpatialInertia, *, tolerance: float = ROUNDING) ->
 
 
 def require_consistent(properties: SpatialInertia, what: str = "the result") -> SpatialInertia:
-    """Return the argument, if a rigid body can have it.
+    """Return the argument if it is physically consistent.
+
+    Args:
+        properties: Mass properties.
+        what: Name of the body in error messages.
 
     Raises:
-        InertiaError: The mass is not above zero, or the tensor breaks positivity or the triangle
+        InertiaError: The mass is not above zero, or the tensor violates positivity or the triangle
             inequality.
     """
     if not (math.isfinite(properties.mass) and properties.mass > 0):
@@ -51,10 +55,10 @@ def require_consistent(properties: SpatialInertia, what: str = "the result") -> 
 
 
 def combine(bodies: Iterable[SpatialInertia]) -> SpatialInertia:
-    """Combine bodies of one frame into one rigid body that has a mass.
+    """Combine bodies in one frame into one rigid body with a mass above zero.
 
     Raises:
-        InertiaError: There is no body, or their masses add up to nothing.
+        InertiaError: There is no body, or the total mass is not above zero.
     """
     pieces = list(bodies)
     whole = spatial_inertia.combine(pieces)

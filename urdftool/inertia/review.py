@@ -1,4 +1,4 @@
-"""A robot looked over: for each link what is written, what its geometry implies, what cannot be."""
+"""Review of a robot's inertia: written, implied and physically inconsistent values per link."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ def review(
     source: str | None = None,
     only: Sequence[str] = (),
 ) -> list[LinkReview]:
-    """Look a robot over.
+    """Review the inertia of a robot's links.
 
     Args:
         robot: The robot.
-        read_meshes: What the named mesh files enclose, or why it is not known.
-        masses: What links weigh; None for what is written.
-        source: ``"collision"`` or ``"visual"``; None takes the collisions of a link, or its visuals
-            where it has none, or none that can be weighed.
-        only: Names of the links wanted; all if empty.
+        read_meshes: Returns the body of each named mesh file, or the error.
+        masses: Mass assignment; None for the written masses.
+        source: ``"collision"`` or ``"visual"``; None for the collisions of a link, or its visuals
+            if it has no collisions or their volume is unknown.
+        only: Names of the links to return; all if empty.
 
     Raises:
-        InertiaError: The masses are not possible.
+        InertiaError: The mass assignment is invalid, see :func:`check_masses` and :func:`weigh`.
     """
     masses = masses or Masses()
     check_masses(masses, [link.name for link in robot.links])
@@ -56,11 +56,11 @@ def review(
 
 
 def find_bodies(found: list[LinkReview], meshes: Meshes, source: str | None = None) -> None:
-    """Set the body of each link, from one source; the meshes of all are read in one go.
+    """Set the body of each link from one source; all missing meshes are read at once.
 
     Args:
-        found: The links.
-        meshes: The meshes that are known, to which the others are added.
+        found: Reviews of the links.
+        meshes: Cache of mesh bodies.
         source: As for :func:`review`.
     """
     for name in (source,) if source else SOURCES:

@@ -1,10 +1,10 @@
-"""Numbers as they are written: twelve significant digits, without the noise of arithmetic.
+"""Formatting of numbers: twelve significant digits, without arithmetic noise.
 
-A double has some sixteen digits, of which the last few are noise: 0.18 · 0.0225 / … comes out as
-0.00028350000000000003. Twelve are kept, and then the shortest text that reads back as the same
-number; products of inertia and coordinates below 1e-12 of the body's size are zeros that a rotation
-has left over. Where such rounding would break the triangle inequality, as it can for a thin plate,
-more digits are kept.
+The last few of the sixteen digits of a double are noise: 0.18 · 0.0225 / … gives
+0.00028350000000000003. Numbers are rounded to twelve digits and printed as the shortest text that
+reads back as the same number. Products of inertia and coordinates below 1e-12 of the body's size
+are remnants of rotations and become zero. If rounding would violate the triangle inequality, as for
+a thin plate, more digits are kept.
 """
 
 from __future__ import annotations
@@ -17,19 +17,23 @@ from ..mechanics.tensor import SymmetricTensor, as_tensor, consistency, trace_of
 from .requirements import ROUNDING, require_consistent
 
 DIGITS = 12
-"""Significant digits that are kept."""
+"""Number of significant digits."""
 
 NOISE = 1e-12
-"""Part of the body's own size below which a number off the diagonal is zero."""
+"""Threshold, relative to the body's size, below which a number becomes zero."""
 
 _EXACT = 2e-15
 
 
 def round_properties(properties: SpatialInertia, what: str = "the result") -> SpatialInertia:
-    """The same properties in numbers that can be written.
+    """Round mass properties to numbers that can be written.
+
+    Args:
+        properties: Mass properties.
+        what: Name of the body in error messages.
 
     Raises:
-        InertiaError: A rigid body cannot have them.
+        InertiaError: They are not physically consistent.
     """
     require_consistent(properties, what)
     tensor = as_tensor(_without_noise(properties.tensor, 0.0))
@@ -41,25 +45,25 @@ def round_properties(properties: SpatialInertia, what: str = "the result") -> Sp
 
 
 def _without_noise(values: Sequence[float], size: float) -> list[float]:
-    """Replace what is below the noise of the largest value, or of a size, by zeros."""
+    """Replace values below the noise of the largest value, or of a size, by zeros."""
     least = NOISE * max(size, *map(abs, values))
     return [0.0 if abs(value) < least else value for value in values]
 
 
 def round_number(value: float, digits: int = DIGITS) -> float:
-    """A number with so many significant digits; never a negative zero."""
+    """Round a number to significant digits; the result is never a negative zero."""
     return float(f"{value:.{digits}g}") + 0.0
 
 
 def number_text(value: float) -> str:
-    """The shortest text of a number; whole numbers have no point."""
+    """Format a number as the shortest text that reads back equal; integers have no point."""
     if value == int(value) and abs(value) < 1e16:
         return str(int(value))
     return repr(float(value))
 
 
 def numbers_text(values: Iterable[float]) -> str:
-    """Numbers with blanks between."""
+    """Format numbers separated by spaces."""
     return " ".join(number_text(float(value)) for value in values)
 
 

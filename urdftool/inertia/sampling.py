@@ -1,9 +1,9 @@
-"""A solid known only by an inside test: its moments from evenly spread points.
+"""Moments of a solid that is defined by an inside test, from evenly spread points.
 
-The points are Roberts' additive recurrence on the generalised golden ratio of three dimensions
-("The Unreasonable Effectiveness of Quasirandom Sequences", 2018). Unlike the cells of a voxel grid
-they do not line up with the flat faces machined parts are made of, and any run of them is spread
-as evenly, so that two halves give two independent results to compare.
+The points are Roberts' additive recurrence on the generalized golden ratio in three dimensions
+("The Unreasonable Effectiveness of Quasirandom Sequences", 2018). Unlike a voxel grid they do not
+align with flat faces of machined parts, and any subsequence is evenly spread, so that two halves
+give two independent results.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from .polyhedron import Moments
 from .winding import boxes_of, winding_numbers
 
 SAMPLES = 30_000
-"""Points in the bounding box, for both halves together."""
+"""Number of points in the bounding box, in both halves together."""
 
-_GOLDEN = 1.2207440846057596  # the real root of x⁴ = x + 1
+_GOLDEN = 1.2207440846057596  # real root of x⁴ = x + 1
 
 
 def spread_points(count: int, lower: Array, upper: Array, *, start: int = 0) -> Array:
-    """``count`` evenly spread points [m] of a box, from number ``start`` of the sequence."""
+    """Return ``count`` evenly spread points [m] of a box, from index ``start`` of the sequence."""
     steps = _GOLDEN ** -np.arange(1.0, 4.0)
     numbers = np.arange(start + 1, start + count + 1, dtype=np.float64)
     return lower + (upper - lower) * ((0.5 + numbers[:, None] * steps) % 1.0)
@@ -31,18 +31,18 @@ def spread_points(count: int, lower: Array, upper: Array, *, start: int = 0) -> 
 def sampled_moments(
     corners: Array, samples: int = SAMPLES, *, caps: Array | None = None
 ) -> tuple[Moments, Moments] | None:
-    """Compute the moments of the space that a surface winds round, from each half of the samples.
+    """Compute the moments of the space that a surface encloses, from each half of the samples.
 
-    A point counts as inside where the winding number is above one half in size, so that a body
-    that is inside out counts like any other, and space that two bodies share counts once.
+    A point is inside if the absolute winding number is above one half, so that inverted bodies
+    count like others, and space shared by two bodies counts once.
 
     Args:
         corners: Triangles [m], shape (m, 3, 3).
-        samples: Points in the bounding box.
+        samples: Number of points in the bounding box.
         caps: Triangles [m] that close the surface, shape (c, 3, 3); None for a closed one.
 
     Returns:
-        None where hardly a point is inside.
+        None if a half has fewer than 20 points inside.
     """
     low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
     half = samples // 2
@@ -61,10 +61,10 @@ def sampled_moments(
 
 
 def winding_with_caps(points: Array, corners: Array, caps: Array | None) -> Array:
-    """Compute the winding number of a surface at each point, faster than triangle by triangle.
+    """Compute the winding number of a surface at each point, faster than from solid angles.
 
-    The number of an open surface is that of the surface with its caps, which is a whole number that
-    crossings count, less the solid angles of the caps alone.
+    For an open surface it is that of the surface with its caps, an integer that ray crossings give,
+    minus that of the caps alone.
 
     Args:
         points: Points [m], shape (n, 3).

@@ -1,4 +1,4 @@
-"""What links weigh and how their mass lies, for those who fill in what is missing."""
+"""Estimated mass properties of links at one density, as a scale for missing values."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from .review import find_bodies
 
 
 class Scales:
-    """Weighs links at one density; a mesh file is read once, whichever robots name it."""
+    """Mass estimation at one density; each mesh file is read once for all robots."""
 
     def __init__(self, density: float) -> None:
-        """Weigh at a density [kg/m³]."""
+        """Set the density [kg/m³]."""
         self.density = density
         self.known: dict[tuple[str, str], Any] = {}
 
@@ -27,7 +27,10 @@ class Scales:
 
         Args:
             robot: The robot, read from a description.
-            names: The links; one whose shapes do not say what it encloses is not in the result.
+            names: Names of the links.
+
+        Returns:
+            Links whose geometry has an unknown volume are missing; empty if the estimate fails.
         """
         description = robot.source
         assert description is not None
@@ -55,7 +58,7 @@ class Scales:
 
 
 def _key(description: Description, name: str) -> tuple[str, str]:
-    """The file that a name means with how it is read; where there is none, the name itself."""
+    """Return the file of a URI and its up axis; if not found, the description and the URI."""
     try:
         return str(description.resolve(name)), description.gltf_up
     except UrdftoolError:

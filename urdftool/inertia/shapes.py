@@ -1,4 +1,4 @@
-"""The shapes that have a closed form, and the numbers each needs: data, without numpy."""
+"""Shapes with a closed form, and the sizes each requires: data, without numpy."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Sizes = Mapping[str, "float | tuple[float, ...]"]
 
 
 class Size(NamedTuple):
-    """One number, or three, that a shape is described by."""
+    """One size of a shape, of one number or three."""
 
     name: str
     numbers: int
@@ -21,7 +21,7 @@ class Size(NamedTuple):
 
 
 class Shape(NamedTuple):
-    """A shape: its sizes, and whether there is a hollow one."""
+    """A shape: its sizes, and whether it has a hollow version and end plates."""
 
     name: str
     what: str
@@ -31,7 +31,7 @@ class Shape(NamedTuple):
 
     @property
     def title(self) -> str:
-        """With its article, as a sentence has it."""
+        """Return the name with its indefinite article."""
         return f"an {self.name}" if self.name[0] in "aeiou" else f"a {self.name}"
 
 
@@ -66,7 +66,7 @@ _MIN, _MAX = 1e-200, 1e200
 
 
 def find_shape(name: str) -> Shape | None:
-    """The shape of that name, if there is one."""
+    """Return the shape of this name, or None."""
     return next((shape for shape in SHAPES if shape.name == name), None)
 
 
@@ -79,18 +79,19 @@ def shape_properties(
     mass: float | None = None,
     density: float | None = None,
 ) -> SpatialInertia:
-    """Mass properties of a shape in its own frame; the formulas are in ``solids``.
+    """Compute the mass properties of a shape in its own frame; see ``solids`` for the formulas.
 
     Args:
-        shape: Which.
+        shape: The shape.
         sizes: Its sizes [m] by name.
-        thickness: Wall of a hollow one [m]; None for a solid one.
-        closed: A hollow cylinder has end plates.
+        thickness: Wall of a hollow shape [m]; None for a solid one.
+        closed: Whether a hollow cylinder has end plates.
         mass: Mass [kg]; give this or ``density``.
         density: Density [kg/m³].
 
     Raises:
-        InertiaError: A size, mass or density is not above zero, or the wall does not fit.
+        InertiaError: A size, mass or density is not above zero or out of range, or the wall does
+            not fit.
     """
     from . import solids
     from .inertia_error import InertiaError

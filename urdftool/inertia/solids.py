@@ -1,12 +1,14 @@
 """Mass properties of simple solids in closed form, and of their hollow versions.
 
 Every function takes either ``mass`` [kg] or ``density`` [kg/m³] and returns ``SpatialInertia`` in
-the frame URDF and SDF give the shape: origin at the middle of the shape, axis of revolution along
-Z. Only a cone's centre of mass is not at that origin.
+the frame that URDF and SDF give the shape: origin at its center, axis of revolution along z. Only a
+cone's center of mass is not at that origin. Every function raises ``InertiaError`` if a size is not
+a finite number above zero, if not exactly one of mass and density is given, or if that is not above
+zero.
 
-The formulas are the textbook ones (Goldstein, "Classical Mechanics"; Meriam and Kraige, "Dynamics",
-table D/4). Differences of nearly equal powers, as thin walls make them, are factored first, so that
-results stay exact to rounding however thin the wall is.
+The formulas are from textbooks (Goldstein, "Classical Mechanics"; Meriam and Kraige, "Dynamics",
+table D/4). Differences of nearly equal powers, as for thin walls, are factored first, so that
+results are exact to rounding for walls of any thickness.
 """
 
 from __future__ import annotations
@@ -23,7 +25,7 @@ from .inertia_error import InertiaError
 def box(
     size: Sequence[float], *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
-    """A solid cuboid of edges ``size`` [m] along X, Y, Z: ixx = m (y² + z²) / 12."""
+    """Compute a solid box of edges ``size`` [m] along x, y, z: ixx = m (y² + z²) / 12."""
     x, y, z = _sizes("box", size=size)
     m = _mass("box", x * y * z, mass, density)
     return _diagonal(
@@ -34,7 +36,7 @@ def box(
 def cylinder(
     radius: float, length: float, *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
-    """A solid cylinder of ``radius`` and ``length`` [m] along Z: izz = m r² / 2."""
+    """Compute a solid cylinder of ``radius`` and ``length`` [m] along z: izz = m r² / 2."""
     r, h = _sizes("cylinder", radius=radius, length=length)
     m = _mass("cylinder", math.pi * r * r * h, mass, density)
     across = m * (3 * r * r + h * h) / 12
@@ -44,7 +46,7 @@ def cylinder(
 def sphere(
     radius: float, *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
-    """A solid sphere of ``radius`` [m]: i = 2 m r² / 5."""
+    """Compute a solid sphere of ``radius`` [m]: i = 2 m r² / 5."""
     (r,) = _sizes("sphere", radius=radius)
     m = _mass("sphere", 4 / 3 * math.pi * r**3, mass, density)
     moment = 2 * m * r * r / 5
@@ -54,14 +56,14 @@ def sphere(
 def capsule(
     radius: float, length: float, *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
-    """A solid capsule along Z: a cylinder of ``length`` between half spheres of ``radius`` [m].
+    """Compute a solid capsule along z: a cylinder between half spheres of ``radius`` [m].
 
-    ``length`` is the cylinder's alone, as in URDF 1.1, SDF and MuJoCo; the whole is length + 2 r
-    long. About its own centre of mass, 3r/8 from the flat face, a half sphere has 83 m r² / 320
-    across; moved out to both ends this adds up to m (2r²/5 + h²/4 + 3hr/8) for the pair.
+    ``length`` [m] is that of the cylinder, as in URDF 1.1, SDF and MuJoCo; the total length is
+    length + 2 r. A half sphere has ixx = 83 m r² / 320 about its center of mass, 3r/8 from the flat
+    face. Shifted to both ends this gives m (2r²/5 + h²/4 + 3hr/8) for the pair.
     """
     r, h = _sizes("capsule", radius=radius, length=length)
-    # per π r²: the cylinder and the two half spheres together
+    # volumes of the cylinder and the pair of half spheres, divided by π r²
     shares = (h, 4 * r / 3)
     m = _mass("capsule", math.pi * r * r * sum(shares), mass, density)
     m_cylinder, m_ends = (m * share / sum(shares) for share in shares)
@@ -73,7 +75,7 @@ def capsule(
 def ellipsoid(
     radii: Sequence[float], *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
-    """A solid ellipsoid of half axes ``radii`` [m] along X, Y, Z: ixx = m (b² + c²) / 5."""
+    """Compute a solid ellipsoid of half axes ``radii`` [m] along x, y, z: ixx = m (b² + c²) / 5."""
     a, b, c = _sizes("ellipsoid", radii=radii)
     m = _mass("ellipsoid", 4 / 3 * math.pi * a * b * c, mass, density)
     return _diagonal(m, m * (b * b + c * c) / 5, m * (a * a + c * c) / 5, m * (a * a + b * b) / 5)
@@ -82,10 +84,11 @@ def ellipsoid(
 def cone(
     radius: float, length: float, *, mass: float | None = None, density: float | None = None
 ) -> SpatialInertia:
-    """A solid cone along Z, its tip at +length/2 and its base of ``radius`` [m] at −length/2.
+    """Compute a solid cone along z, tip at +length/2, base of ``radius`` [m] at −length/2.
 
-    This is SDF's frame: the origin is half way up. The centre of mass is a quarter of the length
-    above the base, at z = −length/4; about it, ixx = 3 m (4 r² + h²) / 80 and izz = 3 m r² / 10.
+    This is SDF's frame: the origin is half way up. The center of mass is at z = −length/4, a
+    quarter of the length above the base. About it, ixx = 3 m (4 r² + h²) / 80 and izz = 3 m r² /
+    10.
     """
     r, h = _sizes("cone", radius=radius, length=length)
     m = _mass("cone", math.pi * r * r * h / 3, mass, density)
@@ -100,15 +103,18 @@ def hollow_box(
     mass: float | None = None,
     density: float | None = None,
 ) -> SpatialInertia:
-    """A closed cuboid of outer edges ``size`` [m] with walls of ``thickness`` [m] on all six sides.
+    """Compute a closed box of outer edges ``size`` [m] with walls of ``thickness`` [m].
 
-    The outer cuboid less the inner one: ∫x² dV = (a³bc − a'³b'c') / 12, with a' = a − 2t.
+    The outer box minus the inner one: ∫x² dV = (a³bc − a'³b'c') / 12, with a' = a − 2t.
+
+    Raises:
+        InertiaError: Also if the wall is thicker than half the shortest edge.
     """
     outer = _sizes("hollow box", size=size)
     t = _wall("hollow box", thickness, min(outer) / 2, "half the shortest edge")
     inner = tuple(edge - 2 * t for edge in outer)
     volume = _product_difference(outer, inner, t)
-    # ∫x² dV etc., each with its own axis' edge cubed
+    # ∫x² dV and so on, each with the edge of its own axis cubed
     squares = [
         _cubed_difference((outer[i], *_others(outer, i)), (inner[i], *_others(inner, i)), t) / 12
         for i in range(3)
@@ -127,10 +133,13 @@ def hollow_cylinder(
     mass: float | None = None,
     density: float | None = None,
 ) -> SpatialInertia:
-    """A tube of outer ``radius``, ``length`` and wall ``thickness`` [m] along Z.
+    """Compute a tube of outer ``radius``, ``length`` and wall ``thickness`` [m] along z.
 
-    Open at both ends, or ``closed`` by end plates of the wall's thickness within the length:
-    izz = m (r² + s²) / 2 for the open one, with s = r − t.
+    It is open at both ends, or ``closed`` by end plates of the same thickness within the length.
+    The open one has izz = m (r² + s²) / 2 with s = r − t.
+
+    Raises:
+        InertiaError: Also if the wall is thicker than the radius, or if closed, half the length.
     """
     r, h = _sizes("hollow cylinder", radius=radius, length=length)
     limit = min(r, h / 2) if closed else r
@@ -140,7 +149,7 @@ def hollow_cylinder(
     s = r - t
     tube = h - 2 * t if closed else h
     plates = 2 * t if closed else 0.0
-    # volumes per π
+    # volumes divided by π
     v_tube, v_plates = t * (r + s) * tube, r * r * plates
     m = _mass("hollow cylinder", math.pi * (v_tube + v_plates), mass, density)
     m_tube, m_plates = (m * volume / (v_tube + v_plates) for volume in (v_tube, v_plates))
@@ -158,9 +167,12 @@ def hollow_sphere(
     mass: float | None = None,
     density: float | None = None,
 ) -> SpatialInertia:
-    """A sphere of outer ``radius`` [m] with a wall of ``thickness`` [m], empty inside.
+    """Compute a hollow sphere of outer ``radius`` [m] with a wall of ``thickness`` [m].
 
-    i = 2/5 m (r⁵ − s⁵) / (r³ − s³) with s = r − t, divided through by r − s.
+    i = 2/5 m (r⁵ − s⁵) / (r³ − s³) with s = r − t, both divided by r − s.
+
+    Raises:
+        InertiaError: Also if the wall is thicker than the radius.
     """
     (r,) = _sizes("hollow sphere", radius=radius)
     t = _wall("hollow sphere", thickness, r, "the radius")
@@ -176,14 +188,14 @@ def _others(edges: Sequence[float], axis: int) -> tuple[float, float]:
 
 
 def _product_difference(outer: Sequence[float], inner: Sequence[float], t: float) -> float:
-    """Abc − a'b'c' as a sum of positive terms, for edges that differ by 2t each."""
+    """Compute abc − a'b'c' as a sum of positive terms, for edges that differ by 2t each."""
     _, b, c = outer
     ai, bi, _ = inner
     return 2 * t * (b * c + ai * c + ai * bi)
 
 
 def _cubed_difference(outer: Sequence[float], inner: Sequence[float], t: float) -> float:
-    """A³bc − a'³b'c' as a sum of positive terms, for edges that differ by 2t each."""
+    """Compute a³bc − a'³b'c' as a sum of positive terms, for edges that differ by 2t each."""
     a, b, c = outer
     ai, bi, _ = inner
     return 2 * t * ((a * a + a * ai + ai * ai) * b * c + ai**3 * (c + bi))
@@ -196,10 +208,11 @@ def _diagonal(
 
 
 def _sizes(shape: str, **named: float | Sequence[float]) -> tuple[float, ...]:
-    """The sizes as floats.
+    """Return the sizes as floats.
 
     Raises:
-        InertiaError: One is not a finite number above zero, or three were wanted.
+        InertiaError: One is not a finite number above zero, or ``size`` or ``radii`` is not three
+            numbers.
     """
     sizes: list[float] = []
     for name, given in named.items():

@@ -1,7 +1,7 @@
-"""What is to be written for one link: elements to add and attributes to set.
+"""Changes to the inertial of one link: elements to add and attributes to set.
 
-What is there is kept as far as it can be: an inertial's own ``rpy`` stays, and the tensor is
-written along its axes; attributes whose number is right already are left alone.
+Existing values are kept if possible: the tensor is written along the axes of an existing ``rpy``,
+and attributes that are already correct are not changed.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Want:
 
     @property
     def said(self) -> str:
-        """What to do, for who does it by hand."""
+        """Describe the change for a user who makes it by hand."""
         if self.attribute is not None:
             return f'set {self.attribute}="{self.value}"'
         return "add " + " ".join(line.strip() for line in self.lines)
@@ -43,7 +43,7 @@ class Want:
 
 @dataclass
 class Wanted:
-    """All that is wanted for one link, and what it then weighs."""
+    """All changes to one link, and its resulting mass properties."""
 
     item: LinkReview
     result: SpatialInertia
@@ -51,19 +51,19 @@ class Wanted:
 
     @property
     def link(self) -> Link:
-        """The link."""
+        """Return the link."""
         return self.item.link
 
 
 def wanted_for(item: LinkReview, *, anew: bool) -> Wanted:
-    """What is to be written for a link whose implied mass properties are known.
+    """Determine the changes to a link whose implied mass properties are known.
 
     Args:
-        item: The link, with ``implied``.
-        anew: Replace what is written; otherwise only what is missing is added.
+        item: The review of the link, with ``implied``.
+        anew: Whether written values are replaced; if not, only missing ones are added.
 
     Raises:
-        InertiaError: What would be written, no rigid body can have.
+        InertiaError: The result would be physically inconsistent.
     """
     assert item.implied is not None
     result = round_properties(item.implied, f"link '{item.link.name}'")
@@ -103,7 +103,13 @@ def wanted_for(item: LinkReview, *, anew: bool) -> Wanted:
 
 
 def _numbers(inertia: Element, along: SpatialInertia, *, anew: bool) -> list[Want]:
-    """The six numbers that differ, or that are missing: a missing product beside moments is 0."""
+    """Set those of the six numbers that differ, or are missing.
+
+    Unless ``anew``, a missing product of inertia is set to 0 if all moments are written.
+
+    Raises:
+        InertiaError: The written numbers with the missing ones added are inconsistent.
+    """
     meant = components_of(along.tensor)
     missing = [name for name in COMPONENTS if name not in inertia.attributes]
     if not anew:

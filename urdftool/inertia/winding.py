@@ -1,14 +1,14 @@
-"""Generalised winding numbers: how much of the view from a point a surface fills.
+"""Generalized winding numbers: the solid angle of a surface at a point, divided by 4π.
 
-Inside a closed surface the number is 1, outside 0; where surfaces overlap it counts them, and
-across a hole it changes smoothly, so that "above one half" is a sensible inside for an open
-surface too (Jacobson, Kavan and Sorkine-Hornung, "Robust Inside-Outside Segmentation using
+Inside a closed surface the number is 1, outside 0. Where surfaces overlap it counts them, and
+across a hole it changes smoothly, so that "above one half" is a sensible inside test for open
+surfaces, too (Jacobson, Kavan and Sorkine-Hornung, "Robust Inside-Outside Segmentation using
 Generalized Winding Numbers", 2013).
 
-The solid angle of a triangle is van Oosterom and Strackee's ("The Solid Angle of a Plane
-Triangle", 1983). Triangles far away are taken together as one dipole, as in Barill et al., "Fast
-Winding Numbers for Soups and Clouds", 2018, here with one level of boxes instead of a tree, which
-suits arrays.
+The solid angle of a triangle follows van Oosterom and Strackee ("The Solid Angle of a Plane
+Triangle", 1983). Distant triangles are approximated by one dipole, as in Barill et al., "Fast
+Winding Numbers for Soups and Clouds", 2018, but with one level of boxes instead of a tree, which
+suits array operations.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ import numpy.typing as npt
 from ..geometry.mesh import Array
 
 FAR = 1.8
-"""Distance in radii of a box of triangles beyond which they are one dipole."""
+"""Distance, in radii of a box of triangles, beyond which they are one dipole."""
 
 _PAIRS_AT_ONCE = 400_000
 
 _DENSE = 60_000
-"""Points times boxes at once: what the cache holds, and too little for BLAS to start threads."""
+"""Points times boxes per block: fits the cache and is too small for BLAS to start threads."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,21 +36,21 @@ class Boxes:
     corners: Array
     """Triangles [m] in the order of the boxes, shape (m, 3, 3)."""
     starts: npt.NDArray[np.int64]
-    """First triangle of each box, and their number at the end."""
+    """First triangle of each box, followed by the number of triangles."""
     area: Array
     """Sum of the area vectors [m²] of each box, shape (k, 3)."""
     middle: Array
-    """Centre [m] of each box's triangles, weighted by area, shape (k, 3)."""
+    """Area-weighted center [m] of each box's triangles, shape (k, 3)."""
     radius: Array
-    """Distance [m] from there to the farthest corner."""
+    """Distance [m] from that center to the farthest corner."""
 
 
 def boxes_of(corners: Array) -> Boxes:
-    """Triangles in boxes of a regular grid, of about a dozen each."""
+    """Sort triangles [m], shape (m, 3, 3), into boxes of a grid, about a dozen in each."""
     centres = corners.mean(axis=1)
     low = corners.reshape(-1, 3).min(axis=0)
     extent = np.ptp(corners.reshape(-1, 3), axis=0)
-    # a surface meets about 3 n² of the n³ cells of a cube's grid
+    # a surface intersects about 3 n² of the n³ cells of a cube's grid
     side = max(float(extent.max()), 1e-300) / max(1.0, (16 * len(corners) ** 0.5 / 3) ** 0.5)
     cells = np.floor((centres - low) / side).astype(np.int64)
     shape = cells.max(axis=0) + 1
@@ -74,7 +74,7 @@ def boxes_of(corners: Array) -> Boxes:
 
 
 def winding_numbers(points: Array, boxes: Boxes) -> Array:
-    """The generalised winding number of the surface at each point, exact to about 0.01.
+    """Compute the generalized winding number of the surface at each point, to about 0.01.
 
     Args:
         points: Points [m], shape (n, 3).
@@ -88,7 +88,12 @@ def winding_numbers(points: Array, boxes: Boxes) -> Array:
 
 
 def solid_angles(points: Array, corners: Array) -> Array:
-    """The signed solid angle [sr] of triangle i seen from point i; positive from behind it."""
+    """Compute the signed solid angle [sr] of triangle i at point i; positive from behind it.
+
+    Args:
+        points: Points [m], shape (n, 3).
+        corners: Triangles [m], shape (n, 3, 3).
+    """
     a, b, c = (corners[:, k] - points for k in range(3))
     la, lb, lc = (np.sqrt(np.einsum("ij,ij->i", v, v)) for v in (a, b, c))
     above = (
