@@ -1,13 +1,14 @@
-"""Simpler shapes for contact: made from meshes, measured against them, written into robots.
+"""Collision geometry: simplified from meshes, measured against them, and written into robots.
 
-One module an idea, each imported on its own (this package loads nothing by itself):
+This package imports nothing by itself; its modules are:
 
-- ``settings``, ``piece``: what is wanted, and what comes of it;
-- ``surface``, ``convex``, ``primitives``, ``decimate``, ``decompose``: a mesh made ready, and the
-  ways to simplify it;
-- ``distance``, ``touchable``, ``measure``: how far two surfaces are apart;
-- ``choose``, ``compute``: the cheapest that is good enough, for one mesh;
-- ``cache``, ``pool``, ``parallel``, ``cluster``: many meshes, several at a time, each once;
-- ``links``, ``rewrite``, ``mesh_files``: a robot's links, its source, and the files beside it;
-- ``check``, ``picture``: collisions that are there already, and what all of it looks like.
+- ``settings``, ``piece``: options, and the pieces of the result;
+- ``surface``, ``convex``, ``primitives``, ``decimate``, ``decompose``, ``cut``, ``merge``,
+  ``remesh``: preparation of a mesh, and the methods that simplify it;
+- ``distance``, ``touchable``, ``measure``: distances between two surfaces;
+- ``choose``, ``compute``: the cheapest result within the error, for one mesh;
+- ``cache``, ``parallel``, ``cluster``: many meshes, in parallel, each once;
+- ``links``, ``robot``, ``rewrite``, ``in_place``, ``mesh_files``: a robot's links, its source, and
+  the mesh files;
+- ``check``, ``picture``: quality of existing collisions, and pictures.
 """

@@ -1,4 +1,4 @@
-"""Results kept for the next time, by what they were made of: the file's bytes and the settings."""
+"""Cache of results, keyed by the file's content and the settings."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from ..storage import DiskCache, cache_key
 from .compute import Result, Task, result_of
 
 _VERSION = 10
-"""To be raised whenever the same settings give another result."""
+"""Version of the results; increment it when the same settings give another result."""
 
 
 def known_result(cache: DiskCache, key: str) -> Result | None:
-    """Return what the cache has of a task."""
+    """Return the cached result of a key; None if it is missing or damaged."""
     data = cache.get(key)
     try:
         return None if data is None else result_of(data, cached=True)
@@ -26,7 +26,7 @@ def key_of(task: Task) -> str | None:
         facts.append(task.gltf_up)
     try:
         inputs = [task.path.read_bytes()]
-        if suffix == ".gltf":  # its buffers are separate files
+        if suffix == ".gltf":  # buffers are separate files
             for path in sorted(task.path.parent.glob("*.bin")):
                 inputs += [path.name.encode(), path.read_bytes()]
     except OSError:

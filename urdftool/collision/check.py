@@ -1,4 +1,4 @@
-"""How good the collisions are that a robot has, link by link, against its visuals."""
+"""Quality of a robot's existing collision geometry, compared with its visuals, by link."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ _FEW = 500
 
 @dataclass(frozen=True)
 class Checked:
-    """A link, and how good its collision is.
+    """Quality of a link's collision geometry.
 
     Attributes:
-        link: Its name.
-        measures: As :meth:`Measures.as_dict`, each mesh taken as it is written; None where there
-            is nothing to compare.
-        trouble: Why it could not be measured; empty where it was.
-        concave: Collision meshes that are not convex.
-        hull_error: The error where engines take the hull of those, as PyBullet and MuJoCo do for
-            bodies that move; None where there are none.
+        link: Name of the link.
+        measures: As :meth:`Measures.as_dict`, with each mesh as written; None if there is nothing
+            to compare.
+        trouble: Reason why it could not be measured, or empty.
+        concave: Number of collision meshes that are not convex.
+        hull_error: Error if engines use the hulls of those, as PyBullet and MuJoCo do for moving
+            bodies; None if there are none.
     """
 
     link: str
@@ -50,7 +50,7 @@ class Checked:
 
 @dataclass(frozen=True)
 class Part:
-    """A shape in the frame of its link: a primitive's kind and lengths [m], or a mesh file."""
+    """A shape in the frame of its link: kind and lengths [m] of a primitive, or a mesh file."""
 
     pose: Pose
     kind: str
@@ -61,7 +61,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Look:
-    """What is looked at: a link's shapes, in words that can be sent to another process."""
+    """Shapes of a link to be measured, in a form that can be sent to another process."""
 
     link: str
     visuals: tuple[Part, ...]
@@ -71,12 +71,12 @@ class Look:
 
 
 def look_at(robot: Robot, link: Link, max_error: float = 0.01) -> Look | None:
-    """What there is to measure of a link; None where it has no visual.
+    """Collect the shapes of a link to be measured; None if it has no visual.
 
     Args:
         robot: The robot.
         link: The link.
-        max_error: From which error on a reason for it is looked for.
+        max_error: Largest acceptable relative error.
     """
     try:
         visuals = tuple(part for shape in link.visuals for part in _parts(robot, shape))
@@ -94,12 +94,12 @@ def look_at(robot: Robot, link: Link, max_error: float = 0.01) -> Look | None:
 def check_all(
     looks: Sequence[Look], *, jobs: int | None = None, progress: Progress | None = None
 ) -> list[Checked]:
-    """How good the collisions of links are, several links at a time.
+    """Measure the collision geometry of links, several at a time.
 
     Args:
         looks: The links.
-        jobs: Processes to use; None is one per core.
-        progress: Told of every link.
+        jobs: Number of processes; None for one per core.
+        progress: Called for every link.
     """
 
     def under_way(done: int, now: Sequence[Look]) -> None:
@@ -120,7 +120,7 @@ def _lost(look: Look, _: Loss) -> Checked:
 
 
 def check_link(look: Look) -> Checked:
-    """How good a link's collisions are."""
+    """Measure the collision geometry of a link; errors become ``Checked.trouble``."""
     if look.trouble:
         return Checked(look.link, None, look.trouble)
     try:
@@ -152,7 +152,7 @@ def _visual(parts: Sequence[Part]) -> Prepared | None:
 
 
 def shape_pieces(robot: Robot, shape: Shape) -> list[Piece]:
-    """A shape in the link's frame; a mesh counts as concave.
+    """Convert a shape to pieces in the link's frame; a mesh counts as concave.
 
     Raises:
         UrdftoolError: Its mesh cannot be read.
@@ -161,7 +161,7 @@ def shape_pieces(robot: Robot, shape: Shape) -> list[Piece]:
 
 
 def _parts(robot: Robot, shape: Shape) -> Iterator[Part]:
-    """A shape as it is written; nothing where it has none that is known."""
+    """Yield a shape as written; nothing if its geometry is missing or unknown."""
     geometry, pose = shape.geometry, pose_of(shape.origin)
     if isinstance(geometry, Box):
         yield Part(pose, "box", geometry.size)
@@ -178,7 +178,15 @@ def _parts(robot: Robot, shape: Shape) -> Iterator[Part]:
 
 
 def _piece(part: Part, *, told: bool = True) -> Piece:
-    """A shape in the link's frame; whether a mesh is convex takes time and is told if wanted."""
+    """Convert a shape to a piece in the link's frame.
+
+    Args:
+        part: The shape.
+        told: Whether to test a mesh for convexity, which is slow; if not, it counts as concave.
+
+    Raises:
+        MeshError: The mesh cannot be read, or the shape is too large.
+    """
     rotation = np.array(part.pose.rotation, dtype=np.float64)
     xyz = np.array(part.pose.translation, dtype=np.float64)
     far = max(map(abs, (*part.pose.translation, *(() if part.path else part.size))))
@@ -193,7 +201,7 @@ def _piece(part: Part, *, told: bool = True) -> Piece:
 
 
 def _is_convex(surface: Prepared) -> bool:
-    """Whether a closed surface is its own hull."""
+    """Tell whether a closed surface is its own convex hull."""
     if not surface.closed:
         return False
     try:
@@ -201,6 +209,6 @@ def _is_convex(surface: Prepared) -> bool:
     except UrdftoolError:
         return False
     middles: Points = surface.corners.mean(axis=1)
-    some = middles[:: max(1, len(middles) // _FEW)]  # most that are concave are known by these
+    some = middles[:: max(1, len(middles) // _FEW)]  # a few points reject most concave meshes
     most = -_CONVEX * surface.size
     return all(signed_distance(points, sides).min() > most for points in (some, middles))

@@ -1,8 +1,8 @@
-"""The methods, and ``auto``: the cheapest geometry whose error is small enough.
+"""Selection of a method; ``auto`` takes the cheapest geometry whose error is small enough.
 
-Cheapest is what engines pay: primitives before hulls, few hulls before many, few vertices before
-many. A concave mesh is never among what ``auto`` takes: of a body that moves PyBullet and MuJoCo
-touch its hull, which is measured already.
+Cost is that of contact computation: primitives are cheaper than hulls, few hulls than many, few
+vertices than many. ``auto`` never takes a concave mesh: PyBullet and MuJoCo use its hull for moving
+bodies, which is already measured.
 """
 
 from __future__ import annotations
@@ -25,28 +25,28 @@ from .settings import FEW_HULLS, Settings
 from .surface import Prepared, flat_labels
 
 LADDER = (3.0, 1.0)
-"""Distances that ``auto`` has CoACD cut to, in parts of the error, coarse ones first: often few
-pieces are near enough, and each step takes several times as long."""
+"""Distances for CoACD's cuts in ``auto``, in multiples of the error, coarse first: few pieces are
+often sufficient, and each step takes several times as long."""
 
 PLATE = 0.002
-"""Thickness, relative to its size, that a flat mesh is given."""
+"""Thickness given to a flat mesh, relative to its size."""
 
-_MEASURED = 3  # primitives that are measured: those that fit best
-_SHARE = 0.3  # part of the error that leaving out vertices of a hull may take
+_MEASURED = 3  # number of best fitting primitives that are measured
+_SHARE = 0.3  # part of the error that dropping hull vertices may use
 _COARSER = 3.0
-_SIMPLER = 0.05  # part of the mean distance by which a dearer primitive has to be better
-_ALIKE = 0.02  # part of the error by which it has to be, too
+_SIMPLER = 0.05  # part of the mean distance that a costlier primitive must save
+_ALIKE = 0.02  # part of the error that it must save in addition
 
 
 @dataclass(frozen=True)
 class Choice:
-    """Pieces, the method they came from, and how good they are.
+    """Pieces with their method and quality.
 
     Attributes:
         method: ``"primitive"``, ``"hull"``, ``"coacd"`` or ``"simplify"``.
-        pieces: The pieces, in the mesh's frame.
-        measures: What was measured.
-        notes: What did not work on the way; complete sentences.
+        pieces: Pieces in the mesh's frame.
+        measures: Their quality.
+        notes: Complete sentences on failed attempts.
     """
 
     method: str
@@ -56,11 +56,16 @@ class Choice:
 
 
 def choose(surface: Prepared, settings: Settings, cores: int = 1) -> Choice:
-    """The collision geometry of one mesh, with so many cores; it does not hang on their number.
+    """Compute the collision geometry of one mesh, independently of the number of cores.
+
+    Args:
+        surface: The mesh.
+        settings: Method and limits.
+        cores: Number of cores to use.
 
     Raises:
-        MeshError: The mesh has no extent in two directions.
-        MissingDependency: A library that the method needs is not installed.
+        MeshError: All points of the mesh lie on a line.
+        MissingDependency: A library that the method requires is not installed.
     """
     target = Target(surface, cores)
     notes: list[str] = []
@@ -88,14 +93,14 @@ def choose(surface: Prepared, settings: Settings, cores: int = 1) -> Choice:
 
 
 def _dearness(choice: Choice, wanted: float) -> float:
-    """The mean distance [m]; between shapes that are about as near, the one cheaper to collide."""
+    """Return the mean distance [m] plus a penalty for primitives that are costly in contact."""
     kind = choice.pieces[0].kind
     rank = PRIMITIVES.index(kind) if kind in PRIMITIVES else 0
     return choice.measures.mean * (1 + _SIMPLER * rank) + _ALIKE * wanted * rank
 
 
 def _is_flat(surface: Prepared) -> bool:
-    """Whether all points lie in a plane but for a part of the size that rounding explains."""
+    """Tell whether all points are coplanar to within rounding."""
     centred = surface.vertices - surface.vertices.mean(axis=0)
     _, axes = np.linalg.eigh(centred.T @ centred)
     return float(np.ptp(centred @ axes[:, 0])) <= 1e-6 * surface.size
@@ -110,7 +115,7 @@ def _plate(surface: Prepared, target: Target) -> Choice:
 
 
 def _primitives(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
-    """The shapes that fit best by the largest distance of the visual."""
+    """Yield the primitives with the smallest largest distance from the visual."""
     even = target.even
     fits = fit_primitives(even)
     fits.sort(key=lambda piece: float(np.abs(signed_distance(piece, even)).max()))
@@ -119,7 +124,7 @@ def _primitives(target: Target, settings: Settings, notes: list[str]) -> Iterato
 
 
 def _hulls(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
-    """One hull: with as few vertices as the error allows, then with as many as it may have."""
+    """Yield one hull: with as few vertices as the error allows, then with as many as permitted."""
     points = target.surface.vertices
     tolerances = [0.0]
     if settings.method == "auto":
@@ -134,7 +139,7 @@ def _hulls(target: Target, settings: Settings, notes: list[str]) -> Iterator[Cho
 
 
 def _bodies(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
-    """A hull for each body that can be touched, where there are several but not too many."""
+    """Yield one hull per exterior body, if there are several but not too many."""
     surface = target.surface
     labels = body_labels(len(surface.faces), edges_of(surface.faces))
     count = int(labels.max()) + 1
@@ -154,7 +159,7 @@ def _bodies(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
             return
         try:
             vertices, faces = capped_hull(points, settings.max_vertices, tolerance)
-        except MeshError:  # a decal, or a face that hangs on nothing
+        except MeshError:  # a decal, or an isolated face
             continue
         pieces.append(mesh_piece(vertices, faces))
     if len(pieces) > 1:
@@ -162,7 +167,7 @@ def _bodies(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
 
 
 def _sheets(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
-    """A plate for each flat side of an open mesh, where there are not too many."""
+    """Yield one plate per flat side of an open mesh, if there are not too many."""
     surface = target.surface
     if surface.closed:
         return
@@ -181,7 +186,7 @@ def _sheets(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
 
 
 def _ladder(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
-    """CoACD, finer and finer, until more pieces are not allowed."""
+    """Yield CoACD results with finer and finer cuts, within the permitted number of pieces."""
     cutter = Cutter(target, settings, few=settings.max_hulls or FEW_HULLS)
     wanted = settings.max_error * target.size
     for factor in LADDER:
@@ -193,7 +198,7 @@ def _ladder(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
         finally:
             notes += cutter.notes
             cutter.notes.clear()
-        if cutter.hopeless:  # and finer cuts are more
+        if cutter.hopeless:  # finer cuts give even more pieces
             break
         if made is not None and len(made[0]) <= (settings.max_hulls or FEW_HULLS):
             yield Choice("coacd", *made)
@@ -204,7 +209,7 @@ def _ladder(target: Target, settings: Settings, notes: list[str]) -> Iterator[Ch
 
 
 def _coacd(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
-    """CoACD at its threshold; coarser where it fails, and one hull where that fails, too."""
+    """Yield CoACD's result at its threshold; a coarser one if it fails, and one hull if both do."""
     cutter = Cutter(target, settings, most=settings.max_hulls)
     for threshold in (settings.threshold, settings.threshold * _COARSER):
         wanted = threshold * target.longest / 2
@@ -222,7 +227,7 @@ def _coacd(target: Target, settings: Settings, notes: list[str]) -> Iterator[Cho
 
 
 def _simplified(target: Target, settings: Settings, notes: list[str]) -> Iterator[Choice]:
-    """Fewer triangles."""
+    """Yield the mesh with fewer triangles."""
     surface = target.surface
     vertices, faces = decimate(surface.vertices, surface.faces, settings.max_triangles)
     pieces = [mesh_piece(vertices, faces, convex=False)]

@@ -1,6 +1,7 @@
-"""The same work on a Dask cluster, for thousands of meshes.
+"""Simplification on a Dask cluster, for thousands of meshes.
 
-The workers need urdftool and its extra ``collision``, and nothing of the files: these are sent.
+The workers require urdftool with its extra ``collision``, but no access to the files, which are
+sent.
 """
 
 from __future__ import annotations
@@ -15,7 +16,11 @@ from .compute import Task, attempt
 
 
 def on_cluster(tasks: Sequence[Task], address: str) -> Iterator[tuple[int, bytes | UrdftoolError]]:
-    """The outcome of each task, by its number, as they come.
+    """Yield the index and outcome of each task, in order of completion.
+
+    Args:
+        tasks: The tasks.
+        address: Address of the Dask scheduler.
 
     Raises:
         MissingDependency: distributed is not installed.
@@ -41,7 +46,7 @@ def on_cluster(tasks: Sequence[Task], address: str) -> Iterator[tuple[int, bytes
             index = futures[future]
             try:
                 outcome = future.result()
-            # whatever a worker may die of
+            # a worker may fail with any exception
             except Exception as error:
                 outcome = UrdftoolError(
                     f"the cluster gave it up: {type(error).__name__}: {error}",
@@ -52,7 +57,7 @@ def on_cluster(tasks: Sequence[Task], address: str) -> Iterator[tuple[int, bytes
 
 
 def simplify_file(task: Task, files: dict[str, bytes]) -> bytes | UrdftoolError:
-    """On a worker: write the files, simplify the mesh, and name it as its owner does."""
+    """Simplify a mesh on a worker, from its file contents; errors refer to the original path."""
     import tempfile
     from dataclasses import replace
 
@@ -66,7 +71,7 @@ def simplify_file(task: Task, files: dict[str, bytes]) -> bytes | UrdftoolError:
 
 
 def _files(path: Path) -> dict[str, bytes]:
-    """The mesh, and for glTF the buffers beside it."""
+    """Read the mesh file, and the buffers in its folder if it is glTF."""
     paths = [path]
     if path.suffix.lower() == ".gltf":
         paths += sorted(path.parent.glob("*.bin"))

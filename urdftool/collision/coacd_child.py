@@ -1,4 +1,4 @@
-"""The call of CoACD, made in an isolated process: on some inputs CoACD ends the one it runs in."""
+"""Call of CoACD in an isolated process: on some inputs CoACD terminates its process."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from ..geometry.mesh import Faces, Points
 
 
 def decompose(vertices: Points, faces: Faces, options: dict[str, Any]) -> list[Points]:
-    """Decompose a closed surface.
+    """Decompose a closed surface into convex pieces.
 
     Args:
-        vertices: Shape (n, 3).
-        faces: Shape (m, 3).
-        options: Of ``coacd.run_coacd``.
+        vertices: Points, shape (n, 3).
+        faces: Triangles, shape (m, 3).
+        options: Arguments of ``coacd.run_coacd``.
 
     Returns:
         The points of each piece, shape (k, 3).

@@ -1,4 +1,4 @@
-"""One mesh file to its collision geometry, as it is computed, kept and sent about."""
+"""Simplification of one mesh file: task, result and their serialization."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Task:
-    """A mesh to be simplified: the same task always has the same result.
+    """A mesh to simplify; the same task always has the same result.
 
     Attributes:
         path: The mesh file.
         scale: Factors, as URDF's ``<mesh scale>``.
-        settings: What is wanted.
-        gltf_up: The axis of a glTF file that is up.
+        settings: Method and limits.
+        gltf_up: Up axis of a glTF file.
     """
 
     path: Path
@@ -36,16 +36,16 @@ class Task:
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """The collision geometry of a mesh.
+    """Collision geometry of a mesh.
 
     Attributes:
-        method: The method it came from.
-        pieces: Its pieces, in the mesh's frame.
-        measures: What was measured, as :meth:`Measures.as_dict`.
+        method: The method that was used.
+        pieces: Pieces in the mesh's frame.
+        measures: Quality, as :meth:`Measures.as_dict`.
         before: ``triangles`` and ``vertices`` of the mesh.
-        notes: What should be known of it; complete sentences.
-        seconds: How long it took [s], when it was computed.
-        cached: Whether it was computed before.
+        notes: Complete sentences for the user.
+        seconds: Computation time [s].
+        cached: Whether it comes from the cache.
     """
 
     method: str
@@ -58,16 +58,16 @@ class Result:
 
     @property
     def error(self) -> float:
-        """The Hausdorff distance relative to the size."""
+        """Return the Hausdorff distance relative to the size."""
         return float(self.measures["error"])
 
     @property
     def lasting(self) -> bool:
-        """Whether the next time gives the same: no process was killed from outside."""
+        """Tell whether the result is reproducible, as no process was killed from outside."""
         return not any(note.startswith(KILLED) for note in self.notes)
 
     def as_bytes(self) -> bytes:
-        """All of it as text that :func:`result_of` reads."""
+        """Serialize the result for :func:`result_of`."""
         table = {
             "method": self.method,
             "pieces": [piece.as_dict() for piece in self.pieces],
@@ -80,10 +80,10 @@ class Result:
 
 
 def result_of(data: bytes, *, cached: bool = False) -> Result:
-    """The result that :meth:`Result.as_bytes` told of.
+    """Deserialize the output of :meth:`Result.as_bytes`.
 
     Raises:
-        ValueError: It is damaged.
+        ValueError: The data is damaged.
     """
     try:
         table = json.loads(data)
@@ -101,10 +101,10 @@ def result_of(data: bytes, *, cached: bool = False) -> Result:
 
 
 def compute(task: Task, cores: int = 1) -> Result:
-    """Simplify a mesh, with so many cores; the result does not hang on their number.
+    """Simplify a mesh, independently of the number of cores.
 
     Raises:
-        UrdftoolError: It cannot be read or simplified.
+        UrdftoolError: The mesh cannot be read or simplified.
     """
     from .choose import choose
     from .surface import read_surface
@@ -126,7 +126,7 @@ def compute(task: Task, cores: int = 1) -> Result:
 
 
 def attempt(task: Task, cores: int = 1) -> bytes | UrdftoolError:
-    """As :func:`compute`, with what went wrong as a result, so that it goes between processes."""
+    """Run :func:`compute`, and return errors as values, so that they can cross processes."""
     try:
         return compute(task, cores).as_bytes()
     except UrdftoolError as error:
@@ -138,7 +138,7 @@ def attempt(task: Task, cores: int = 1) -> bytes | UrdftoolError:
 
 
 def shown_scale(scale: Sequence[float]) -> str:
-    """A scale as it is said; nothing where it is one."""
+    """Format a scale such as ``×0.001``; empty if all factors are 1."""
     if all(factor == 1 for factor in scale):
         return ""
     if len(set(scale)) == 1:

@@ -9,12 +9,12 @@ from ..errors import MeshError
 from ..geometry.mesh import Faces, Points
 from .vec3 import dot, lengths, normals
 
-_AT_ONCE = 200_000  # distances of points and planes that are computed together
-_LIMIT = 4000  # hull vertices beyond which a cap looks at the extreme ones of a direction only
+_AT_ONCE = 200_000  # point-plane distances per block
+_LIMIT = 4000  # hull vertices beyond which only extreme points of each direction are considered
 
 
 def hull(points: Points) -> tuple[Points, Faces]:
-    """The convex hull of points, its triangles outwards.
+    """Compute the convex hull of points, with its triangles wound outward.
 
     Raises:
         MeshError: The points lie in a plane.
@@ -35,15 +35,15 @@ def hull(points: Points) -> tuple[Points, Faces]:
 
 
 def capped_hull(points: Points, most: int, tolerance: float = 0.0) -> tuple[Points, Faces]:
-    """A convex hull of a few of the points.
+    """Compute a convex hull of few of the points.
 
-    Begun with the extreme points along the axes, it takes in the point that lies farthest outside,
-    until none lies farther out than the tolerance, or there are enough.
+    Starting from extreme points, it repeatedly adds the point farthest outside, until no point is
+    farther out than the tolerance, or the limit is reached.
 
     Args:
         points: Points [m].
-        most: Vertices it may have, at least 4.
-        tolerance: Distance [m] that points may be left outside.
+        most: Largest number of vertices, at least 4.
+        tolerance: Distance [m] by which points may stay outside.
 
     Raises:
         MeshError: The points lie in a plane.
@@ -63,7 +63,7 @@ def capped_hull(points: Points, most: int, tolerance: float = 0.0) -> tuple[Poin
 
 
 def _first(outer: Points, most: int) -> list[int]:
-    """Four points or more that span a volume: extreme along the axes and the diagonals."""
+    """Select at least four points that span a volume, including extremes along the axes."""
     chosen: list[int] = []
     start = int(np.argmax(np.linalg.norm(outer - outer.mean(axis=0), axis=1)))
     chosen.append(start)
@@ -83,9 +83,9 @@ def _first(outer: Points, most: int) -> list[int]:
 
 
 def planes(vertices: Points, faces: Faces) -> Points:
-    """The plane of each triangle: outward unit normal and distance from the origin, shape (m, 4).
+    """Compute the planes of triangles: outward unit normal and offset, shape (m, 4).
 
-    Triangles without an area, and all but one of those in one plane, are left out.
+    Triangles without area, and all but one of coplanar triangles, are dropped.
     """
     corners = vertices[faces]
     normal = normals(corners)
@@ -100,23 +100,26 @@ def planes(vertices: Points, faces: Faces) -> Points:
 
 
 def _first_of_each(rows: Points) -> npt.NDArray[np.int64]:
-    """Where each different row, shape (n, 4), is for the first time, in that order."""
+    """Return the index of the first of each group of equal rows, shape (n, 4), ascending."""
     order = np.lexsort(rows.T)
     ordered = rows[order]
     new = np.ones(len(rows), dtype=bool)
     np.any(ordered[1:] != ordered[:-1], axis=1, out=new[1:])
-    return np.sort(order[new])  # the order is a stable one
+    return np.sort(order[new])  # lexsort is stable
 
 
 def signed_distance(points: Points, sides: Points) -> Points:
-    """How far points lie outside of all planes [m]; negative inside. Exact inside and near faces.
+    """Compute the largest signed distance [m] of points to planes; negative inside.
+
+    For a convex shape it is the exact distance inside and near faces, and too small outside near
+    edges.
 
     Args:
         points: Points [m].
         sides: Planes, from :func:`planes`.
     """
     result = np.empty(len(points))
-    # the plane's distance as a fourth coordinate, in pieces that stay in the processor's cache
+    # the offset is a fourth coordinate; blocks fit the processor's cache
     step = max(1, _AT_ONCE // max(1, len(sides)))
     columns = np.concatenate([sides[:, :3], -sides[:, 3:]], axis=1).T.copy()
     whole = np.concatenate([points, np.ones((len(points), 1))], axis=1)
@@ -127,14 +130,14 @@ def signed_distance(points: Points, sides: Points) -> Points:
 
 
 def thickened(points: Points, thickness: float) -> Points:
-    """Points of a flat mesh, moved to either side of their plane.
+    """Move copies of the points of a flat mesh to both sides of their plane.
 
     Args:
         points: Points [m] in or near a plane.
-        thickness: Distance [m] of the two sides.
+        thickness: Distance [m] between the two sides.
 
     Raises:
-        MeshError: They lie on a line.
+        MeshError: The points lie on a line.
     """
     middle = points.mean(axis=0)
     _, sizes, axes = np.linalg.svd(points - middle, full_matrices=False)

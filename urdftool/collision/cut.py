@@ -1,4 +1,4 @@
-"""Convex pieces within a distance: CoACD's, and those that are too far off cut again."""
+"""Convex pieces within a distance of a mesh: CoACD's, with inaccurate ones cut again."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ from .settings import Settings
 from .surface import Prepared
 
 AGAIN = 8
-"""Pieces that are cut again at most: those that are farthest off."""
+"""Largest number of pieces that are cut again, the least accurate ones."""
 
 JOINS = (1.0, 0.8, 0.6)
-"""Parts of the distance within which pieces are joined, tried in turn."""
+"""Multiples of the distance within which pieces are joined, tried in turn."""
 
 JOINS_TO_FEW = (1.0, 0.9, 0.8, 0.6, 1.2)
-"""The same where only so many pieces may be left."""
+"""Values of ``JOINS`` if the number of pieces is limited."""
 
 TRIMS = (1.0, 0.5, 0.25)
-"""Parts of the distance that vertices may be left out, tried in turn."""
+"""Multiples of the distance for dropping vertices, tried in turn."""
 
 COARSER = 1.25
-"""By how much both grow from step to step, where there are too many triangles otherwise."""
+"""Growth per step of both distances, if there are too many triangles."""
 
 HOPELESS = 6
-"""Times as many pieces as are wanted, from which joins never come down to so few."""
+"""Ratio of pieces to permitted pieces above which joins never reduce them enough."""
 
 
 class Cutter:
-    """Cuts one mesh, made ready once."""
+    """Convex decomposition of one mesh; shared data is computed once."""
 
     def __init__(
         self,
@@ -43,13 +43,13 @@ class Cutter:
         most: int | None = None,
         few: int | None = None,
     ) -> None:
-        """Take a mesh.
+        """Set the mesh and the limits.
 
         Args:
             target: The mesh.
-            settings: Limits of vertices and of time.
-            most: Pieces that CoACD may make; None is any number.
-            few: Pieces that are to be left in the end; None is any number.
+            settings: Limits of vertices and time.
+            most: Largest number of pieces that CoACD may create; None for no limit.
+            few: Largest number of pieces in the result; None for no limit.
         """
         self.target = target
         self.settings = settings
@@ -62,35 +62,34 @@ class Cutter:
 
     @cached_property
     def solid(self) -> Prepared:
-        """What is cut."""
+        """Return the closed surface that is cut."""
         return solid_of(self.target)
 
     @cached_property
     def joiner(self) -> Joiner:
-        """What joins pieces again."""
+        """Return the joiner of pieces."""
         return Joiner(self.target)
 
     def cut(
         self, distance: float, within: float, *, last: bool = True
     ) -> tuple[list[Piece], Measures] | None:
-        """As few pieces as are within a distance of the mesh, with as few vertices, and how good.
+        """Decompose the mesh into few pieces with few vertices, within a distance.
 
-        CoACD judges a piece by few points and sometimes misses one that sticks out, or that buries
-        what can be touched; such a piece is cut on its own. The joins and the vertices left out
-        afterwards that cost least come first, and go on beyond the distance while there are more
-        triangles than may be.
+        CoACD judges a piece by few points and sometimes misses one that protrudes or that covers
+        exterior surface; such a piece is cut again by itself. Then the cheapest joins and vertex
+        removals are applied, even beyond the distance while there are too many triangles.
 
         Args:
-            distance: Of the pieces from the mesh, that the cuts and joins aim at [m].
-            within: Distance [m] that is good enough.
-            last: Whether to go on where the first cuts are not within it already.
+            distance: Target distance of cuts and joins from the mesh [m].
+            within: Acceptable distance [m].
+            last: Whether to continue if the first cuts are not within it.
 
         Returns:
-            None where it was given up.
+            Pieces and their quality; None if the attempt was abandoned.
 
         Raises:
-            DecompositionError: CoACD died, took too long, or gave nothing.
-            MissingDependency: It is not installed.
+            DecompositionError: CoACD crashed, took too long, or returned no piece.
+            MissingDependency: coacd is not installed.
         """
         cuts = decompose(
             self.solid,
@@ -111,7 +110,7 @@ class Cutter:
         return self._fewer(cuts, distance, within)
 
     def coarser(self, within: float) -> tuple[list[Piece], Measures] | None:
-        """The coarse cuts that were not within the distance [m], joined; None without any."""
+        """Join the coarse cuts that were not within the distance [m]; None if there are none."""
         if self._coarse is None:
             return None
         return self._fewer(*self._coarse, within)
@@ -119,7 +118,7 @@ class Cutter:
     def _fewer(
         self, cuts: list[Piece], distance: float, within: float
     ) -> tuple[list[Piece], Measures] | None:
-        """Joined and trimmed: the first near enough of those few enough, else the nearest."""
+        """Join and trim pieces; return the first acceptable result, or else the most accurate."""
         joins = _Joins(self.joiner, cuts)
         tried: list[tuple[float, int, list[Piece], Measures]] = []
         for join in JOINS if self.few is None else JOINS_TO_FEW:
@@ -135,7 +134,7 @@ class Cutter:
                 if measures.hausdorff <= within:
                     return pieces, measures
                 tried.append((measures.hausdorff, len(tried), pieces, measures))
-                if measures.hausdorff >= before:  # it is not the vertices that are missing
+                if measures.hausdorff >= before:  # more vertices do not help
                     break
                 before = measures.hausdorff
         if tried:
@@ -184,14 +183,14 @@ class Cutter:
 
 
 class _Joins:
-    """The pieces after each join, as far as they were asked for."""
+    """Pieces after each join, computed lazily."""
 
     def __init__(self, joiner: Joiner, cuts: list[Piece]) -> None:
         self.levels = [(0.0, cuts)]
         self.steps = joiner.steps(cuts)
 
     def within(self, distance: float) -> list[Piece]:
-        """The pieces where no join has cost more than a distance [m]."""
+        """Return the pieces after all joins that cost at most a distance [m]."""
         while self.levels[-1][0] <= distance:
             step = next(self.steps, None)
             if step is None:

@@ -27,7 +27,7 @@ CHEAPEST = 0.2
 """Share of the vertices, cheapest first, that one pass considers: lower is nearer to one by one."""
 
 LARGE_MESH, LARGE_SHARE = 50_000, 0.5
-"""Triangles above which a pass considers a larger share, since most merges are far from the end."""
+"""Triangles above which a pass considers a larger share, as most merges are far from the end."""
 
 ATTEMPTS = 3
 """Neighbors of a vertex that one pass tries, cheapest first."""
@@ -85,13 +85,13 @@ def decimate(vertices: Points, faces: Faces, target: int) -> tuple[Points, Faces
 
 
 class _Mesh:
-    """Triangles with the neighbors and the faces of each vertex, as compressed rows.
+    """Triangles with the neighbors and faces of each vertex, as compressed rows.
 
     Attributes:
-        points: Shape (n, 3).
-        faces: Shape (m, 3).
-        starts: Where in ``ends`` the neighbors of each vertex begin, shape (n + 1,).
-        ends: The neighbors, vertex after vertex.
+        points: Points, shape (n, 3).
+        faces: Triangles, shape (m, 3).
+        starts: First entry in ``ends`` of each vertex, shape (n + 1,).
+        ends: Neighbors, vertex by vertex.
         is_open: Whether an odd number of faces share the edge to each neighbor.
     """
 
@@ -124,7 +124,7 @@ class _Mesh:
 
 
 def _entries(starts: _Array, rows: _Array) -> tuple[_Array, _Array]:
-    """List the entries of some compressed rows: the index into ``rows``, and the entry's place."""
+    """List the entries of compressed rows: the index into ``rows`` and the position of each."""
     counts = starts[rows + 1] - starts[rows]
     owner = np.repeat(np.arange(len(rows)), counts)
     first = np.cumsum(counts) - counts
@@ -171,8 +171,9 @@ def _initial_quadrics(mesh: _Mesh) -> _Floats:
 def _costs(quadrics: _Floats, points: Points) -> _Floats:
     """Evaluate quadrics at points, divided by the root of their weights.
 
-    The full weight would give the mean square distance, in which a small feature beside a large
-    plane disappears; no weight would let small triangles go first, however far they stand out.
+    Division by the full weight would give the mean squared distance, in which a small feature next
+    to a large plane disappears. Without division, small triangles would be removed first, however
+    far they protrude.
     """
     x, y, z = points.T
     xx, yy, zz, xy, yz, zx, xd, yd, zd, dd, weights = quadrics.T
@@ -201,7 +202,7 @@ def _select_merges(
     costs = _costs(quadrics[mesh.tails], mesh.points[ends])
     on_border = np.zeros(count, bool)
     on_border[mesh.tails[mesh.is_open]] = True
-    costs[on_border[mesh.tails] & ~mesh.is_open] = np.inf  # a border stays on its line
+    costs[on_border[mesh.tails] & ~mesh.is_open] = np.inf  # borders keep their shape
     least = np.minimum.reduceat(costs, mesh.starts[:-1])
     possible = np.isfinite(least)
     if not possible.any():

@@ -1,9 +1,9 @@
-"""Convex pieces by CoACD, kept at arm's length: a child process with a limit of time.
+"""Convex decomposition by CoACD, in a child process with a time limit.
 
-CoACD's time grows fast with the number of triangles, and its pieces have as many as the cuts left
-them with. So the mesh is simplified first, and each piece is a hull of few vertices afterwards.
-What is not one closed body, CoACD would give a surface of tens of thousands of triangles; here that
-surface is made first (``remesh``), and simplified like any other.
+CoACD's time grows fast with the number of triangles, and its pieces have as many as the cuts
+produce. Therefore the mesh is decimated first, and each piece becomes a hull of few vertices. For
+input that is not one closed body CoACD would create a surface of tens of thousands of triangles;
+this module creates that surface first (``remesh``) and decimates it as well.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ from .settings import KILLED
 from .surface import Prepared, prepare
 
 TRIANGLES = 2000
-"""Triangles that a mesh has at most when it is cut."""
+"""Largest number of triangles of a mesh that is cut."""
 
 PART_TRIANGLES = 600
-"""Triangles that a piece has at most when it is cut again."""
+"""Largest number of triangles of a piece that is cut again."""
 
 _TOO_LONG = "CoACD took longer on the mesh than its time limit"
-# before, threads shared a row of quasirandom numbers, or pieces came in the order they ended in
+# older versions share random numbers between threads, or order pieces by completion time
 _ORDERLY = (1, 0, 14)
-_SLOWEST = 4.0  # share of a processor that a child may be left with before the watch ends it
+_SLOWEST = 4.0  # wall-clock time limit per processor time limit, for a busy machine
 
 
 class DecompositionError(UrdftoolError):
@@ -43,31 +43,31 @@ class DecompositionError(UrdftoolError):
 
 
 class Budget:
-    """Processor time that all runs of CoACD on one mesh may take together."""
+    """Processor time limit of all CoACD runs on one mesh."""
 
     def __init__(self, seconds: float) -> None:
-        """Begin with all of it [s]."""
+        """Set the limit [s]."""
         self.seconds = seconds
         self.used = 0.0
 
     @property
     def left(self) -> float:
-        """What is left of it [s].
+        """Return the remaining time [s].
 
         Raises:
-            DecompositionError: Nothing is.
+            DecompositionError: No time remains.
         """
         if self.used >= self.seconds:
             raise DecompositionError(_TOO_LONG)
         return self.seconds - self.used
 
     def spend(self, seconds: float) -> None:
-        """Take some from it [s]."""
+        """Subtract used time [s]."""
         self.used += seconds
 
 
 def solid_of(target: Target) -> Prepared:
-    """A closed surface of few triangles near to a mesh, which CoACD takes as it is."""
+    """Create a closed surface of few triangles close to a mesh, which CoACD accepts unchanged."""
     surface = target.surface
     vertices, faces = surface.vertices, surface.faces
     if not _is_one_body(surface):
@@ -84,18 +84,18 @@ def decompose(
     budget: Budget,
     cores: int = 1,
 ) -> list[Piece]:
-    """Convex pieces that together are near to a solid.
+    """Decompose a solid into convex pieces.
 
     Args:
         solid: From :func:`solid_of`.
-        threshold: Concavity at which CoACD stops to cut, relative to half the longest side.
-        max_hulls: Pieces it may make; -1 is any number.
-        max_vertices: Vertices each may have.
-        budget: Processor time that is left for the mesh; what it takes is taken from it.
-        cores: How many CoACD may use.
+        threshold: Concavity at which CoACD stops, relative to half the longest side.
+        max_hulls: Largest number of pieces; -1 for no limit.
+        max_vertices: Largest number of vertices of a piece.
+        budget: Remaining processor time for the mesh; the used time is subtracted.
+        cores: Number of cores that CoACD may use.
 
     Raises:
-        DecompositionError: It died, took too long, or gave nothing.
+        DecompositionError: CoACD crashed, took too long, or returned no piece.
         MissingDependency: coacd is not installed.
     """
     options = {
@@ -105,7 +105,7 @@ def decompose(
         "mcts_nodes": 10,
         "mcts_max_depth": 1,
         "resolution": 500,
-        "merge": max_hulls != -1,  # joined by what is measured, they are fewer
+        "merge": max_hulls != -1,  # merge.py joins into fewer pieces
         "preprocess_mode": "off",
         "seed": 0,
         "time_limit": budget.left,
@@ -119,7 +119,7 @@ def decompose(
 
 
 def _children_time() -> float:
-    """Processor time of the children that have ended [s]; where it is not told, the clock."""
+    """Return the processor time of ended child processes [s], or wall-clock time on Windows."""
     try:
         import resource
     except ImportError:  # Windows
@@ -137,18 +137,21 @@ def divided(
     budget: Budget,
     cores: int = 1,
 ) -> list[Piece]:
-    """Smaller pieces in the place of one that is too far from the solid.
+    """Decompose a piece that is too far from the solid into smaller ones.
 
     Args:
-        solid: What was cut.
+        solid: The solid that was cut.
         piece: A piece of it.
-        distance: How far from it the new pieces may be [m].
-        max_vertices: Vertices each may have.
-        budget: Processor time that is left for the mesh; what it takes is taken from it.
-        cores: How many CoACD may use.
+        distance: Acceptable distance of the new pieces [m].
+        max_vertices: Largest number of vertices of a piece.
+        budget: Remaining processor time for the mesh; the used time is subtracted.
+        cores: Number of cores that CoACD may use.
+
+    Returns:
+        The pieces; empty if the piece and the solid do not intersect.
 
     Raises:
-        DecompositionError: It died, took too long, or gave nothing.
+        DecompositionError: CoACD crashed, took too long, or returned no piece.
     """
     part = common(solid.corners, piece.vertices, piece.faces)
     if part is None:
@@ -180,13 +183,13 @@ def _hulls(parts: list[Points], max_vertices: int) -> list[Piece]:
         pieces.append(mesh_piece(vertices, faces))
     if not pieces:
         raise DecompositionError("CoACD gave no piece with a volume")
-    # an order that does not hang on the search
+    # deterministic order, independent of the search
     pieces.sort(key=lambda piece: (-len(piece.faces), *piece.vertices.mean(axis=0).round(9)))
     return pieces
 
 
 def threads_of(cores: int) -> int:
-    """How many threads CoACD may work with so that its pieces do not hang on their number."""
+    """Return the number of threads for which this version of CoACD is deterministic."""
     from importlib.metadata import PackageNotFoundError, version
 
     try:
@@ -202,7 +205,7 @@ def run_child(
     """Run CoACD in an isolated process; return the points of each piece.
 
     Raises:
-        DecompositionError: It died or took too long.
+        DecompositionError: It crashed or took too long.
         MissingDependency: coacd is not installed.
     """
     options = dict(options)

@@ -1,4 +1,4 @@
-"""Distances between surfaces, by points spread evenly over them."""
+"""Distances between surfaces, from evenly spread points."""
 
 from __future__ import annotations
 
@@ -11,44 +11,44 @@ import numpy.typing as npt
 from ..geometry.mesh import Points
 from .vec3 import lengths, normals
 
-_GOLDEN = 1.324717957244746  # the real root of x³ = x + 1
+_GOLDEN = 1.324717957244746  # real root of x³ = x + 1
 _NEIGHBOURS = 6
-_FEW = 24  # triangles all of which are tried
-_COARSE = 1000  # triangles below which more neighbours are looked at
-_KEPT = 100_000  # points whose places in triangles are remembered
-_AT_ONCE = 8192  # pairs of a point and a triangle that stay in the processor's cache
+_FEW = 24  # up to this number all triangles are tested
+_COARSE = 1000  # triangles below which more neighbors are tested
+_KEPT = 100_000  # largest sample whose positions are cached
+_AT_ONCE = 8192  # point-triangle pairs per block, to fit the processor's cache
 
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """Points of a surface, and the triangle each lies on."""
+    """Points on a surface, with the index of the triangle of each."""
 
     points: Points
     owners: npt.NDArray[np.int64]
 
     def __len__(self) -> int:
-        """How many there are."""
+        """Return the number of points."""
         return len(self.points)
 
     def only(self, mask: npt.NDArray[np.bool_]) -> Samples:
-        """Some of them."""
+        """Return the points selected by a mask."""
         return Samples(self.points[mask], self.owners[mask])
 
 
 def areas_of(corners: Points) -> Points:
-    """The area [m²] of each triangle."""
+    """Compute the area [m²] of each triangle."""
     return lengths(normals(corners)) / 2
 
 
 def spread(corners: Points, count: int) -> Samples:
-    """Points spread evenly by area, the same ones each time.
+    """Sample points of a surface evenly by area, deterministically.
 
-    A surface is walked in equal steps of area; the place within a triangle is Roberts' additive
-    recurrence in two dimensions, folded into the triangle.
+    Points are at equal steps of accumulated area; the position within a triangle is Roberts'
+    additive recurrence in two dimensions, folded into the triangle.
 
     Args:
         corners: Triangles [m], shape (m, 3, 3).
-        count: How many points.
+        count: Number of points.
     """
     ends = np.cumsum(areas_of(corners))
     if not len(ends) or ends[-1] <= 0:
@@ -65,7 +65,7 @@ def spread(corners: Points, count: int) -> Samples:
 
 @lru_cache(maxsize=32)
 def _places(count: int) -> tuple[Points, Points, Points]:
-    """For each of so many points the share of the area before it, and its place in a triangle."""
+    """Return each point's share of the accumulated area and its coordinates in a triangle."""
     numbers = np.arange(1, count + 1, dtype=np.float64)
     u, v = 0.5 + numbers / _GOLDEN, 0.5 + numbers / _GOLDEN**2
     u -= np.floor(u)
@@ -76,15 +76,15 @@ def _places(count: int) -> tuple[Points, Points, Points]:
 
 
 class Surface:
-    """Triangles to which the distance of points is asked for."""
+    """Triangles with a search structure for distance queries."""
 
     def __init__(self, corners: Points, samples: Samples, *, workers: int = 1) -> None:
-        """Keep a tree of points on the triangles.
+        """Build a tree of points on the triangles.
 
         Args:
-            corners: The triangles [m], shape (m, 3, 3).
-            samples: Points on them, on average nearer to each other than any distance that counts.
-            workers: Threads that may search it.
+            corners: Triangles [m], shape (m, 3, 3).
+            samples: Points on them, on average closer to each other than any relevant distance.
+            workers: Number of threads for queries.
         """
         from scipy.spatial import cKDTree
 
@@ -94,9 +94,9 @@ class Surface:
         self.tree = cKDTree(samples.points)
 
     def distance(self, points: Points) -> Points:
-        """How far points are from the nearest triangle [m].
+        """Compute the distance of points to the nearest triangle [m].
 
-        Exact for the triangles of the samples nearest to a point; never too small.
+        It is exact for the triangles of the samples nearest to a point, and never too small.
         """
         if not len(points):
             return np.zeros(0)
@@ -109,7 +109,7 @@ class Surface:
         found, index = self.tree.query(points, k=near, workers=self.workers)
         if near == 1:
             found, index = found[:, None], index[:, None]
-        index = np.minimum(index, len(self.samples) - 1)  # beyond: none is at a finite distance
+        index = np.minimum(index, len(self.samples) - 1)  # out of range: none is finite
         owners = self.samples.owners[index]
         result = np.empty(len(points))
         step = max(1, _AT_ONCE // near)
@@ -122,9 +122,14 @@ class Surface:
 
 
 def to_triangles(points: Points, corners: Points) -> Points:
-    """The distance [m] of point i to triangle i (Ericson, "Real-Time Collision Detection", 5.1.5).
+    """Compute the distance [m] of point i to triangle i.
 
-    The nearest point is within the triangle, or on one of its three edges.
+    The nearest point is within the triangle or on one of its three edges (Ericson, "Real-Time
+    Collision Detection", 5.1.5).
+
+    Args:
+        points: Points [m], shape (n, 3).
+        corners: Triangles [m], shape (n, 3, 3).
     """
     point = _columns(points)
     a, b, c = (_columns(corners[:, corner]) for corner in range(3))
@@ -132,7 +137,7 @@ def to_triangles(points: Points, corners: Points) -> Points:
     normal = _cross(to_b, to_c)
     square = _dot(normal, normal)
     safe = np.where(square > 0, square, 1.0)
-    # barycentric coordinates of the foot on the plane
+    # barycentric coordinates of the projection onto the plane
     v = _dot(_cross(to_point, to_c), normal) / safe
     w = _dot(_cross(to_b, to_point), normal) / safe
     inside = (v >= 0) & (w >= 0) & (v + w <= 1) & (square > 0)
@@ -145,7 +150,7 @@ def to_triangles(points: Points, corners: Points) -> Points:
 
 
 def _to_segments(to_point: Points, along: Points) -> Points:
-    """The square [m²] of the distances of points, seen from where segments begin, in columns."""
+    """Compute squared distances [m²] of points, relative to segment starts, to segments."""
     square = _dot(along, along)
     share = _dot(to_point, along) / np.where(square > 0, square, 1.0)
     foot = to_point - np.clip(share, 0, 1) * along

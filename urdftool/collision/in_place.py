@@ -1,8 +1,8 @@
-"""Collisions written into the source itself: URDF, and xacro where it is literal.
+"""Edits of collisions in the source itself: URDF, and xacro where it is literal.
 
-What a macro writes appears in every link that calls it. A place is edited only if all that comes
-from it is to change in the same way, and only if the name of the mesh is written there, not
-computed. An origin that is computed is kept as it is written, which a primitive cannot do.
+A tag in a macro appears in every link that calls it. A place is edited only if all its links
+require the same change, and only if the mesh name is a literal there. A computed origin is kept as
+written, which is not possible for a primitive.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ Place = tuple[str, int]
 
 @dataclass
 class Edited:
-    """The files that change, and the links that could not be done.
+    """Changed files, and links that could not be edited.
 
     Attributes:
         files: Content by path.
-        plans: The links that were done.
-        used: The meshes whose pieces they use.
-        refused: A sentence for each link that was not.
+        plans: Links that were edited.
+        used: Meshes whose pieces they use.
+        refused: One sentence for each link that was not edited.
     """
 
     files: dict[str, bytes] = field(default_factory=dict)
@@ -44,7 +44,14 @@ class Edited:
 def edited(
     robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task, Result], layout: Layout
 ) -> Edited:
-    """The source of a robot with new collisions in it."""
+    """Edit the source of a robot to use new collisions.
+
+    Args:
+        robot: The robot.
+        plans: Planned links.
+        results: Results of their meshes.
+        layout: Files and names of the pieces.
+    """
     assert robot.source is not None
     found = Edited()
     if robot.source.expansion is None:
@@ -61,11 +68,11 @@ def _tasks(plans: Sequence[LinkPlan]) -> set[Task]:
 
 
 class _Refused(Exception):  # noqa: N818 -- caught within this file
-    """Why a link is not edited."""
+    """The reason why a link is not edited."""
 
 
 class _Xacro:
-    """Decides which places may be edited."""
+    """Decision on which places of a xacro source may be edited."""
 
     def __init__(self, robot: Robot, results: Mapping[Task, Result], layout: Layout) -> None:
         assert robot.source is not None
@@ -78,7 +85,7 @@ class _Xacro:
             self.links.setdefault(_place(link.element), []).append(link.name)
 
     def settle(self, plans: Sequence[LinkPlan], found: Edited) -> None:
-        """Sort the links into done and refused, and make the files."""
+        """Divide the links into edited and refused, and create the files."""
         made: dict[Place, list[tuple[LinkPlan, list[edit.Edit]]]] = {}
         for item in plans:
             try:

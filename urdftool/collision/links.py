@@ -1,4 +1,4 @@
-"""Which links of a robot get a new collision geometry, and from which meshes."""
+"""Selection of the links that get new collision geometry, and of its source meshes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _COUNTS = ("max-hulls", "max-vertices", "max-triangles")
 
 @dataclass(frozen=True, eq=False)
 class Use:
-    """A shape that a collision is made of: a mesh with its task, or a primitive as it is."""
+    """A shape for a new collision: a mesh with its task, or a primitive that is kept."""
 
     shape: Shape
     task: Task | None
@@ -31,14 +31,14 @@ class Use:
 
 @dataclass(eq=False)
 class LinkPlan:
-    """What becomes of a link.
+    """Plan for the collisions of a link.
 
     Attributes:
-        index: Its number among the robot's links.
+        index: Index of the link in the robot.
         link: The link.
-        source: ``"visual"`` or ``"collision"``, where its shapes are from.
-        uses: The shapes its collision is made of.
-        replaced: Numbers of the collisions that go, among the link's own.
+        source: ``"visual"`` or ``"collision"``, the source of its shapes.
+        uses: Shapes of the new collisions.
+        replaced: Indices of the link's collisions that are removed.
     """
 
     index: int
@@ -50,16 +50,16 @@ class LinkPlan:
 
 @dataclass(frozen=True)
 class Wishes:
-    """What is asked of a robot.
+    """Options for simplifying the collisions of a robot.
 
     Attributes:
-        settings: For every link.
-        source: ``"visual"``, ``"collision"``, or None: visuals, and collisions without those.
-        only: Links to work on; empty is all.
-        skip: Links to leave alone.
-        keep_primitives: Leave collisions that are primitives as they are.
-        table: The configuration's ``collision`` table.
-        path: The file that table is from.
+        settings: Settings of every link.
+        source: ``"visual"``, ``"collision"``, or None for visuals, or collisions if there are none.
+        only: Links to process; all if empty.
+        skip: Links to leave unchanged.
+        keep_primitives: Whether to keep collisions that are primitives.
+        table: The ``collision`` table of the configuration.
+        path: File of that table.
     """
 
     settings: Settings = field(default_factory=Settings)
@@ -70,14 +70,17 @@ class Wishes:
     table: Mapping[str, Any] = field(default_factory=dict)
     path: str | None = None
     given: tuple[str, ...] = ()
-    """Settings that the command line gives, which count more than the configuration's."""
+    """Settings given on the command line, which override the configuration."""
 
 
 def plan(robot: Robot, wishes: Wishes) -> tuple[list[LinkPlan], list[UrdftoolError]]:
-    """What is to be done, and the meshes that stand in the way.
+    """Plan the new collisions of a robot.
+
+    Returns:
+        The plans, and an error for each mesh that cannot be used.
 
     Raises:
-        ConfigError: A link that is named does not exist, or a setting does not.
+        ConfigError: A named link or a setting does not exist.
     """
     check_names(robot, (*wishes.only, *wishes.skip))
     plans: list[LinkPlan] = []
@@ -105,7 +108,7 @@ def plan(robot: Robot, wishes: Wishes) -> tuple[list[LinkPlan], list[UrdftoolErr
 def _link_plan(
     index: int, link: Link, wishes: Wishes
 ) -> tuple[str, Sequence[Shape], list[int]] | None:
-    """Source, shapes, and which collisions go; None where the link stays as it is."""
+    """Return source, shapes and replaced collisions; None if the link stays unchanged."""
     meshes = [n for n, shape in enumerate(link.collisions) if isinstance(shape.geometry, Mesh)]
     others = [n for n in range(len(link.collisions)) if n not in meshes]
     has_visual = any(isinstance(shape.geometry, Mesh) for shape in link.visuals)
@@ -150,7 +153,7 @@ def _task(robot: Robot, shape: Shape, settings: Settings) -> Task | None:
 
 
 def check_names(robot: Robot, names: Iterable[str]) -> None:
-    """Refuse names of links that there are none of."""
+    """Raise ConfigError for names that are not links of the robot."""
     for name in names:
         if name not in robot.link:
             hint = did_you_mean(name, robot.link, 0.6)
@@ -158,7 +161,7 @@ def check_names(robot: Robot, names: Iterable[str]) -> None:
 
 
 def _settings_for(name: str, wishes: Wishes) -> tuple[Settings, bool]:
-    """The settings of a link, and whether it is skipped."""
+    """Return the settings of a link, and whether it is skipped."""
     table: dict[str, Any] = {}
     for key, value in wishes.table.items():
         if key != "links":

@@ -1,4 +1,4 @@
-"""How good a collision geometry is: distances, volumes and counts."""
+"""Quality of collision geometry: distances, volumes and counts."""
 
 from __future__ import annotations
 
@@ -21,64 +21,65 @@ from .surface import Prepared
 from .touchable import Flood, flood
 
 SAMPLES = 20_000
-"""Points on each surface between which distances are measured."""
+"""Sampled points on each surface for measuring distances."""
 
 MARGIN = 0.001
 """Depth, relative to the part's size, up to which a point counts as on a surface."""
 
 _DENSE = 80_000
-_SEAM = 0.004  # pieces that meet at a cut leave gaps of a part of this, relative to the size
+_SEAM = 0.004  # gaps between adjacent pieces of a cut are smaller than this, relative to the size
 
 
 @dataclass(frozen=True)
 class Measures:
-    """A collision geometry against the visual it stands for.
+    """Quality of collision geometry, compared with its visual.
 
-    Distances are two-sided, between what can be touched of the two: enclosed surfaces of the
-    visual, and faces of a piece within another, are left out.
+    Distances are two-sided, between the exterior surfaces: enclosed surfaces of the visual, and
+    faces of a piece inside another, are ignored.
     """
 
     size: float
-    """Diagonal of the visual's bounding box [m]; ``error`` is relative to it."""
+    """Diagonal of the visual's bounding box [m], to which ``error`` is relative."""
     hausdorff: float
     """Largest distance [m] from a point of either surface to the other."""
     mean: float
-    """Mean distance [m], of both directions."""
+    """Mean distance [m] of both directions."""
     visual_to_collision: float
     """Largest distance [m] from the visual to the collision."""
     collision_to_visual: float
     """Largest distance [m] from the collision to the visual."""
     volume: float
-    """Volume [m³] of the collision; space that pieces share counts once."""
+    """Volume [m³] of the collision; overlapping space counts once."""
     volume_ratio: float
-    """That volume over the visual's."""
+    """Volume of the collision divided by the visual's."""
     outside: float
-    """Share of the visual's touchable area that lies outside the collision, by over 0.1 %."""
+    """Part of the visual's exterior area that is outside the collision by over 0.1 % of the
+    size."""
     enclosed: float
-    """Share of the visual's area that cannot be touched, and was not measured."""
+    """Part of the visual's area that is enclosed and was not measured."""
     pieces: int
     triangles: int
     vertices: int
 
     @property
     def error(self) -> float:
-        """The Hausdorff distance relative to the size."""
+        """Return the Hausdorff distance relative to the size."""
         return self.hausdorff / self.size
 
     def as_dict(self) -> dict[str, Any]:
-        """All of it, with the relative error."""
+        """Return all fields and the relative error."""
         return {"error": self.error, **asdict(self)}
 
 
 class Target:
-    """A visual surface, with all that is needed to measure collisions against it."""
+    """Reference surface of a visual, with cached data for measuring collisions against it."""
 
     def __init__(self, surface: Prepared, cores: int = 1) -> None:
-        """Keep it; nothing is computed before it is asked for.
+        """Store the surface; everything else is computed on demand.
 
         Args:
             surface: The visual.
-            cores: How many may be used; what is found does not hang on it.
+            cores: Number of cores to use, which does not affect results.
         """
         self.surface = surface
         self.cores = cores
@@ -87,12 +88,12 @@ class Target:
 
     @cached_property
     def corners(self) -> Points:
-        """Its triangles [m]."""
+        """Return the triangles [m], shape (m, 3, 3)."""
         return self.surface.corners
 
     @cached_property
     def flood(self) -> Flood:
-        """The space around it."""
+        """Return the flooded space around the surface."""
         return flood(self.corners)
 
     @cached_property
@@ -105,40 +106,40 @@ class Target:
 
     @cached_property
     def touchable(self) -> Points:
-        """Points [m] of what can be touched, spread evenly, and then its vertices."""
+        """Return exterior points [m]: evenly spread ones, then vertices."""
         points, reached = self._all
         return points[reached] if reached.any() else points
 
     @cached_property
     def even(self) -> Points:
-        """Those of them that are spread evenly."""
+        """Return the evenly spread exterior points [m]."""
         points, reached = self._all
         even = points[:SAMPLES][reached[:SAMPLES]]
         return even if len(even) else points[:SAMPLES]
 
     @cached_property
     def enclosed(self) -> float:
-        """Share of its area that cannot be touched."""
+        """Return the part of the area that is enclosed."""
         return float(1 - self._all[1][:SAMPLES].mean())
 
     @cached_property
     def area(self) -> float:
-        """Area [m²] of what can be touched."""
+        """Return the exterior area [m²]."""
         return float(areas_of(self.corners).sum()) * len(self.even) / SAMPLES
 
     @cached_property
     def nearest(self) -> Surface:
-        """Answers how far points are from it."""
+        """Return the search structure for distances to the surface."""
         return Surface(self.corners, spread(self.corners, _DENSE), workers=self.cores)
 
     @cached_property
     def layer(self) -> Layer:
-        """A thin layer on it, and what that encloses."""
+        """Return the offset field of a thin layer around the surface."""
         return Layer(self.corners, self.cores)
 
     @cached_property
     def volume(self) -> float:
-        """What it encloses [m³]: exact for one closed body, by cells for anything else."""
+        """Return the enclosed volume [m³]: exact for one closed body, from cells otherwise."""
         volume = self.surface.volume
         by_cells = self.flood.volume
         if self.surface.closed and volume > 0 and abs(volume - by_cells) < 0.1 * by_cells:
@@ -147,11 +148,11 @@ class Target:
 
 
 def _distances(target: Target, pieces: Sequence[Piece]) -> tuple[Points, Points]:
-    """Measure how far a visual and some pieces are apart everywhere.
+    """Compute the distances between a visual and pieces.
 
     Returns:
-        How far [m] each touchable point of the visual is from the pieces, and how far each of
-        their touchable points is from the visual.
+        Distance [m] of each exterior point of the visual to the pieces, and of each of their
+        exterior points to the visual.
     """
     outer = _outer_samples(pieces, target)
     points = np.concatenate([samples.points for samples in outer])
@@ -165,7 +166,7 @@ def _distances(target: Target, pieces: Sequence[Piece]) -> tuple[Points, Points]
 
 
 def measure(target: Target, pieces: Sequence[Piece]) -> Measures:
-    """How good some pieces are for a visual."""
+    """Measure the quality of pieces as the collision of a visual."""
     forth, back = _distances(target, pieces)
     mean = (float(forth[: len(target.even)].mean()) + float(back.mean())) / 2
     depth = depths(target.even, pieces, near=MARGIN * target.size)
@@ -187,7 +188,7 @@ def measure(target: Target, pieces: Sequence[Piece]) -> Measures:
 
 
 def hull_error(target: Target, piece: Piece) -> float:
-    """The error of a mesh's convex hull, which is what engines touch of a mesh that moves.
+    """Compute the relative error of a mesh's convex hull, which engines use for moving meshes.
 
     Raises:
         MeshError: The mesh is flat.
@@ -196,7 +197,7 @@ def hull_error(target: Target, piece: Piece) -> float:
 
 
 def piece_distances(target: Target, pieces: Sequence[Piece]) -> list[float]:
-    """How far [m] each piece's outer surface is from the visual at most."""
+    """Compute the largest distance [m] of each piece's exterior surface to the visual."""
     outer = _outer_samples(pieces, target)
     off = target.nearest.distance(np.concatenate([samples.points for samples in outer]))
     parts = np.split(off, np.cumsum([len(samples) for samples in outer])[:-1])
@@ -204,20 +205,20 @@ def piece_distances(target: Target, pieces: Sequence[Piece]) -> list[float]:
 
 
 def _outer_samples(pieces: Sequence[Piece], target: Target) -> list[Samples]:
-    """Points on each piece that lie in no other and can be touched, if there are any such."""
+    """Sample exterior points of each piece that are inside no other, if there are any."""
     outer = [_outer(index, pieces, target) for index in range(len(pieces))]
-    if not any(map(len, outer)):  # pieces that coincide hide each other
+    if not any(map(len, outer)):  # coincident pieces hide each other
         outer = [spread(piece.corners, max(SAMPLES // len(pieces), 400)) for piece in pieces]
     if len(pieces) == 1:
         return outer
-    # faces in narrow gaps between pieces are left out as those of the visual are
+    # faces in narrow gaps between pieces are enclosed, as for the visual
     around = flood(np.concatenate([piece.corners for piece in pieces]))
     seen = [samples.only(around.touches(samples.points)) for samples in outer]
     return seen if any(map(len, seen)) else outer
 
 
 def _outer(index: int, pieces: Sequence[Piece], target: Target) -> Samples:
-    """Points on a piece that lie in no other, and that can be touched."""
+    """Sample exterior points of a piece that are inside no other."""
     piece = pieces[index]
     share = max(SAMPLES // len(pieces), 400)
     samples = spread(piece.corners, share)
@@ -231,14 +232,14 @@ def _outer(index: int, pieces: Sequence[Piece], target: Target) -> Samples:
 
 
 def _others(piece: Piece, pieces: Sequence[Piece], gap: float) -> list[Piece]:
-    """The convex ones beside a piece in which points of it can lie."""
+    """Return the other convex pieces that may contain points of a piece."""
     near = near_ones(piece.bounds, np.stack([other.bounds for other in pieces]), gap)
     beside = (pieces[index] for index in np.flatnonzero(near).tolist())
     return [other for other in beside if other is not piece and other.kind != "mesh"]
 
 
 def _surface_of(pieces: Sequence[Piece], outer: Sequence[Samples], workers: int) -> Surface:
-    """The surface of all pieces, without what lies in another."""
+    """Build the union surface of pieces, without parts inside other pieces."""
     corners, points, owners = [], [], []
     first = 0
     for piece, seen in zip(pieces, outer, strict=True):
@@ -257,14 +258,14 @@ def _surface_of(pieces: Sequence[Piece], outer: Sequence[Samples], workers: int)
 
 
 def depths(points: Points, pieces: Sequence[Piece], near: float = 0.0) -> Points:
-    """How far points lie outside all pieces [m]; negative where they are in one.
+    """Compute the signed distance [m] of points to the union of pieces; negative inside.
 
-    Exact in sign; near a convex piece's edges the distance is somewhat too small.
+    The sign is exact; near edges of a convex piece the distance is slightly too small.
 
     Args:
         points: Points [m].
         pieces: The pieces.
-        near: Distance [m] to a concave piece up to which the sign does not matter.
+        near: Distance [m] to a concave piece below which the sign is not computed.
     """
     result = np.full(len(points), np.inf)
     for piece in pieces:
@@ -290,7 +291,7 @@ def _is_within(points: Points, corners: Points) -> npt.NDArray[np.bool_]:
 
 
 def volume_of(pieces: Sequence[Piece]) -> float:
-    """The volume [m³] of pieces together; exact for one, by points for several."""
+    """Compute the volume [m³] of the union of pieces; exact for one, sampled for several."""
     if len(pieces) == 1:
         a, b, c = (pieces[0].corners[:, k] - pieces[0].vertices.mean(axis=0) for k in range(3))
         return abs(float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6))

@@ -1,8 +1,8 @@
-"""Pieces joined again where their common hull is near enough to the mesh.
+"""Joining of pieces whose common hull is close enough to the mesh.
 
-Cuts go through the whole of a part, and leave more pieces than its shape needs. What a join costs
-is measured here by what counts in the end: how far the hull bulges out of the mesh, and how deep it
-buries what of the mesh can be touched.
+Cuts go through the whole part and leave more pieces than necessary. The cost of a join is measured
+as the final error is: the distance by which the hull protrudes from the mesh, and the depth to
+which it covers exterior surface.
 """
 
 from __future__ import annotations
@@ -20,26 +20,26 @@ from .measure import Target
 from .piece import Piece, mesh_piece, near_ones
 from .remesh import Outside
 
-_TOUCH = 0.01  # gap of neighbours, relative to the size
+_TOUCH = 0.01  # largest gap between neighbors, relative to the size
 _PROBES = 300
 _BURIED = 6000
-_ENDS = 16  # corners of a piece between which half ways are looked at
-_SURE = 0.4  # part of a guess below which probes of the hull hardly ever stay
-_GUESSED, _BULGE, _WHOLE = range(3)  # what is known of a join's cost
+_ENDS = 16  # vertices of a piece whose midpoints are tested
+_SURE = 0.4  # part of a bound below which sampled hull points hardly ever stay
+_GUESSED, _BULGE, _WHOLE = range(3)  # states of a join's known cost
 
 
 class Joiner:
-    """Joins pieces of one mesh."""
+    """Joining of the pieces of one mesh."""
 
     def __init__(self, target: Target) -> None:
-        """Take the mesh."""
+        """Set the mesh."""
         self.outside = Outside(target.layer)
         even = target.even
         self.seen = even[:: max(1, len(even) // _BURIED)]
         self.gap = _TOUCH * target.size
 
     def joined(self, pieces: Sequence[Piece], distance: float) -> list[Piece]:
-        """The pieces, joined as long as no hull is farther off than a distance [m]."""
+        """Join pieces as long as no hull deviates by more than a distance [m]."""
         found = list(pieces)
         for cost, living in self.steps(pieces):
             if cost > distance:
@@ -48,10 +48,10 @@ class Joiner:
         return found
 
     def steps(self, pieces: Sequence[Piece]) -> Iterator[tuple[float, list[Piece]]]:
-        """One join after another, the cheapest first, until one piece is left of what is near.
+        """Join pieces one by one, the cheapest first, until no neighbors are left.
 
         Yields:
-            How far off the hull of the join is [m], and the pieces after it.
+            The deviation of the join's hull [m], and the pieces after it.
         """
         living = dict(enumerate(pieces))
         boxes = np.empty((2 * len(pieces), 2, 3))
@@ -74,7 +74,8 @@ class Joiner:
             if a not in living or b not in living:
                 made.pop((a, b), None)
                 continue
-            # a hull, and even more what it buries, is dear to find: asked for where it can matter
+            # hulls, and even more their depth, are costly and computed only for the cheapest
+            # candidates
             if known == _GUESSED:
                 both = self._hull(living[a], living[b])
                 if both is not None:
@@ -91,9 +92,9 @@ class Joiner:
             yield cost, list(living.values())
 
     def _least(self, ones: Sequence[Piece], other: Piece) -> list[float]:
-        """What the hull of each piece with another is out of the mesh at least [m].
+        """Compute a lower bound of the protrusion [m] of the hull of each piece with another.
 
-        Half way between two corners of theirs is in that hull.
+        The midpoint of two vertices of theirs is inside that hull.
         """
         if not ones:
             return []
@@ -112,11 +113,11 @@ class Joiner:
             return None
 
     def _bulge(self, piece: Piece) -> float:
-        """How far the piece is out of the mesh at most [m]."""
+        """Return the largest distance [m] by which the piece protrudes from the mesh."""
         return float(self.outside.distance(spread(piece.corners, _PROBES).points).max())
 
     def burial(self, piece: Piece) -> float:
-        """How deep in the piece what can be touched of the mesh is at most [m]."""
+        """Return the largest depth [m] of exterior points of the mesh inside the piece."""
         low, high = piece.bounds
         within: Points = self.seen[((self.seen > low) & (self.seen < high)).all(axis=1)]
         return -float(signed_distance(within, piece.sides).min()) if len(within) else 0.0

@@ -1,4 +1,4 @@
-"""Pieces as mesh files: binary STL and OBJ, the same bytes each time, and known as ours."""
+"""Pieces as mesh files: reproducible binary STL and OBJ, marked as written by urdftool."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribut
 
 
 def mesh_bytes(pieces: Sequence[Piece], suffix: str) -> bytes:
-    """A mesh file of pieces, in metres.
+    """Encode pieces as a mesh file, in meters.
 
     Args:
-        pieces: What is in it; an OBJ file has an object for each.
+        pieces: The pieces; each is an object of an OBJ file.
         suffix: ``".stl"`` or ``".obj"``.
     """
     return _obj(pieces) if suffix == ".obj" else _stl(pieces)
@@ -52,15 +52,15 @@ def _obj(pieces: Sequence[Piece]) -> bytes:
 def write_all(
     files: Mapping[Path, bytes], *, overwrite: bool = False, inputs: Iterable[str | Path] = ()
 ) -> None:
-    """Write the files of a collision geometry: all of them, or none.
+    """Write the files of a collision geometry: all or none.
 
     Args:
-        files: Content by path; the last is the one that refers to the others.
-        overwrite: Replace also mesh files that urdftool did not write.
-        inputs: Files that were read, which must not be replaced.
+        files: Content by path; the last file refers to the others.
+        overwrite: Whether to replace mesh files that urdftool did not write.
+        inputs: Input files, which must not be replaced.
 
     Raises:
-        OutputError: One cannot be written; what was there is as it was.
+        OutputError: A file cannot be written; existing files are unchanged.
     """
     read = {os.path.realpath(name) for name in inputs}
     for path in files:

@@ -1,4 +1,4 @@
-"""Many meshes: each once, those known from the cache, the others several at a time."""
+"""Simplification of many meshes in parallel: each once, known results from the cache."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .cache import key_of, known_result
 from .compute import Result, Task, attempt, result_of
 
 Progress = Callable[[int, int, Sequence[str]], None]
-"""Called with how many meshes are done, of how many, and which are worked on."""
+"""Called with the number of meshes done, their total, and the names of those in progress."""
 
 Outcome = bytes | UrdftoolError
 
@@ -26,14 +26,14 @@ def compute_all(
     scheduler: str | None = None,
     progress: Progress | None = None,
 ) -> dict[Task, Result | UrdftoolError]:
-    """The result of each task, or why there is none.
+    """Compute the result of each task, or the error.
 
     Args:
-        tasks: What is wanted; equal tasks, and equal files under other names, are computed once.
-        cache: What is known already; new results are added as they come.
-        jobs: Processes to use; None is one per core.
-        scheduler: Address of a Dask scheduler that does the work instead.
-        progress: Told of every mesh.
+        tasks: The tasks; equal tasks, and equal files under different names, are computed once.
+        cache: Cache of results, to which new ones are added.
+        jobs: Number of processes; None for one per core.
+        scheduler: Address of a Dask scheduler to use instead.
+        progress: Called for every mesh.
     """
     found: dict[Task, Result | UrdftoolError] = {}
     groups: dict[str, list[Task]] = {}
@@ -47,7 +47,7 @@ def compute_all(
         else:
             found.update(dict.fromkeys(same, known))
     count = len(groups)
-    # the largest first, so that none is left alone at the end
+    # largest first, so that all processes finish at about the same time
     ordered = sorted(todo, key=lambda key: (-_size(todo[key].path), key))
     work = [todo[key] for key in ordered]
     known_before = count - len(work)
@@ -63,7 +63,7 @@ def compute_all(
         outcomes = _counted(on_cluster(work, scheduler), work, under_way)
     else:
         workers = jobs or cores()
-        # cores that no mesh of its own is left for help with the others
+        # surplus cores are shared among the meshes
         each = partial(attempt, cores=max(1, workers // max(1, len(work))))
         outcomes = map_tasks(each, work, workers=workers, on_lost=_lost, on_progress=under_way)
     for index, outcome in outcomes:
@@ -86,7 +86,7 @@ def _counted(
     tasks: Sequence[Task],
     under_way: Callable[[int, Sequence[Task]], None],
 ) -> Iterator[tuple[int, Outcome]]:
-    """Outcomes of a cluster, of which it is not known what it works on; the last one is shown."""
+    """Yield outcomes of a cluster, and report the last one, as work in progress is unknown."""
     for done, (index, outcome) in enumerate(outcomes, 1):
         under_way(done, [tasks[index]])
         yield index, outcome

@@ -1,4 +1,4 @@
-"""Visual and collision side by side: what was there to the left, what touches to the right."""
+"""Pictures of visual geometry (left) next to collision geometry (right)."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from .piece import Piece
 from .surface import read_surface
 
 SIZE = (640, 560)
-"""Width and height of either half in pixels."""
+"""Width and height of each half in pixels."""
 
 _GREY = (0.72, 0.74, 0.78, 1.0)
 _CAMERA = Camera(np.radians(-50.0), np.radians(25.0))
 
-# light enough to be told apart when they are shaded
+# light enough to be distinguished when shaded
 _COLORS = (
     (0.90, 0.45, 0.30),
     (0.35, 0.62, 0.86),
@@ -40,14 +40,14 @@ _COLORS = (
 
 
 def mesh_picture(task: Task, result: Result) -> bytes:
-    """A PNG of one mesh and its pieces."""
+    """Draw one mesh and its pieces as a PNG file."""
     surface = read_surface(task.path, task.scale, task.gltf_up)
     left = bare_shapes([(surface.vertices, surface.faces, _GREY)])
     return side_by_side(left, {"": IDENTITY}, _colored(result.pieces))
 
 
 def robot_picture(robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task, Result]) -> bytes:
-    """A PNG of a robot at the zero of its joints: its visuals, and its new collisions.
+    """Draw a robot's visuals and its new collisions, with all joints at zero, as a PNG file.
 
     Raises:
         UrdftoolError: It has neither.
@@ -79,7 +79,7 @@ def robot_picture(robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task
 
 
 def side_by_side(left: Shapes, poses: Mapping[str, Pose], right: Shapes) -> bytes:
-    """Shapes at poses, and others as they are, from the same place, as a PNG."""
+    """Draw posed shapes and unposed ones from the same viewpoint, as a PNG file."""
     there = [left.posed(poses), right.posed({"": IDENTITY})]
     view = view_of(np.concatenate([corners[seen] for corners, _, seen in there]), _CAMERA, SIZE)
     halves = [
@@ -91,7 +91,7 @@ def side_by_side(left: Shapes, poses: Mapping[str, Pose], right: Shapes) -> byte
 
 
 def _colored(pieces: Sequence[Piece]) -> Shapes:
-    """Pieces in colours that tell them apart."""
+    """Color pieces differently."""
     return bare_shapes(
         (piece.vertices, piece.faces, (*_COLORS[number % len(_COLORS)], 1.0))
         for number, piece in enumerate(pieces)
@@ -99,7 +99,7 @@ def _colored(pieces: Sequence[Piece]) -> Shapes:
 
 
 def _readable(robot: Robot, shape: object) -> list[Piece]:
-    """A shape's pieces; nothing where its mesh cannot be read, which was said before."""
+    """Return a shape's pieces; empty if its mesh cannot be read, which is reported elsewhere."""
     try:
         return shape_pieces(robot, shape)  # type: ignore[arg-type]
     except UrdftoolError:

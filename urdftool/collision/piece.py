@@ -1,4 +1,4 @@
-"""One convex shape or mesh of a collision geometry."""
+"""Pieces of collision geometry: primitives and meshes."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from ..geometry.tessellate import tessellate
 from .vec3 import bounds
 
 PRIMITIVES = ("sphere", "capsule", "box", "cylinder")
-"""Kinds that need no mesh file."""
+"""Kinds that require no mesh file."""
 
 CONVEX = (*PRIMITIVES, "convex")
 
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """A shape in the frame of the mesh it stands for.
+    """A shape in the frame of its source mesh.
 
     Attributes:
         kind: One of ``PRIMITIVES``, ``"convex"`` for a convex mesh, or ``"mesh"``.
-        size: Lengths [m] of a primitive: a box's three edges; radius and length of a cylinder or
-            capsule, whose length is that of the part between the caps; a sphere's radius.
+        size: Lengths [m] of a primitive: three edges of a box; radius and length of a cylinder or
+            capsule (length between the caps); radius of a sphere.
         rotation: Axes of the primitive in the mesh's frame, as columns.
-        centre: Its centre [m] in the mesh's frame.
-        vertices: Points [m] of the surface, of a primitive a fine approximation of it.
-        faces: Triangles of the surface, outwards.
+        centre: Center of the primitive [m] in the mesh's frame.
+        vertices: Points [m] of the surface; a fine approximation for a primitive.
+        faces: Triangles of the surface, wound outward.
     """
 
     kind: str
@@ -43,32 +43,32 @@ class Piece:
 
     @property
     def is_primitive(self) -> bool:
-        """Whether it is a shape of URDF that needs no file."""
+        """Tell whether it is a URDF primitive, which requires no mesh file."""
         return self.kind in PRIMITIVES
 
     @property
     def corners(self) -> Points:
-        """The triangles of its surface [m], shape (m, 3, 3)."""
+        """Return the triangles of the surface [m], shape (m, 3, 3)."""
         return self.vertices[self.faces]
 
     @cached_property
     def sides(self) -> Points:
-        """The planes of a convex piece's faces, from :func:`.convex.planes`."""
+        """Return the planes of a convex piece's faces, from :func:`.convex.planes`."""
         from .convex import planes
 
         return planes(self.vertices, self.faces)
 
     @cached_property
     def bounds(self) -> Points:
-        """The lowest and the highest corner [m] of its box, shape (2, 3)."""
+        """Return lower and upper corner [m] of the bounding box, shape (2, 3)."""
         return bounds(self.vertices)
 
     def local(self, points: Points) -> Points:
-        """Points of the mesh's frame in the primitive's own."""
+        """Transform points from the mesh's frame to the primitive's frame."""
         return np.asarray((points - self.centre) @ self.rotation)
 
     def posed(self, rotation: Points, translation: Points, scale: float = 1.0) -> Piece:
-        """The piece scaled, then turned and moved into a frame around the mesh's."""
+        """Scale the piece, then transform it into the parent frame of the mesh."""
         return Piece(
             self.kind,
             tuple(length * scale for length in self.size),
@@ -79,7 +79,7 @@ class Piece:
         )
 
     def as_dict(self) -> dict[str, Any]:
-        """Plain numbers; of a primitive, what it can be made of again."""
+        """Convert to plain numbers; a primitive without its triangles."""
         if self.is_primitive:
             return {
                 "kind": self.kind,
@@ -95,7 +95,7 @@ class Piece:
 
 
 def near_ones(box: Points, boxes: Points, gap: float) -> npt.NDArray[np.bool_]:
-    """Which boxes, shape (n, 2, 3), are at most a gap [m] from a box along each axis."""
+    """Tell which boxes, shape (n, 2, 3), are at most a gap [m] from a box along each axis."""
     near = np.ones(len(boxes), dtype=bool)
     for axis in range(3):
         near &= box[0, axis] - boxes[:, 1, axis] <= gap
@@ -104,7 +104,7 @@ def near_ones(box: Points, boxes: Points, gap: float) -> npt.NDArray[np.bool_]:
 
 
 def mesh_piece(vertices: Points, faces: Faces, *, convex: bool = True) -> Piece:
-    """A piece that is a mesh."""
+    """Create a piece from a mesh."""
     kind = "convex" if convex else "mesh"
     return Piece(kind, (), np.eye(3), np.zeros(3), vertices, faces)
 
@@ -112,7 +112,7 @@ def mesh_piece(vertices: Points, faces: Faces, *, convex: bool = True) -> Piece:
 def primitive(
     kind: str, size: Sequence[float], rotation: Points, centre: Sequence[float] | Points
 ) -> Piece:
-    """Make a box, cylinder, capsule or sphere, with triangles fine enough to measure distances to.
+    """Create a box, cylinder, capsule or sphere, with triangles fine enough for distances.
 
     Args:
         kind: One of ``PRIMITIVES``.
@@ -127,7 +127,7 @@ def primitive(
 
 
 def piece_of(table: dict[str, Any]) -> Piece:
-    """Make the piece that :meth:`Piece.as_dict` describes."""
+    """Create the piece that :meth:`Piece.as_dict` describes."""
     if table["kind"] in PRIMITIVES:
         return primitive(
             table["kind"], tuple(table["size"]), np.array(table["rotation"]), table["centre"]

@@ -1,8 +1,8 @@
-"""The box, cylinder, capsule or sphere that is nearest to a surface.
+"""Fitting of boxes, cylinders, capsules and spheres to a surface.
 
-Each is fitted by least squares of the signed distances of points of the surface, so that noise
-averages out instead of growing the shape, from several first guesses of its axes. A second fit
-weighs large distances more, for surfaces that only resemble the shape.
+Each is fitted by least squares of the signed distances of surface points, so that noise averages
+out instead of enlarging the shape, from several initial axes. A second fit gives large distances
+more weight, for surfaces that only resemble the shape.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from .convex import hull
 from .piece import Piece, primitive
 
 POINTS = 1500
-"""Points that a shape is fitted to."""
+"""Number of points to which a shape is fitted."""
 
 SHARP = 4.0
 """Exponent of the second fit."""
 
 _STARTS = 3
 _DIGITS = 7
-_UPRIGHT = 2e-3  # turns [rad] that are noise
+_UPRIGHT = 2e-3  # angles [rad] below this are noise
 
 
 def box_distance(points: Points, size: Points) -> Points:
-    """Signed distance [m] of points to a box about the origin."""
+    """Compute the signed distance [m] of points to a box about the origin."""
     beyond = np.abs(points) - np.asarray(size) / 2
     return np.asarray(
         np.linalg.norm(np.maximum(beyond, 0), axis=1) + np.minimum(beyond.max(axis=1), 0)
@@ -36,7 +36,7 @@ def box_distance(points: Points, size: Points) -> Points:
 
 
 def cylinder_distance(points: Points, size: Points) -> Points:
-    """Signed distance [m] of points to a cylinder about z; ``size`` is radius and length."""
+    """Compute the signed distance [m] to a cylinder about z; ``size`` is radius and length."""
     beyond = np.stack(
         [
             np.hypot(points[:, 0], points[:, 1]) - size[0],
@@ -50,14 +50,14 @@ def cylinder_distance(points: Points, size: Points) -> Points:
 
 
 def capsule_distance(points: Points, size: Points) -> Points:
-    """Signed distance [m] of points to a capsule about z; ``size`` is radius and length."""
+    """Compute the signed distance [m] to a capsule about z; ``size`` is radius and length."""
     half = size[1] / 2
     z = points[:, 2] - np.clip(points[:, 2], -half, half)
     return np.asarray(np.sqrt(points[:, 0] ** 2 + points[:, 1] ** 2 + z**2) - size[0])
 
 
 def sphere_distance(points: Points, size: Points) -> Points:
-    """Signed distance [m] of points to a sphere about the origin."""
+    """Compute the signed distance [m] of points to a sphere about the origin."""
     return np.asarray(np.linalg.norm(points, axis=1) - size[0])
 
 
@@ -70,16 +70,16 @@ DISTANCES: dict[str, Callable[[Points, Points], Points]] = {
 
 
 def signed_distance(piece: Piece, points: Points) -> Points:
-    """Signed distance [m] of points to a primitive."""
+    """Compute the signed distance [m] of points to a primitive."""
     return DISTANCES[piece.kind](piece.local(points), np.array(piece.size))
 
 
 def fit_primitives(points: Points, kinds: tuple[str, ...] = tuple(DISTANCES)) -> list[Piece]:
-    """The nearest shape of each kind, once by least squares and once with a sharper measure.
+    """Fit each kind of primitive twice: by least squares, and with more weight on large distances.
 
     Args:
         points: Points spread evenly over the surface [m].
-        kinds: The kinds of interest.
+        kinds: Kinds to fit.
     """
     some = points[:: max(1, len(points) // POINTS)]
     middle = (some.max(axis=0) + some.min(axis=0)) / 2
@@ -157,19 +157,19 @@ def _first_size(kind: str, extent: Points) -> Points:
 
 
 def _frames(points: Points) -> Iterator[Points]:
-    """Axes along which a shape may lie: as the mesh's, of its spread, of its tightest box."""
+    """Yield candidate axes: the mesh's, its principal axes, and those of its tightest box."""
     yield np.eye(3)
     centred = points - points.mean(axis=0)
     _, axes = np.linalg.eigh(centred.T @ centred)
     yield _right_handed(axes)
     try:
         yield _tight_frame(points)
-    except MeshError:  # flat: the two others are as good
+    except MeshError:  # for a flat mesh the other two are sufficient
         return
 
 
 def _tight_frame(points: Points) -> Points:
-    """Axes of the smallest box with a side on a face of the hull, of two hundred faces at most."""
+    """Compute the axes of the smallest box with a side on one of the 200 largest hull faces."""
     vertices, faces = hull(points)
     corners = vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -195,7 +195,7 @@ def _tight_frame(points: Points) -> Points:
 
 
 def _starts(kind: str, frames: list[Points]) -> Iterator[Points]:
-    """The frames, and for round shapes each of their axes as the shape's own."""
+    """Yield the frames, and for round shapes each of their axes as the axis of revolution."""
     if kind == "sphere":
         yield np.eye(3)
         return
@@ -215,7 +215,7 @@ def _right_handed(axes: Points) -> Points:
 
 
 def _neat(kind: str, rotation: Points, centre: Points, size: Points, scale: float) -> Piece:
-    """The shape with the smallest turn that means the same, its numbers rounded."""
+    """Create the equivalent shape with the smallest rotation and rounded numbers."""
     if kind == "sphere":
         rotation = np.eye(3)
     elif kind == "box":
@@ -240,7 +240,7 @@ def _least_turned_box(rotation: Points, size: Points) -> tuple[Points, Points]:
 
 
 def _shortest_turn(axis: Points) -> Points:
-    """The smallest rotation that brings z to an axis; which end is up does not matter."""
+    """Return the smallest rotation from z to an axis; the sign of the axis does not matter."""
     z = axis / np.linalg.norm(axis)
     nearest = int(np.argmax(np.abs(z)))
     if np.linalg.norm(np.delete(z, nearest)) < _UPRIGHT:

@@ -1,9 +1,9 @@
-"""A closed surface around any mesh: what can be touched of it, as one solid's boundary.
+"""A closed surface around any mesh: the boundary of the solid that its exterior encloses.
 
-Meshes of robots are open, of many bodies, or pass through themselves, and cuts need a solid. The
-space is cut into cells; where a corner of a cell is near to the mesh, or cannot be reached from
-outside, is solid. Its boundary is found by marching tetrahedra, which leave no hole and no edge
-with more than two faces (Doi and Koide 1991), and is then drawn back onto the mesh.
+Meshes of robots are open, have many bodies, or intersect themselves, but cuts require a solid.
+Space is divided into cells; a corner of a cell is solid if it is near the mesh or unreachable from
+outside. The boundary is extracted by marching tetrahedra, which leave no hole and no edge with more
+than two faces (Doi and Koide 1991), and is then projected back toward the mesh.
 """
 
 from __future__ import annotations
@@ -21,32 +21,32 @@ from .touchable import widened
 from .vec3 import bounds
 
 CELLS = 96
-"""Cells along the longest side of the mesh's box; gaps narrower than two are closed."""
+"""Cells along the longest side of the bounding box; gaps narrower than two cells are closed."""
 
-_WALL = 0.9  # cells: more than half a cell's diagonal, so that no sheet slips between corners
-_LEFT = 0.2  # cells that remain of it, so that a sheet keeps two sides
-_MARKS = 9  # points a cell's face of surface
+_WALL = 0.9  # cells: more than half a cell's diagonal, so that the layer has no gaps
+_LEFT = 0.2  # cells of the layer that remain, so that a sheet keeps two sides
+_MARKS = 9  # samples per cell face of surface area
 _MOST_MARKS = 400_000
 _RIM = 3
 _PART_CELLS = 24
-_FAR = 9.0  # cells: what stands for any distance that is not near
-_NEAR = 0.7  # cells: about the nearest that such a corner is
+_FAR = 9.0  # cells: stands for any distance that is not near
+_NEAR = 0.7  # cells: approximate smallest distance of such a corner
 
 Numbers = npt.NDArray[np.int64]
 
 
 class Layer:
-    """The space around triangles in cells, and which of their corners are in a thin layer on them.
+    """Offset field: distance of grid corners from a thin layer around triangles.
 
     Attributes:
-        low: The first corner [m].
+        low: First grid corner [m].
         side: Edge of a cell [m].
         surface: The triangles.
-        field: At each corner the distance from the layer, in cells; negative in what it encloses.
+        field: Distance of each corner from the layer, in cells; negative in what it encloses.
     """
 
     def __init__(self, corners: Points, workers: int = 1) -> None:
-        """Fill the cells around triangles [m], shape (m, 3, 3), with some threads."""
+        """Compute the field around triangles [m], shape (m, 3, 3), with ``workers`` threads."""
         lowest, highest = bounds(corners.reshape(-1, 3))
         extent = highest - lowest
         self.side = float(extent.max()) / CELLS
@@ -58,14 +58,14 @@ class Layer:
 
 
 def remesh(layer: Layer) -> tuple[Points, Faces]:
-    """The boundary of what triangles enclose, and of a thin layer on them.
+    """Compute the boundary of the solid that triangles and a thin layer around them enclose.
 
     Returns:
-        Vertices [m] and triangles, outwards; every edge has two of them.
+        Vertices [m] and triangles, wound outward; every edge has two triangles.
     """
     vertices, faces = _boundary(layer.field)
     vertices = layer.low + vertices * layer.side
-    # back onto the mesh but for a part of the layer
+    # project back onto the mesh, except for a part of the layer
     surface = layer.surface
     ends = surface.corners.reshape(-1, 3)
     ends = np.concatenate([surface.samples.points, np.unique(ends, axis=0)])
@@ -77,10 +77,10 @@ def remesh(layer: Layer) -> tuple[Points, Faces]:
 
 
 class Outside:
-    """How far points outside of a mesh are from it, read from a grid."""
+    """Distance of points outside a mesh, interpolated from a grid."""
 
     def __init__(self, layer: Layer) -> None:
-        """Take the cells around it."""
+        """Compute the grid from an offset field."""
         from scipy import ndimage
 
         self.low, self.side = layer.low, layer.side
@@ -89,7 +89,7 @@ class Outside:
         self.values = np.maximum(np.where(far, away, layer.field + _WALL), 0.0) * self.side
 
     def distance(self, points: Points) -> Points:
-        """The distance [m] of points from the mesh; 0 for those that it encloses."""
+        """Return the distance [m] of points from the mesh; 0 for enclosed points."""
         from scipy import ndimage
 
         at = (points.T - self.low[:, None]) / self.side
@@ -97,12 +97,12 @@ class Outside:
 
 
 def common(solid: Points, vertices: Points, faces: Faces) -> tuple[Points, Faces] | None:
-    """The boundary of what a solid and a convex shape have in common; None where that is nothing.
+    """Compute the boundary of the intersection of a solid and a convex shape; None if empty.
 
     Args:
-        solid: Triangles [m] of a closed surface, shape (m, 3, 3), outwards.
+        solid: Triangles [m] of a closed surface, shape (m, 3, 3), wound outward.
         vertices: Points [m] of the convex shape.
-        faces: Its triangles, outwards.
+        faces: Its triangles, wound outward.
     """
     extent = np.ptp(vertices, axis=0)
     side = float(extent.max()) / _PART_CELLS
@@ -122,7 +122,7 @@ def common(solid: Points, vertices: Points, faces: Faces) -> tuple[Points, Faces
 
 
 def _field(surface: Surface, low: Points, side: float, shape: Numbers) -> Points:
-    """At each corner of the cells the distance from the layer, in cells; negative in the solid."""
+    """Compute the distance of grid corners from the layer, in cells; negative in the solid."""
     from scipy import ndimage
 
     marked = np.zeros(tuple(shape), dtype=bool)
@@ -139,7 +139,7 @@ def _field(surface: Surface, low: Points, side: float, shape: Numbers) -> Points
 
 
 def _boundary(field: Points) -> tuple[Points, Faces]:
-    """Where a field changes its sign, in cells."""
+    """Extract the zero level of a field by marching tetrahedra, in cells."""
     solid = field < 0
     some = np.zeros(tuple(np.array(field.shape) - 1), dtype=np.int64)
     for x, y, z in np.ndindex(2, 2, 2):
@@ -152,7 +152,7 @@ def _boundary(field: Points) -> tuple[Points, Faces]:
             ends.append(ends[-1] + np.eye(3, dtype=np.int64)[axis])
         keys += _triangles(np.stack([cubes + end for end in ends], axis=1), solid)
     edges = np.concatenate(keys)
-    # an edge by the number of its first corner and where its second lies from that
+    # key of an edge: index of its first corner and offset of its second
     strides = np.array([field.shape[1] * field.shape[2], field.shape[2], 1])
     begin, end = edges[..., 0, :], edges[..., 1, :]
     number = (begin @ strides) * 8 + (end - begin) @ np.array([4, 2, 1])
@@ -164,7 +164,7 @@ def _boundary(field: Points) -> tuple[Points, Faces]:
 
 
 def _triangles(tetrahedra: Numbers, solid: npt.NDArray[np.bool_]) -> list[Numbers]:
-    """For each triangle the ends of the three edges it cuts, shape (m, 3, 2, 3)."""
+    """Return the edges that each triangle cuts, as three pairs of ends, shape (m, 3, 2, 3)."""
     inside = solid[tetrahedra[..., 0], tetrahedra[..., 1], tetrahedra[..., 2]]
     code = inside @ np.array([1, 2, 4, 8])
     found = []

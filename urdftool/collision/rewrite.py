@@ -1,4 +1,4 @@
-"""A robot's source with new collisions in it; every other byte as it was."""
+"""A robot's source with new collisions; all other bytes are unchanged."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ _LITERAL = re.compile(r"\$\(find [^)$]*\)")
 
 @dataclass
 class Layout:
-    """Where the files of a robot go, and how it names them.
+    """File layout of a robot, and the URIs of its meshes.
 
     Attributes:
-        target: The description that is written.
-        mesh_dir: The folder of the pieces.
+        target: The description to write.
+        mesh_dir: Folder of the pieces.
         uri: ``"package"``, ``"relative"`` or ``"file"``.
         suffix: ``".stl"`` or ``".obj"``.
-        capsules: Whether the robot's version of URDF has capsules.
-        whole: Whether the robot's other mesh files are named in the same way.
+        capsules: Whether the robot's URDF version has capsules.
+        whole: Whether the URIs of the robot's other meshes are rewritten as well.
     """
 
     target: Path
@@ -49,21 +49,21 @@ class Layout:
     files: dict[Path, bytes] = field(default_factory=dict)
     """Content of the mesh files, by path."""
     names: dict[int, list[str]] = field(default_factory=dict)
-    """URIs of a result's pieces, by the identity of the result; empty for a primitive."""
+    """URIs of a result's pieces, by the id of the result; empty for a primitive."""
 
 
 def layout_for(robot: Robot, target: Path, mesh_dir: Path | None, uri: str, suffix: str) -> Layout:
-    """The layout that fits a robot.
+    """Determine the layout for a robot.
 
     Args:
         robot: The robot.
-        target: The description that is written.
-        mesh_dir: The folder of the pieces; None is one beside the target.
-        uri: ``"auto"`` names files as the robot names its own.
-        suffix: Of the pieces.
+        target: The description to write.
+        mesh_dir: Folder of the pieces; None for one in the target's folder.
+        uri: Kind of URI; ``"auto"`` for that of the robot's own meshes.
+        suffix: File suffix of the pieces.
 
     Raises:
-        SourceError: ``package`` is asked for, and the folder is in no package.
+        SourceError: ``package`` is requested but the folder is not in a package.
     """
     folder = Path(os.path.abspath(mesh_dir or target.parent / f"{_plain(target)}_collision"))
     package = own_package(folder / "piece")
@@ -89,7 +89,7 @@ def _plain(path: Path) -> str:
 
 
 def name_pieces(layout: Layout, results: Mapping[Task, Result]) -> None:
-    """Give each piece that is a mesh a file and a URI: after its mesh, numbered where many."""
+    """Assign a file and a URI to each mesh piece, named after its source mesh and numbered."""
     taken: dict[str, int] = {}
     for task, result in results.items():
         if id(result) in layout.names:
@@ -112,7 +112,7 @@ def name_pieces(layout: Layout, results: Mapping[Task, Result]) -> None:
 
 
 def uri_of(path: Path, layout: Layout) -> str:
-    """How the robot names a file."""
+    """Return the URI of a file in the robot."""
     if layout.uri == "file":
         return path.as_uri()
     if layout.uri == "package":
@@ -128,9 +128,9 @@ def rewritten(
     results: Mapping[Task, Result],
     layout: Layout,
 ) -> bytes:
-    """The robot's text, of xacro the expanded one, with new collisions.
+    """Return the robot's text with new collisions; xacro is expanded.
 
-    Where it goes into another folder, relative names of other files are changed to fit.
+    If the target is in another folder, relative names of other files are adjusted.
     """
     assert robot.source is not None
     file = robot.source.files[0]
@@ -155,7 +155,7 @@ def rewritten(
 def link_edits(
     source: edit.Source, link: Element, old: Sequence[Element], blocks: Sequence[Sequence[str]]
 ) -> list[edit.Edit]:
-    """The edits that give a link its collisions, in the place of the old or after its visuals."""
+    """Create the edits that replace a link's collisions or add new ones after its visuals."""
     if old:
         first = edit.replace_element(source, old[0], blocks)
         return [first, *(edit.remove_element(source, element) for element in old[1:])]
@@ -184,7 +184,7 @@ def _blocks(item: LinkPlan, results: Mapping[Task, Result], layout: Layout) -> l
 
 
 def piece_blocks(shape: Shape, result: Result, layout: Layout) -> list[list[str]]:
-    """A ``<collision>`` for each piece of a mesh, as lines."""
+    """Return a ``<collision>`` for each piece of a mesh, as lines."""
     blocks = []
     for piece, uri in zip(result.pieces, layout.names[id(result)], strict=True):
         if piece.is_primitive:
@@ -196,7 +196,7 @@ def piece_blocks(shape: Shape, result: Result, layout: Layout) -> list[list[str]
 
 
 def _parts(piece: Piece, capsules: bool) -> list[Piece]:
-    """A capsule as a cylinder and two spheres, where URDF has none."""
+    """Split a capsule into a cylinder and two spheres if URDF has no capsules."""
     if piece.kind != "capsule" or capsules:
         return [piece]
     from .piece import primitive
@@ -221,7 +221,7 @@ def _primitive_block(shape: Shape, piece: Piece) -> list[str]:
 
 
 def geometry_tag(piece: Piece) -> str:
-    """The shape element of a primitive."""
+    """Return the geometry element of a primitive."""
     if piece.kind == "box":
         return f'<box size="{_numbers(piece.size)}"/>'
     if piece.kind == "sphere":
@@ -231,7 +231,7 @@ def geometry_tag(piece: Piece) -> str:
 
 
 def _carried(shape: Shape) -> list[str]:
-    """A visual primitive as a collision."""
+    """Copy a visual primitive as a collision."""
     assert shape.geometry is not None
     element = shape.geometry.element
     words = "".join(f" {name}={_quoted(value)}" for name, value in element.attributes.items())
@@ -273,7 +273,7 @@ def _folder(robot: Robot) -> str:
 def _moved(
     robot: Robot, again: Robot, source: edit.Source, layout: Layout, gone: set[int]
 ) -> list[edit.Edit]:
-    """Relative names of files, seen from where the description is going to be."""
+    """Create edits that make relative file names relative to the target's folder."""
     assert robot.source is not None
     edits = []
     kept = [shape for _, shape in again.shapes if id(shape.element) not in gone]
@@ -291,5 +291,5 @@ def _moved(
 
 
 def is_literal(text: str) -> bool:
-    """Whether text of a xacro file means the same in every expansion."""
+    """Tell whether a text of a xacro file is the same in every expansion."""
     return "$" not in _LITERAL.sub("", text)

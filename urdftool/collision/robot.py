@@ -1,4 +1,4 @@
-"""A whole robot: which meshes it wants simplified, and the files with its new collisions."""
+"""Simplification for a whole robot: its meshes, and the files with its new collisions."""
 
 from __future__ import annotations
 
@@ -15,21 +15,22 @@ from .mesh_files import write_all
 from .rewrite import Layout, layout_for, name_pieces, rewritten, uri_of
 
 SUFFIXES = (".urdf", ".xml")
-"""Endings that a new description may have."""
+"""Permitted suffixes of a new description."""
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where a robot with new collisions goes.
+    """Output location of a robot with new collisions.
 
     Attributes:
-        target: The new description; for ``in_place`` the robot's own.
-        mesh_dir: The folder of the pieces; None is one beside the target.
-        uri: ``"package"``, ``"relative"``, ``"file"``, or ``"auto"``: as the robot names its own.
+        target: The new description; the robot's own if ``in_place``.
+        mesh_dir: Folder of the pieces; None for one in the target's folder.
+        uri: ``"package"``, ``"relative"``, ``"file"``, or ``"auto"`` for that of the robot's
+            meshes.
         mesh_format: ``"stl"`` or ``"obj"``.
-        in_place: Edit the robot's own source, only where it changes.
-        bare: Write the pieces only; the description is wanted as text.
-        overwrite: Replace mesh files that are not ours.
+        in_place: Whether to edit the robot's own source.
+        bare: Whether to write only the pieces, and return the description as text.
+        overwrite: Whether to replace mesh files not written by urdftool.
     """
 
     target: Path
@@ -43,13 +44,13 @@ class Place:
 
 @dataclass(frozen=True)
 class Written:
-    """What was written.
+    """Output of :func:`write_robot`.
 
     Attributes:
-        layout: The pieces' files and names.
-        plans: The links that were done.
-        text: The new description; of a robot edited in place nothing.
-        refused: A sentence for each link that could not be edited in place.
+        layout: Files and URIs of the pieces.
+        plans: Links that were changed.
+        text: The new description; empty for a robot edited in place.
+        refused: One sentence for each link that could not be edited in place.
     """
 
     layout: Layout
@@ -58,30 +59,30 @@ class Written:
     refused: Sequence[str] = field(default_factory=list)
 
     def left(self, robot: Robot) -> list[str]:
-        """Links that are as they were."""
+        """Return the names of unchanged links."""
         touched = {item.link.name for item in self.plans}
         return [link.name for link in robot.links if link.name not in touched]
 
 
 def tasks_of(plans: Iterable[LinkPlan]) -> list[Task]:
-    """The meshes that are to be simplified."""
+    """Return the meshes to simplify."""
     return [use.task for item in plans for use in item.uses if use.task is not None]
 
 
 def write_robot(
     robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task, Result], place: Place
 ) -> Written:
-    """Write a robot with new collisions, and the files of their pieces, all or nothing.
+    """Write a robot with new collisions and the mesh files of its pieces, all or none.
 
     Args:
         robot: The robot.
-        plans: What becomes of its links.
-        results: What became of their meshes.
-        place: Where it goes.
+        plans: Plans for its links.
+        results: Results of their meshes.
+        place: Output location.
 
     Raises:
-        OutputError: A file cannot be written, or is an input; what was there is as it was.
-        SourceError: The pieces cannot be named as it is wished.
+        OutputError: A file cannot be written or is an input; existing files are unchanged.
+        SourceError: The requested kind of URI is not possible.
     """
     layout = layout_for(robot, place.target, place.mesh_dir, place.uri, f".{place.mesh_format}")
     name_pieces(layout, results)
@@ -106,10 +107,10 @@ def write_robot(
 
 
 def check_place(robot: Robot, place: Place) -> None:
-    """Refuse a description that cannot be written, before anything is computed.
+    """Reject an output location that cannot be written, before computing anything.
 
     Raises:
-        OutputError: It is an input, or a folder.
+        OutputError: It is an input or a folder.
     """
     if place.in_place or place.bare or robot.source is None:
         return
@@ -121,7 +122,7 @@ def check_place(robot: Robot, place: Place) -> None:
 
 
 def _visual_meshes(robot: Robot) -> list[str]:
-    """Files that pieces must not replace, which their own earlier ones may be."""
+    """Return visual meshes, which pieces must not replace, unlike pieces of an earlier run."""
     assert robot.source is not None
     meshes = [v.geometry for link in robot.links for v in link.visuals]
     names = {m.filename for m in meshes if isinstance(m, Mesh) and m.filename}

@@ -1,4 +1,4 @@
-"""What is wanted of a collision geometry."""
+"""Settings of a collision geometry."""
 
 from __future__ import annotations
 
@@ -9,27 +9,27 @@ from typing import Any
 METHODS = ("auto", "primitive", "hull", "coacd", "simplify")
 
 FEW_HULLS = 32
-"""Convex pieces that ``auto`` may make of a mesh."""
+"""Largest number of convex pieces that ``auto`` creates from a mesh."""
 
 KILLED = "CoACD was killed, perhaps for want of memory"
-"""Said of a process that was ended from outside; the next time it may be otherwise."""
+"""Note if a process was killed from outside, so that the result is not reproducible."""
 
 
 @dataclass(frozen=True)
 class Settings:
-    """Choices for one mesh; together with its content they determine the result.
+    """Settings for one mesh, which together with its content determine the result.
 
     Attributes:
         method: One of ``METHODS``.
-        max_error: Largest distance of visual and collision, relative to the diagonal of the
-            visual's bounding box. ``auto`` keeps to it; other methods are only judged by it.
-        max_hulls: Convex pieces that CoACD may make of a mesh; None is no limit for the method
-            ``coacd``, and ``FEW_HULLS`` for ``auto``.
-        max_vertices: Vertices that a convex piece may have.
-        max_triangles: Triangles that ``simplify`` and ``coacd`` may leave of a mesh, in all.
-        threshold: CoACD's concavity, at which it stops to cut, for the method ``coacd``: a
-            distance, relative to half the longest side.
-        time_limit: Processor time [s] that CoACD may take for a mesh, in all of its runs.
+        max_error: Largest distance between visual and collision, relative to the diagonal of the
+            visual's bounding box: a limit for ``auto``, a criterion for other methods.
+        max_hulls: Largest number of convex pieces that CoACD creates from a mesh; None for no limit
+            with ``coacd``, and ``FEW_HULLS`` with ``auto``.
+        max_vertices: Largest number of vertices of a convex piece.
+        max_triangles: Largest total number of triangles from ``simplify`` and ``coacd``.
+        threshold: CoACD's concavity threshold for ``coacd``: a distance relative to half the
+            longest side.
+        time_limit: Processor time limit [s] of all CoACD runs on a mesh.
     """
 
     method: str = "auto"
@@ -41,9 +41,9 @@ class Settings:
     time_limit: float = 120.0
 
     def changed(self, table: Mapping[str, Any]) -> Settings:
-        """These settings with others in place of some."""
+        """Return a copy with some settings replaced."""
         return replace(self, **table)
 
     def as_dict(self) -> dict[str, Any]:
-        """By name, for keys and messages between processes."""
+        """Return the settings by name, for keys and messages between processes."""
         return asdict(self)

@@ -1,4 +1,4 @@
-"""A mesh made ready: read as it is meant, its points once, its faces sound."""
+"""Preparation of a mesh: merged points, valid faces, consistent winding."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ from ..inertia.repair import drop_duplicates, orient
 from ..source.description import GltfUp
 
 SLIVER = 1e-14
-"""Area of a face, relative to the square of the mesh's size, at which it is degenerate."""
+"""Area of a face, relative to the square of the mesh's size, below which it is degenerate."""
 
 FLAT = 1 - 1e-6
-"""Cosine of the angle of neighbours that are one flat side."""
+"""Cosine of the angle between neighbors that belong to one flat side."""
 
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """A mesh as the methods take it, and what was done to it.
+    """A mesh prepared for simplification.
 
     Attributes:
         vertices: Points [m], each once.
-        faces: Triangles that have an area; outwards where the mesh is closed.
-        triangles: How many the file has.
-        points: How many different vertices the file has.
+        faces: Triangles on distinct points; wound outward if the mesh is closed.
+        triangles: Number of triangles in the file.
+        points: Number of distinct vertices in the file.
         closed: Whether the surface bounds a solid.
-        size: Diagonal [m] of the bounding box, which errors are relative to.
-        notes: What was found and mended; complete sentences.
+        size: Diagonal [m] of the bounding box, to which errors are relative.
+        notes: Complete sentences on defects and repairs.
     """
 
     vertices: Points
@@ -47,12 +47,12 @@ class Prepared:
 
     @property
     def corners(self) -> Points:
-        """The triangles [m], shape (m, 3, 3)."""
+        """Return the triangles [m], shape (m, 3, 3)."""
         return self.vertices[self.faces]
 
     @property
     def volume(self) -> float:
-        """What a closed surface encloses [m³]."""
+        """Return the enclosed volume of a closed surface [m³]."""
         a, b, c = (self.corners[:, k] - self.vertices.mean(axis=0) for k in range(3))
         return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 
@@ -60,7 +60,12 @@ class Prepared:
 def read_surface(
     path: str | Path, scale: Sequence[float] = (1.0, 1.0, 1.0), gltf_up: GltfUp = "y"
 ) -> Prepared:
-    """A mesh file, scaled, and made ready; of a glTF file with the axis up that is said to be.
+    """Read a mesh file and prepare it.
+
+    Args:
+        path: The mesh file.
+        scale: Factors, as URDF's ``<mesh scale>``.
+        gltf_up: Up axis of a glTF file.
 
     Raises:
         MeshError: It cannot be read, or has no face with an area.
@@ -73,13 +78,18 @@ def read_surface(
 
 
 def prepare(vertices: Points, faces: Faces, *, notes: Sequence[str] = ()) -> Prepared | None:
-    """Merge points, drop faces without an area or written twice, turn what looks inwards.
+    """Merge points, drop collapsed or duplicate faces, and make the winding consistent.
+
+    Args:
+        vertices: Points [m], shape (n, 3).
+        faces: Triangles, shape (m, 3).
+        notes: Notes to which those of the preparation are added.
 
     Returns:
-        None where no face has an area.
+        None if no face has an area.
 
     Raises:
-        MeshError: They are too far apart to be measured.
+        MeshError: The points are too far apart.
     """
     said = list(notes)
     triangles = len(faces)
@@ -95,7 +105,7 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[str] = ()) -> Pre
     )
     if not (sound & (areas > SLIVER * extent**2)).any():
         return None
-    # faces on a line hold a closed surface together, so only collapsed ones go
+    # faces on a line may close a surface, so only collapsed ones are dropped
     dropped = int(np.count_nonzero(~sound))
     kept = drop_duplicates(merged[sound])
     twice = int(np.count_nonzero(sound)) - len(kept)
@@ -126,7 +136,7 @@ def prepare(vertices: Points, faces: Faces, *, notes: Sequence[str] = ()) -> Pre
 
 
 def flat_labels(surface: Prepared) -> npt.NDArray[np.int64]:
-    """For each face the number, from 0, of the flat side it belongs to."""
+    """Number the flat sides from 0, and return the number of each face."""
     corners = surface.corners
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)

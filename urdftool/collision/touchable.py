@@ -1,9 +1,9 @@
-"""Which of a surface can be touched: what a flood of the space around it reaches.
+"""Exterior of a surface: the part that a flood of the space around it reaches.
 
-Motors in a housing, ribs in a shell and the inner side of a thin wall never touch anything, and no
-collision geometry needs them. The space is cut into cells; those that the surface passes through,
-thickened by one cell so that no seam leaks, hold the flood back. Gaps and holes narrower than
-about three cells are closed with that.
+Motors in a housing, ribs in a shell and the inner side of a thin wall never make contact, so
+collision geometry may ignore them. Space is divided into cells; those that the surface crosses,
+thickened by one cell against leaks, stop the flood. This also closes gaps and holes narrower than
+about three cells.
 """
 
 from __future__ import annotations
@@ -18,22 +18,22 @@ from .distance import areas_of, spread
 from .vec3 import bounds
 
 CELLS = 100
-"""Cells along the longest side of the surface's box."""
+"""Cells along the longest side of the surface's bounding box."""
 
-_MARKS = 12  # points a cell's face of surface, so that hardly a cell is missed
+_MARKS = 12  # samples per cell face of surface area, so that hardly any cell is missed
 _MOST_MARKS = 4_000_000
 _RIM = 3
 
 
 @dataclass(frozen=True, eq=False)
 class Flood:
-    """The cells around a surface.
+    """Cells around a surface.
 
     Attributes:
-        low: The corner [m] of the first cell.
+        low: Corner [m] of the first cell.
         side: Edge of a cell [m].
-        reached: Cells within two of one that the flood reached.
-        volume: What the flood did not reach [m³]; cells of the surface count half.
+        reached: Cells within two cells of one that the flood reached.
+        volume: Unreached volume [m³]; cells of the surface count half.
     """
 
     low: Points
@@ -48,7 +48,7 @@ class Flood:
         return found
 
     def touches(self, points: Points) -> npt.NDArray[np.bool_]:
-        """Whether each point of the surface can be touched."""
+        """Tell whether each point of the surface is exterior."""
         return np.asarray(self.reached[self._places(points)])
 
 
@@ -76,14 +76,14 @@ def flood(corners: Points) -> Flood:
 
 
 def _cells(points: Points, low: Points, side: float) -> tuple[npt.NDArray[np.int64], ...]:
-    """The cell that each point is in, axis by axis."""
+    """Return the indices of each point's cell, axis by axis."""
     return tuple(
         np.floor((points[:, axis] - low[axis]) / side).astype(np.int64) for axis in range(3)
     )
 
 
 def _grown(cells: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """With the six neighbours of each."""
+    """Add the six neighbors of each cell."""
     made: npt.NDArray[np.bool_] = cells.copy()
     for axis in range(3):
         _spread_along(axis, cells, made, 1)
@@ -91,7 +91,7 @@ def _grown(cells: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
 
 
 def widened(cells: npt.NDArray[np.bool_], by: int) -> npt.NDArray[np.bool_]:
-    """With all that are no more than so many cells from one, along each axis."""
+    """Add all cells within ``by`` cells of one along each axis."""
     made: npt.NDArray[np.bool_] = cells.copy()
     for axis in range(3):
         before = made.copy()

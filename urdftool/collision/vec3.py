@@ -1,8 +1,7 @@
-"""Vectors in rows of three, computed column by column.
+"""Operations on vectors in rows of three, computed column by column.
 
-numpy goes through rows of three in steps of three, and its functions for them take ten times as
-long as the sums and products they consist of. The order of the sums is fixed, so that the same
-numbers come out on every machine.
+numpy's functions for rows of three take ten times as long as the column sums and products they
+consist of. The order of the sums is fixed, so that results are the same on every machine.
 """
 
 from __future__ import annotations
@@ -41,12 +40,12 @@ def lengths(rows: Points) -> Points:
 
 
 def normals(corners: Points) -> Points:
-    """Compute the normal of each triangle, shape (n, 3, 3), of twice its area as length."""
+    """Compute the normals of triangles, shape (n, 3, 3), with twice the area as length."""
     first = corners[:, 0]
     return cross(corners[:, 1] - first, corners[:, 2] - first)
 
 
 def bounds(rows: Points) -> Points:
-    """Compute the least and the largest of each column, shape (2, 3), of at least one row."""
+    """Compute the minimum and maximum of each column, shape (2, 3), of at least one row."""
     columns = [rows[:, axis] for axis in range(3)]
     return np.array([[column.min() for column in columns], [column.max() for column in columns]])
