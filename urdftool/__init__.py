@@ -1,11 +1,11 @@
-"""The command-line toolchain for robot descriptions, as a library.
+"""Toolchain for robot descriptions, as a library.
 
     >>> import urdftool
     >>> robot = urdftool.load("arm.urdf.xacro", args={"prefix": "left_"})
     >>> for finding in urdftool.check("arm.urdf.xacro"):
     ...     print(finding)
 
-Each name is loaded when it is first used, so that importing the package costs nothing.
+Each name is imported on first use, so that importing the package stays fast.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""``python -m urdftool``."""
+"""Entry point of ``python -m urdftool``."""
 
 from .cli import run
 

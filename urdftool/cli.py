@@ -1,7 +1,7 @@
-"""The hall: the names of the commands, and the one door through which failure leaves.
+"""Command group and entry point: every failure becomes a message and an exit code here.
 
-Exit codes: 0 done and nothing wrong, 1 the robot has what was looked for, 2 it could not be done,
-3 a bug of ours, 130 Ctrl-C.
+Exit codes: 0 success, 1 the command reports problems of the robot, 2 the command cannot run,
+3 bug in urdftool, 130 Ctrl-C.
 """
 
 from __future__ import annotations
@@ -32,25 +32,25 @@ REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"
 
 
 class ClosedPipe(Exception):  # noqa: N818 -- reads as what happened
-    """Whoever read the output went away."""
+    """Error raised when the reader of standard output has closed the pipe."""
 
 
 class Commands(click.Group):
-    """The commands, each imported when it is wanted."""
+    """Command group that imports each command on first use."""
 
     def invoke(self, ctx: click.Context) -> Any:
-        """As click does it, which would leave with 1, a verdict, where a pipe is closed."""
+        """Invoke the command; raise :class:`ClosedPipe` where click would exit with 1."""
         try:
             return super().invoke(ctx)
         except BrokenPipeError:
             raise ClosedPipe from None
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Their names, in the order a robot goes through them."""
+        """Return the command names in the order of a typical workflow."""
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """One of them; None for another name."""
+        """Import and return a command; None for an unknown name."""
         if cmd_name not in COMMANDS:
             return None
         module = import_module(f".commands.{cmd_name}", __package__)
@@ -59,7 +59,7 @@ class Commands(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click does it, with the nearest name for a mistyped one."""
+        """Resolve the command as click does; suggest the nearest name for an unknown one."""
         if args and args[0] not in COMMANDS and not args[0].startswith("-"):
             from .suggestions import did_you_mean
 
@@ -116,14 +116,14 @@ main.params[2:2] = general_options(hidden=False)
 def run(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit code."""
     if not sys.warnoptions:
-        warnings.simplefilter("ignore")  # what a library would tell a programmer
+        warnings.simplefilter("ignore")  # warnings of libraries are for developers
     open_streams()
-    if sys.platform != "win32":  # there click translates colours for the console
+    if sys.platform != "win32":  # on Windows click translates colors for the console
         guard()
-    gc.set_threshold(500_000, 50, 50)  # trees of many small objects, and then the process ends
+    gc.set_threshold(500_000, 50, 50)  # short process with many small, long-lived objects
     try:
         code = call(arguments)
-    except SystemExit as leaving:  # a signal told to leave
+    except SystemExit as leaving:  # raised by a signal handler
         code = leaving.code if isinstance(leaving.code, int) else 1
     try:
         sys.stdout.flush()
@@ -131,16 +131,16 @@ def run(arguments: list[str] | None = None) -> None:
         code = _closed_pipe()
     try:
         sys.stderr.flush()
-    except OSError:  # Python would fail to flush it again at exit, and change the exit code
+    except OSError:  # avoids a second flush at exit, which would change the exit code
         _discard(sys.stderr.fileno())
-    gc.freeze()  # the process ends: nobody needs its memory back
+    gc.freeze()  # skip garbage collection at exit
     if _is_at_work():
         os._exit(code)
     sys.exit(code)
 
 
 def _is_at_work() -> bool:
-    """Whether a thread still does what nobody waits for, and would be cut off in a library."""
+    """Tell whether a daemon thread is alive, which could crash in a library at exit."""
     threading = sys.modules.get("threading")
     return threading is not None and any(
         thread.daemon and thread.is_alive() for thread in threading.enumerate()
@@ -148,13 +148,16 @@ def _is_at_work() -> bool:
 
 
 def call(arguments: list[str] | None = None) -> int:
-    """Run the command line; every failure becomes a message and an exit code here.
+    """Run the command line and turn every failure into a message and an exit code.
 
     Args:
-        arguments: What follows the program's name; those of the process if None.
+        arguments: Command-line arguments without the program name; None for ``sys.argv[1:]``.
+
+    Returns:
+        The exit code.
     """
     words = sys.argv[1:] if arguments is None else arguments
-    if "_URDFTOOL_COMPLETE" in os.environ:  # a shell asks what could follow
+    if "_URDFTOOL_COMPLETE" in os.environ:  # request of a shell for completions
         from .commands.completion import prepare
 
         prepare()
@@ -191,7 +194,7 @@ def call(arguments: list[str] | None = None) -> int:
         console.say(f"{where}{error.strerror or error}")
         return 2
     except (Exception, RecursionError) as error:
-        if isinstance(error.__cause__, KeyboardInterrupt):  # in the midst of an import
+        if isinstance(error.__cause__, KeyboardInterrupt):  # Ctrl-C during an import
             console.say("stopped")
             return 130
         if console.debug:
@@ -210,13 +213,13 @@ def call(arguments: list[str] | None = None) -> int:
 
 
 def _command_of(words: list[str]) -> list[str]:
-    """Find the name of the command in the words of the command line."""
+    """Return the command name among the command-line arguments, as a list of at most one item."""
     named = [word for word in words if word in COMMANDS]
     return named[:1]
 
 
 def _usage(error: click.ClickException) -> None:
-    """A wrong call in two lines: what is wrong, and where to read on."""
+    """Print a usage error and a reference to ``--help``."""
     if isinstance(error, click.exceptions.NoArgsIsHelpError):
         with suppress(OSError):
             click.echo(error.format_message(), err=True)
@@ -229,7 +232,7 @@ def _usage(error: click.ClickException) -> None:
 
 
 def _closed_pipe() -> int:
-    """Whoever read the output went away. Say so, and keep Python from saying it again."""
+    """Report a closed standard output, discard further output, and return the exit code."""
     _discard(sys.stdout.fileno())
     with suppress(OSError):
         click.echo("urdftool: standard output was closed before all was written", err=True)
@@ -237,5 +240,5 @@ def _closed_pipe() -> int:
 
 
 def _discard(stream: int) -> None:
-    """Send what is still written to a stream nowhere."""
+    """Redirect a file descriptor to the null device."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), stream)

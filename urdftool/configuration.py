@@ -1,7 +1,7 @@
-"""The configuration of a file: ``[tool.urdftool]`` in the nearest file above it that has one.
+"""Configuration of a description: the nearest configuration file in its folder or above.
 
-``pyproject.toml`` has it under ``[tool.urdftool]``; ``urdftool.toml`` and ``.urdftool.toml``, for
-ROS packages that have no ``pyproject.toml``, have it at the top.
+``pyproject.toml`` holds it under ``[tool.urdftool]``; ``urdftool.toml`` and ``.urdftool.toml``, for
+ROS packages without a ``pyproject.toml``, at the top level.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ GLTF_UP = "gltf-up"
 
 @dataclass
 class Configuration:
-    """What a configuration file says.
+    """Contents of a configuration file.
 
     Attributes:
-        path: The file; None where there is none.
-        packages: Folders by package name, absolute.
-        lint: The ``lint`` table as it is written.
-        collision: The ``collision`` table as it is written.
-        simulate: The ``simulate`` table as it is written.
-        gltf_up: The axis that is up in glTF meshes.
+        path: Path of the file; None if there is no configuration file.
+        packages: Absolute folders by ROS package name.
+        lint: The ``lint`` table as written.
+        collision: The ``collision`` table as written.
+        simulate: The ``simulate`` table as written.
+        gltf_up: Up axis of glTF meshes.
     """
 
     path: str | None = None
@@ -48,15 +48,15 @@ class Configuration:
 def find_configuration(
     file: str | Path, given: str | None = None, workspace: Workspace | None = None
 ) -> Configuration:
-    """The configuration for a file.
+    """Return the configuration of a description.
 
     Args:
-        file: The description, or ``-``.
-        given: A configuration file that the user named; it holds for every description.
-        workspace: Reads the files; a new one if None.
+        file: Path of the description, or ``-``.
+        given: Configuration file named by the user; used for every description.
+        workspace: Access to files; None creates a new one.
 
     Raises:
-        ConfigError: It is not valid TOML, or has a table or value it should not have.
+        ConfigError: The file cannot be read, is not valid TOML, or has an unknown table or value.
     """
     workspace = workspace or Workspace()
     if given is not None:
@@ -67,7 +67,7 @@ def find_configuration(
 
 @memoized
 def _above(workspace: Workspace, folder: str) -> Configuration:
-    """The configuration nearest to a folder; what was found for it once holds for the run."""
+    """Return the configuration nearest to a folder."""
     here = (_parse(workspace, Path(folder, name), required=False) for name in NAMES)
     found = next((configuration for configuration in here if configuration), None)
     if found is not None:

@@ -1,4 +1,4 @@
-"""What the user sees beside the result: messages on stderr, and whether there are colours."""
+"""Messages on standard error, and the choice whether to use colors."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 @dataclass
 class Console:
-    """The choices that hold for every command.
+    """Settings shared by all commands.
 
     Attributes:
         color: ``auto``, ``always`` or ``never``.
-        verbosity: -1 is quiet, 0 usual, more says more.
-        config: The configuration file the user named.
-        gltf_up: The axis that is up in glTF meshes; None where the user did not say.
-        debug: Whether tracebacks are wanted.
+        verbosity: -1 is quiet, 0 the default; higher values print more.
+        config: Configuration file named by the user.
+        gltf_up: Up axis of glTF meshes; None if not given.
+        debug: Whether to print tracebacks.
     """
 
     color: str = "auto"
@@ -37,15 +37,15 @@ class Console:
 
     @property
     def quiet(self) -> bool:
-        """Whether only errors are said."""
+        """Tell whether only errors are printed."""
         return self.verbosity < 0
 
     def colors(self, *, to_file: bool = False, stream: str = "stdout") -> bool:
-        """Whether a result or message is coloured.
+        """Tell whether output is colored.
 
         Args:
-            to_file: The result goes to a file.
-            stream: The stream it goes to otherwise.
+            to_file: Whether the output is written to a file.
+            stream: Name of the stream in :mod:`sys` if it is not written to a file.
         """
         if self.color != "auto":
             return self.color == "always"
@@ -56,16 +56,16 @@ class Console:
         return getattr(sys, stream).isatty() and os.environ.get("TERM") != "dumb"
 
     def say(self, message: str) -> None:
-        """A message that is always said."""
+        """Print a message at every verbosity."""
         self._write(f"urdftool: {message}")
 
     def note(self, message: str, level: int = 0) -> None:
-        """A message for those who did not ask for quiet; above level 0, for those who asked."""
+        """Print a message if the verbosity is at least ``level``."""
         if self.verbosity >= level:
             self._write(message)
 
     def error(self, error: UrdftoolError) -> None:
-        """An error: its place and sentence, the calls it came through, its notes."""
+        """Print an error with its location, its xacro calls and its notes."""
         self._write(str(error) if error.path else f"urdftool: {error}")
         for call in error.calls:
             self._write(f"  from {call.file.path}:{call.line}:{call.column}: {call.what}")
@@ -73,5 +73,5 @@ class Console:
             self._write(f"  {note}")
 
     def _write(self, line: str) -> None:
-        with suppress(OSError):  # where nobody hears it, the exit code still tells
+        with suppress(OSError):  # stderr may be closed; the exit code remains
             click.echo(visible(line), err=True)

@@ -1,11 +1,11 @@
-"""What a result depends on in the file system and the environment, and whether that changed.
+"""Dependencies of a result on files and environment variables, and their change detection.
 
-A dependency is a question with the stamp that its path had when it was asked. The kinds:
+A dependency is a query with the stamp that its path had at the first query. The kinds:
 
-``file``  what a path leads to, with the contents of a file
-``is``    whether a path leads to a file, a folder or something else
-``there`` whether there is anything at a path, be it a link that leads nowhere
-``real``  where a path leads without symbolic links
+``file``  the target of a path, with the contents of a file
+``is``    whether a path leads to a file, a folder or another type
+``there`` whether an entry exists at a path; a broken symbolic link counts
+``real``  the path without symbolic links
 ``list``  the names in a folder, and which of them are folders
 ``env``   the value of an environment variable
 """
@@ -18,35 +18,40 @@ import time
 from collections.abc import Callable, Set
 
 Question = tuple[str, str]
-"""A kind and a path; for ``env`` a name."""
+"""Kind and path of a query; for ``env`` kind and variable name."""
 
 Stamp = tuple[int, ...]
-"""What changes with a file or folder: its number, size and times [ns]; of others, its type."""
+"""Mode, device, inode, size and times [ns] of a file or folder; its type for other kinds."""
 
 ABSENT = "-"
-_FRESH_NS = 2_000_000_000  # so young, a file may change again without its times telling
-_SHARED = 50  # results with more dependencies share them with all that include them
+_FRESH_NS = 2_000_000_000  # a newer file may change again without a change of its times
+_SHARED = 50  # larger sets are referenced by their users, not copied
 _WITHOUT_STAMP = ("env", "real")
 
 
 class Dependencies:
-    """The questions that were asked for a result.
+    """Set of the queries on which a result depends.
 
     Attributes:
-        asked: Each question with the stamp of its path when it was asked first.
-        shared: Dependencies of results that others use as well, such as a list of all packages.
+        asked: Stamp at the first query, by query.
+        shared: Large sets that several results use, such as that of the list of all packages.
     """
 
     __slots__ = ("_real", "asked", "shared")
 
     def __init__(self) -> None:
-        """Start with none."""
+        """Create an empty set."""
         self.asked: dict[Question, Stamp | None] = {}
         self.shared: dict[Dependencies, None] = {}
         self._real: tuple[int, set[str], set[str]] | None = None
 
     def add(self, kind: str, path: str) -> None:
-        """Add a question that is being asked."""
+        """Add a query.
+
+        Args:
+            kind: A kind of the module's docstring.
+            path: Path, made absolute; for ``env`` the name of a variable.
+        """
         if kind != "env" and not os.path.isabs(path):
             path = os.path.join(os.getcwd(), path)
         question = kind, path
@@ -54,7 +59,7 @@ class Dependencies:
             self.asked[question] = stamp_of(question)
 
     def include(self, other: Dependencies) -> None:
-        """Add what a result depends on that this one uses."""
+        """Add the dependencies of a result that this result uses."""
         if len(other.asked) > _SHARED:
             self.shared[other] = None
         else:
@@ -63,11 +68,11 @@ class Dependencies:
         self.shared.update(other.shared)
 
     def touches(self, paths: Set[str], folders: Set[str]) -> bool:
-        """Tell whether any question is of one of some files, or lists one of some folders.
+        """Tell whether any query concerns one of the files or lists one of the folders.
 
         Args:
-            paths: Files, without symbolic links.
-            folders: Folders, without symbolic links.
+            paths: Paths of files, without symbolic links.
+            folders: Paths of folders, without symbolic links.
         """
         for part in (self, *self.shared):
             files, listed = part._real_paths()
@@ -76,7 +81,7 @@ class Dependencies:
         return False
 
     def _real_paths(self) -> tuple[set[str], set[str]]:
-        """Return what was looked at and which folders were listed, without symbolic links."""
+        """Return the queried paths and the listed folders, both without symbolic links."""
         if self._real is None or self._real[0] != len(self.asked):
             files = {os.path.realpath(path) for kind, path in self.asked if kind != "env"}
             listed = {os.path.realpath(path) for kind, path in self.asked if kind == "list"}
@@ -85,7 +90,7 @@ class Dependencies:
 
 
 def answer(question: Question) -> str:
-    """Return what the file system says now: a digest of the content, or a word."""
+    """Return the present answer to a query: a digest of the content, or a word."""
     kind, path = question
     try:
         return _ANSWERS[kind](path)
@@ -96,7 +101,7 @@ def answer(question: Question) -> str:
 
 
 def stamp_of(question: Question) -> Stamp | None:
-    """Return what is different when the answer differs; None where there is nothing."""
+    """Return the present stamp of a query; None if the path is absent or the kind has no stamp."""
     kind, path = question
     if kind in _WITHOUT_STAMP:
         return None
@@ -122,7 +127,12 @@ def has_stamp(question: Question) -> bool:
 
 
 def is_settled(stamp: Stamp | None, now_ns: int | None = None) -> bool:
-    """Tell whether something is so old that any further change would change its stamp."""
+    """Tell whether a stamp is so old that any further change would change it.
+
+    Args:
+        stamp: A stamp; None counts as settled.
+        now_ns: Present time [ns]; None reads the clock.
+    """
     if stamp is None:
         return True
     return max(stamp[-2:]) < (time.time_ns() if now_ns is None else now_ns) - _FRESH_NS

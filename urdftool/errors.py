@@ -1,19 +1,18 @@
-"""What stops the tool.
+"""Errors that stop the tool.
 
-What is wrong with a *robot* is a finding (``urdftool.finding``): data, and there may be many.
-What stops the *tool* is one of these, raised where it is met and turned into a message and an
-exit code in ``urdftool.cli`` alone::
+Defects of a *robot* are findings (``urdftool.finding``): data, any number of them. Failures of the
+*tool* are the exceptions below; ``urdftool.cli`` turns them into a message and an exit code::
 
     UrdftoolError
     ├── SourceError            the text cannot be read or used
     │   ├── XmlError           it is not well-formed
     │   ├── XacroError         its expansion failed
-    │   └── PackageNotFound    $(find …) or package:// names no package that could be found
-    ├── ModelError             well-formed, but not a robot that can be worked on
-    ├── MeshError              a mesh cannot be read, or has no volume where one is needed
+    │   └── PackageNotFound    the package of $(find …) or package:// was not found
+    ├── ModelError             well-formed, but not a usable robot description
+    ├── MeshError              a mesh cannot be read, or lacks a required volume
     ├── ConfigError            an unknown rule, option or value
     ├── OutputError            the result cannot be written
-    ├── AddressError           a page cannot be served there
+    ├── AddressError           a page cannot be served at an address
     └── MissingDependency      a library of an extra is not installed
 """
 
@@ -28,18 +27,18 @@ if TYPE_CHECKING:
 
 
 class UrdftoolError(Exception):
-    """A sentence that says what is wrong, with what would be right.
+    """Error with a message that names the problem and, where known, its remedy.
 
     Attributes:
-        message: The sentence, without a place.
-        path: The file it is about, if there is one.
-        line: Line in that file, from 1, if it is known.
-        column: Column in characters, from 1, if it is known.
-        calls: The xacro calls and includes it came through, innermost first.
-        notes: Further lines for whoever wants to know more, such as the places searched.
-        rule: The lint rule that says the same of a file that is linted, if there is one.
-        case: What of that rule's effects on readers holds, as conditions of their keys.
-        data: Values that are known of it, by name; nothing reads them out of the message.
+        message: One sentence, without a location.
+        path: File that the error concerns, if any.
+        line: Line in that file, from 1, if known.
+        column: Column in characters, from 1, if known.
+        calls: xacro calls and includes that lead to the location, innermost first.
+        notes: Additional lines, such as the searched folders.
+        rule: Lint rule that reports the same problem, if any.
+        case: Case of that rule's effects on readers, as a condition of their keys.
+        data: Values of the problem by name, so that no caller parses the message.
     """
 
     def __init__(
@@ -56,7 +55,7 @@ class UrdftoolError(Exception):
         case: str = "",
         data: Mapping[str, Any] | None = None,
     ) -> None:
-        """Take the facts; the text is made by ``str()``."""
+        """Store the facts; ``at`` sets path, line, column and, by default, calls."""
         if at is not None:
             path = at.file.path
             line, column = at.line, at.column
@@ -75,64 +74,64 @@ class UrdftoolError(Exception):
 
     @property
     def where(self) -> str:
-        """``FILE:LINE:COLUMN``, as far as it is known."""
+        """Return ``FILE:LINE:COLUMN``, as far as known."""
         return ":".join(str(part) for part in (self.path, self.line, self.column) if part)
 
     def __str__(self) -> str:
-        """Place and sentence, in one line."""
+        """Return location and message in one line."""
         return f"{self.where}: {self.message}" if self.path else self.message
 
 
 class SourceError(UrdftoolError):
-    """The text of a description cannot be read or used."""
+    """Error for a description whose text cannot be read or used."""
 
 
 class XmlError(SourceError):
-    """The text is not well-formed XML, or is XML of a kind that is refused."""
+    """Error for text that is not well-formed XML, or is XML of a rejected kind."""
 
 
 class XacroError(SourceError):
-    """The expansion of a xacro file failed."""
+    """Error for a failed xacro expansion."""
 
 
 class PackageNotFound(SourceError):  # noqa: N818 -- reads as what happened
-    """A package is not in any of the places that were searched."""
+    """Error for a package that is in none of the searched folders."""
 
 
 class ModelError(UrdftoolError):
-    """The description is well-formed, but no robot that can be worked on."""
+    """Error for a well-formed description that is not a usable robot."""
 
 
 class MeshError(UrdftoolError):
-    """A mesh cannot be read, or is not what is needed of it."""
+    """Error for a mesh that cannot be read or does not meet a requirement."""
 
 
 class ConfigError(UrdftoolError):
-    """A configuration, option or comment names something that does not exist."""
+    """Error for a configuration, option or comment that names something unknown."""
 
 
 class OutputError(UrdftoolError):
-    """A result cannot be written."""
+    """Error for a result that cannot be written."""
 
 
 class AddressError(UrdftoolError):
-    """A page cannot be served at an address."""
+    """Error for a page that cannot be served at an address."""
 
 
 class MissingDependency(UrdftoolError):  # noqa: N818
-    """A library or program that this command requires is not installed.
+    """Error for a required library or program that is not installed.
 
     Attributes:
-        library: The optional library, by the name of its import; empty for a program.
+        library: Import name of the optional library; empty for a program.
     """
 
     def __init__(self, message: str, *, library: str = "") -> None:
-        """Keep the message and the library."""
+        """Store the message and the library."""
         super().__init__(message)
         self.library = library
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Make a copy in another process."""
+        """Pickle the message and the library."""
         return _make_missing, (self.message, self.library)
 
 

@@ -1,4 +1,4 @@
-"""Optional libraries: which extra installs each, and the message where one is missing."""
+"""Optional libraries: the extra that installs each, and the error for a missing one."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ EXTRA_OF = {
     "viser": "view",
     "distributed": "dask",
 }
-"""The extra that installs each optional library, by the name it is imported under."""
+"""Extra that installs each optional library, by import name."""
 
 DISTRIBUTION_OF = {"collada": "pycollada", "PIL": "Pillow", "matplotlib": "Matplotlib"}
-"""Names on the package index that are not the name of the import."""
+"""Names on the package index that differ from the import name."""
 
 
 def is_installed(library: str) -> bool:
@@ -31,11 +31,11 @@ def is_installed(library: str) -> bool:
 
 
 def require(purpose: str, *libraries: str) -> None:
-    """Check that libraries are installed, before any work is done.
+    """Check that libraries are installed, before any work starts.
 
     Args:
-        purpose: What requires them, as the subject of a sentence: ``'urdftool collision'``.
-        libraries: Names of imports.
+        purpose: Subject of the error message, such as ``'urdftool collision'``.
+        libraries: Import names.
 
     Raises:
         MissingDependency: One of them is not installed.
@@ -46,7 +46,7 @@ def require(purpose: str, *libraries: str) -> None:
 
 
 def missing(library: str, purpose: str) -> MissingDependency:
-    """Make the error about a library that is not installed."""
+    """Create the error for a library that is not installed."""
     name = DISTRIBUTION_OF.get(library, library)
     return MissingDependency(
         f"{purpose} requires {name}, which is not installed: {install_command(EXTRA_OF[library])}",
@@ -60,7 +60,7 @@ def install_command(extra: str) -> str:
 
 
 def missing_library(error: BaseException) -> str | None:
-    """Find the optional library that an error is about; None if it is about something else."""
+    """Return the optional library that caused an error; None for any other error."""
     if isinstance(error, MissingDependency):
         return error.library or None
     name = error.name if isinstance(error, ModuleNotFoundError) else None

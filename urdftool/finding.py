@@ -1,4 +1,4 @@
-"""What is wrong with a robot: a fact with a place."""
+"""Findings: defects of a robot, each with its location in the source."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from .source.location import Call, Place
 
 
 class Severity(IntEnum):
-    """How much it matters.
+    """Severity of a finding.
 
-    An *error*: a reader of the description rejects it, crashes, or loses part of it. A *warning*:
-    it loads, and behaves differently from what the text says. *Info*: portability, convention.
+    *Error*: a reader of the description rejects it, crashes, or loses part of it. *Warning*: the
+    description loads, but behaves differently from its text. *Info*: portability or convention.
     """
 
     INFO = 1
@@ -23,24 +23,24 @@ class Severity(IntEnum):
 
     @property
     def label(self) -> str:
-        """``error``, ``warning`` or ``info``."""
+        """Return ``error``, ``warning`` or ``info``."""
         return self.name.lower()
 
 
 Scope = Literal["robot", "repository"]
-"""What the findings of a rule may be reported once for."""
+"""Scope within which the findings of a rule may be reported once."""
 
 Site = tuple[str, int]
-"""Where an element starts: the path of its file, and the byte."""
+"""Start of an element: the path of its file and the byte offset."""
 
 
 class Group(NamedTuple):
-    """How a finding is reported with others of its rule.
+    """Grouping of findings of one rule.
 
     Attributes:
-        by: What they are reported once for.
-        sentence: The message for several, with ``{count}`` and ``{names}``; empty for the first
-            message followed by the other names.
+        by: Scope within which they are reported once.
+        sentence: Message for several findings, with ``{count}`` and ``{names}``; if empty, the
+            first message followed by the other names.
     """
 
     by: Scope
@@ -48,11 +48,11 @@ class Group(NamedTuple):
 
 
 class Cause(NamedTuple):
-    """What may explain a finding.
+    """Possible cause of a finding.
 
     Attributes:
-        rules: The rules whose finding does.
-        site: The element that it is about.
+        rules: Rules whose finding is the cause.
+        site: Element that this cause concerns.
     """
 
     rules: tuple[str, ...]
@@ -60,11 +60,11 @@ class Cause(NamedTuple):
 
 
 class Replacement(NamedTuple):
-    """Bytes of a source file that become others.
+    """Replacement of bytes in a source file.
 
     Attributes:
-        place: The bytes that go; where something is inserted, none.
-        data: The bytes that come.
+        place: Span to replace; empty for an insertion.
+        data: New bytes.
     """
 
     place: Place
@@ -72,17 +72,17 @@ class Replacement(NamedTuple):
 
     @property
     def text(self) -> str:
-        """What comes, as text."""
+        """Return the new bytes decoded with the encoding of the file."""
         return self.data.decode(self.place.file.encoding, "replace")
 
 
 class FileRewrite(NamedTuple):
-    """A file, such as a mesh, that a fix writes whole.
+    """File, such as a mesh, that a fix rewrites completely.
 
     Attributes:
-        path: File to write, which may be there already.
-        origin: File it is computed from, which may be the same.
-        how: Description of what is written: ``binary STL``.
+        path: File to write; it may exist.
+        origin: File from which the content is computed; may equal ``path``.
+        how: Description of the content: ``binary STL``.
     """
 
     path: str
@@ -91,13 +91,13 @@ class FileRewrite(NamedTuple):
 
 
 class Fix(NamedTuple):
-    """What mends a finding.
+    """Change that resolves a finding.
 
     Attributes:
-        safe: Whether the robot is the same afterwards to whatever read it before.
-        message: What is done, in words: ``write 0 0 1``.
-        replacements: The bytes that change, in the order of the source.
-        rewrites: Files that are written whole.
+        safe: Whether every reader gets the same robot afterwards.
+        message: Short description of the change: ``write 0 0 1``.
+        replacements: Changed bytes, in the order of the source.
+        rewrites: Files that are rewritten completely.
     """
 
     safe: bool
@@ -107,48 +107,48 @@ class Fix(NamedTuple):
 
     @property
     def applicability(self) -> str:
-        """``safe`` or ``unsafe``."""
+        """Return ``safe`` or ``unsafe``."""
         return "safe" if self.safe else "unsafe"
 
     @property
     def paths(self) -> set[str]:
-        """The files that it changes."""
+        """Return the files that the fix changes."""
         changed = {replacement.place.path for replacement in self.replacements}
         return changed.union(rewrite.path for rewrite in self.rewrites)
 
     @property
     def option(self) -> str:
-        """What applies it on the command line."""
+        """Return the command-line options that apply the fix."""
         meshes = " --fix-meshes" if self.rewrites else ""
         return ("--fix" if self.safe else "--fix --unsafe-fixes") + meshes
 
 
 @dataclass(slots=True)
 class Finding:
-    """One thing that is wrong, at one place of the source.
+    """Defect of a robot at one location of the source.
 
     Attributes:
         rule: Name of the rule, such as ``zero-axis``.
-        severity: How much it matters for the targets.
-        message: One sentence: what is wrong, with what would be right.
-        place: Where it was written.
-        kind: What it is about: ``link``, ``joint``, ``robot``, ``file``, …
-        name: The name of that.
-        targets: The targets it matters for; empty means every reader.
-        effects: What a reader does with the defect, by target.
-        hint: What would mend it, in a sentence; empty where the message says it.
-        others: The instances of one macro are one finding; these are the names of the others and
-            the calls they came through.
-        expansions: How many instances there are.
-        variants: The sets of xacro arguments it is there with; empty means all that were tried.
-        fix: What mends it in the source, where that is known and was asked for.
-        unchecked: Whether because of it nothing else of the robot was checked.
-        site: The element that it is about.
-        group: How it is reported with others of its rule; None where it stands alone.
-        cause: What may explain it.
-        members: The findings that this one stands for, where several are reported as one.
-        consequences: The findings that this one explains, which are listed under it.
-        data: Values that the rule knows, by name; nothing reads them out of the message.
+        severity: Severity for the checked targets.
+        message: One sentence: the fact and, where known, the correct value.
+        place: Location in the source.
+        kind: Kind of the object: ``link``, ``joint``, ``robot``, ``file``, …
+        name: Name of the object.
+        targets: Affected targets; empty means every reader.
+        effects: Effect on a reader, by target.
+        hint: Remedy in one sentence; empty if the message contains it.
+        others: Further instances of the same macro: their names and the xacro calls that lead to
+            them.
+        expansions: Number of instances.
+        variants: Sets of xacro arguments with which the defect occurs; empty means all tried sets.
+        fix: Fix in the source, if known and requested.
+        unchecked: Whether the defect prevents all other checks of the robot.
+        site: Element that the finding concerns.
+        group: Grouping with other findings of the rule; None if it is reported alone.
+        cause: Possible cause.
+        members: Findings that this one represents.
+        consequences: Findings that this one explains; they are listed under it.
+        data: Values that the rule computed, by name, so that no caller parses the message.
     """
 
     rule: str
@@ -174,16 +174,16 @@ class Finding:
 
     @property
     def names(self) -> list[str]:
-        """The names of all that it is about, each once."""
+        """Return the distinct names of all objects that the finding concerns."""
         each = [self.name, *(name for name, _ in self.others)]
         return [name for name in dict.fromkeys(each) if name]
 
     @property
     def count(self) -> int:
-        """How many facts it stands for: instances of macros, and members of a group."""
+        """Return the number of defects: instances of macros, and members of a group."""
         return sum(m.expansions for m in self.members) if self.members else self.expansions
 
     def __str__(self) -> str:
-        """``FILE:LINE:COLUMN: severity: message [rule]``, with the number of instances."""
+        """Return ``FILE:LINE:COLUMN: severity: message [rule]``, with the number of instances."""
         times = f" (in {self.expansions} expansions)" if self.expansions > 1 else ""
         return f"{self.place}: {self.severity.label}: {self.message}{times} [{self.rule}]"

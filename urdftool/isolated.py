@@ -1,4 +1,4 @@
-"""A process of its own for one call of a library that may crash or hang."""
+"""Separate process for one call of a library that may crash or hang."""
 
 from __future__ import annotations
 
@@ -21,52 +21,52 @@ from .parallel import ignore_interrupts, limit_resources
 
 T = TypeVar("T")
 
-_DYING = 2.0  # s: for a process whose output ended to end as well
-_LONGEST = 1e9  # s: a limit of processor time must fit an integer
+_DYING = 2.0  # s: time to exit after the end of output
+_LONGEST = 1e9  # s: RLIMIT_CPU must fit an integer
 _PARENT_ENDED = 1  # PR_SET_PDEATHSIG of prctl(2)
 
 
 class ProcessDied(UrdftoolError):  # noqa: N818 -- reads as what happened
-    """An isolated process ended without an answer.
+    """Error for an isolated process that ended without a result.
 
     Attributes:
-        exit_code: Negative for a signal.
-        output: The last lines of its standard error.
+        exit_code: Exit code, negative for a signal.
+        output: Last lines of its standard error.
     """
 
     def __init__(self, message: str, exit_code: int = 1, output: Sequence[str] = ()) -> None:
-        """Take the exit code and what it printed."""
+        """Store the exit code and the printed lines."""
         super().__init__(message, notes=output)
         self.exit_code = exit_code
         self.output = tuple(output)
 
 
 class ProcessTimeout(UrdftoolError):  # noqa: N818
-    """An isolated process was not done in time, and was ended."""
+    """Error for an isolated process that exceeded its time limit and was killed."""
 
 
 _START = f"import sys; sys.path[:] = sys.argv[2:]; from {__name__} import serve; serve()"
-"""Python looks for modules where the parent does, and not in the folder where it is started."""
+"""Code of the process; it uses the parent's module search path, not its working directory."""
 
 _READY = b"\0urdftool listens\n"
-"""Sent before anything else; what comes before it was printed while Python started."""
+"""Marker sent first; the parent discards output before it, printed during start-up."""
 
 _MESSAGE, _ANSWER, _DIED = "message", "answer", "died"
 
 
 class IsolatedProcess:
-    """A new Python that calls one function, in a ``with``: however that ends, so has the process.
+    """Separate Python process that calls one function, as a context manager that ends it.
 
-    Made early, it imports what it needs while the parent prepares the call. The call and its answer
-    are pickled and go through standard input and output; what a library prints is only reported if
-    the process dies.
+    Created early, it imports modules while the parent prepares the call. The call and its result
+    are pickled and sent through standard input and output; text that a library prints is reported
+    only if the process dies.
     """
 
     def __init__(self, *preload: str, environment: Mapping[str, str] | None = None) -> None:
         """Start the process.
 
         Args:
-            preload: Modules that it imports while it waits; one that is missing is ignored.
+            preload: Modules to import while waiting; missing ones are ignored.
             environment: Variables in addition to those of this process.
         """
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 -- closed in __exit__
@@ -84,11 +84,11 @@ class IsolatedProcess:
         self._listener: Thread | None = None
 
     def __enter__(self: T) -> T:
-        """Return itself."""
+        """Return the process."""
         return self
 
     def __exit__(self, *_: object) -> None:
-        """End the process; once it has ended, this does nothing."""
+        """Kill the process if it is alive and release its resources; later calls do nothing."""
         if self._errors.closed:
             return
         if self._process.poll() is None:
@@ -97,7 +97,7 @@ class IsolatedProcess:
         if self._listener is not None:
             self._listener.join()
         for pipe in (self._process.stdin, self._process.stdout):
-            with suppress(OSError):  # what it did not read is lost
+            with suppress(OSError):  # unread input is discarded
                 pipe.close()  # type: ignore[union-attr]
         self._errors.close()
 
@@ -113,18 +113,18 @@ class IsolatedProcess:
         """Call a function in the process, once, and return its result.
 
         Args:
-            module: Its full name.
-            function: In it.
-            arguments: Anything that pickles.
-            time_limit: Of the call [s].
-            processor_limit: Of the processor time [s]; None allows a little more than the time.
-            on_message: Is called with what the function passes to its last argument, a function
-                that it is then given in addition.
+            module: Full name of the module.
+            function: Name of the function in that module.
+            arguments: Picklable arguments.
+            time_limit: Wall-clock limit of the call [s].
+            processor_limit: Limit of processor time [s]; None uses ``time_limit`` + 5 s.
+            on_message: Called with each message of the function, which then gets a function that
+                sends messages as an additional last argument.
 
         Raises:
-            ProcessTimeout: It took longer.
-            ProcessDied: The process ended.
-            UrdftoolError: As the function.
+            ProcessTimeout: The call exceeded ``time_limit``.
+            ProcessDied: The process ended without a result.
+            UrdftoolError: Raised by the function.
         """
         most = min(time_limit, _LONGEST) + 5 if processor_limit is None else processor_limit
         job = pickle.dumps((module, function, arguments, most, on_message is not None))
@@ -132,7 +132,7 @@ class IsolatedProcess:
         listener = Thread(target=self._listen, args=(job, received), daemon=True)
         try:
             listener.start()
-        except RuntimeError as error:  # the system gives no more threads
+        except RuntimeError as error:  # thread limit of the system reached
             raise ProcessDied(f"the process cannot be used: {error}") from None
         self._listener = listener
         ends = monotonic() + min(time_limit, TIMEOUT_MAX)
@@ -152,13 +152,13 @@ class IsolatedProcess:
         return value
 
     def _listen(self, job: bytes, received: SimpleQueue[tuple[str, Any]]) -> None:
-        """Send the call to the process, and pass on what it answers."""
+        """Send the call to the process and queue its messages and its result."""
         stdin, stdout = self._process.stdin, self._process.stdout
         assert stdin is not None
         assert stdout is not None
         try:
             stdin.write(job)
-            stdin.flush()  # and left open: that it closes tells the process that the parent ended
+            stdin.flush()  # stays open: its end signals the end of the parent
             for line in stdout:
                 if line.endswith(_READY):
                     break
@@ -166,14 +166,14 @@ class IsolatedProcess:
             while kind != _ANSWER:
                 kind, value = pickle.load(stdout)
                 received.put((kind, value))
-        except Exception:  # what is not whole comes from a process that died
+        except Exception:  # the process died within a message
             received.put((_DIED, None))
 
     def _death(self) -> ProcessDied:
 
         try:
             self._process.wait(timeout=_DYING)
-        except subprocess.TimeoutExpired:  # its answer cannot be read
+        except subprocess.TimeoutExpired:  # alive, but its output is unreadable
             self._process.kill()
             self._process.wait()
         self._errors.seek(0)
@@ -187,8 +187,8 @@ class IsolatedProcess:
 
 
 def serve() -> None:
-    """Answer one call; the main function of an isolated process."""
-    if sys.platform == "linux":  # end with the parent, however it ends
+    """Run one call and send its result; the main function of an isolated process."""
+    if sys.platform == "linux":  # end when the parent ends, also when it is killed
         import ctypes
 
         ctypes.CDLL(None).prctl(_PARENT_ENDED, signal.SIGKILL)
@@ -200,7 +200,7 @@ def serve() -> None:
         with suppress(ImportError):
             import_module(library)
     module, function, arguments, processor_limit, talks = pickle.load(sys.stdin.buffer)
-    with suppress(RuntimeError):  # the system may give no more threads
+    with suppress(RuntimeError):  # thread limit of the system reached
         Thread(target=_end_with_input, daemon=True).start()
     limit_resources(processor=processor_limit)
     with os.fdopen(answer, "wb") as out:
@@ -219,7 +219,7 @@ def serve() -> None:
 
 
 def _end_with_input() -> None:
-    """Wait until no process holds the other end of standard input, and end."""
+    """Wait until the other end of standard input is closed, then exit."""
     with suppress(OSError):
-        os.read(0, 1)  # not of sys.stdin, whose lock Python needs when it ends
+        os.read(0, 1)  # sys.stdin would hold a lock that Python needs at exit
     os._exit(1)

@@ -1,4 +1,4 @@
-"""Results on disk and on standard output: whole or not at all."""
+"""Results written to files and to standard output: complete or not at all."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from .storage import write_files
 
 
 def write_result(text: str, target: str | None, *, inputs: Iterable[str | Path] = ()) -> None:
-    """Write a result to standard output (``-`` or None) or to a file.
+    """Write a result to standard output or to a file.
 
     Args:
         text: The result.
-        target: Where it goes.
-        inputs: Files that were read for it, which it must not overwrite.
+        target: Path of the file; ``-`` or None is standard output.
+        inputs: Files read for the result, which must not be overwritten.
 
     Raises:
-        OutputError: It cannot be written, or would overwrite an input. The file is as it was.
+        OutputError: The target cannot be written or is an input; the file is unchanged.
     """
     if target is None or target == "-":
         _write_stdout(text)
@@ -29,7 +29,7 @@ def write_result(text: str, target: str | None, *, inputs: Iterable[str | Path] 
 
 
 def _write_stdout(text: str) -> None:
-    """Write all of a text, also where PYTHONUNBUFFERED makes each write a partial one."""
+    """Write a complete text, also if PYTHONUNBUFFERED causes partial writes."""
     stream = getattr(sys.stdout, "buffer", None)
     try:
         sys.stdout.flush()
@@ -53,14 +53,14 @@ def _same_file(one: str | Path, other: str | Path) -> bool:
 
 
 def check_target(target: str | Path, *, inputs: Iterable[str | Path] = ()) -> None:
-    """Refuse an output that cannot be, before there is any.
+    """Check that an output can be written, before the result is computed.
 
     Args:
-        target: Where it is to go.
-        inputs: Files that are read for it, which it must not overwrite.
+        target: Path of the output.
+        inputs: Files that must not be overwritten.
 
     Raises:
-        OutputError: It is an input, a folder, read-only, or its folder cannot be made.
+        OutputError: It is an input, a folder or read-only, or its folder cannot be created.
     """
     for source in inputs:
         if _same_file(source, target):
@@ -76,11 +76,11 @@ def check_target(target: str | Path, *, inputs: Iterable[str | Path] = ()) -> No
 
 
 def check_folder(folder: Path, target: str | Path) -> None:
-    """Refuse an output whose folder neither exists nor can be made.
+    """Check that the folder of an output exists or can be created.
 
     Args:
-        folder: The folder of the output, as a real path.
-        target: The output, for the message.
+        folder: Real path of the folder.
+        target: Path of the output, for the message.
 
     Raises:
         OutputError: A part of the path is a file, or its last existing folder is read-only.
@@ -101,14 +101,14 @@ def check_folder(folder: Path, target: str | Path) -> None:
 def check_targets(
     targets: Iterable[str | Path | None], *, inputs: Iterable[str | Path] = ()
 ) -> None:
-    """Refuse outputs of one command before any is written; None and ``-`` are none.
+    """Check all outputs of a command before any is written.
 
     Args:
-        targets: Where they are to go.
-        inputs: Files that are read for them, which they must not overwrite.
+        targets: Paths of the outputs; None and ``-`` are skipped.
+        inputs: Files that must not be overwritten.
 
     Raises:
-        OutputError: One of them cannot be, or two are the same file.
+        OutputError: An output cannot be written, or two outputs are the same file.
     """
     sources, seen = list(inputs), set[str]()
     for target in targets:
@@ -122,21 +122,21 @@ def check_targets(
 
 
 def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] = ()) -> None:
-    """Write a file, whole or not at all.
+    """Write a file completely or not at all.
 
-    A link is followed, and the mode of a file that is there is kept.
+    Symbolic links are followed; the mode of an existing file is kept.
 
     Args:
-        target: Where it goes.
-        data: What is in it.
-        inputs: Files that were read for it, which it must not overwrite.
+        target: Path of the file.
+        data: Its contents.
+        inputs: Files that must not be overwritten.
 
     Raises:
-        OutputError: It cannot be written, or would overwrite an input; what was there is as it was.
+        OutputError: The file cannot be written or is an input; its old contents are unchanged.
     """
     check_target(target, inputs=inputs)
     path = Path(os.path.realpath(target))
-    if path.exists() and not path.is_file():  # /dev/null, a named pipe: no neighbour to rename
+    if path.exists() and not path.is_file():  # /dev/null or a named pipe cannot be replaced
         try:
             path.write_bytes(data)
         except OSError as error:
@@ -146,15 +146,14 @@ def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] 
 
 
 def rewrite(before: Mapping[str, bytes | None], after: Mapping[str, bytes]) -> None:
-    """Write edited files in place: all of them, or none.
+    """Rewrite edited files in place: all of them, or none.
 
     Args:
-        before: What each file was when it was read; one that is something else now is not written.
-            None where it was not there.
-        after: What each is to be.
+        before: Expected present contents by path; None for a file that must not exist.
+        after: New contents by path.
 
     Raises:
-        OutputError: A file was changed meanwhile, or cannot be written.
+        OutputError: A file has other contents than expected, or cannot be written.
     """
     for path in after:
         _check_unchanged(path, before[path])

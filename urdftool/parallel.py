@@ -1,7 +1,7 @@
-"""A function mapped over tasks by several processes, with limits; and what all processes need.
+"""Map a function over tasks in several processes, with time and memory limits.
 
-A task whose worker is killed or takes too long is reported, and the others go on. For one call of a
-library that may crash or hang there is :mod:`urdftool.isolated`.
+A task whose worker is killed or exceeds its time limit is reported; the others continue. For one
+call of a library that may crash or hang see :mod:`urdftool.isolated`.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 Progress = Callable[[int, Sequence[T]], None]
-"""Called with the number of finished tasks and the tasks that are running."""
+"""Callback that gets the number of finished tasks and the running tasks."""
 
-_LEAVING = 3.0  # s: for a process to remove its temporary files after SIGTERM
+_LEAVING = 3.0  # s: time to remove temporary files after SIGTERM
 
 
 def cores() -> int:
@@ -35,17 +35,17 @@ def cores() -> int:
 
 @dataclass(frozen=True)
 class Loss:
-    """Why a worker gave no result.
+    """Reason why a worker returned no result.
 
     Attributes:
-        exit_code: Of the process, negative for a signal; None if it was ended after its time limit.
+        exit_code: Exit code, negative for a signal; None if the time limit ended the worker.
     """
 
     exit_code: int | None
 
     @property
     def timed_out(self) -> bool:
-        """Tell whether the time limit ended it."""
+        """Tell whether the time limit ended the worker."""
         return self.exit_code is None
 
 
@@ -63,27 +63,27 @@ def map_tasks(
 ) -> Iterator[tuple[int, R]]:
     """Apply a function to tasks in several processes; yield results as they are ready.
 
-    A task whose worker is killed, as by a system that is out of memory, runs again with no other
-    beside it. Ctrl-C and a closed iterator end all workers.
+    A task whose worker is killed, for example because memory is exhausted, runs again alone. Ctrl-C
+    and closing the iterator end all workers.
 
     Args:
-        function: What to apply. Tasks and results must pickle; where processes are not forked, the
-            function must, too.
-        tasks: Its arguments.
-        workers: Number of processes. With one, or one task, the function runs in this process.
-        on_lost: Makes the result of a task whose worker was lost.
-        on_progress: Called when a task begins or ends.
-        time_limit: Of a task [s].
-        memory_limit: Of a worker's address space [bytes], where the system has such a limit.
-        tries: How often a task may lose its worker.
+        function: Function of a task. Tasks and results must be picklable; where processes are not
+            forked, the function must be picklable too.
+        tasks: Arguments of the function.
+        workers: Number of processes. With one worker or one task the function runs in this process.
+        on_lost: Returns the result of a task whose worker was lost.
+        on_progress: Called when a task starts or ends.
+        time_limit: Time limit of a task [s].
+        memory_limit: Limit of a worker's address space [bytes], where the system supports it.
+        tries: Number of attempts for a task whose worker is killed.
         isolate: Use a new process for each task, even for a single one.
 
     Yields:
-        The index of a task, and its result.
+        The index of a task and its result.
 
     Raises:
         UrdftoolError: A worker was lost and ``on_lost`` is None.
-        Exception: As the function.
+        Exception: Raised by the function.
     """
     done = 0
 
@@ -135,13 +135,13 @@ def _lost(task: T, loss: Loss, on_lost: Callable[[T, Loss], R] | None) -> R:
 
 @dataclass(frozen=True)
 class _Result(Generic[R]):
-    """What the function returned."""
+    """Return value of the function."""
 
     value: R
 
 
 class _Crew(Generic[T, R]):
-    """Worker processes of one function."""
+    """Pool of worker processes for one function."""
 
     def __init__(
         self,
@@ -162,7 +162,7 @@ class _Crew(Generic[T, R]):
         workers: int,
         announce: Callable[[Sequence[int]], None],
     ) -> Iterator[tuple[int, _Result[R] | Loss]]:
-        """Yield the outcome of each task in ``todo``, by its index."""
+        """Yield the outcome of each task in ``todo`` with its index."""
         from multiprocessing import connection
 
         waiting = deque(todo)
@@ -172,7 +172,7 @@ class _Crew(Generic[T, R]):
             while waiting or busy:
                 while waiting and len(busy) < workers:
                     worker = idle.pop() if idle else _Worker(self.arguments)
-                    busy[worker.connection] = worker  # so that it is ended if it cannot begin
+                    busy[worker.connection] = worker  # before begin(), which may fail
                     worker.begin(waiting[0], tasks[waiting[0]])
                     waiting.popleft()
                 announce([worker.index for worker in busy.values()])
@@ -196,7 +196,7 @@ class _Crew(Generic[T, R]):
                 worker.connection.close()
 
     def _patience(self, running: Collection[_Worker]) -> float | None:
-        """Return how long no worker is overdue [s]."""
+        """Return the time until the first worker exceeds its limit [s]; None without a limit."""
         if self.time_limit is None:
             return None
         first = min(worker.began for worker in running)
@@ -210,7 +210,7 @@ class _Crew(Generic[T, R]):
 
 
 class _Worker:
-    """A process that applies a function to what it is sent."""
+    """Process that applies a function to the tasks that it receives."""
 
     def __init__(self, arguments: tuple[Any, int | None]) -> None:
         from multiprocessing import get_context
@@ -227,14 +227,14 @@ class _Worker:
     def begin(self, index: int, task: object) -> None:
         """Send a task."""
         self.index, self.began = index, monotonic()
-        with suppress(BrokenPipeError, ConnectionError):  # it has died: receive() will tell
+        with suppress(BrokenPipeError, ConnectionError):  # receive() returns the loss
             self.connection.send((task,))
 
     def receive(self) -> _Result[Any] | Loss:
-        """Return the result.
+        """Return the result, or the loss if the worker died.
 
         Raises:
-            Exception: As the function.
+            Exception: Raised by the function.
         """
         try:
             value, error = self.connection.recv()
@@ -247,7 +247,7 @@ class _Worker:
         return _Result(value)
 
     def close(self) -> None:
-        """Let the process end by itself."""
+        """Ask the process to exit; terminate it if it does not."""
         with suppress(OSError):
             self.connection.send(())
         self.process.join(_LEAVING)
@@ -256,11 +256,11 @@ class _Worker:
 
 
 def _work(function: Callable[[Any], Any], memory_limit: int | None, connection: Any) -> None:
-    """Apply a function to tasks until there are no more."""
+    """Apply a function to tasks until the parent sends no more."""
     from threading import Thread
 
     ignore_interrupts()
-    with suppress(RuntimeError):  # the system may give no more threads
+    with suppress(RuntimeError):  # thread limit of the system reached
         Thread(target=_leave_with_parent, daemon=True).start()
     with terminate_gracefully():
         _unblock_signals()
@@ -281,7 +281,7 @@ def _send_result(function: Callable[[Any], Any], task: object, connection: Any) 
 
 
 def _portable(error: Exception) -> Exception:
-    """Return an error that can be sent; some are not made from their message alone."""
+    """Return an error that can be pickled, replacing one that cannot."""
     import pickle
 
     try:
@@ -294,7 +294,7 @@ def _portable(error: Exception) -> Exception:
 
 
 def plain_error(error: UrdftoolError) -> UrdftoolError:
-    """Return the same facts as an error that can be sent to another process."""
+    """Return the same facts as a :class:`UrdftoolError`, which can be pickled."""
     return UrdftoolError(
         error.message,
         path=error.path,
@@ -307,7 +307,7 @@ def plain_error(error: UrdftoolError) -> UrdftoolError:
 
 
 def _leave_with_parent() -> None:
-    """Wait until the parent process has ended, and ask this one to leave."""
+    """Wait until the parent process has ended, then send SIGTERM to this one."""
     import signal
     from multiprocessing import parent_process
 
@@ -318,7 +318,7 @@ def _leave_with_parent() -> None:
 
 
 def end_processes(processes: Sequence[Any]) -> None:
-    """End processes: ask them to, and kill those that do not."""
+    """Terminate processes; kill those that have not ended after 3 s."""
     for process in processes:
         process.terminate()
     until = monotonic() + _LEAVING
@@ -330,11 +330,11 @@ def end_processes(processes: Sequence[Any]) -> None:
 
 
 def limit_resources(*, processor: float | None = None, memory: int | None = None) -> None:
-    """Limit this process, where the system can; no limit is raised, no core is dumped.
+    """Limit the resources of this process, where the system supports it; disable core dumps.
 
     Args:
-        processor: Processor time [s], after which the system ends it.
-        memory: Address space [bytes], beyond which allocations fail.
+        processor: Processor time [s] after which the system ends the process.
+        memory: Address space [bytes] beyond which allocations fail.
     """
     try:
         import resource
@@ -342,7 +342,7 @@ def limit_resources(*, processor: float | None = None, memory: int | None = None
         return
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     if processor is not None:
-        with suppress(ValueError):  # the present limit is lower
+        with suppress(ValueError):  # the hard limit is lower
             resource.setrlimit(resource.RLIMIT_CPU, (int(processor), int(processor) + 1))
     if memory is not None:
         with suppress(ValueError):
@@ -350,7 +350,7 @@ def limit_resources(*, processor: float | None = None, memory: int | None = None
 
 
 def ignore_interrupts() -> None:
-    """Ignore Ctrl-C, which ends the parent process, which ends this one."""
+    """Ignore SIGINT: the parent process handles Ctrl-C and ends this process."""
     import signal
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -358,9 +358,9 @@ def ignore_interrupts() -> None:
 
 @contextmanager
 def _blocked_signals() -> Iterator[None]:
-    """Hold back signals while a process is forked, until :func:`_unblock_signals` in it.
+    """Block signals while a process is forked, until :func:`_unblock_signals` runs in it.
 
-    It begins with the handlers of this process, which would raise in the middle of its start.
+    The new process inherits the signal handlers of this one, which would raise during its start.
     """
     _mask(hold=True)
     try:
@@ -383,17 +383,17 @@ def _mask(*, hold: bool) -> None:
 
 @contextmanager
 def terminate_gracefully() -> Iterator[None]:
-    """Let SIGTERM and SIGHUP end by an exception, so that temporary files are removed.
+    """Convert SIGTERM and SIGHUP to :class:`SystemExit`, so that temporary files are removed.
 
-    The exit code is that of a shell for a process that a signal ended. A signal that is ignored, as
-    ``nohup`` does, stays so; outside the main thread nothing is changed.
+    The exit code is 128 + signal number, as in a shell. A signal that is ignored, as by ``nohup``,
+    stays ignored; outside the main thread nothing changes.
     """
     import signal
 
     numbers = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 
     def leave(number: int, _: object) -> None:
-        for other in numbers:  # a second one does not come in between
+        for other in numbers:  # a second signal must not interrupt the cleanup
             signal.signal(other, lambda *_: None)
         raise SystemExit(128 + number)
 

@@ -1,7 +1,7 @@
-"""Files written whole or not at all, and results kept on disk for the next run.
+"""Atomic writes of files and folders, and a cache of results on disk.
 
-A file is written next to its place and moved there. An entry of the cache carries a digest of its
-content: one that is damaged counts as absent, so several processes may use a cache without a lock.
+A file is written next to its destination and renamed. A cache entry carries a digest of its
+content; a damaged entry counts as absent, so several processes may share a cache without a lock.
 """
 
 from __future__ import annotations
@@ -19,24 +19,24 @@ from . import __version__
 from .errors import OutputError
 
 Content = bytes | Path
-"""Of a file to be written: its bytes, or a file to copy."""
+"""Content of a file to write: its bytes, or the path of a file to copy."""
 
-_HEAD = 65  # of an entry: its digest in hexadecimal digits, and a line feed
+_HEAD = 65  # bytes: digest in hexadecimal digits and a line feed
 _DAY = 24 * 3600.0
 
 
 def write_files(files: Mapping[Path, Content], *, follow_links: bool = True) -> None:
-    """Write files and the folders that they need: all of them, or none.
+    """Write files and the folders that they require: all of them, or none.
 
-    All are written next to their places first, and moved there in order. The mode of a file that is
-    replaced stays.
+    All files are written next to their destinations first, then renamed in order. The mode of a
+    replaced file is kept.
 
     Args:
-        files: Content by path; the last is the one that refers to the others.
-        follow_links: Write to the target of a symbolic link, instead of replacing the link.
+        files: Content by path; the file that refers to the others comes last.
+        follow_links: Write to the target of a symbolic link instead of replacing the link.
 
     Raises:
-        OutputError: One cannot be written; what was there is as it was.
+        OutputError: A file cannot be written; all previous contents are restored.
     """
     staged: list[tuple[Path, Path, Path]] = []
     made: list[Path] = []
@@ -75,14 +75,14 @@ def write_files(files: Mapping[Path, Content], *, follow_links: bool = True) -> 
 
 
 def write_folder(target: str | Path, files: Mapping[str, Content]) -> None:
-    """Write a folder: its new state is made next to its place and moved there.
+    """Write a folder: its new state is created next to it and renamed.
 
     Args:
-        target: The folder; what else is in it stays.
+        target: The folder; other files in it are kept.
         files: Content by relative path.
 
     Raises:
-        OutputError: It cannot be written; what was there is as it was.
+        OutputError: The folder cannot be written; its previous state is restored.
     """
     import shutil
 
@@ -108,13 +108,13 @@ def write_folder(target: str | Path, files: Mapping[str, Content]) -> None:
 
 
 def make_folders(folder: Path) -> list[Path]:
-    """Make a folder and the missing folders above it.
+    """Create a folder and its missing parents.
 
     Returns:
-        The folders that were made, outermost first, for ``remove_empty`` after a failure.
+        The created folders, outermost first, for ``remove_empty`` after a failure.
 
     Raises:
-        OSError: One of them cannot be made; those made before are removed.
+        OSError: A folder cannot be created; the folders created before it are removed.
     """
     missing: list[Path] = []
     while not folder.exists():
@@ -156,7 +156,7 @@ def _write(path: Path, content: Content) -> None:
 
 
 def _keep(place: Path, old: Path) -> None:
-    """Give a file, if there is one, a second name for the time until all are moved."""
+    """Keep an existing file under a second name until all files are renamed."""
     import shutil
 
     old.unlink(missing_ok=True)
@@ -164,7 +164,7 @@ def _keep(place: Path, old: Path) -> None:
         return
     try:
         os.link(place, old, follow_symlinks=False)
-    except (OSError, NotImplementedError):  # not every file system has hard links
+    except (OSError, NotImplementedError):  # file system without hard links
         shutil.copy2(place, old, follow_symlinks=False)
 
 
@@ -176,7 +176,7 @@ def _restore(place: Path, old: Path, *, alone: bool) -> None:
 
 
 def _carry_over(folder: Path, staged: Path) -> None:
-    """Copy what is in a folder and not yet in its new state."""
+    """Copy the entries of a folder that its new state does not contain."""
     import shutil
 
     for place in sorted(folder.rglob("*")):
@@ -210,15 +210,15 @@ def _reason(error: OSError) -> str:
 
 
 class DiskCache:
-    """A folder of results by key, for all processes of a user.
+    """Cache of results on disk, shared by all processes of a user.
 
     Attributes:
-        folder: Where they are; None keeps nothing.
-        trouble: Why the last entry could not be kept; empty if it was.
+        folder: Folder of the cache; None disables it.
+        trouble: Reason why the last entry was not stored; empty if it was.
     """
 
     def __init__(self, folder: str | Path | None) -> None:
-        """Take the folder, which need not exist."""
+        """Set the folder, which need not exist."""
         self.folder = None if folder is None else str(folder)
         self.trouble = ""
 
@@ -236,7 +236,7 @@ class DiskCache:
         return data[_HEAD:]
 
     def put(self, key: str, data: bytes) -> None:
-        """Keep an entry, if that is possible."""
+        """Store an entry; on failure set ``trouble``."""
         if self.folder is None:
             return
         place = Path(self._place(key))
@@ -255,16 +255,16 @@ class DiskCache:
                 self.trouble = _reason(error)
 
     def trim(self, *, days: float = 90.0, most: int = 1_000_000_000) -> int:
-        """Remove entries that were not used for long, and the oldest of too many.
+        """Remove entries that were not used for long, and the least recent of a cache too large.
 
-        It is done once a day, however often it is called.
+        At most once a day; further calls do nothing.
 
         Args:
-            days: How old an entry may be.
-            most: Size of all entries [bytes].
+            days: Maximum time since the last use [days].
+            most: Maximum size of all entries [bytes].
 
         Returns:
-            How many were removed.
+            The number of removed entries.
         """
         if self.folder is None:
             return 0
@@ -308,12 +308,12 @@ class DiskCache:
 
 
 def cache_key(revision: int, facts: object, inputs: Iterable[bytes] = ()) -> str:
-    """Return the key of a result: a digest of this version of urdftool and of all inputs.
+    """Return the key of a result: a digest of the version of urdftool and of all inputs.
 
     Args:
-        revision: Of the computation, raised when it gives another result for the same inputs.
-        facts: Settings; anything that JSON can have.
-        inputs: Contents of the files that were read.
+        revision: Revision of the computation, incremented when its result changes.
+        facts: Settings, JSON-serializable.
+        inputs: Contents of the files read.
     """
     digest = sha256(json.dumps([__version__, revision, facts], sort_keys=True).encode())
     for data in inputs:
@@ -323,10 +323,10 @@ def cache_key(revision: int, facts: object, inputs: Iterable[bytes] = ()) -> str
 
 
 def cache_folder(name: str) -> Path:
-    """Return the default folder of a cache, as the platform has it.
+    """Return the default folder of a cache on this platform.
 
-    ``XDG_CACHE_HOME`` counts everywhere; without it ``~/.cache``, on macOS ``~/Library/Caches``, on
-    Windows ``%LOCALAPPDATA%``.
+    ``XDG_CACHE_HOME`` has priority on all platforms; the default is ``~/.cache``, on macOS
+    ``~/Library/Caches``, on Windows ``%LOCALAPPDATA%``.
     """
     base = os.environ.get("XDG_CACHE_HOME")
     if not base and sys.platform == "win32":

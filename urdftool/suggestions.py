@@ -1,4 +1,4 @@
-"""The known name that a wrong one was perhaps meant to be."""
+"""Suggestions for mistyped names."""
 
 from __future__ import annotations
 
@@ -10,15 +10,20 @@ _NUMBER = re.compile(r"([0-9]+)")
 
 
 def nearest(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
-    """Return the known name nearest to a wrong one; empty if none is near.
+    """Return the known name nearest to an unknown one; empty if none is near.
 
     Names that differ only in case, ``_`` and ``-`` are nearest. Names that differ only by a number
-    are not near: ``joint_1`` is not a slip of ``joint_2``.
+    are not near: ``joint_1`` is not a typo of ``joint_2``.
+
+    Args:
+        name: The unknown name.
+        known: Candidates.
+        cutoff: Least similarity, 0 to 1, of ``difflib.get_close_matches``.
     """
     return _nearest(name, tuple(dict.fromkeys(known)), cutoff)
 
 
-@lru_cache(4096)  # robots of one family have the same slips
+@lru_cache(4096)  # robots of one family have the same typos
 def _nearest(name: str, known: tuple[str, ...], cutoff: float) -> str:
     from difflib import get_close_matches
 
@@ -33,7 +38,7 @@ def _nearest(name: str, known: tuple[str, ...], cutoff: float) -> str:
 
 
 def _differ_by_number(name: str, other: str) -> bool:
-    """Tell whether two names have the same text around numbers that are not the same."""
+    """Tell whether two names differ only by the numbers in them."""
     texts, others = _NUMBER.split(name), _NUMBER.split(other)
     if texts[::2] != others[::2]:
         return False

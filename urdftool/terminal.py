@@ -1,8 +1,8 @@
-"""What a terminal obeys is shown there instead of obeyed.
+"""Escape control characters in text that goes to a terminal.
 
-Names, paths and lines of a file may hold what moves the cursor, sets the title, hides text or
-turns its direction. What goes to a terminal passes here, whoever prints it; pipes and files get
-results as they are. Colours, and clearing a line, are what urdftool itself says to a terminal.
+Names, paths and lines of a file may contain sequences that move the cursor, set the title, hide
+text or change its direction. Terminal output passes through :class:`Shown`; pipes and files get
+results unchanged. Color codes and clearing a line are kept, since urdftool writes them.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import sys
 from typing import Any, BinaryIO, cast
 
 _OBEYED = re.compile(
-    rb"\x1b\[[0-9;]*m|\r\x1b\[K|\r\n"  # ours, which pass
+    rb"\x1b\[[0-9;]*m|\r\x1b\[K|\r\n"  # written by urdftool, kept
     rb"|([\0-\x08\x0b-\x1f\x7f]|\xc2[\x80-\x9f]|\xd8\x9c"
     rb"|\xe2\x80[\x8e\x8f\xa8-\xae]|\xe2\x81[\xa6-\xa9])"
 )
@@ -24,12 +24,12 @@ _CONTROL = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e
 
 
 def visible(text: str) -> str:
-    """A message, which has no colours, with control characters but a line's end written out."""
+    """Return a message with control characters escaped, except tab and line feed; colors too."""
     return _CONTROL.sub(lambda match: match[0].encode("unicode_escape").decode(), text)
 
 
 def shown(data: bytes) -> bytes:
-    """UTF-8 text with what a terminal would obey written out as its number."""
+    """Return UTF-8 text with control characters escaped, except colors and cleared lines."""
     return _OBEYED.sub(_written, data)
 
 
@@ -40,34 +40,34 @@ def _written(match: re.Match[bytes]) -> bytes:
 
 
 class Shown(io.RawIOBase):
-    """The bytes of a stream on their way to a terminal."""
+    """Stream that escapes control characters on the way to a terminal."""
 
     def __init__(self, stream: BinaryIO) -> None:
-        """Take what leads there."""
+        """Wrap a binary stream of a terminal."""
         super().__init__()
         self.stream = stream
 
     def writable(self) -> bool:
-        """It is."""
+        """Return True."""
         return True
 
     def isatty(self) -> bool:
-        """It leads to one."""
+        """Return True."""
         return True
 
     def fileno(self) -> int:
-        """Of the stream."""
+        """Return the file descriptor of the wrapped stream."""
         return self.stream.fileno()
 
     def write(self, data: bytes) -> int:  # type: ignore[override]
-        """Pass on, at once."""
+        """Write escaped bytes and flush; return the number of bytes given."""
         self.stream.write(shown(bytes(data)))
         self.stream.flush()
         return len(data)
 
 
 def guard() -> None:
-    """Let standard output and standard error pass here, each where it is a terminal."""
+    """Route standard output and standard error through :class:`Shown` if they are terminals."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if isinstance(stream, io.TextIOWrapper) and stream.isatty():
@@ -78,15 +78,15 @@ def guard() -> None:
 
 
 def open_streams() -> None:
-    """Let standard streams that are closed lead nowhere; no file that is opened takes their place.
+    """Redirect closed standard streams to the null device.
 
-    Who closed them wants the exit code only.
+    Otherwise a file opened later would get their descriptor.
     """
     for number in range(3):
         try:
             os.fstat(number)
         except OSError:
-            os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free: this one
+            os.open(os.devnull, os.O_RDWR)  # gets the lowest free descriptor: this one
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115

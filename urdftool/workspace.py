@@ -1,12 +1,12 @@
-"""Read files of a run through one object: unsaved contents, recorded dependencies, memo.
+"""File access of a run: overlay contents, recorded dependencies, memo.
 
-A :class:`Workspace` is the only way in which a check looks at the file system and at environment
-variables. It answers from an overlay of contents that are not on the disk (standard input, a fix
-that is tried, a buffer of an editor), records each question so that a cache knows on what a result
-depends, and computes what many ask (the packages below a folder, the outline of a mesh) once.
+A :class:`Workspace` is the only way in which a check reads files and environment variables. It
+reads from an overlay of contents that are not on disk (standard input, a tentative fix, an editor
+buffer), records each query so that a cache knows the dependencies of a result, and computes shared
+values (the packages below a folder, the outline of a mesh) once.
 
-Nothing of it is global: two workspaces know nothing of each other, and views of one workspace may
-be used in several threads.
+No state is global: workspaces are independent of each other, and views of one workspace may be used
+in several threads.
 """
 
 from __future__ import annotations
@@ -29,40 +29,40 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 STDIN = "<stdin>"
-"""The path under which an overlay has the contents of standard input."""
+"""Path of the contents of standard input in an overlay."""
 
 
 class Memo:
-    """Values that are computed once and live as long as the object they belong to."""
+    """Values that are computed once and live as long as their owner."""
 
     __slots__ = ("_known",)
 
     def __init__(self) -> None:
-        """Start empty."""
+        """Create an empty memo."""
         self._known: dict[Hashable, Any] = {}
 
     def get(self, key: Hashable, make: Callable[[], T]) -> T:
-        """Return the value of a key; compute it if it is not known."""
+        """Return the value of a key, computing it at the first request."""
         try:
             return cast("T", self._known[key])
         except KeyError:
             return cast("T", self._known.setdefault(key, make()))
 
     def peek(self, key: Hashable) -> Any:
-        """Return the value of a key; None where it was not computed."""
+        """Return the value of a key; None if it was not computed."""
         return self._known.get(key)
 
     def clear(self) -> None:
-        """Forget all values, which are freed at once where they refer to the object."""
+        """Remove all values, which breaks reference cycles with the owner."""
         self._known.clear()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Copy and pickle as an empty one: values are computed again."""
+        """Copy and pickle as an empty memo: values are recomputed."""
         return Memo, ()
 
 
 class Entry(NamedTuple):
-    """An entry of a folder: its name and path, whether it is a folder and a symbolic link."""
+    """Entry of a folder: name, path, and whether it is a folder and a symbolic link."""
 
     name: str
     path: str
@@ -74,14 +74,14 @@ class Workspace:
     """Access to files and environment variables for one run.
 
     Attributes:
-        dependencies: What was read through this view; None where nothing is recorded.
+        dependencies: Queries made through this view; None if they are not recorded.
     """
 
     def __init__(self, overlay: Mapping[str, bytes] | None = None) -> None:
-        """Read from the disk.
+        """Create a workspace that records no dependencies.
 
         Args:
-            overlay: Contents by path that are read in place of those on the disk.
+            overlay: Contents by path, read in place of those on disk.
         """
         self.dependencies: Dependencies | None = None
         self._overlay = {_key(path): data for path, data in (overlay or {}).items()}
@@ -92,26 +92,29 @@ class Workspace:
         self._copies = _Copies()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the overlay alone, for another process."""
+        """Pickle only the overlay, for another process."""
         return Workspace, (self._overlay,)
 
     # Views ---------------------------------------------------------------------------------
 
     def recorded(self) -> Workspace:
-        """Return a view with the same overlay and memo, and a record of its own."""
+        """Return a view with the same overlay and memo and its own dependency record."""
         view = Workspace.__new__(Workspace)
         view.__dict__.update(self.__dict__)
         view.dependencies = Dependencies()
         return view
 
     def unread(self) -> Workspace:
-        """Return a workspace with the same overlay that has read nothing."""
+        """Return a workspace with the same overlay and an empty memo."""
         return Workspace(self._overlay)
 
     def with_overlay(self, overlay: Mapping[str, bytes]) -> Workspace:
         """Return a workspace in which some files have other contents.
 
-        It shares with this one all memo entries that do not depend on those files.
+        It shares the memo entries that do not depend on those files.
+
+        Args:
+            overlay: Contents by path, in addition to the present overlay.
         """
         other = Workspace({**self._overlay, **overlay})
         other._base = self
@@ -121,12 +124,12 @@ class Workspace:
     # Memo ----------------------------------------------------------------------------------
 
     def memo(self, key: Hashable, make: Callable[[Workspace], T]) -> T:
-        """Return a value that depends on files; compute it if it is not known.
+        """Return a value that depends on files, computing it at the first request.
 
         Args:
-            key: What the value is of.
-            make: Computes it, reading through the workspace that it is given. What that reads is
-                a dependency of every view that asks for the value.
+            key: Identity of the value.
+            make: Computes the value, reading through the workspace that it receives. Its reads
+                become dependencies of every view that requests the value.
         """
         entry = self._known.get(key)
         if entry is None and self._base is not None:
@@ -142,7 +145,7 @@ class Workspace:
         return cast("T", entry[0])
 
     def _touches(self, read: Dependencies) -> bool:
-        """Tell whether the overlay may change what was read."""
+        """Tell whether the overlay may change the queried files or folders."""
         return read.touches(self._overlay.keys(), self._folders)
 
     def _compute(self, key: Hashable, make: Callable[[Workspace], Any]) -> tuple[Any, Dependencies]:
@@ -164,17 +167,17 @@ class Workspace:
         """Record a dependency, such as on a file that a library opens itself.
 
         Args:
-            kind: A kind of question of :mod:`urdftool.dependencies`.
+            kind: A kind of query of :mod:`urdftool.dependencies`.
             path: The path.
         """
         if self.dependencies is not None:
             self.dependencies.add(kind, os.fspath(path))
 
     def overlaid(self, path: str | Path) -> bytes | None:
-        """Return the contents that the overlay has for a file; None where the disk counts."""
+        """Return the overlay contents of a file; None if it is read from disk."""
         if not self._overlay:
             return None
-        # the name is that of the overlay, or that of a link: resolving all links takes long
+        # compare the name first, since resolving links is slow
         if os.path.basename(path) not in self._names and not os.path.islink(path):
             return None
         return self._overlay.get(_key(path))
@@ -183,16 +186,16 @@ class Workspace:
         """Return the contents of a file.
 
         Raises:
-            OSError: It cannot be read.
+            OSError: The file cannot be read.
         """
         with self.open(path) as stream:
             return stream.read()
 
     def read_text(self, path: str | Path) -> str:
-        """Return the contents of a file as UTF-8; what is not UTF-8 is replaced.
+        """Return the contents of a file as UTF-8 with LF line ends; invalid bytes are replaced.
 
         Raises:
-            OSError: It cannot be read.
+            OSError: The file cannot be read.
         """
         text = self.read_bytes(path).decode("utf-8", "replace")
         return text.replace("\r\n", "\n").replace("\r", "\n")
@@ -201,7 +204,7 @@ class Workspace:
         """Open a file for reading.
 
         Raises:
-            OSError: It cannot be read.
+            OSError: The file cannot be read.
         """
         self.record("file", path)
         data = self.overlaid(path)
@@ -212,9 +215,9 @@ class Workspace:
         return stream
 
     def local(self, path: str | Path) -> Path:
-        """Return a file with these contents, for libraries that open files themselves.
+        """Return a path with the contents of a file, for libraries that open files themselves.
 
-        That is the file itself, or a copy of what the overlay has for it.
+        The path is that of the file, or of a temporary copy of its overlay contents.
 
         Raises:
             OSError: The copy cannot be written.
@@ -224,7 +227,7 @@ class Workspace:
         return Path(path) if data is None else self._copies.write(Path(path).name, data)
 
     def size(self, path: str | Path) -> int | None:
-        """Return the bytes of a regular file; None where there is none."""
+        """Return the size of a regular file [bytes]; None if it is not a regular file."""
         self.record("file", path)
         data = self.overlaid(path)
         if data is not None:
@@ -236,7 +239,7 @@ class Workspace:
         return status.st_size if stat.S_ISREG(status.st_mode) else None
 
     def exists(self, path: str | Path) -> bool:
-        """Tell whether a path leads to anything."""
+        """Tell whether a path exists, following symbolic links."""
         self.record("is", path)
         return self.overlaid(path) is not None or os.path.exists(path)
 
@@ -251,7 +254,7 @@ class Workspace:
         return os.path.isdir(path)
 
     def exists_or_is_link(self, path: str | Path) -> bool:
-        """Tell whether there is anything at a path, be it a link that leads nowhere."""
+        """Tell whether an entry exists at a path; a broken symbolic link counts."""
         self.record("there", path)
         return self.overlaid(path) is not None or os.path.lexists(path)
 
@@ -261,7 +264,7 @@ class Workspace:
         return os.path.realpath(path)
 
     def variable(self, name: str) -> str | None:
-        """Return an environment variable; None where it is not set."""
+        """Return an environment variable; None if it is not set."""
         if self.dependencies is not None:
             self.dependencies.add("env", name)
         return os.environ.get(name)
@@ -269,10 +272,10 @@ class Workspace:
     # Folders -------------------------------------------------------------------------------
 
     def list_folder(self, path: str | Path) -> list[Entry]:
-        """Return the entries of a folder by name.
+        """Return the entries of a folder, sorted by name.
 
         Raises:
-            OSError: It cannot be listed.
+            OSError: The folder cannot be listed.
         """
         self.record("list", path)
         folder = os.fspath(path)
@@ -287,7 +290,10 @@ class Workspace:
         return [found[name] for name in sorted(found)]
 
     def walk(self, path: str | Path) -> Iterator[tuple[str, list[str], list[str]]]:
-        """Yield each folder from a folder downward, with its folders and files, as ``os.walk``."""
+        """Yield each folder from ``path`` downward with the names of its folders and files.
+
+        As ``os.walk``: symbolic links are not followed; folders that cannot be listed are skipped.
+        """
         folder = os.fspath(path)
         try:
             entries = self.list_folder(folder)
@@ -301,7 +307,7 @@ class Workspace:
                 yield from self.walk(os.path.join(folder, name))
 
     def glob(self, path: str | Path, pattern: str) -> list[Path]:
-        """Return the paths below a folder that match a pattern, sorted, as ``Path.glob``.
+        """Return the sorted paths below a folder that match a pattern, as ``Path.glob``.
 
         Args:
             path: The folder.
@@ -315,7 +321,7 @@ class Workspace:
         ).copy()
 
     def match(self, pattern: str) -> list[str]:
-        """Return the paths that match a path with ``*``, ``?`` and ``[…]``, as ``glob.glob``."""
+        """Return the sorted paths that match an absolute pattern with ``*``, ``?`` and ``[…]``."""
         start, *names = pattern.split("/")
         found = [start or "/"]
         for name in names:
@@ -359,7 +365,7 @@ class Workspace:
 def memoized(
     function: Callable[Concatenate[Workspace, P], T],
 ) -> Callable[Concatenate[Workspace, P], T]:
-    """Compute a function of a workspace and hashable arguments once for a workspace."""
+    """Decorate a function of a workspace and hashable arguments: one computation per workspace."""
     from functools import wraps
 
     @wraps(function)
@@ -371,16 +377,16 @@ def memoized(
 
 
 class _Copies:
-    """Files with contents that are not on the disk, in a folder that is removed with this."""
+    """Temporary files with contents that are not on disk, removed with this object."""
 
     def __init__(self) -> None:
         self._folder: str | None = None
 
     def write(self, name: str, data: bytes) -> Path:
-        """Return a file of that name with these contents.
+        """Return the path of a file with this name and these contents.
 
         Raises:
-            OSError: It cannot be written.
+            OSError: The file cannot be written.
         """
         import shutil
         import tempfile
@@ -398,7 +404,7 @@ class _Copies:
 
 
 def _key(path: str | Path) -> str:
-    """Return what stands for a file in an overlay: its path without links."""
+    """Return the overlay key of a file: its path without symbolic links."""
     return STDIN if path == STDIN else os.path.realpath(path)
 
 
