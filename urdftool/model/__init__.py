@@ -1,1 +1,1 @@
-"""The robot, in the specification's words."""
+"""Robot model in the terms of the URDF specification."""

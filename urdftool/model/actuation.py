@@ -1,4 +1,4 @@
-"""Which joints the file drives."""
+"""Joints that a description declares as actuated."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from .elements import Joint, Robot
 
 
 def actuated_joints(robot: Robot) -> set[str]:
-    """List the joints that a transmission, ros2_control or a plugin of Gazebo drives.
+    """Return the joints that a transmission, ros2_control or a Gazebo plugin actuates.
 
-    Joints of ros2_control without a command interface are not driven, nor those that only a plugin
-    that publishes joint states names.
+    Joints of ros2_control without a command interface are excluded, and joints that only a joint
+    state publisher names.
     """
     named = {joint.name for part in robot.transmissions for joint in part.joints}
     for control in robot.ros2_controls:
@@ -22,11 +22,11 @@ def actuated_joints(robot: Robot) -> set[str]:
 
 
 def is_passive(joint: Joint, actuated: set[str]) -> bool:
-    """Whether other joints of the robot are driven, and this one is not."""
+    """Tell whether a joint is unactuated while other joints of the robot are actuated."""
     return bool(actuated) and joint.name not in actuated
 
 
 def measured_joints(robot: Robot) -> set[str]:
-    """List the joints that ros2_control measures and nothing drives."""
+    """Return the joints that ros2_control lists and nothing actuates."""
     named = {joint.name for control in robot.ros2_controls for joint in control.joints}
     return (named & set(robot.joint)) - actuated_joints(robot)

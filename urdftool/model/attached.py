@@ -1,8 +1,8 @@
-"""Links that fixed joints join into one rigid body, with their poses relative to each other.
+"""Links that fixed joints connect to one rigid body, with their relative poses.
 
-A body may be written as one link or as several: a hub with its tire, a housing whose mass has a
-link of its own. A rule that compares one property of a body with another therefore takes all links
-that are rigidly attached, above and below.
+A rigid body may be written as one link or as several: a hub with its tire, a housing whose mass is
+in a separate link. A rule that compares two properties of a body therefore needs all links that are
+rigidly attached, ancestors and descendants.
 """
 
 from __future__ import annotations
@@ -16,24 +16,24 @@ Attached = list[tuple[Link, Pose]]
 
 
 def attached_links(robot: Robot, link: Link) -> Attached:
-    """List the links of a rigid body, beginning with one of them.
+    """Return the links of a rigid body, starting with one of them.
 
-    Fixed joints are followed upward and downward. The link ``world`` is not a part of a body, and
-    bodies that are fixed to it are not parts of each other.
+    Fixed joints are followed to parents and children. The link ``world`` is not part of a body;
+    bodies fixed to it are not parts of each other.
 
     Args:
-        robot: Any robot, also a broken one.
+        robot: Any robot, also an invalid one.
         link: A link of the robot.
 
     Returns:
-        The link itself with the identity, then every link that is rigidly attached to it, with its
-        pose in the frame of ``link``.
+        The link itself with the identity, then each rigidly attached link with its pose in the
+        frame of ``link``.
     """
     found: Attached = [(link, IDENTITY)]
     if link.name == WORLD:
         return found
     tree, seen = robot.tree, {link.name}
-    for member, pose in found:  # grows while it is gone through
+    for member, pose in found:  # the loop appends to this list
         above = tree.parent_joint(member.name)
         steps = [
             (joint.child, pose @ pose_of(joint.origin), joint)
@@ -49,7 +49,7 @@ def attached_links(robot: Robot, link: Link) -> Attached:
 
 
 def is_fixed_to_world(robot: Robot, link: Link) -> bool:
-    """Whether fixed joints join a link to the link ``world``."""
+    """Tell whether fixed joints connect a link to the link ``world``."""
     name, seen = link.name, set()
     while name != WORLD:
         joint = robot.tree.parent_joint(name)

@@ -1,4 +1,4 @@
-"""How large primitive shapes are, and the boxes around them."""
+"""Dimensions and bounding boxes of primitive geometry."""
 
 from __future__ import annotations
 
@@ -10,31 +10,31 @@ from .pose import Pose, Rotation, pose_of, rotate
 
 
 class Bounds(NamedTuple):
-    """A box along the axes of the link frame [m], by two of its corners."""
+    """Axis-aligned bounding box in a link frame [m], given by two opposite corners."""
 
     low: Vector
     high: Vector
 
     @property
     def size(self) -> Vector:
-        """Its lengths along x, y and z [m]."""
+        """Return the lengths along x, y and z [m]."""
         (a, b, c), (d, e, f) = self
         return d - a, e - b, f - c
 
     @property
     def centre(self) -> Vector:
-        """Its middle [m]."""
+        """Return the center [m]."""
         (a, b, c), (d, e, f) = self
         return (a + d) / 2, (b + e) / 2, (c + f) / 2
 
     def joined(self, other: Bounds) -> Bounds:
-        """The box around both."""
+        """Return the bounding box of both boxes."""
         low = tuple(map(min, self.low, other.low))
         high = tuple(map(max, self.high, other.high))
         return Bounds(low, high)  # type: ignore[arg-type]
 
     def rotated(self, rotation: Rotation) -> Bounds:
-        """Return the box around this one in a frame of the same origin, by ``rotation``."""
+        """Return the bounding box of this box after a rotation about the origin."""
         x, y, z = rotate(rotation, self.centre)
         a, b, c = (
             sum(abs(part) * length for part, length in zip(row, self.size, strict=True)) / 2
@@ -43,7 +43,7 @@ class Bounds(NamedTuple):
         return Bounds((x - a, y - b, z - c), (x + a, y + b, z + c))
 
     def meets(self, other: Bounds) -> bool:
-        """Whether the two have a point in common."""
+        """Tell whether two boxes have a common point."""
         return all(
             a <= d and b >= c
             for a, b, c, d in zip(self.low, self.high, other.low, other.high, strict=True)
@@ -51,7 +51,7 @@ class Bounds(NamedTuple):
 
 
 def size_of(geometry: Geometry | None) -> Vector | None:
-    """Lengths of a primitive along its own axes [m]; None for a mesh or an unknown shape."""
+    """Return the lengths of a primitive along its own axes [m]; None for other geometry."""
     if isinstance(geometry, Box):
         x, y, z = geometry.size
         return abs(x), abs(y), abs(z)
@@ -68,12 +68,17 @@ def size_of(geometry: Geometry | None) -> Vector | None:
 
 
 def bounds_of(shape: Visual | Collision) -> Bounds | None:
-    """The box around a primitive in its link's frame; None for a mesh or an unknown shape."""
+    """Return the bounding box of a primitive in its link frame; None for other geometry."""
     return bounds_at(shape.geometry, pose_of(shape.origin))
 
 
 def bounds_at(geometry: Geometry | None, pose: Pose) -> Bounds | None:
-    """Return the box around a primitive at a pose; None for a mesh or an unknown shape."""
+    """Return the bounding box of a primitive at a pose; None for other geometry.
+
+    Args:
+        geometry: The geometry.
+        pose: Its pose; the box is in the parent frame [m].
+    """
     size = size_of(geometry)
     if size is None:
         return None
@@ -84,7 +89,7 @@ def bounds_at(geometry: Geometry | None, pose: Pose) -> Bounds | None:
         ]
     elif isinstance(geometry, Sphere):
         half = [size[0] / 2] * 3
-    else:  # a disc of radius r seen along an axis at an angle to its own is r·sin of that angle
+    else:  # half extent of a disc of radius r along an axis: r·sin(angle to the disc's axis)
         rounded = isinstance(geometry, Capsule)
         radius, along = size[0] / 2, (size[2] - size[0] * rounded) / 2
         half = [

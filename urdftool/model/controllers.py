@@ -1,4 +1,4 @@
-"""The controllers in YAML of ros_control and ros2_control: type and parameters of each."""
+"""Controllers in YAML files of ros_control and ros2_control: type and parameters."""
 
 from __future__ import annotations
 
@@ -32,19 +32,19 @@ DRIVES: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
          "rear_left_wheel_command_joint_name", "rear_right_wheel_command_joint_name"), ()
     ),
 }  # fmt: skip
-"""By class, the parameters with joints that are driven by velocity, and by position."""
+"""Parameters that name velocity-controlled and position-controlled joints, by controller class."""
 
 _JOINTS = ("joints", "joint", "dof_names", "dof_name", "command_joints")
 
 
 @dataclass(frozen=True, eq=False)
 class Controller:
-    """A controller.
+    """Controller of a parameter file.
 
     Attributes:
-        name: Its name, without namespaces.
-        type: The scalar with its type.
-        parameters: The mapping with its parameters.
+        name: Name without namespaces.
+        type: Scalar with the type.
+        parameters: Mapping of the parameters.
     """
 
     name: str
@@ -53,34 +53,34 @@ class Controller:
 
     @property
     def kind(self) -> str:
-        """Its class, such as ``DiffDriveController``."""
+        """Return the class, such as ``DiffDriveController``."""
         return (self.type.text or "").rpartition("/")[2].rpartition(":")[2]
 
     @property
     def package(self) -> str:
-        """The package of its class."""
+        """Return the package of the class."""
         return (self.type.text or "").partition("/")[0]
 
     @property
     def joints(self) -> list[Node]:
-        """The scalars that name joints, in the order of the parameters."""
+        """Return the scalars that name joints, in the order of the parameter table."""
         wheels, steered = DRIVES.get(self.kind, ((), ()))
         return [one for name in (*wheels, *steered, *_JOINTS) for one in self.named(name)]
 
     def named(self, parameter: str) -> list[Node]:
-        """The scalars of a parameter that is one or a list; none where it is something else."""
+        """Return the non-empty scalars of a parameter, which may be one scalar or a list."""
         node = (self.parameters.fields or {}).get(parameter)
         nodes = [] if node is None else [node] if node.items is None else node.items
         return [one for one in nodes if one.text]
 
 
 def joint_of(node: Node) -> str:
-    """The joint that a scalar names, without the controller behind which it stands."""
+    """Return the joint that a scalar names, without a controller prefix."""
     return (node.text or "").rpartition("/")[2]
 
 
 def controllers_in(root: Node) -> Iterator[Controller]:
-    """Each controller with its parameters, which in ROS 2 stand apart from its type."""
+    """Yield each controller with its parameters, which ROS 2 writes apart from its type."""
     parameters: dict[str, Node] = {}
     for path, node in root.walk():
         if path and path[-1] == "ros__parameters" and len(path) > 1:
@@ -92,5 +92,5 @@ def controllers_in(root: Node) -> Iterator[Controller]:
         own = path[-2] if path[-1] == "ros__parameters" and len(path) > 1 else path[-1]
         name = own.rpartition("/")[2]
         if "/" not in kind.text and "::" not in kind.text:
-            continue  # another thing with a type
+            continue  # not a controller class
         yield Controller(name, kind, parameters.get(name, node))

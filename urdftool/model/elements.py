@@ -1,10 +1,9 @@
-"""Robot, Link, Joint and what is in them, on one page.
+"""Elements of a robot: links, joints and their parts.
 
-Lengths are in meters, angles in radians, masses in kilograms. A part knows where it was written
-(``provenance``): for URDF that is its XML element, for another format a place in its file; a part
-that a program made has none. Values that are not written have the default of the specification;
-numbers that cannot be read have it too (the rules of the ``xml`` family report these). Nothing here
-is changed after reading.
+Lengths are in meters, angles in radians, masses in kilograms. A part refers to its source
+(``provenance``): the XML element of URDF, or a location in a file of another format; None for a
+generated part. Missing values have the default of the specification, also numbers that cannot be
+parsed (rules of the ``xml`` family report them). Parts do not change after reading.
 """
 
 from __future__ import annotations
@@ -30,20 +29,20 @@ ZERO: Vector = (0.0, 0.0, 0.0)
 
 @dataclass(slots=True)
 class Part:
-    """A part of a robot.
+    """Part of a robot.
 
     Attributes:
-        provenance: Where it was written; None for a part that a program made.
+        provenance: Location in the source; None for a generated part.
     """
 
     provenance: Provenance | None = None
 
     @property
     def element(self) -> Element:
-        """Get the URDF element that the part was read from.
+        """Return the URDF element from which the part was read.
 
         Raises:
-            TypeError: It was not read from URDF.
+            TypeError: The part was not read from URDF.
         """
         element = self.provenance
         if isinstance(element, Element):
@@ -52,15 +51,15 @@ class Part:
 
     @property
     def place(self) -> Place:
-        """Get the span of its start tag in the source; ``NOWHERE`` for a part without one."""
+        """Return the span of the start tag in the source; ``NOWHERE`` for a generated part."""
         return NOWHERE if self.provenance is None else self.provenance.place
 
 
 @dataclass(slots=True)
 class Origin(Part):
-    """A pose: ``xyz`` [m] and fixed-axis ``rpy`` [rad], of the child in the parent's frame.
+    """Pose of the child in the parent frame: ``xyz`` [m] and fixed-axis ``rpy`` [rad].
 
-    ``quaternion`` is ``(x, y, z, w)`` where URDF 1.1's ``quat_xyzw`` is written.
+    ``quaternion`` is ``(x, y, z, w)`` if ``quat_xyzw`` of URDF 1.1 is present.
     """
 
     xyz: Vector = ZERO
@@ -70,7 +69,7 @@ class Origin(Part):
 
 @dataclass(slots=True)
 class Inertia(Part):
-    """Moments and products of inertia [kg·m²] about the centre of mass, in the inertial frame."""
+    """Inertia tensor [kg·m²] about the center of mass, in the inertial frame."""
 
     ixx: float = 0.0
     ixy: float = 0.0
@@ -81,23 +80,23 @@ class Inertia(Part):
 
     @property
     def moments(self) -> Vector:
-        """The diagonal: ixx, iyy, izz."""
+        """Return the diagonal: ixx, iyy, izz."""
         return self.ixx, self.iyy, self.izz
 
     @property
     def products(self) -> Vector:
-        """Off the diagonal: ixy, ixz, iyz."""
+        """Return the off-diagonal elements: ixy, ixz, iyz."""
         return self.ixy, self.ixz, self.iyz
 
     @property
     def six(self) -> tuple[float, float, float, float, float, float]:
-        """All of them, row by row: ixx, ixy, ixz, iyy, iyz, izz."""
+        """Return ixx, ixy, ixz, iyy, iyz, izz."""
         return self.ixx, self.ixy, self.ixz, self.iyy, self.iyz, self.izz
 
 
 @dataclass(slots=True)
 class Inertial(Part):
-    """Mass [kg], its pose in the link frame, and inertia; None for what is not written."""
+    """Mass [kg], pose of the inertial frame in the link frame, inertia; None if not written."""
 
     origin: Origin | None = None
     mass: float | None = None
@@ -106,14 +105,14 @@ class Inertial(Part):
 
 @dataclass(slots=True)
 class Box(Part):
-    """A box centred on its origin; ``size`` [m] along x, y, z."""
+    """Box centered on its origin; ``size`` [m] along x, y, z."""
 
     size: Vector = ZERO
 
 
 @dataclass(slots=True)
 class Cylinder(Part):
-    """A cylinder about z, centred on its origin [m]."""
+    """Cylinder along z, centered on its origin; radius and length [m]."""
 
     radius: float = 0.0
     length: float = 0.0
@@ -121,14 +120,14 @@ class Cylinder(Part):
 
 @dataclass(slots=True)
 class Sphere(Part):
-    """A sphere centred on its origin [m]."""
+    """Sphere centered on its origin; radius [m]."""
 
     radius: float = 0.0
 
 
 @dataclass(slots=True)
 class Capsule(Part):
-    """A capsule about z, centred; ``length`` [m] is that of its cylinder alone (URDF 1.1)."""
+    """Capsule along z, centered on its origin; ``length`` [m] excludes the caps (URDF 1.1)."""
 
     radius: float = 0.0
     length: float = 0.0
@@ -136,7 +135,7 @@ class Capsule(Part):
 
 @dataclass(slots=True)
 class Mesh(Part):
-    """A mesh file and the factors it is scaled by."""
+    """Mesh file and its scale factors along x, y, z."""
 
     filename: str = ""
     scale: Vector = (1.0, 1.0, 1.0)
@@ -144,7 +143,7 @@ class Mesh(Part):
 
 @dataclass(slots=True)
 class UnknownShape(Part):
-    """A shape that URDF does not have; its name is the element's tag."""
+    """Geometry that URDF does not define; its name is the tag of the element."""
 
 
 Geometry = Union[Box, Cylinder, Sphere, Capsule, Mesh, UnknownShape]  # noqa: UP007 -- runtime alias
@@ -152,7 +151,7 @@ Geometry = Union[Box, Cylinder, Sphere, Capsule, Mesh, UnknownShape]  # noqa: UP
 
 @dataclass(slots=True)
 class Material(Part):
-    """A named colour (``rgba``, each 0 to 1) or texture; both None where it only names another."""
+    """Named color (``rgba``, each 0 to 1) or texture; both None for a reference by name."""
 
     name: str = ""
     color: tuple[float, float, float, float] | None = None
@@ -161,7 +160,7 @@ class Material(Part):
 
 @dataclass(slots=True)
 class Visual(Part):
-    """What is seen of a link."""
+    """Visual geometry of a link."""
 
     name: str | None = None
     origin: Origin | None = None
@@ -171,7 +170,7 @@ class Visual(Part):
 
 @dataclass(slots=True)
 class Collision(Part):
-    """What of a link touches."""
+    """Collision geometry of a link."""
 
     name: str | None = None
     origin: Origin | None = None
@@ -180,7 +179,7 @@ class Collision(Part):
 
 @dataclass(slots=True)
 class Link(Part):
-    """A rigid body."""
+    """Link of a robot: a rigid body or a coordinate frame."""
 
     name: str = ""
     inertial: Inertial | None = None
@@ -189,20 +188,20 @@ class Link(Part):
 
     @property
     def mass(self) -> float:
-        """Its mass [kg]; 0 where none is written."""
+        """Return the mass [kg]; 0 if not written."""
         return (self.inertial.mass or 0.0) if self.inertial else 0.0
 
     @property
     def is_frame(self) -> bool:
-        """Whether it is a mere frame: nothing is seen of it, touches or weighs."""
+        """Tell whether the link has no visual, no collision and no inertial."""
         return not (self.visuals or self.collisions or self.inertial)
 
 
 @dataclass(slots=True)
 class Limit(Part):
-    """Bounds of a joint: position [rad or m], effort [N·m or N], velocity [rad/s or m/s].
+    """Limits of a joint: position [rad or m], effort [N·m or N], velocity [rad/s or m/s].
 
-    None for what is not written; readers take a missing ``lower`` or ``upper`` for 0.
+    None if not written; readers replace a missing ``lower`` or ``upper`` by 0.
     """
 
     lower: float | None = None
@@ -221,7 +220,7 @@ class Dynamics(Part):
 
 @dataclass(slots=True)
 class Mimic(Part):
-    """This joint follows another: ``multiplier * position + offset``."""
+    """Dependence of a joint on another: ``multiplier * position + offset``."""
 
     joint: str = ""
     multiplier: float = 1.0
@@ -230,7 +229,7 @@ class Mimic(Part):
 
 @dataclass(slots=True)
 class SafetyController(Part):
-    """Soft limits of a joint and the gains that hold it in them."""
+    """Soft limits of a joint and the gains that keep it within them."""
 
     soft_lower_limit: float = 0.0
     soft_upper_limit: float = 0.0
@@ -240,7 +239,7 @@ class SafetyController(Part):
 
 @dataclass(slots=True)
 class Calibration(Part):
-    """Where a joint's reference position is."""
+    """Reference position of a joint."""
 
     rising: float | None = None
     falling: float | None = None
@@ -249,7 +248,7 @@ class Calibration(Part):
 
 @dataclass(slots=True)
 class Axis(Part):
-    """The axis of a joint in its own frame, as written."""
+    """Axis of a joint in the joint frame, as written (not normalized)."""
 
     xyz: Vector = (1.0, 0.0, 0.0)
 
@@ -260,15 +259,15 @@ JOINT_TYPES = MOVING_TYPES | {"fixed"}
 
 @dataclass(slots=True)
 class Joint(Part):
-    """A child link joined to its parent.
+    """Connection of a child link to a parent link.
 
     Attributes:
-        type: As written; ``JOINT_TYPES`` are those that URDF knows.
-        parent: Name of the parent link; empty where it is not written.
-        child: Name of the child link; empty where it is not written.
-        parent_element: The ``<parent>`` element of URDF, if there is one.
-        child_element: The ``<child>`` element of URDF, if there is one.
-        axis: None where it is not written; it is x then.
+        type: Type as written; ``JOINT_TYPES`` are those of URDF.
+        parent: Name of the parent link; empty if not written.
+        child: Name of the child link; empty if not written.
+        parent_element: The ``<parent>`` element of URDF, if any.
+        child_element: The ``<child>`` element of URDF, if any.
+        axis: Axis; None if not written, which means x.
     """
 
     name: str = ""
@@ -287,23 +286,23 @@ class Joint(Part):
 
     @property
     def is_fixed(self) -> bool:
-        """Whether it is of type ``fixed``."""
+        """Tell whether the type is ``fixed``."""
         return self.type == "fixed"
 
     @property
     def has_axis(self) -> bool:
-        """Whether its type turns about or slides along an axis."""
+        """Tell whether the type uses an axis."""
         return self.type in ("revolute", "continuous", "prismatic", "planar")
 
     @property
     def is_limited(self) -> bool:
-        """Whether its type needs limits."""
+        """Tell whether the type requires limits."""
         return self.type in ("revolute", "prismatic")
 
 
 @dataclass(slots=True)
 class TransmissionJoint(Part):
-    """A joint in a transmission, with the hardware interfaces written there."""
+    """Joint of a transmission, with its hardware interfaces."""
 
     name: str = ""
     hardware_interfaces: list[str] = field(default_factory=list)
@@ -311,7 +310,7 @@ class TransmissionJoint(Part):
 
 @dataclass(slots=True)
 class Actuator(Part):
-    """An actuator in a transmission."""
+    """Actuator of a transmission."""
 
     name: str = ""
     mechanical_reduction: float | None = None
@@ -320,7 +319,7 @@ class Actuator(Part):
 
 @dataclass(slots=True)
 class Transmission(Part):
-    """A ``<transmission>`` of ros_control."""
+    """``<transmission>`` of ros_control."""
 
     name: str = ""
     type: str = ""
@@ -330,7 +329,7 @@ class Transmission(Part):
 
 @dataclass(slots=True)
 class Plugin(Part):
-    """A ``<plugin>`` of Gazebo: its library is ``filename``."""
+    """``<plugin>`` of Gazebo; ``filename`` is its library."""
 
     name: str = ""
     filename: str = ""
@@ -338,7 +337,7 @@ class Plugin(Part):
 
 @dataclass(slots=True)
 class Sensor(Part):
-    """A ``<sensor>`` of Gazebo, with the plugins in it."""
+    """``<sensor>`` of Gazebo, with its plugins."""
 
     name: str = ""
     type: str = ""
@@ -347,14 +346,14 @@ class Sensor(Part):
 
 @dataclass(slots=True)
 class GazeboExtension(Part):
-    """A ``<gazebo>`` block; ``reference`` names a link or joint, None is the robot."""
+    """``<gazebo>`` block; ``reference`` names a link or joint, None is the robot."""
 
     reference: str | None = None
     sensors: list[Sensor] = field(default_factory=list)
     plugins: list[Plugin] = field(default_factory=list)
 
     def value(self, keyword: str) -> str | None:
-        """What a keyword is set to, as text or as a ``value`` attribute; None if it is not set."""
+        """Return the ``value`` attribute or the text of a child element; None if absent."""
         child = self.element.child(keyword)
         if child is None:
             return None
@@ -363,7 +362,7 @@ class GazeboExtension(Part):
 
 @dataclass(slots=True)
 class Interface(Part):
-    """A command or state interface of ros2_control, with its parameters."""
+    """Command or state interface of ros2_control, with its parameters."""
 
     name: str = ""
     params: dict[str, str] = field(default_factory=dict)
@@ -371,7 +370,7 @@ class Interface(Part):
 
 @dataclass(slots=True)
 class ControlComponent(Part):
-    """A joint, sensor or gpio of a ``<ros2_control>`` block."""
+    """Joint, sensor or gpio of a ``<ros2_control>`` block."""
 
     kind: str = ""
     name: str = ""
@@ -383,7 +382,7 @@ class ControlComponent(Part):
 
 @dataclass(slots=True)
 class Ros2Control(Part):
-    """A ``<ros2_control>`` block: one piece of hardware."""
+    """``<ros2_control>`` block: one hardware component."""
 
     name: str = ""
     type: str = ""
@@ -392,23 +391,23 @@ class Ros2Control(Part):
 
     @property
     def joints(self) -> list[ControlComponent]:
-        """The joints in it."""
+        """Return the joints of the block."""
         return [component for component in self.components if component.kind == "joint"]
 
 
 @dataclass
 class Robot(Part):
-    """A robot, however broken: every link and joint that is written, also those of one name.
+    """Robot, possibly invalid: all links and joints as written, including duplicate names.
 
     Attributes:
-        name: Its name; empty where none is written.
-        version: The URDF version as written.
-        links: In the order of the file.
-        joints: In the order of the file.
-        materials: Those at the top level.
+        name: Name; empty if not written.
+        version: URDF version as written.
+        links: Links in the order of the file.
+        joints: Joints in the order of the file.
+        materials: Materials at the top level.
         gazebo: All ``<gazebo>`` blocks.
-        source: The description it was read from; None for a robot made of a bare element.
-        memo: What several rules need to know of it, computed once.
+        source: Description from which it was read; None if it was read from a bare element.
+        memo: Values shared by several rules, computed once.
     """
 
     name: str = ""
@@ -424,7 +423,7 @@ class Robot(Part):
 
     @cached_property
     def link(self) -> dict[str, Link]:
-        """Links by name; the first of one name."""
+        """Return links by name; the first of duplicates."""
         found: dict[str, Link] = {}
         for link in self.links:
             found.setdefault(link.name, link)
@@ -432,7 +431,7 @@ class Robot(Part):
 
     @cached_property
     def joint(self) -> dict[str, Joint]:
-        """Joints by name; the first of one name."""
+        """Return joints by name; the first of duplicates."""
         found: dict[str, Joint] = {}
         for joint in self.joints:
             found.setdefault(joint.name, joint)
@@ -440,19 +439,19 @@ class Robot(Part):
 
     @cached_property
     def moving_joints(self) -> list[Joint]:
-        """Joints of a type that moves."""
+        """Return the joints of a movable type."""
         return [joint for joint in self.joints if joint.type in MOVING_TYPES]
 
     @cached_property
     def tree(self) -> KinematicTree:
-        """Who is whose parent."""
+        """Return the kinematic tree."""
         from .tree import KinematicTree
 
         return KinematicTree(self)
 
     @cached_property
     def extensions(self) -> dict[str | None, list[GazeboExtension]]:
-        """``<gazebo>`` blocks by what they refer to."""
+        """Return ``<gazebo>`` blocks by their reference."""
         found: dict[str | None, list[GazeboExtension]] = {}
         for block in self.gazebo:
             found.setdefault(block.reference, []).append(block)
@@ -460,7 +459,7 @@ class Robot(Part):
 
     @cached_property
     def plugins(self) -> list[Plugin]:
-        """Every Gazebo plugin, those of sensors included."""
+        """Return all Gazebo plugins, including those of sensors."""
         return [
             plugin
             for block in self.gazebo
@@ -469,9 +468,9 @@ class Robot(Part):
 
     @cached_property
     def old_plugins(self) -> list[str]:
-        """Libraries in the ``plugin`` attribute of elements in ``<gazebo>``, as of 2010.
+        """Return libraries in ``plugin`` attributes within ``<gazebo>``, a syntax of 2010.
 
-        ``<controller:gazebo_ros_laser plugin="libgazebo_ros_laser.so">`` is one.
+        Example: ``<controller:gazebo_ros_laser plugin="libgazebo_ros_laser.so">``.
         """
         return [
             element.attributes["plugin"]
@@ -482,7 +481,7 @@ class Robot(Part):
 
     @property
     def shapes(self) -> Iterator[tuple[Link, Visual | Collision]]:
-        """Every visual and collision with its link, in the order of the file."""
+        """Yield every visual and collision with its link, in the order of the file."""
         for link in self.links:
             for visual in link.visuals:
                 yield link, visual

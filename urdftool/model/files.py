@@ -1,4 +1,4 @@
-"""The files a robot is made of: its description, what that includes, meshes and images."""
+"""Files of a robot: its description, included files, meshes and textures."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .elements import Mesh, Robot
 
 
 def sources(robot: Robot) -> set[str]:
-    """Paths of the files, also of meshes that are not there; standard input is none."""
+    """Return the paths of the files, including missing meshes; without standard input."""
     if robot.source is None:
         return set()
     found = {file.path for file in robot.source.files}
@@ -30,7 +30,7 @@ def sources(robot: Robot) -> set[str]:
 
 
 def _named(robot: Robot) -> Iterator[str]:
-    """URIs of meshes and of images."""
+    """Yield the URIs of meshes and textures."""
     for _, shape in robot.shapes:
         if isinstance(shape.geometry, Mesh) and shape.geometry.filename:
             yield shape.geometry.filename

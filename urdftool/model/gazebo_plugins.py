@@ -1,4 +1,4 @@
-"""Plugins of Gazebo Classic and what takes the place of each in gz, with its parameters."""
+"""Gazebo Classic plugins and their replacements in gz, with parameters."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from .read import number
 
 
 class System(NamedTuple):
-    """A system of gz that does what a plugin did.
+    """System of gz that replaces a plugin.
 
     Attributes:
-        word: The word in the library's name; ``gz-sim-WORD-system``.
-        name: Its class in ``gz::sim::systems``.
-        parameters: New names of parameters; several old ones may have one new one.
-        defaults: What the plugin does where a parameter is not set and gz would do otherwise.
-        halved: Parameters that are diameters there and radii here.
-        remapped: Parameters that a remapping of a ROS 2 name sets.
-        missing: Parameters of gz that the plugin does not say, and that must be filled in.
+        word: Word in the name of the library, ``gz-sim-WORD-system``.
+        name: Class in ``gz::sim::systems``.
+        parameters: New parameter names by old ones; several old ones may map to one new one.
+        defaults: Defaults of the plugin that differ from those of gz.
+        halved: Old parameters that are diameters where the new ones are radii.
+        remapped: New parameters that a remapping of a ROS 2 name sets.
+        missing: Required parameters of gz that the plugin does not have.
     """
 
     word: str
@@ -31,12 +31,12 @@ class System(NamedTuple):
 
 
 class SensorPlugin(NamedTuple):
-    """A plugin whose work the sensor itself does in gz.
+    """Plugin whose function is built into the sensor in gz.
 
     Attributes:
-        system: The word of the system that the world needs.
-        type: The type that the sensor must have then; empty for the one it has.
-        frame: Parameters that name the frame of its messages, the first that is set holds.
+        system: Word of the system that the world requires.
+        type: Sensor type required by gz; empty if unchanged.
+        frame: Parameters that name the frame of the messages, by priority.
     """
 
     system: str
@@ -209,19 +209,19 @@ SYSTEM_PLUGINS: dict[str, tuple[System, ...]] = {
         ),
     ),
 }
-"""By the name of the library, without ``lib`` and ``.so``."""
+"""Systems by library name, without ``lib`` and ``.so``."""
 
 CONTROL_PLUGINS = frozenset(("gazebo_ros_control", "gazebo_ros2_control"))
-"""What ``gz_ros2_control`` takes the place of."""
+"""Plugins that ``gz_ros2_control`` replaces."""
 
 MIMIC_PLUGINS = frozenset(
     ("roboticsgroup_gazebo_mimic_joint_plugin", "roboticsgroup_upatras_gazebo_mimic_joint_plugin",
      "gazebo_mimic_joint_plugin")
 )  # fmt: skip
-"""What ``<mimic>`` of an axis takes the place of."""
+"""Plugins that ``<mimic>`` of an axis replaces."""
 
 _SETUP = frozenset(("ros", "alwaysOn", "always_on", "robotNamespace", "rosDebugLevel"))
-"""Parameters of every plugin for ROS, which mean nothing in gz."""
+"""Parameters of every ROS plugin that have no meaning in gz."""
 
 _BODY_FIRST = ("frameName", "frame_name", "frameId", "bodyName", "body_name")
 
@@ -247,15 +247,15 @@ SENSOR_PLUGINS: dict[str, SensorPlugin] = {
     "gazebo_ros_ft_sensor": SensorPlugin("forcetorque"),
     "gazebo_ros_bumper": SensorPlugin("contact"),
 }
-"""By the name of the library, without ``lib`` and ``.so``."""
+"""Sensor plugins by library name, without ``lib`` and ``.so``."""
 
 
 class Carried(NamedTuple):
-    """What a system takes over from a plugin.
+    """Parameters that a system takes over from a plugin.
 
     Attributes:
-        said: New names with their texts, or with the element that holds more than a text.
-        left: The parameters that it has no word for.
+        said: New names with their texts, or with the element if it has children.
+        left: Parameters without an equivalent.
     """
 
     said: list[tuple[str, str | Element]]
@@ -263,7 +263,7 @@ class Carried(NamedTuple):
 
 
 def carried(plugin: Element, system: System) -> Carried:
-    """The parameters of a plugin as a system reads them, what it takes for granted included."""
+    """Return the parameters of a plugin as a system reads them, including the plugin's defaults."""
     said: list[tuple[str, str | Element]] = []
     left = []
     for child in plugin.children:
@@ -305,23 +305,23 @@ def _remappings(element: Element) -> dict[str, str]:
 
 
 def file_of(system: System) -> str:
-    """The library that holds a system."""
+    """Return the library of a system."""
     return f"gz-sim-{system.word}-system"
 
 
 def class_of(system: System) -> str:
-    """The class of a system."""
+    """Return the class of a system."""
     return f"gz::sim::systems::{system.name}"
 
 
 def library(element: Element) -> str:
-    """The name of a plugin's library, without folder, ``lib`` and ``.so``."""
+    """Return the library name of a plugin, without folder, ``lib`` and ``.so``."""
     name = (element.get("filename") or "").strip().rpartition("/")[2]
     return name.removeprefix("lib").removesuffix(".so")
 
 
 def is_for_gz(element: Element) -> bool:
-    """Whether a plugin is one of gz, by its library or its class."""
+    """Tell whether a plugin belongs to gz, by its library or class."""
     name, words = (element.get("name") or ""), library(element)
     return words.startswith(("gz-", "gz_", "ignition-", "ign_")) or name.startswith(
         ("gz::", "ignition::", "gz_ros2_control::", "ign_ros2_control::")
@@ -329,7 +329,7 @@ def is_for_gz(element: Element) -> bool:
 
 
 def is_for_classic(element: Element) -> bool:
-    """Whether a plugin is known to be one of Gazebo Classic."""
+    """Tell whether a plugin is known to belong to Gazebo Classic."""
     words = library(element)
     return words.startswith(("gazebo_", "hector_gazebo_", "rotors_gazebo_")) or any(
         words in table for table in (SYSTEM_PLUGINS, SENSOR_PLUGINS, MIMIC_PLUGINS)

@@ -1,7 +1,7 @@
-"""Robots with glTF meshes, whose axes readers take differently.
+"""Up axis of glTF meshes, on which readers differ.
 
-The standard has Y up. RViz turns it to Z since 2025, as Drake and Blender do; Gazebo, SAPIEN and
-older releases of RViz keep the axes of the file, and there are robots that were made for those.
+The glTF standard has Y up. RViz rotates it to Z since 2025, as Drake and Blender do; Gazebo, SAPIEN
+and older releases of RViz keep the axes of the file, and some robots are made for those.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from .elements import Collision, Mesh, Robot, Visual
 
 
 def is_gltf(shape: Visual | Collision) -> bool:
-    """Whether a shape is a glTF file."""
+    """Tell whether the geometry is a glTF file."""
     mesh = shape.geometry
     return isinstance(mesh, Mesh) and mesh.filename.lower().endswith((".glb", ".gltf"))
 
 
 def gltf_note(robot: Robot) -> str:
-    """What one should know whose robot has such meshes; empty where none is turned."""
+    """Return a note on how the glTF meshes of a robot are read; empty if none is rotated."""
     if robot.source is not None and robot.source.gltf_up == "z":
         return ""
     shapes: Iterable[Visual | Collision] = (shape for _, shape in robot.shapes)

@@ -1,4 +1,4 @@
-"""Where each link is when the joints are somewhere: forward kinematics."""
+"""Forward kinematics: link poses from joint positions."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from .elements import Joint, Robot
 from .pose import IDENTITY, Pose, pose_of
 
 MOVABLE = ("revolute", "continuous", "prismatic")
-"""The types of joint that have one position."""
+"""Types of joints with one position."""
 
 NOWHERE: Mapping[str, float] = {}
 
 
 def link_poses(robot: Robot, positions: Mapping[str, float] = NOWHERE) -> dict[str, Pose]:
-    """The pose of each link in the frame of the root that it hangs on, by name.
+    """Return the pose of each link in the frame of its root, by name.
 
-    Each root stands in the same place; a link that hangs on none has no pose.
+    All roots have the same pose; links that no root reaches are absent.
 
     Args:
-        robot: Any robot, also a broken one.
-        positions: Of joints by name [rad, m]; the others are at zero. What mimics is not moved by
-            what it mimics: :func:`with_mimics` does that.
+        robot: Any robot, also an invalid one.
+        positions: Joint positions by name [rad, m]; 0 by default. Mimic joints do not follow
+            their leaders; use :func:`with_mimics` for that.
     """
     poses: dict[str, Pose] = {}
     for name in robot.tree.order:
@@ -39,9 +39,10 @@ def link_poses(robot: Robot, positions: Mapping[str, float] = NOWHERE) -> dict[s
 
 
 def motion_of(joint: Joint, value: float) -> Pose:
-    """What a joint at a position [rad, m] does to its child; by Rodrigues' formula where it turns.
+    """Return the transform of the child that a joint position [rad, m] causes.
 
-    A fixed joint, and one of a type with more than one position, does not move.
+    Rotations use Rodrigues' formula. The result is the identity for fixed joints and for types
+    with more than one position.
     """
     if not value or joint.type not in MOVABLE:
         return IDENTITY
@@ -64,10 +65,9 @@ def motion_of(joint: Joint, value: float) -> Pose:
 
 
 def with_mimics(robot: Robot, positions: Mapping[str, float]) -> dict[str, float]:
-    """Positions with those that follow from ``<mimic>``, for every joint that moves in one way.
+    """Return the positions [rad, m] of all joints with one position, computed through ``<mimic>``.
 
-    A joint that is given keeps what it is given; a chain of mimics is followed, a loop of them ends
-    where it began, at zero.
+    Given positions are kept. Chains of mimic joints are followed; joints in a loop start from 0.
     """
     movable = movable_joints(robot)
     return {
@@ -77,16 +77,16 @@ def with_mimics(robot: Robot, positions: Mapping[str, float]) -> dict[str, float
 
 
 def movable_joints(robot: Robot) -> dict[str, Joint]:
-    """The joints that have one position, by name, in the order of the file."""
+    """Return the joints with one position, by name, in the order of the file."""
     return {joint.name: joint for joint in robot.joints if joint.type in MOVABLE}
 
 
 def check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
-    """Refuse a position that somebody asked for and no joint can have.
+    """Check requested joint positions.
 
     Raises:
-        ModelError: The robot has no such joint, or it has no single position, or the position is
-            not a finite number. A position beyond a limit is allowed.
+        ModelError: The robot has no such joint, the joint does not have one position, or the
+            position is not finite. Positions beyond a limit are allowed.
     """
     movable = movable_joints(robot)
     for name, value in positions.items():
@@ -103,10 +103,10 @@ def check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
 
 
 def limits_of(joint: Joint) -> tuple[float, float]:
-    """The lower and upper limit of a joint [rad, m], as readers of URDF understand it.
+    """Return the lower and upper limit of a joint [rad, m], as URDF readers interpret it.
 
-    A bound that is not written is zero; a joint without ``<limit>``, and a continuous one, have
-    none, which is infinite.
+    A missing bound is 0; the limits of a continuous joint and of a joint without ``<limit>`` are
+    infinite.
     """
     if joint.limit is None or joint.type == "continuous":
         return -math.inf, math.inf
@@ -114,15 +114,15 @@ def limits_of(joint: Joint) -> tuple[float, float]:
 
 
 def chain_of(joint: Joint, movable: Mapping[str, Joint]) -> tuple[str, float, float]:
-    """Follow the chain of ``<mimic>`` from a joint.
+    """Follow the ``<mimic>`` chain of a joint.
 
     Args:
-        joint: A joint that has one position.
-        movable: The joints that have one, by name.
+        joint: A joint with one position.
+        movable: All joints with one position, by name.
 
     Returns:
-        The name of the joint at its end, and the factor and the offset [rad, m] by which the
-        position of ``joint`` follows from its position. A loop ends where it began.
+        The name of the leading joint, and the factor and offset [rad, m] that map its position
+        to that of ``joint``. A loop ends at the joint where it began.
     """
     scale, shift, seen = 1.0, 0.0, set[str]()
     while (mimic := joint.mimic) is not None and mimic.joint in movable and joint.name not in seen:
@@ -134,7 +134,7 @@ def chain_of(joint: Joint, movable: Mapping[str, Joint]) -> tuple[str, float, fl
 
 
 def _follow(joint: Joint, movable: Mapping[str, Joint], positions: Mapping[str, float]) -> float:
-    """The position of a joint that is not given, along its chain of mimics."""
+    """Return the position of a joint that is not given, by its chain of mimic joints."""
     scale, shift, seen = 1.0, 0.0, set()
     while joint.name not in positions:
         mimic = joint.mimic

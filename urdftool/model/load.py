@@ -1,4 +1,4 @@
-"""A file to a robot, in one step."""
+"""Reading a robot from a file."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from .read import read_robot
 
 
 def robot_of(description: Description) -> Robot:
-    """The robot of a description.
+    """Return the robot of a description.
 
     Raises:
-        ModelError: Its root element is not ``<robot>``.
+        ModelError: The root element is not ``<robot>``.
     """
     root = description.document.root
     if root.tag != "robot":
@@ -29,12 +29,12 @@ def robot_of(description: Description) -> Robot:
 
 
 def read_again(robot: Robot) -> Robot:
-    """Return a robot as its description has it, whatever became of this one since it was read."""
+    """Return the robot as its description defines it, without later modifications."""
     return robot if robot.source is None else robot_of(robot.source)
 
 
 def without_links(robot: Robot) -> str:
-    """What is said of a robot that has no link, as a file of macros has none; else empty."""
+    """Return the message for a robot without links, such as a file of macros; empty otherwise."""
     if robot.links:
         return ""
     macros = robot.source is not None and robot.source.expansion is not None
@@ -43,10 +43,10 @@ def without_links(robot: Robot) -> str:
 
 
 def require_links(robot: Robot) -> Robot:
-    """The robot, which is to have a link.
+    """Return the robot if it has a link.
 
     Raises:
-        ModelError: It has none.
+        ModelError: It has no link.
     """
     if wrong := without_links(robot):
         raise ModelError(wrong, at=robot.place)
@@ -63,16 +63,16 @@ def load(
 ) -> Robot:
     """Read a robot from a URDF or xacro file.
 
-    The robot may be broken in any way that leaves its XML well-formed; :func:`urdftool.check` says
-    what is wrong with it.
+    The robot may be invalid in any way that leaves its XML well-formed; :func:`urdftool.check`
+    reports its defects.
 
     Args:
         path: A ``.urdf`` or ``.xacro`` file, or ``-`` for standard input.
-        args: Values for its xacro arguments.
-        packages: Folders of ROS packages by name; others are found as on the command line.
-        package_paths: Folders with ROS packages below.
-        gltf_up: The axis that is up in glTF meshes: ``"y"`` by their standard, which RViz turns
-            to Z; ``"z"`` where they are made for readers that keep the axes of the file.
+        args: Values of xacro arguments.
+        packages: Folders of ROS packages by name; others are searched as on the command line.
+        package_paths: Folders that contain ROS packages.
+        gltf_up: Up axis of glTF meshes: ``"y"`` as in their standard, rotated to Z as in RViz;
+            ``"z"`` for files made for readers that keep the axes of the file.
 
     Raises:
         SourceError: The file cannot be read, parsed or expanded.

@@ -1,4 +1,4 @@
-"""Who reads which mesh files, by their suffixes; the format that each knows best comes first."""
+"""Mesh formats that each target reads, by file suffix, best supported first."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Primitive shapes whose lengths are written in millimeters."""
+"""Detection of primitive geometry written in millimeters."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from .bounds import size_of
 from .elements import Collision, Link, Visual
 
 _LEAST = 1.0
-"""Shortest length [m] of a shape in millimeters: a part of a millimeter is not built."""
+"""Minimum length [m] of geometry in millimeters: no part is thinner than a millimeter."""
 
 _LARGEST = 10.0
-"""Longest length [m] of a primitive shape of a robot."""
+"""Maximum plausible length [m] of a primitive of a robot."""
 
 _SOLID = (5.0, 30_000.0)
-"""Densities of bodies [kg/m³], from foam to more than the densest metal."""
+"""Range of plausible densities [kg/m³], from foam to above the densest metal."""
 
 
 def shapes_in_millimeters(link: Link) -> Iterator[Visual | Collision]:
-    """Find the primitive shapes of a link that are a thousand times too large.
+    """Yield the primitive visuals and collisions of a link that are 1000 times too large.
 
-    A shape of more than ten meters may be meant. It is in millimeters where another shape of the
-    link has a thousandth of its lengths, or where the mass of the link gives the density of a body
-    in millimeters, and that of a vacuum in meters.
+    Geometry of more than 10 m may be intended. It is in millimeters if other geometry of the link
+    has a thousandth of its lengths, or if the mass of the link gives a plausible density only in
+    millimeters.
     """
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
     sizes = [size_of(shape.geometry) for shape in shapes]

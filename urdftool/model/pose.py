@@ -1,8 +1,8 @@
-"""Poses in plain Python: the light half of the tool has no numpy.
+"""Poses in plain Python, for commands that do not import numpy.
 
 A rotation is a 3 × 3 matrix as a tuple of rows; a pose is ``(rotation, translation)`` [m] and maps
-a point of the child frame to the parent frame, ``R p + t``. ``rpy`` [rad] is URDF's: about the
-fixed axes x, y, z in that order, so ``R = Rz(yaw) Ry(pitch) Rx(roll)``.
+a point of the child frame to the parent frame, ``R p + t``. ``rpy`` [rad] is that of URDF: fixed
+axes x, y, z in this order, so ``R = Rz(yaw) Ry(pitch) Rx(roll)``.
 """
 
 from __future__ import annotations
@@ -19,23 +19,23 @@ UPRIGHT: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 class Pose(NamedTuple):
-    """A rotation and a translation [m]."""
+    """Rotation and translation [m] of a child frame in its parent frame."""
 
     rotation: Rotation = UPRIGHT
     translation: Vector = (0.0, 0.0, 0.0)
 
     def __matmul__(self, other: Pose) -> Pose:
-        """The pose that maps by ``other`` first and by this one then."""
+        """Return the composition that applies ``other`` first."""
         return Pose(
             matrix_product(self.rotation, other.rotation), self.transform(other.translation)
         )
 
     def transform(self, point: Vector) -> Vector:
-        """A point of the child frame in the parent frame."""
+        """Return a point of the child frame [m] in the parent frame."""
         return add(rotate(self.rotation, point), self.translation)
 
     def inverse(self) -> Pose:
-        """The pose of the parent in the child's frame."""
+        """Return the pose of the parent in the child frame."""
         turned = transpose(self.rotation)
         x, y, z = rotate(turned, self.translation)
         return Pose(turned, (-x, -y, -z))
@@ -45,7 +45,7 @@ IDENTITY = Pose()
 
 
 def pose_of(origin: Origin | None) -> Pose:
-    """The pose an ``<origin>`` describes; the identity where there is none."""
+    """Return the pose of an ``<origin>``; the identity for None."""
     if origin is None:
         return IDENTITY
     if origin.quaternion is not None:
@@ -55,7 +55,7 @@ def pose_of(origin: Origin | None) -> Pose:
 
 
 def rotation_of_rpy(rpy: Vector) -> Rotation:
-    """``Rz(yaw) Ry(pitch) Rx(roll)``; exactly upright for zeros."""
+    """Return ``Rz(yaw) Ry(pitch) Rx(roll)``; ``UPRIGHT`` itself for zeros."""
     roll, pitch, yaw = rpy
     if roll == pitch == yaw == 0.0:
         return UPRIGHT
@@ -70,7 +70,7 @@ def rotation_of_rpy(rpy: Vector) -> Rotation:
 
 
 def quaternion_of_rpy(rpy: Vector) -> Quaternion:
-    """The unit quaternion ``(w, x, y, z)`` of URDF's rpy, by half angles."""
+    """Return the unit quaternion ``(w, x, y, z)`` of URDF's rpy [rad]."""
     sr, cr = math.sin(rpy[0] / 2), math.cos(rpy[0] / 2)
     sp, cp = math.sin(rpy[1] / 2), math.cos(rpy[1] / 2)
     sy, cy = math.sin(rpy[2] / 2), math.cos(rpy[2] / 2)
@@ -83,7 +83,7 @@ def quaternion_of_rpy(rpy: Vector) -> Quaternion:
 
 
 def rotation_of_quaternion(quaternion: Quaternion) -> Rotation:
-    """The rotation of a quaternion ``(w, x, y, z)`` of any length but zero."""
+    """Return the rotation of a quaternion ``(w, x, y, z)``, normalized; the identity for zero."""
     norm = math.hypot(*quaternion)
     if norm == 0.0:
         return UPRIGHT
@@ -96,7 +96,7 @@ def rotation_of_quaternion(quaternion: Quaternion) -> Rotation:
 
 
 def quaternion_of_rotation(r: Rotation) -> Quaternion:
-    """The unit quaternion ``(w, x, y, z)`` of a rotation, by its largest part (Shepperd)."""
+    """Return the unit quaternion ``(w, x, y, z)`` of a rotation, by Shepperd's method."""
     trace = r[0][0] + r[1][1] + r[2][2]
     largest = max(range(4), key=lambda i: (trace, r[0][0], r[1][1], r[2][2])[i])
     if largest == 0:
@@ -112,10 +112,9 @@ def quaternion_of_rotation(r: Rotation) -> Quaternion:
 
 
 def rpy_of_rotation(rotation: Rotation) -> Vector:
-    """URDF's rpy of a rotation [rad], exact also where the pitch is a right angle.
+    """Return URDF's rpy [rad] of a rotation, exact also at a pitch of ±90°.
 
-    The roll is taken after the yaw is undone, so that what rounding does to one undoes what it does
-    to the other.
+    The roll is computed after undoing the yaw, so that their rounding errors cancel.
     """
     (r00, r01, r02), (r10, r11, r12), (r20, _, _) = rotation
     yaw = math.atan2(r10, r00)
@@ -125,7 +124,7 @@ def rpy_of_rotation(rotation: Rotation) -> Vector:
 
 
 def matrix_product(a: Rotation, b: Rotation) -> Rotation:
-    """``a b``."""
+    """Return ``a b``."""
     if a is UPRIGHT:
         return b
     if b is UPRIGHT:
@@ -135,34 +134,34 @@ def matrix_product(a: Rotation, b: Rotation) -> Rotation:
 
 
 def transpose(a: Rotation) -> Rotation:
-    """The transpose, which of a rotation is the inverse."""
+    """Return the transpose, the inverse of a rotation."""
     return a if a is UPRIGHT else tuple(zip(*a, strict=True))  # type: ignore[return-value]
 
 
 def rotate(rotation: Rotation, vector: Vector) -> Vector:
-    """``R v``."""
+    """Return ``R v``."""
     if rotation is UPRIGHT:
         return vector
     return dot(rotation[0], vector), dot(rotation[1], vector), dot(rotation[2], vector)
 
 
 def add(a: Vector, b: Vector) -> Vector:
-    """``a + b``."""
+    """Return ``a + b``."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
 def dot(a: Vector, b: Vector) -> float:
-    """``a · b``."""
+    """Return ``a · b``."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def norm(a: Vector) -> float:
-    """``|a|``."""
+    """Return ``|a|``."""
     return math.hypot(*a)
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    """``a × b``."""
+    """Return ``a × b``."""
     return (
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],

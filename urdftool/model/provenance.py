@@ -1,4 +1,4 @@
-"""Where a part of a robot was written, in whatever format."""
+"""Location of a part in a source file of any format."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     from typing import Protocol
 
     class Provenance(Protocol):
-        """Where a part was written: an element of URDF, or a :class:`Written`."""
+        """Source of a part: an :class:`Element` of URDF, or a :class:`Written` of another format."""
 
         @property
         def place(self) -> Place:
-            """Get the bytes in the source."""
+            """Return the span in the source."""
 
 
 NOWHERE = Place(SourceFile("", b""), 0, 0)
@@ -22,11 +22,7 @@ NOWHERE = Place(SourceFile("", b""), 0, 0)
 
 
 class Written:
-    """Where a part was written in a file of another format than URDF.
-
-    Attributes:
-        place: The bytes.
-    """
+    """Source of a part in a format other than URDF."""
 
     __slots__ = ("place",)
 

@@ -1,4 +1,7 @@
-"""A document to a robot. It never fails: what cannot be read is left out or has its default."""
+"""Conversion of an XML document to a robot.
+
+It never fails: values that cannot be parsed are omitted or get their default.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +49,7 @@ _T = TypeVar("_T")
 
 
 def number(text: str | None) -> float | None:
-    """A finite number as URDF writes it, or None."""
+    """Return a finite number in URDF syntax, or None."""
     if text is None:
         return None
     try:
@@ -57,7 +60,7 @@ def number(text: str | None) -> float | None:
 
 
 def numbers(text: str | None, count: int) -> tuple[float, ...] | None:
-    """Just so many finite numbers with blanks between, or None."""
+    """Return exactly ``count`` finite numbers separated by whitespace, or None."""
     if text is None:
         return None
     words = text.split()
@@ -85,7 +88,7 @@ def _maybe(element: Element | None, read: Callable[[Element], _T]) -> _T | None:
 
 
 def read_robot(root: Element) -> Robot:
-    """The robot of a ``<robot>`` element."""
+    """Return the robot of a ``<robot>`` element."""
     robot = Robot(root, root.get("name") or "", root.get("version"))
     readers: dict[str, Callable[[Element], None]] = {
         "link": lambda e: robot.links.append(_link(e)),
@@ -168,7 +171,7 @@ _SHAPES: dict[str, Callable[[Element], Geometry]] = {
 
 
 def _geometry(element: Element | None) -> Geometry | None:
-    """The first shape of a ``<geometry>``, which is the one that readers take."""
+    """Return the first shape of a ``<geometry>``, as URDF readers do."""
     if element is None or not element.children:
         return None
     shape = element.children[0]

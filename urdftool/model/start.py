@@ -1,4 +1,4 @@
-"""Where the joints of a robot start: at zero, or as near to it as their limits allow."""
+"""Initial joint positions: zero, or the nearest value within the limits."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from .kinematics import chain_of, limits_of, movable_joints, with_mimics
 def start_positions(
     robot: Robot, wanted: Mapping[str, float] | None = None
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Choose a position for every joint that has one, consistent with ``<mimic>``.
+    """Return an initial position for every joint that has one, consistent with ``<mimic>``.
 
-    A joint starts at zero, or at its limit that is nearest to zero; one that others mimic so that
-    these are within their limits too, where that is possible.
+    A joint starts at zero or at its limit nearest to zero; a joint that others mimic at a value
+    that is also within their limits, if possible.
 
     Args:
         robot: The robot.
-        wanted: Positions of joints by name [rad, m], which are taken as they are.
+        wanted: Positions by joint name [rad, m], used unchanged.
 
     Returns:
-        The positions [rad, m], and those of them that are not zero because of a limit.
+        The positions [rad, m], and those that a limit moves away from zero.
     """
     given = dict(wanted or {})
     clamped = {}
@@ -39,12 +39,12 @@ def start_positions(
 
 
 def allowed_positions(robot: Robot, name: str) -> tuple[float, float]:
-    """Return the lowest and highest position [rad, m] of a joint and of those that mimic it."""
+    """Return the range of positions [rad, m] of a joint, narrowed by the joints that mimic it."""
     return _reaches(robot).get(name, (-math.inf, math.inf))
 
 
 def _reaches(robot: Robot) -> dict[str, tuple[float, float]]:
-    """The limits [rad, m] of each joint that mimics none, narrowed by those that mimic it."""
+    """Return the limits [rad, m] of each leading joint, narrowed by the joints that mimic it."""
     movable = movable_joints(robot)
     reaches = {joint.name: limits_of(joint) for joint in movable.values() if joint.mimic is None}
     for joint in movable.values():

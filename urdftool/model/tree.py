@@ -1,4 +1,4 @@
-"""The kinematic tree, with its faults as facts."""
+"""Kinematic tree of a robot, also of an invalid one."""
 
 from __future__ import annotations
 
@@ -11,14 +11,15 @@ if TYPE_CHECKING:
 
 
 class KinematicTree:
-    """Which joint joins what, for any set of links and joints.
+    """Connections of links by joints, for any set of links and joints.
 
-    Nothing is raised: two roots, none, two parents or a loop are there to be read off.
+    Invalid structures raise no error: several roots, no root, two parents and loops are readable
+    from the attributes.
 
     Attributes:
         joints_of_child: Joints by the name of their child link.
         joints_of_parent: Joints by the name of their parent link, in the order of the file.
-        roots: Links that are no joint's child, in the order of the file.
+        roots: Links that are not the child of a joint, in the order of the file.
     """
 
     def __init__(self, robot: Robot) -> None:
@@ -35,21 +36,21 @@ class KinematicTree:
 
     @property
     def root(self) -> Link | None:
-        """The root, where there is just one."""
+        """Return the root if there is exactly one, else None."""
         return self.roots[0] if len(self.roots) == 1 else None
 
     def parent_joint(self, link: str) -> Joint | None:
-        """The first joint that has a link as its child."""
+        """Return the first joint whose child is the link; None for a root."""
         joints = self.joints_of_child.get(link)
         return joints[0] if joints else None
 
     def child_joints(self, link: str) -> list[Joint]:
-        """The joints that have a link as their parent."""
+        """Return the joints whose parent is the link."""
         return self.joints_of_parent.get(link, [])
 
     @cached_property
     def order(self) -> list[str]:
-        """Names of the links that hang on a root: parents before children, each once."""
+        """Return the names of the links that a root reaches, each once, parents first."""
         seen: dict[str, None] = {}
         todo = [link.name for link in reversed(self.roots)]
         while todo:
@@ -61,12 +62,12 @@ class KinematicTree:
 
     @cached_property
     def detached(self) -> list[Link]:
-        """Links that hang on no root, which a loop of joints causes."""
+        """Return the links that no root reaches, because of a loop of joints."""
         reached = set(self.order)
         return [link for name, link in self._robot.link.items() if name not in reached]
 
     def ancestors(self, link: str) -> Iterator[str]:
-        """Names of the links above a link, nearest first; a loop is gone through once."""
+        """Yield the names of the ancestors of a link, nearest first; a loop is traversed once."""
         seen = {link}
         joint = self.parent_joint(link)
         while joint is not None and joint.parent not in seen:
@@ -75,7 +76,7 @@ class KinematicTree:
             joint = self.parent_joint(joint.parent)
 
     def descendants(self, link: str) -> Iterator[str]:
-        """Names of the links below a link."""
+        """Yield the names of the descendants of a link."""
         seen = {link}
         todo = [joint.child for joint in self.child_joints(link)]
         while todo:
@@ -87,9 +88,9 @@ class KinematicTree:
 
     @cached_property
     def bodies(self) -> dict[str, str]:
-        """For each link the name of the link that its rigid body hangs on.
+        """Return for each link the name of the topmost link of its rigid body.
 
-        Links joined by fixed joints are one rigid body; it is named by its topmost link.
+        Links connected by fixed joints form one rigid body.
         """
         owner: dict[str, str] = {}
         for name in self.order:
@@ -102,7 +103,7 @@ class KinematicTree:
 
     @cached_property
     def body_links(self) -> dict[str, list[str]]:
-        """Names of the links of each rigid body, by the name of its topmost link."""
+        """Return the names of the links of each rigid body, by the name of its topmost link."""
         members: dict[str, list[str]] = {}
         for name, owner in self.bodies.items():
             members.setdefault(owner, []).append(name)

@@ -1,4 +1,4 @@
-"""The world, where a robot's joints hang on it and no link declares it."""
+"""World frame of robots whose joints refer to an undeclared link ``world``."""
 
 from __future__ import annotations
 
@@ -7,21 +7,20 @@ from dataclasses import replace
 from .elements import Joint, Link, Robot
 
 WORLD = "world"
-"""The name by which simulators know what does not move."""
+"""Link name by which simulators identify the world."""
 
 
 def with_world(robot: Robot) -> tuple[Robot, Joint | None]:
-    """A robot with the link ``world`` that its joints name, should no link be called so.
+    """Return the robot with a link ``world``, if its joints refer to one that is not declared.
 
-    ``urdfdom`` refuses such a file; Drake and others take the name for the world itself, and so
-    does every command of ours that goes on.
+    ``urdfdom`` rejects such a file; Drake and other readers interpret the name as the world.
 
     Args:
-        robot: Any robot; it stays as it is.
+        robot: Any robot; it is not modified.
 
     Returns:
-        The robot, and the first joint that names the world; the robot itself and None where the
-        link is there or nothing hangs on it.
+        The robot with the link, and the first joint whose parent is ``world``; the robot itself and
+        None if the link exists or no such joint does.
     """
     if WORLD in robot.link:
         return robot, None
