@@ -1,1 +1,1 @@
-"""Text, and where each piece of it came from."""
+"""Reading of descriptions: XML, xacro expansion, packages and locations in the source."""

@@ -1,7 +1,7 @@
-"""Functions for expressions whose cost and result are bounded, in the place of Python's own.
+"""Replacements of Python functions in expressions, with bounded cost and result size.
 
-A description may come from a stranger. Python's own functions would spend minutes or all memory in
-one call that nothing can interrupt, or lead from a number to the interpreter's insides.
+A description may be untrusted input. Some Python functions can run for minutes or exhaust memory in
+one call that cannot be interrupted, or give access to interpreter internals.
 """
 
 from __future__ import annotations
@@ -24,25 +24,37 @@ _COLLECTIONS = (dict, set, frozenset)
 
 
 class ForbiddenNameError(Exception):
-    """A name that leads out of the expression, which no robot needs."""
+    """Error for a name that gives access beyond the expression."""
 
 
 def power(base: Any, exponent: Any) -> Any:
-    """``base ** exponent``."""
+    """Return ``base ** exponent``.
+
+    Raises:
+        OverflowError: The result would exceed ``MAX_BITS``.
+    """
     if isinstance(base, int) and isinstance(exponent, int) and abs(base) > 1:
         _refuse_bits(base.bit_length() * exponent)
     return base**exponent
 
 
 def shift(number: Any, places: Any) -> Any:
-    """``number << places``."""
+    """Return ``number << places``.
+
+    Raises:
+        OverflowError: The result would exceed ``MAX_BITS``.
+    """
     if isinstance(number, int) and isinstance(places, int):
         _refuse_bits(number.bit_length() + places)
     return number << places
 
 
 def product(a: Any, b: Any) -> Any:
-    """``a * b``, of numbers or of a sequence and a number."""
+    """Return ``a * b`` of numbers or of a sequence and a number.
+
+    Raises:
+        OverflowError: The result would exceed ``MAX_BITS`` or ``MAX_LENGTH``.
+    """
     if type(a) is float or type(b) is float:
         return a * b
     if isinstance(a, int) and isinstance(b, int):
@@ -55,7 +67,11 @@ def product(a: Any, b: Any) -> Any:
 
 
 def total(a: Any, b: Any) -> Any:
-    """``a + b``, of numbers or of sequences."""
+    """Return ``a + b`` of numbers or sequences.
+
+    Raises:
+        OverflowError: The result would exceed ``MAX_LENGTH``.
+    """
     if type(a) is float or type(b) is float:
         return a + b
     if isinstance(a, _SEQUENCES) and isinstance(b, _SEQUENCES):
@@ -64,26 +80,42 @@ def total(a: Any, b: Any) -> Any:
 
 
 def remainder(a: Any, b: Any) -> Any:
-    """``a % b``, of numbers; or of a text and what goes into it."""
+    """Return ``a % b`` of numbers, or of a format string and its values.
+
+    Raises:
+        OverflowError: The format string has a width of five or more digits or ``*``.
+    """
     if isinstance(a, str | bytes):
         _refuse_width(a if isinstance(a, str) else a.decode("latin-1"))
     return a % b
 
 
 def kind(thing: Any, *more: Any) -> type:
-    """``type(thing)``, which makes no types and does not tell the type of one."""
+    """Return ``type(thing)`` of a value; types cannot be created.
+
+    Raises:
+        ForbiddenNameError: ``thing`` is a type, or more arguments are given.
+    """
     if more or isinstance(thing, type):
         raise ForbiddenNameError("type() is for values here")
     return type(thing)
 
 
 def no_vars(*_: Any) -> Any:
-    """``vars()``, which leads to everything there is."""
+    """Replace ``vars()``, which gives access to all names.
+
+    Raises:
+        ForbiddenNameError: Always.
+    """
     raise ForbiddenNameError("vars() is not there in a description")
 
 
 def numbers(*bounds: Any) -> range:
-    """``range()``."""
+    """Return ``range(*bounds)``.
+
+    Raises:
+        OverflowError: It has more than ``MAX_RANGE`` numbers.
+    """
     found = range(*bounds)
     if found and abs(found[-1] - found[0]) // abs(found.step) >= MAX_RANGE:
         raise _too_large()
@@ -91,28 +123,32 @@ def numbers(*bounds: Any) -> range:
 
 
 def added(things: Iterable[Any], start: Any = 0) -> Any:
-    """``sum()``."""
+    """Return ``sum(things, start)``, with the bounds of :func:`total`."""
     for thing in things:
         start = total(start, thing)
     return start
 
 
 def rounded(number: Any, digits: Any = None) -> Any:
-    """``round()``."""
+    """Return ``round(number, digits)``.
+
+    Raises:
+        OverflowError: ``digits`` exceeds ``MAX_DIGITS``.
+    """
     if isinstance(digits, int) and abs(digits) > MAX_DIGITS:
         raise _too_large()
     return round(number, digits)
 
 
 def multiplied(things: Iterable[Any], *, start: Any = 1) -> Any:
-    """``math.prod()``."""
+    """Return ``math.prod(things, start=start)``, with the bounds of :func:`product`."""
     for thing in things:
         start = product(start, thing)
     return start
 
 
 def few(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A function of whole numbers, for small ones and not too many of them."""
+    """Wrap a function of integers: at most 100 arguments, none above 5000."""
 
     def small(*arguments: Any) -> Any:
         if len(arguments) > 100 or any(isinstance(n, int) and n > 5000 for n in arguments):
@@ -129,17 +165,17 @@ PYTHON: Mapping[str, Any] = {
     "type": kind,
     "vars": no_vars,
 }
-"""In the place of Python's own, by name."""
+"""Replacements of Python's built-in functions, by name."""
 
 MATH: Mapping[str, Any] = {
     "prod": multiplied,
     **{name: few(getattr(math, name)) for name in ("comb", "factorial", "lcm", "perm")},
 }
-"""In the place of those of ``math``, by name."""
+"""Replacements of functions of ``math``, by name."""
 
 
 class _Formatter(string.Formatter):
-    """``str.format`` without the way through attributes."""
+    """``str.format`` without attribute access."""
 
     def get_field(self, field_name: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
         if "__" in field_name or "." in field_name:
@@ -177,11 +213,15 @@ METHODS: Mapping[str, Callable[..., str]] = {
     "replace": _replaced,
     **{name: _padded(name) for name in ("center", "ljust", "rjust", "zfill")},
 }
-"""Methods of text that are not called as they are."""
+"""Replacements of methods of strings, by name."""
 
 
 def method(owner: Any, name: str) -> Any:
-    """An attribute whose name is one of ``METHODS``; of what is no text, as it is."""
+    """Return an attribute named in ``METHODS``, replaced if the owner is a string or ``str``.
+
+    Raises:
+        ForbiddenNameError: The owner is ``bytes``.
+    """
     function = METHODS[name]
     if isinstance(owner, str):
         return lambda *values, **more: function(owner, *values, **more)
@@ -193,7 +233,11 @@ def method(owner: Any, name: str) -> Any:
 
 
 def check_size(value: Any) -> None:
-    """Refuse a result that is too long to be of use."""
+    """Check the size of a result.
+
+    Raises:
+        OverflowError: It exceeds ``MAX_LENGTH``, nested values included.
+    """
     if isinstance(value, (*_SEQUENCES, *_COLLECTIONS)):
         _refuse_length(len(value))
     if isinstance(value, (list, tuple, *_COLLECTIONS)):
@@ -201,7 +245,7 @@ def check_size(value: Any) -> None:
 
 
 def _letters(value: Any, known: dict[int, int]) -> int:
-    """About how long a value is as text; what stands in it several times is looked at once."""
+    """Return the approximate length of a value as text; repeated parts are visited once."""
     if isinstance(value, str | bytes):
         return len(value)
     if isinstance(value, int):
@@ -216,7 +260,11 @@ def _letters(value: Any, known: dict[int, int]) -> int:
 
 
 def check_format(spec: str) -> None:
-    """Refuse a format with a width that no number needs."""
+    """Check the width in a format specification.
+
+    Raises:
+        OverflowError: It has five or more digits or ``*``.
+    """
     _refuse_width(spec)
 
 

@@ -1,4 +1,4 @@
-"""A description as it was read: plain URDF, or xacro with its expansion."""
+"""Descriptions as read: plain URDF, or xacro with its expansion."""
 
 from __future__ import annotations
 
@@ -17,23 +17,24 @@ if TYPE_CHECKING:
     from .expansion import Expansion
 
 GltfUp = Literal["y", "z"]
-"""The axis of a glTF file that is up: ``y`` by its standard, which is turned to Z on reading; ``z``
-in files made for readers that keep the axes of the file."""
+"""Up axis of a glTF file: ``y`` as in the standard, rotated to Z on reading; ``z`` in files made
+for readers that keep the axes of the file.
+"""
 
 
 @dataclass
 class Description:
-    """A description and all that was read for it.
+    """Description with all files read for it.
 
     Attributes:
-        path: The path as the user gave it.
-        document: The tree; of a xacro file, the expanded one.
-        files: The XML files it was read from, the description itself first.
-        packages: Finds packages and files for it.
-        arguments: The xacro arguments it was expanded with.
-        expansion: What xacro did; None for plain URDF.
-        gltf_up: The axis that is up in its glTF meshes.
-        memo: What several rules need to know of it, computed once.
+        path: Path as given by the user.
+        document: XML tree; of a xacro file, the expanded tree.
+        files: XML files read, the description itself first.
+        packages: Finder of its packages and files.
+        arguments: xacro arguments of the expansion.
+        expansion: Result of the xacro expansion; None for plain URDF.
+        gltf_up: Up axis of its glTF meshes.
+        memo: Values shared by several rules, computed once.
     """
 
     path: str
@@ -47,26 +48,26 @@ class Description:
 
     @property
     def workspace(self) -> Workspace:
-        """What reads its files."""
+        """Return the workspace that reads its files."""
         return self.packages.workspace
 
     def unread(self) -> Description:
-        """Return the same description, of which other files are read again."""
+        """Return the same description with a workspace that rereads other files."""
         packages = copy(self.packages)
         packages.workspace = self.workspace.unread()
         return replace(self, packages=packages)
 
     def resolve(self, uri: str) -> Path:
-        """The file that a URI or path in it means; as :meth:`Packages.resolve`.
+        """Return the file of a URI or path; see :meth:`Packages.resolve`.
 
-        A relative path is relative to the description, as its readers take it, whichever of its
-        xacro files it is written in.
+        A relative path is relative to the description, as in its readers, even if it is written in
+        an included xacro file.
         """
         return self.packages.resolve(uri)
 
 
 def is_xacro(file: SourceFile) -> bool:
-    """Whether a file is to be expanded: by its name, or by the xacro namespace in it."""
+    """Tell whether a file requires expansion, by its name or by the xacro namespace in it."""
     return file.path.endswith(".xacro") or b"xmlns:xacro" in file.data
 
 
@@ -81,20 +82,20 @@ def read_description(
     gltf_up: GltfUp = "y",
     workspace: Workspace | None = None,
 ) -> Description:
-    """Read a description, and expand it where it is xacro.
+    """Read a description, and expand it if it is xacro.
 
     Args:
         path: A ``.urdf`` or ``.xacro`` file, or ``-`` for standard input.
-        arguments: Values for its xacro arguments.
+        arguments: Values of xacro arguments.
         packages: Folders by package name.
-        package_paths: Folders with packages below.
-        configured: Folders by package name that the configuration knows.
-        file: The file, where it has been read already.
-        gltf_up: The axis that is up in glTF meshes.
-        workspace: Reads the files; a new one if None.
+        package_paths: Folders that contain packages.
+        configured: Folders by package name, from the configuration.
+        file: The file, if it has been read.
+        gltf_up: Up axis of glTF meshes.
+        workspace: Access to files; None creates a new one.
 
     Raises:
-        SourceError: It, or a file it includes, cannot be read or expanded.
+        SourceError: It, or an included file, cannot be read or expanded.
     """
     workspace = workspace or Workspace()
     file = file or read_file(path, workspace)

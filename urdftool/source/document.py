@@ -1,10 +1,10 @@
-"""The parsed tree, with the place of every element and attribute.
+"""XML tree with the location of every element and attribute.
 
-Expat reads the bytes and says at which byte each element starts; nothing else is asked of it, so
-that a file of a thousand elements is read in a few milliseconds. Names keep their prefix as it is
-written (``xacro:macro``).
+Expat parses the bytes and reports the byte at which each element starts; attribute spans are
+computed on demand, so that a file of a thousand elements is read in a few milliseconds. Names keep
+their prefix as written (``xacro:macro``).
 
-Refused in any description: files larger than ``MAX_BYTES``, and what ``well_formed`` refuses.
+Rejected: files larger than ``MAX_BYTES``, and everything that ``well_formed`` rejects.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ MAX_BYTES = 32 * 1024 * 1024
 
 
 class Element:
-    """One XML element.
+    """XML element.
 
     Attributes:
-        tag: Its name as written, with its prefix.
+        tag: Name as written, with its prefix.
         attributes: Attribute values by name.
         children: Child elements, in order.
-        parent: The element around it; None for the root.
-        text: The text directly inside it, joined.
-        file: The file its start tag is written in.
-        start: Byte of its ``<`` in that file.
-        calls: The xacro calls it came through, innermost first.
+        parent: Enclosing element; None for the root.
+        text: Text directly inside the element, joined.
+        file: File that contains the start tag.
+        start: Byte of the ``<`` in that file.
+        calls: xacro calls and includes that lead to the element, innermost first.
     """
 
     __slots__ = (
@@ -59,7 +59,7 @@ class Element:
         start: int,
         calls: tuple[Call, ...] = (),
     ) -> None:
-        """Make an element without children."""
+        """Create an element without children."""
         self.tag = tag
         self.attributes = attributes
         self.parent = parent
@@ -71,26 +71,26 @@ class Element:
         self._close = -1
 
     def __repr__(self) -> str:
-        """Tag and place, for debugging."""
+        """Return tag and place, for debugging."""
         return f"<{self.tag} at {self.place}>"
 
     def get(self, name: str, default: str | None = None) -> str | None:
-        """The value of an attribute, or the default."""
+        """Return the value of an attribute, or the default."""
         return self.attributes.get(name, default)
 
     def child(self, tag: str) -> Element | None:
-        """The first child of that name, which is the one that readers of URDF take."""
+        """Return the first child with a tag, which URDF readers use; None if there is none."""
         for child in self.children:
             if child.tag == tag:
                 return child
         return None
 
     def all(self, tag: str) -> Iterator[Element]:
-        """The children of that name."""
+        """Return the children with a tag."""
         return (child for child in self.children if child.tag == tag)
 
     def walk(self) -> Iterator[Element]:
-        """This element and all below it, in document order."""
+        """Yield this element and its descendants, in document order."""
         todo = [self]
         while todo:
             element = todo.pop()
@@ -99,12 +99,12 @@ class Element:
 
     @property
     def place(self) -> Place:
-        """The span of its start tag."""
+        """Return the span of the start tag."""
         return Place(self.file, self.start, self.file.tag_end(self.start), self.calls)
 
     @property
     def end(self) -> int:
-        """Byte after its end tag; of its start tag where the end is not known."""
+        """Return the byte after the end tag; after the start tag if the end is unknown."""
         data = self.file.data
         start_tag_end = self.file.tag_end(self.start)
         if self._close < 0 or data[start_tag_end - 2 : start_tag_end] == b"/>":
@@ -113,13 +113,13 @@ class Element:
         return len(data) if end < 0 else end + 1
 
     def attribute_place(self, name: str) -> Place:
-        """The span of an attribute, name and value; of the start tag if it is not written there."""
+        """Return the span of an attribute, name and value; of the start tag if it is absent."""
         span = self.file.attribute_spans(self.start).get(name)
         return self.place if span is None else Place(self.file, *span, self.calls)
 
 
 class Comment(NamedTuple):
-    """An XML comment: its text, and the bytes from ``<!--`` to ``-->``."""
+    """XML comment: its text, and the span from ``<!--`` to ``-->``."""
 
     text: str
     start: int
@@ -127,23 +127,23 @@ class Comment(NamedTuple):
 
 
 class Document:
-    """A file, its root element and its comments."""
+    """File, root element and comments."""
 
     __slots__ = ("comments", "file", "root")
 
     def __init__(self, file: SourceFile, root: Element, comments: list[Comment]) -> None:
-        """Keep the three."""
+        """Create a document of its parts."""
         self.file = file
         self.root = root
         self.comments = comments
 
 
 def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFile:
-    """The bytes of a file, or of standard input for ``-``.
+    """Read a file, or standard input for ``-``.
 
     Args:
-        path: The file.
-        workspace: Reads it; a new one if None.
+        path: Path of the file.
+        workspace: Access to files; None creates a new one.
 
     Raises:
         SourceError: It is missing, a folder, unreadable, empty or larger than ``MAX_BYTES``.
@@ -191,7 +191,7 @@ def parse(file: SourceFile) -> Document:
     """Parse a file.
 
     Raises:
-        XmlError: It is not well-formed, declares entities, or is nested too deep.
+        XmlError: It is not well-formed, declares entities, or is nested too deeply.
     """
     parser = expat.ParserCreate()
     parser.buffer_text = True

@@ -1,11 +1,11 @@
-"""Byte-exact edits of a source text.
+"""Byte-exact edits of source text.
 
-An edit replaces a span of bytes by others. Everything outside the spans stays as it is: comments,
-order, blanks, line ends and a byte order mark. What is inserted takes the indentation and the line
-ends of its surroundings.
+An edit replaces a span of bytes. Bytes outside the spans are unchanged: comments, order,
+whitespace, line ends and a byte order mark. Inserted text gets the indentation and the line ends of
+its surroundings.
 
-The elements that edits are made from must come from :func:`parsed`: only there is known where an
-element ends, which an element that xacro has moved does not know.
+Elements to edit must come from :func:`parsed`, since the end of an element moved by xacro is
+unknown.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _QUOTES = {"&quot;": '"', "&apos;": "'"}
 
 
 class Edit(NamedTuple):
-    """Bytes from ``start`` to ``end`` become ``text``; an insertion where the two are equal."""
+    """Replacement of the bytes from ``start`` to ``end``; an insertion if both are equal."""
 
     start: int
     end: int
@@ -34,14 +34,14 @@ class Edit(NamedTuple):
 
 
 class Source:
-    """A file that can be edited: its bytes, and its elements by the byte they start at."""
+    """Editable file: its bytes, and its elements by the byte of their start."""
 
     def __init__(self, file: SourceFile) -> None:
-        """Parse the file as it is written, macros and all.
+        """Parse the file as written, without expansion.
 
         Raises:
-            SourceError: Its text was turned into another encoding to be read, so that places in it
-                are not places in the file.
+            SourceError: The text was re-encoded for reading, so that its offsets are not offsets in
+                the file.
         """
         self.file = file
         data = file.data
@@ -52,13 +52,13 @@ class Source:
         self.line_end = b"\r\n" if b"\r\n" in data else b"\n"
 
     def indentation(self, element: Element) -> bytes | None:
-        """The blanks in front of an element; None where something else stands on its line."""
+        """Return the whitespace before an element; None if other text precedes it on its line."""
         start = self.file.data.rfind(b"\n", 0, element.start) + 1
         before = self.file.data[start : element.start]
         return before if not before.strip(b" \t") else None
 
     def inner_indentation(self, element: Element) -> bytes | None:
-        """The blanks in front of what stands inside an element; None where it is all one line."""
+        """Return the whitespace before the children of an element; None if it is on one line."""
         own = self.indentation(element)
         for child in element.children:
             inner = self.indentation(child)
@@ -70,7 +70,7 @@ class Source:
 
     @property
     def step(self) -> bytes:
-        """By how much one element is indented within another in this file."""
+        """Return the indentation of one level in this file."""
         for element in self.elements.values():
             inner, outer = self.indentation(element), None
             if element.parent is not None:
@@ -81,7 +81,7 @@ class Source:
 
 
 def literal(element: Element, name: str) -> str | None:
-    """The value of an attribute as it is written in the source, its references resolved."""
+    """Return the value of an attribute as written, with references resolved; None if absent."""
     span = element.file.attribute_spans(element.start).get(name)
     if span is None:
         return None
@@ -90,7 +90,7 @@ def literal(element: Element, name: str) -> str | None:
 
 
 def set_attribute(source: Source, element: Element, name: str, value: str) -> Edit:
-    """The edit that gives an attribute a value, adding it as the last where it is not written."""
+    """Return the edit that sets an attribute, appended if it is not written."""
     data = source.file.data
     spans = source.file.attribute_spans(element.start)
     if name in spans:
@@ -108,16 +108,16 @@ def _attribute_text(value: str, quote: bytes) -> bytes:
 def insert_child(
     source: Source, parent: Element, lines: Sequence[str], *, after: Element | None = None
 ) -> Edit:
-    """The edit that puts an element into another: first, or after one of its children.
+    """Return the edit that inserts an element as the first child or after a child.
 
-    Where the parent's children stand on lines of their own the new one does too, and only whole
-    lines are added; in a parent written on one line it is put on that line.
+    If the children are on separate lines, the new one is too, and only whole lines are added; if
+    the parent is on one line, the element is inserted on that line.
 
     Args:
         source: The file.
-        parent: The element to put it into.
-        lines: The new element's lines, each level of it indented by one tab.
-        after: The child it follows; None puts it in front of all.
+        parent: Element to insert into.
+        lines: Lines of the new element, indented by one tab for each level.
+        after: The preceding child; None inserts before all children.
     """
     data = source.file.data
     inner = source.inner_indentation(parent)
@@ -146,18 +146,18 @@ def insert_child(
             end = blank.end() if blank else at
             if data.startswith(b"</", end):
                 return Edit(at, end, text + source.line_end + own)
-        # a comment that ends the line speaks of what stands in front of it
+        # a comment at the end of the line belongs to the element before it
         at = rest.end() if rest else at
     return Edit(at, at, text)
 
 
 def replace_element(source: Source, element: Element, blocks: Sequence[Sequence[str]]) -> Edit:
-    """The edit that puts other elements in an element's place.
+    """Return the edit that replaces an element by other elements.
 
     Args:
         source: The file.
-        element: What goes.
-        blocks: The lines of each element that comes, each level of it indented by one tab.
+        element: Element to replace.
+        blocks: Lines of each new element, indented by one tab for each level.
     """
     own = source.indentation(element)
     step = source.step
@@ -174,7 +174,7 @@ def replace_element(source: Source, element: Element, blocks: Sequence[Sequence[
 
 
 def remove_element(source: Source, element: Element) -> Edit:
-    """The edit that takes an element away, with its line where nothing else stands on it."""
+    """Return the edit that removes an element, with its line if nothing else is on it."""
     data = source.file.data
     start, end = element.start, element.end
     own = source.indentation(element)
@@ -192,7 +192,7 @@ def _step_within(source: Source, parent: Element, inner: bytes) -> bytes:
 
 
 def apply(file: SourceFile, edits: Iterable[Edit]) -> bytes:
-    """The bytes of a file with edits made; those at one place in the order they are given.
+    """Return the bytes of a file with edits applied; insertions at one place keep their order.
 
     Raises:
         ValueError: Two edits overlap.
@@ -208,5 +208,5 @@ def apply(file: SourceFile, edits: Iterable[Edit]) -> bytes:
 
 
 def parsed(file: SourceFile) -> Source:
-    """A file ready for edits; as :class:`Source`."""
+    """Parse a file for edits; see :class:`Source`."""
     return Source(file)

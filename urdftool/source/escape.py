@@ -1,7 +1,7 @@
-"""Characters of XML that have to be written otherwise, and back.
+"""Escaping of XML characters.
 
-As ``xml.sax.saxutils`` does it, whose import takes longer than the lint of a small robot: it brings
-the machinery of URLs and mail.
+Equivalent to ``xml.sax.saxutils``, whose import takes longer than the lint of a small robot, since
+it imports the URL and mail packages.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 
 def escape(text: str, entities: Mapping[str, str] | None = None) -> str:
-    """A text as it is written between tags; ``entities`` by the characters they stand for."""
+    """Return a text escaped for XML; ``entities`` maps further characters to their entities."""
     text = text.replace("&", "&amp;").replace(">", "&gt;").replace("<", "&lt;")
     for character, entity in (entities or {}).items():
         text = text.replace(character, entity)
@@ -18,7 +18,7 @@ def escape(text: str, entities: Mapping[str, str] | None = None) -> str:
 
 
 def unescape(text: str, entities: Mapping[str, str] | None = None) -> str:
-    """A text as it is meant; ``entities`` gives the characters by what stands for them."""
+    """Return a text with entities resolved; ``entities`` maps further entities to characters."""
     for entity, character in (entities or {}).items():
         text = text.replace(entity, character)
     return text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&")

@@ -1,4 +1,4 @@
-"""Xacro to plain URDF, with where each element came from."""
+"""Expansion of xacro to plain URDF, with the origin of each element."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ def expand_xacro(
     """Expand a xacro file.
 
     Args:
-        file: The file, read.
-        arguments: Values for its ``<xacro:arg>`` elements, as ``name:=value`` gives them.
-        packages: Where ``$(find NAME)`` looks.
+        file: The file.
+        arguments: Values of its ``<xacro:arg>`` elements, as given by ``name:=value``.
+        packages: Finder for ``$(find NAME)``.
 
     Raises:
-        XmlError: A file of it is not well-formed.
-        XacroError: The expansion failed; the message has the place that caused it.
-        PackageNotFound: ``$(find NAME)`` names no package that could be found.
+        XmlError: A file is not well-formed.
+        XacroError: The expansion failed; the error has the location of the cause.
+        PackageNotFound: The package of ``$(find NAME)`` was not found.
     """
     with _lock:
         run = Run(Expansion(file, arguments), packages)
@@ -49,9 +49,9 @@ def expand_xacro(
 
 @contextmanager
 def _time_limit(run: Run) -> Iterator[None]:
-    """Stop an expansion that takes too long; only where signals can be had.
+    """Stop an expansion after ``MAX_SECONDS``, if signals are available.
 
-    A timer that somebody else has set is left alone.
+    A timer set by other code is not changed; the expansion then has no limit.
     """
     usable = hasattr(signal, "setitimer") and threading.current_thread() is threading.main_thread()
     if not usable or signal.getitimer(signal.ITIMER_REAL)[0]:

@@ -1,4 +1,4 @@
-"""The result of an expansion: the tree, and all that was read and met on the way."""
+"""Result of an expansion: the tree and everything that was read."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .xacro_write import write_xml
 
 
 class Argument(NamedTuple):
-    """A ``<xacro:arg>``: its name, its default as written, and its place."""
+    """``<xacro:arg>``: its name, its default as written, and its location."""
 
     name: str
     default: str
@@ -21,27 +21,27 @@ class Argument(NamedTuple):
 
 
 class Warned(NamedTuple):
-    """Something xacro warns of, and where."""
+    """Warning of xacro, and its location."""
 
     message: str
     place: Place | None
 
 
 class Expansion:
-    """The result of an expansion.
+    """Result of an expansion.
 
     Attributes:
-        tree: The expanded tree, in xacro's form.
-        file: The file that was expanded.
-        files: Every XML file read, in order of first use.
-        dependencies: Paths of the files read beside it: includes and YAML.
-        given: The arguments it was given.
-        arguments: The arguments it declares.
-        warnings: What xacro warns of.
+        tree: Expanded tree, in the form that xacro uses.
+        file: Expanded file.
+        files: All XML files read, in the order of first use.
+        dependencies: Paths of the other files read: includes and YAML.
+        given: Given arguments.
+        arguments: Declared arguments.
+        warnings: Warnings of xacro.
     """
 
     def __init__(self, file: SourceFile, given: Mapping[str, str]) -> None:
-        """Start with nothing read but the file itself."""
+        """Create an empty result that contains only the file itself."""
         self.file = file
         self.given = dict(given)
         self.tree = XacroDocument()
@@ -52,7 +52,7 @@ class Expansion:
 
     @property
     def text(self) -> str:
-        """The expanded URDF, laid out as xacro prints it."""
+        """Return the expanded URDF, formatted as xacro prints it."""
         name = re.sub(r"-+", "-", self.file.path)
         line = "=" * 83
         return write_xml(
@@ -66,7 +66,7 @@ class Expansion:
         )
 
     def document(self) -> Document:
-        """The expanded tree as a document whose elements know where they were written."""
+        """Return the expanded tree as a document whose elements know their source."""
         return Document(self.file, _convert(self.tree.documentElement, None), [])
 
 

@@ -1,8 +1,7 @@
-"""What stands between ``${`` and ``}``, or in ``$(eval …)``: compiled once, and bounded.
+"""Compilation of expressions in ``${…}`` and ``$(eval …)``, with checked names and bounded cost.
 
-xacro evaluates expressions with Python's ``eval``. What they may name is checked here, in every
-part of an expression, and operators and methods whose result can be of any size become those of
-``bounded``.
+xacro evaluates expressions with Python's ``eval``. This module checks all names in an expression,
+and replaces operators and methods of unbounded result size by functions of ``bounded``.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ _OPERATORS = {
     ast.LShift: "__shift__",
 }
 
-# Without any of these nothing in an expression needs a closer look.
+# An expression without a match needs no syntax tree.
 _METHODS = "|".join((*bounded.METHODS, *_HIDDEN))
 _SUSPECT = re.compile(rf"[+*%]|<<|\b[fF][rR]?['\"]|\b[rR][fF]['\"]|\.\s*(?:{_METHODS})")
 
@@ -43,7 +42,7 @@ def compile_expression(source: str) -> CodeType:
 
     Raises:
         SyntaxError: It is not an expression.
-        ForbiddenNameError: It uses a name that leads to the interpreter's insides.
+        ForbiddenNameError: It uses a name that gives access to interpreter internals.
     """
     text = source.strip()
     if not _SUSPECT.search(text):
@@ -57,7 +56,7 @@ def compile_expression(source: str) -> CodeType:
 
 
 def _check_names(code: CodeType) -> None:
-    """Refuse hidden names in an expression and in the functions and comprehensions within it."""
+    """Check the names in an expression and in its nested functions and comprehensions."""
     hidden = [name for name in (*code.co_names, *code.co_varnames) if name.startswith("__")]
     if hidden:
         raise ForbiddenNameError(f"use of invalid name(s) {', '.join(hidden)}")
@@ -67,14 +66,14 @@ def _check_names(code: CodeType) -> None:
 
 
 def _check_attributes(tree: ast.AST) -> None:
-    """Refuse attributes that lead to frames and code, or make text of any size."""
+    """Check for attributes that give access to frames and code, or create text of any size."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute) and node.attr in _HIDDEN:
             raise ForbiddenNameError(f"use of .{node.attr} is not allowed in a description")
 
 
 class _Bounded(ast.NodeTransformer):
-    """Calls of bounded functions in the place of operators and methods."""
+    """Transformer that replaces operators and methods by calls of bounded functions."""
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
         """Replace an operator."""
@@ -83,7 +82,7 @@ class _Bounded(ast.NodeTransformer):
         return node if function is None else _call(node, function, node.left, node.right)
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
-        """Replace a method of text."""
+        """Replace a method of a string."""
         self.generic_visit(node)
         if node.attr not in bounded.METHODS:
             return node
@@ -91,7 +90,7 @@ class _Bounded(ast.NodeTransformer):
         return _call(node, "__method__", node.value, name)
 
     def visit_FormattedValue(self, node: ast.FormattedValue) -> ast.AST:
-        """Look at the width that a value is to have."""
+        """Check the width of a formatted value."""
         self.generic_visit(node)
         for part in getattr(node.format_spec, "values", []):
             if not isinstance(part, ast.Constant):
@@ -105,7 +104,7 @@ def _call(node: ast.expr, function: str, *arguments: ast.expr) -> ast.Call:
     return ast.copy_location(ast.Call(name, list(arguments), []), node)
 
 
-# Python looks names up here last; an expression cannot name them itself.
+# Python searches these names last; _check_names prevents their direct use.
 BUILTINS: dict[str, Any] = {
     "__power__": bounded.power,
     "__shift__": bounded.shift,

@@ -1,8 +1,8 @@
-"""What a package's CMakeLists.txt says about where its files are installed.
+"""Install rules in the CMakeLists.txt of a package.
 
-``$(find NAME)`` and ``package://NAME/`` mean the package as it is *installed*; a source tree is
-laid out differently when ``install(DIRECTORY description/urdf DESTINATION share/${PROJECT_NAME})``
-moves things. Only what decides that is read: ``project``, ``set``, ``install(DIRECTORY|FILES …)``.
+``$(find NAME)`` and ``package://NAME/`` refer to the *installed* package; the layout of a source
+tree differs if ``install(DIRECTORY description/urdf DESTINATION share/${PROJECT_NAME})`` moves
+files. Only ``project``, ``set`` and ``install(DIRECTORY|FILES|PROGRAMS …)`` are read.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _KEYWORDS = frozenset(
 
 
 class InstallRule(NamedTuple):
-    """One path of the source tree and where it goes below the package's share folder.
+    """Path of the source tree and its destination below the share folder of the package.
 
     Attributes:
         source: A file or folder of the source tree.
@@ -40,15 +40,15 @@ class InstallRule(NamedTuple):
 
 
 def read_install_rules(package_dir: Path, name: str, workspace: Workspace) -> list[InstallRule]:
-    """The install rules of a package that put files below its share folder.
+    """Read the install rules of a package with a destination below its share folder.
 
     Args:
-        package_dir: The folder with its CMakeLists.txt.
-        name: The package's name.
-        workspace: Reads the files.
+        package_dir: Folder of its CMakeLists.txt.
+        name: Name of the package.
+        workspace: Access to files.
 
     Returns:
-        Rules in the order of the file; none where there is no CMakeLists.txt.
+        Rules in the order of the file; empty without a CMakeLists.txt.
     """
     try:
         text = workspace.read_text(package_dir / "CMakeLists.txt")
@@ -106,12 +106,12 @@ def _install(package_dir: Path, share: str, words: list[str]) -> list[InstallRul
 
 
 def installed_path(rules: list[InstallRule], relative: str, workspace: Workspace) -> Path | None:
-    """The source file that is installed at a path below the share folder, if there is one.
+    """Return the source file that is installed at a path below the share folder; None if none is.
 
     Args:
-        rules: What :func:`read_install_rules` found.
+        rules: Result of :func:`read_install_rules`.
         relative: A path below ``share/NAME``, with forward slashes.
-        workspace: Reads the files.
+        workspace: Access to files.
     """
     wanted = Path(relative).parts
     for rule in rules:

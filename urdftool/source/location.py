@@ -1,4 +1,4 @@
-"""Where something was written: a file, bytes in it, and the xacro calls it came through."""
+"""Locations in source files: a file, a span of bytes, and the xacro calls that lead to it."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ if TYPE_CHECKING:
 
 
 class SourceFile:
-    """The bytes of one file, as they are on disk, and the lines in them.
+    """Bytes of a file as on disk, with its lines.
 
     Attributes:
-        path: The path as the user would type it, or ``<stdin>``.
+        path: Path as the user would type it, or ``<stdin>``.
         data: The bytes.
-        encoding: The encoding the bytes are in, for counting columns.
+        encoding: Encoding of the bytes, for counting columns.
     """
 
     __slots__ = ("_editable", "_starts", "_tags", "data", "encoding", "path")
 
     def __init__(self, path: str, data: bytes, encoding: str = "utf-8") -> None:
-        """Keep the bytes; nothing is computed before it is asked for."""
+        """Store the bytes; derived values are computed on demand."""
         self.path = path
         self.data = data
         self.encoding = encoding
@@ -30,12 +30,12 @@ class SourceFile:
         self._editable: Source | None = None
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Pickle the bytes alone, and nothing that was computed from them."""
+        """Pickle the bytes without derived values."""
         return SourceFile, (self.path, self.data, self.encoding)
 
     @property
     def line_starts(self) -> list[int]:
-        """Byte offset at which each line starts."""
+        """Return the byte offset of the start of each line."""
         if self._starts is None:
             starts = [0]
             find = self.data.find
@@ -47,7 +47,7 @@ class SourceFile:
         return self._starts
 
     def position(self, offset: int) -> tuple[int, int]:
-        """Line and column of a byte, both from 1; the column counts characters."""
+        """Return line and column of a byte, both from 1; the column counts characters."""
         starts = self.line_starts
         line = bisect_right(starts, offset)
         start = starts[line - 1]
@@ -57,7 +57,7 @@ class SourceFile:
         return line, len(text.decode(self.encoding, "replace")) + 1
 
     def line_text(self, line: int) -> str:
-        """The text of a line (from 1), without its end."""
+        """Return the text of a line (from 1), without its end."""
         starts = self.line_starts
         if not 1 <= line <= len(starts):
             return ""
@@ -66,7 +66,7 @@ class SourceFile:
         return text.rstrip("\r\n").removeprefix("\ufeff")
 
     def attribute_spans(self, start: int) -> dict[str, tuple[int, int]]:
-        """Byte span of each attribute (name to closing quote) of the tag that starts at a byte."""
+        """Return the byte span (name to closing quote) of each attribute of the tag at a byte."""
         spans = self._tags.get(start)
         if spans is None:
             from .tags import attribute_spans
@@ -75,16 +75,16 @@ class SourceFile:
         return spans
 
     def tag_end(self, start: int) -> int:
-        """Byte after the ``>`` of the tag that starts at a byte."""
+        """Return the byte after the ``>`` of the tag at a byte."""
         from .tags import tag_end
 
         return tag_end(self.data, start)
 
     def editable(self) -> Source:
-        """Parse the file as it is written, macros and all, once.
+        """Parse the file once, as written, without expansion.
 
         Raises:
-            SourceError: It is in an encoding that is not edited.
+            SourceError: Its encoding is not supported for edits.
         """
         if self._editable is None:
             from .edit import Source
@@ -94,13 +94,13 @@ class SourceFile:
 
 
 class Call(NamedTuple):
-    """A xacro macro call or an include that an element came through.
+    """xacro macro call or include that leads to an element.
 
     Attributes:
-        file: The file in which the call is written.
-        start: Byte at which the calling tag starts.
-        macro: The macro's name; empty for an include.
-        arguments: The arguments of the call, as they were evaluated.
+        file: File that contains the call.
+        start: Byte of the start of the calling tag.
+        macro: Name of the macro; empty for an include.
+        arguments: Evaluated arguments of the call.
     """
 
     file: SourceFile
@@ -110,24 +110,24 @@ class Call(NamedTuple):
 
     @property
     def line(self) -> int:
-        """Line of the call, from 1."""
+        """Return the line of the call, from 1."""
         return self.file.position(self.start)[0]
 
     @property
     def column(self) -> int:
-        """Column of the call, from 1."""
+        """Return the column of the call, from 1."""
         return self.file.position(self.start)[1]
 
     @property
     def what(self) -> str:
-        """The call in words: ``macro 'wheel' prefix=left_`` or ``include``."""
+        """Return a description of the call: ``macro 'wheel' prefix=left_`` or ``include``."""
         if not self.macro:
             return "include"
         return " ".join([f"macro '{self.macro}'", *(f"{k}={v}" for k, v in self.arguments)])
 
 
 class Place(NamedTuple):
-    """A span of bytes in a source file, and the calls it came through.
+    """Span of bytes in a source file, and the xacro calls that lead to it.
 
     Attributes:
         file: The file.
@@ -143,25 +143,25 @@ class Place(NamedTuple):
 
     @property
     def path(self) -> str:
-        """Path of the file."""
+        """Return the path of the file."""
         return self.file.path
 
     @property
     def line(self) -> int:
-        """First line, from 1."""
+        """Return the first line, from 1."""
         return self.file.position(self.start)[0]
 
     @property
     def column(self) -> int:
-        """First column in characters, from 1."""
+        """Return the first column in characters, from 1."""
         return self.file.position(self.start)[1]
 
     @property
     def end_position(self) -> tuple[int, int]:
-        """Line and column after the last character."""
+        """Return line and column after the last character."""
         return self.file.position(self.end)
 
     def __str__(self) -> str:
-        """``FILE:LINE:COLUMN``."""
+        """Return ``FILE:LINE:COLUMN``."""
         line, column = self.file.position(self.start)
         return f"{self.file.path}:{line}:{column}"

@@ -1,4 +1,4 @@
-"""Files next to a description that are not part of it, such as its package.xml."""
+"""Files near a description that are not part of it, such as its package.xml."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .packages import shown_path
 
 
 def file_at(workspace: Workspace, path: str | Path) -> SourceFile | None:
-    """Read a file, for places in it; None where it cannot be read."""
+    """Read a file; None if it cannot be read."""
     try:
         return SourceFile(shown_path(path), workspace.read_bytes(path))
     except OSError:
@@ -20,7 +20,7 @@ def file_at(workspace: Workspace, path: str | Path) -> SourceFile | None:
 
 
 def document_at(workspace: Workspace, path: str | Path) -> Document | None:
-    """Read an XML file; None where it cannot be read, or is not well-formed."""
+    """Read an XML file; None if it cannot be read or is not well-formed."""
     file = file_at(workspace, path)
     try:
         return None if file is None else parse(file)

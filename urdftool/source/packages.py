@@ -1,12 +1,12 @@
-"""Where ROS packages are, without ROS.
+"""Search for ROS packages, without ROS.
 
 One resolver for ``$(find NAME)``, ``package://``, ``model://``, ``file://`` and relative paths,
-for every command. A package is looked for, in this order: what ``--package`` and
-``--package-path`` say; the file's own package (the nearest ``package.xml`` above it, by its
-``<name>``); packages beside and below that workspace's root; ``[tool.urdftool.packages]`` of the
-configuration; ``ROS_PACKAGE_PATH``; ``AMENT_PREFIX_PATH``; last, a folder above the file that bears
-the package's name even without a ``package.xml``. For ``package://`` alone, a folder of that name
-near the file stands for a package that is not found, if it is the only one with the file.
+for every command. Search order: ``--package`` and ``--package-path``; the package of the file (the
+nearest ``package.xml`` above it, by its ``<name>``); packages next to it and below the root of its
+workspace; ``[tool.urdftool.packages]`` of the configuration; ``ROS_PACKAGE_PATH``;
+``AMENT_PREFIX_PATH``; last, a folder above the file with the name of the package, even without a
+``package.xml``. For ``package://`` only, a folder of that name near the file replaces a package
+that is not found, if it is the only one that contains the file.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _NEAR = 3
 
 
 def package_name(folder: Path, workspace: Workspace | None = None) -> str | None:
-    """The name in a folder's ``package.xml``; None where there is none."""
+    """Return the name in the ``package.xml`` of a folder; None without a ``package.xml``."""
     return _names(workspace or Workspace(), str(folder))
 
 
@@ -47,7 +47,7 @@ def _names(workspace: Workspace, folder: str) -> str | None:
 
 
 def own_package(path: Path, workspace: Workspace | None = None) -> tuple[str, Path] | None:
-    """Name and folder of the package a file belongs to: the nearest ``package.xml`` above it."""
+    """Return name and folder of the package of a file: the nearest ``package.xml`` above it."""
     return _owners(workspace or Workspace(), os.path.dirname(path))
 
 
@@ -61,10 +61,10 @@ def _owners(workspace: Workspace, folder: str) -> tuple[str, Path] | None:
 
 
 def packages_below(folder: Path, workspace: Workspace | None = None) -> dict[str, Path]:
-    """All packages in a folder and below it, by name; the one nearest to the top wins.
+    """Return all packages in a folder and below it, by name; the topmost of duplicates.
 
-    Hidden folders, build output and folders with an ``…_IGNORE`` file are passed over, and a
-    package is not searched for further packages.
+    Hidden folders, build output and folders with an ``…_IGNORE`` file are skipped; packages within
+    packages are not searched.
     """
     return _below(workspace or Workspace(), str(folder))
 
@@ -104,21 +104,20 @@ def _below(workspace: Workspace, folder: str) -> dict[str, Path]:
 
 
 def shown_path(path: str | Path) -> str:
-    """A path as one would type it here: relative where it is below the current folder."""
+    """Return a path relative to the current folder if it is below it."""
     text = os.path.normpath(path)
     here = os.getcwd() + os.sep
     return text[len(here) :] if text.startswith(here) else text
 
 
 class Packages:
-    """Finds packages and files for one description.
+    """Finder of packages and files for one description.
 
     Attributes:
-        workspace: Reads the files.
-        file: The description; None for standard input, which stands in the current folder.
+        workspace: Access to files.
+        file: The description; ``-`` in the current folder for standard input.
         used: Packages found so far, by name.
-        assumed: Folders that stand for a package of their name in ``package://``, because there is
-            no such package.
+        assumed: Folders that replace a missing package of their name in ``package://``.
     """
 
     def __init__(
@@ -130,14 +129,14 @@ class Packages:
         configured: Mapping[str, str | Path] | None = None,
         workspace: Workspace | None = None,
     ) -> None:
-        """Take what is known; nothing is searched before it is asked for.
+        """Store the search paths; the search starts on demand.
 
         Args:
-            file: The description the packages are for.
+            file: The description.
             named: Folders by package name, from ``--package``.
-            paths: Folders with packages below, from ``--package-path``.
+            paths: Folders that contain packages, from ``--package-path``.
             configured: Folders by package name, from the configuration.
-            workspace: Reads the files; a new one if None.
+            workspace: Access to files; None creates a new one.
         """
         self.workspace = workspace or Workspace()
         self.file = Path.cwd() / "-" if file is None else Path(os.path.abspath(file))
@@ -150,14 +149,14 @@ class Packages:
 
     @property
     def own(self) -> tuple[str, Path] | None:
-        """Name and folder of the package that the description belongs to."""
+        """Return name and folder of the package of the description; None without a package."""
         return own_package(self.file, self.workspace)
 
     def find(self, name: str) -> Path:
-        """The folder of a package.
+        """Return the folder of a package.
 
         Raises:
-            PackageNotFound: It is nowhere; the message says where it was looked for.
+            PackageNotFound: It was not found; the notes list the searched places.
         """
         if name in self.used:
             return self.used[name]
@@ -179,9 +178,9 @@ class Packages:
         )
 
     def neighbors(self) -> list[Path]:
-        """List the folders of the packages around the file, its own first.
+        """Return the folders of the packages around the file, its own first.
 
-        Outside of a package that is the folder of the file.
+        Without a package, return the folder of the file.
         """
         own = self.own
         if own is None:
@@ -191,13 +190,14 @@ class Packages:
         return list(dict.fromkeys([own[1], *beside]))
 
     def folder_with(self, name: str, inner: str) -> Path | None:
-        """A folder around the file or beside it, or a package near, that has a file at this path.
+        """Return a folder near the file that contains a file at a path below it; None if none does.
 
-        A description outlives its package's name; what it names is then still beside it.
+        Searched are the folders above the file, folders called ``name`` in the two nearest of them,
+        and packages nearby. This finds files whose package has been renamed.
 
         Args:
-            name: The package's name in a URI; PyBullet takes it for a folder beside the file.
-            inner: What follows it.
+            name: Name of the package in a URI; PyBullet interprets it as a folder near the file.
+            inner: Path after the name.
         """
         inner = inner.lstrip("/")
         own = self.own
@@ -212,10 +212,10 @@ class Packages:
         return None
 
     def _folder_named(self, name: str, inner: str) -> Path | None:
-        """The one folder of a name with a certain file, near the description.
+        """Return the only folder of a name near the description that contains a file.
 
-        PyBullet takes ``package://meshes/arm.stl`` for the file ``meshes/arm.stl`` next to the
-        description or above it. None where no folder or several have the file.
+        PyBullet reads ``package://meshes/arm.stl`` as the file ``meshes/arm.stl`` next to the
+        description or above it. None if no folder or several contain the file.
         """
         if name in self.assumed:
             return self.assumed[name]
@@ -230,7 +230,7 @@ class Packages:
         return found[0]
 
     def _candidates(self, name: str) -> Iterator[tuple[str, Path | None]]:
-        """Each place in turn: what to say of it, and the folder if it has the package."""
+        """Yield each searched place: its text for the notes, and the folder, if it exists."""
         if name in self.named:
             yield f"--package {name}={self.named[name]} (no such folder)", self.named[name]
         for path in self.paths:
@@ -269,30 +269,30 @@ class Packages:
         return packages_below(folder, self.workspace)
 
     def _child(self, path: Path, name: str) -> Path | None:
-        """A folder of that name directly in a search path, even without a ``package.xml``."""
+        """Return a folder of that name directly in a search path; it needs no ``package.xml``."""
         folder = path / name
         return folder if name and self.workspace.is_folder(folder) else None
 
     def _workspace_roots(self, package: Path | None) -> list[Path]:
-        """Folders to search for neighbours, from the package's parent to the workspace's root."""
+        """Return the folders to search, from the parent of the package to the workspace root."""
         start = package.parent if package else self.file.parent
         roots = []
         for folder in (start, *start.parents)[:_MAX_CLIMB]:
             if len(folder.parts) <= 2:
-                break  # never crawl /, /home or /tmp
+                break  # do not search /, /home or /tmp
             roots.append(folder)
             if any(self.workspace.exists(folder / mark) for mark in _WORKSPACE_MARKS):
                 return roots
         return roots[:1]
 
     def installed(self, path: str | Path) -> Path:
-        """A path inside a found package; where install rules put a file there, the file they take.
+        """Return the source file that is installed at a path inside a found package.
 
         Args:
-            path: An absolute path, such as ``$(find NAME)/urdf/arm.xacro`` gives.
+            path: An absolute path, such as the expansion of ``$(find NAME)/urdf/arm.xacro``.
 
         Returns:
-            The path itself where it exists or no rule speaks of it.
+            The path itself if it exists or no install rule applies to it.
         """
         path = Path(path)
         if self.workspace.exists_or_is_link(path):
@@ -311,17 +311,17 @@ class Packages:
         return path
 
     def resolve(self, uri: str, relative_to: str | Path | None = None) -> Path:
-        """The file that a URI or path means. It may not exist.
+        """Return the file of a URI or path, which may not exist.
 
-        A package that is not found is a folder of its name, if one alone near the description has
-        the file; ``assumed`` then has it.
+        A missing package is replaced by a folder of its name if exactly one near the description
+        contains the file; ``assumed`` then lists it.
 
         Args:
             uri: ``package://NAME/…``, ``model://NAME/…``, ``file://…`` or a path.
-            relative_to: The file in which a relative path is written; the description if None.
+            relative_to: File to which a relative path refers; None is the description.
 
         Raises:
-            PackageNotFound: It names a package that is nowhere.
+            PackageNotFound: The package was not found.
         """
         scheme, separator, rest = uri.partition("://")
         if separator and scheme in ("package", "model"):
@@ -348,6 +348,6 @@ class Packages:
 
 
 def has_it(name: str, folder: Path) -> str:
-    """What to write where a folder has what a package of another name should have."""
+    """Return the remedy for a missing package whose file is in another folder."""
     shown = shown_path(folder)
     return f"what it names is in {shown}; write --package {name}={shown} if that is meant"

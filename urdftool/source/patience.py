@@ -1,7 +1,7 @@
-"""How long one expression may take, and how much memory: a program may also run without end.
+"""Time and memory limits of expressions.
 
-No bound on single functions stops ``[0 for x in range(999999) for y in range(999999)]``. Where the
-system has timers, one looks in from time to time and ends what takes longer than any robot needs.
+Bounds on single functions do not stop ``[0 for x in range(999999) for y in range(999999)]``. Where
+the system has interval timers, one checks the limits periodically.
 """
 
 from __future__ import annotations
@@ -15,29 +15,29 @@ from contextlib import contextmanager
 from types import FrameType
 
 SECONDS = 10.0
-"""Processor time that one expression may take."""
+"""Maximum processor time of one expression [s]."""
 
 MEMORY = 2 << 30
-"""Bytes by which the process may grow during an expansion."""
+"""Maximum growth of the process during an expansion [bytes]."""
 
 _INTERVAL = 0.25
 
 
 class Patience:
-    """Of one expansion.
+    """Limits of one expansion.
 
     Attributes:
-        since: The processor time when the expression began that is evaluated; None between them.
+        since: Processor time [s] at the start of the running expression; None between expressions.
     """
 
     def __init__(self) -> None:
-        """Nothing is evaluated yet."""
+        """Create limits with no expression running."""
         self.since: float | None = None
         self._memory = 0
 
     @contextmanager
     def kept(self) -> Iterator[None]:
-        """Look in from time to time, where that is possible: in the main thread, on POSIX."""
+        """Check the limits periodically, in the main thread on POSIX; elsewhere do nothing."""
         main = threading.current_thread() is threading.main_thread()
         if sys.platform == "win32" or not main or signal.getitimer(signal.ITIMER_REAL)[0]:
             yield
@@ -63,7 +63,7 @@ class Patience:
 
 
 def _largest() -> int:
-    """The most memory the process has had [bytes]."""
+    """Return the maximum resident memory of the process so far [bytes]."""
     import resource
 
     found = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss

@@ -1,8 +1,8 @@
-"""What a description can reach while it is expanded.
+"""Sandbox of xacro expansion: accessible environment variables and files.
 
-A description is a program. Unless the user trusts it, it sees no environment but what says which
-ROS there is, and reads no file but those of ROS packages and of its own project; Python's functions
-are the bounded ones either way.
+A description is a program. Untrusted descriptions see only the variables in ``OPEN_VARIABLES``, and
+read only files of ROS packages and of their own project. Expressions use the functions of
+``bounded`` in any case.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from .location import Place
 from .packages import Packages, own_package
 
 TRUST = "URDFTOOL_TRUST"
-"""The variable that says so to this process and those it starts; ``--trust`` sets it."""
+"""Environment variable that trusts descriptions, also in child processes; ``--trust`` sets it."""
 
 OPEN_VARIABLES = frozenset(("ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "ROS_NAMESPACE"))
-"""What any description may see of the environment."""
+"""Environment variables that any description may read."""
 
 _HOW = "pass --trust if you trust this description"
 _PROJECT_MARKS = (".git", ".hg", "pyproject.toml", "CMakeLists.txt", "urdftool.toml")
@@ -30,19 +30,19 @@ _MAX_CLIMB = 6
 
 
 def trust_descriptions() -> None:
-    """Trust all descriptions from here on."""
+    """Trust all descriptions in this process and its children."""
     os.environ[TRUST] = "1"
 
 
 class Reach:
-    """What one description can reach."""
+    """Access of one description to variables and files."""
 
     def __init__(self, packages: Packages, load_yaml: Callable[[str], Any]) -> None:
-        """Take what it needs; what can be read is looked up when it is asked for.
+        """Set the packages and the loader of YAML files.
 
         Args:
-            packages: Those of the description.
-            load_yaml: Loads a file for ``xacro.load_yaml``, if it may be read.
+            packages: Packages of the description.
+            load_yaml: Function for ``xacro.load_yaml``, which checks access.
         """
         self.packages = packages
         self.workspace = packages.workspace
@@ -50,10 +50,10 @@ class Reach:
         self.trusted = self.workspace.variable(TRUST) == "1"
 
     def variable(self, name: str) -> str:
-        """``$(env NAME)``.
+        """Return the value of ``$(env NAME)``.
 
         Raises:
-            XacroError: It is not set, or not to be seen.
+            XacroError: It is not set, or not accessible.
         """
         value = self.workspace.variable(name)
         if value is not None and not self._sees(name):
@@ -67,21 +67,25 @@ class Reach:
         return value
 
     def optional_variable(self, name: str, default: str = "") -> str:
-        """``$(optenv NAME DEFAULT)``; a variable that is not to be seen and not set is no loss."""
+        """Return the value of ``$(optenv NAME DEFAULT)``.
+
+        Raises:
+            XacroError: The variable is set, but not accessible.
+        """
         value = self.workspace.variable(name)
         if value is not None and not self._sees(name):
             raise _hidden(name)
         return default if value is None else value
 
     def check_file(self, path: str | Path, at: Place | None = None) -> None:
-        """Refuse a file that is neither a package's nor the project's.
+        """Check that a file is in a package or in the project of the description.
 
         Args:
-            path: Where it is.
-            at: Where it is asked for, if that is known.
+            path: Path of the file.
+            at: Location of the reference, if known.
 
         Raises:
-            XacroError: It is somewhere else, or a link leads there.
+            XacroError: It is outside, directly or through a symbolic link, or is a device or pipe.
         """
         files = self.workspace
         real = Path(files.real_path(path))
@@ -102,11 +106,11 @@ class Reach:
         )
 
     def symbols(self, original: Mapping[str, Any], warn: Callable[[str], object]) -> dict[str, Any]:
-        """What expressions can name, with the bounded functions and guarded files among them.
+        """Return the global symbols of expressions, with bounded functions and checked file access.
 
         Args:
-            original: xacro's global symbols, with the spaces ``python``, ``math`` and ``xacro``.
-            warn: What is told of a function that is called by its old name, without its space.
+            original: xacro's global symbols with the namespaces ``python``, ``math`` and ``xacro``.
+            warn: Called with a warning if a function is called without its namespace.
         """
         replaced = {
             "python": bounded.PYTHON,
@@ -115,7 +119,7 @@ class Reach:
         }
         found = dict(original)
         for name, functions in replaced.items():
-            space = type(original[name])()  # without a parent, which would lead to Python's own
+            space = type(original[name])()  # a parent would expose Python's functions
             space.update({**original[name], **functions})
             found[name] = space
             for key, function in functions.items():
@@ -125,10 +129,10 @@ class Reach:
         return found
 
     def old_evaluation(self, ros: Any) -> Callable[[str, dict[str, Any]], str]:
-        """``$(eval …)``: what ROS 1 allows in it, and no more of Python.
+        """Return a function for ``$(eval …)`` with the names that ROS 1 defines for it.
 
         Args:
-            ros: The module of xacro that evaluates it otherwise.
+            ros: xacro's module ``substitution_args``.
         """
 
         def evaluate(text: str, context: dict[str, Any]) -> str:
@@ -160,14 +164,14 @@ class Reach:
         return [Path(self.workspace.real_path(folder)) for folder in known]
 
     def _project(self) -> Path:
-        """The folder a description without a package belongs to.
+        """Return the project folder of a description without a package.
 
-        The nearest one above it that looks like a project, else the one beside whose folder its own
-        stands, as in ``robot/urdf`` and ``robot/config``.
+        That is the nearest folder above it with a project file, else the parent of its folder, for
+        layouts such as ``robot/urdf`` and ``robot/config``.
         """
         folder = self.packages.file.parent
         above = [folder, *folder.parents][:_MAX_CLIMB]
-        deep = [place for place in above if len(place.parts) > 2]  # never /, /home or /tmp
+        deep = [place for place in above if len(place.parts) > 2]  # not /, /home or /tmp
         for place in deep:
             if any(self.workspace.exists(place / mark) for mark in _PROJECT_MARKS):
                 return place
@@ -175,7 +179,7 @@ class Reach:
 
 
 def safe_eval(text: str, symbols: Mapping[str, Any]) -> Any:
-    """``xacro.safe_eval``, which reads the numbers with units in YAML files."""
+    """Evaluate a number with units in a YAML file; replaces ``xacro.safe_eval``."""
     return eval(compile_expression(text), {**symbols, "__builtins__": BUILTINS})
 
 
@@ -187,7 +191,7 @@ def _hidden(name: str) -> XacroError:
 
 
 def _is_within(path: Path, root: Path) -> bool:
-    """Whether a file is below a folder, and not in a hidden one there."""
+    """Tell whether a file is below a folder and not in a hidden folder there."""
     if not path.is_relative_to(root):
         return False
     return not any(part.startswith(".") for part in path.relative_to(root).parts)
@@ -196,7 +200,7 @@ def _is_within(path: Path, root: Path) -> bool:
 def _renamed(
     function: Callable[..., Any], name: str, space: str, warn: Callable[[str], object]
 ) -> Callable[..., Any]:
-    """A function by its old name, which warns as xacro does."""
+    """Wrap a function called by its deprecated name; warn as xacro does."""
 
     def call(*args: Any, **kwargs: Any) -> Any:
         warn(f"Using {name}() directly is deprecated. Use {space}.{name}() instead.")

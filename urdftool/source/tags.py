@@ -1,7 +1,7 @@
-"""The bytes of one start tag: where each attribute is.
+"""Spans of attributes in a start tag.
 
-Expat says at which byte a tag starts and nothing about its attributes. Tags reach this module only
-after expat has accepted them, so a short scanner is enough: names, ``=``, quoted values.
+Expat reports only the byte at which a tag starts. Tags get here after expat has accepted them, so
+a short scanner suffices: names, ``=``, quoted values.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ _TAG_NAME = re.compile(rb"<[^\s<>/]+")
 
 
 def attribute_spans(data: bytes, start: int) -> dict[str, tuple[int, int]]:
-    """Byte spans ``(first byte of the name, byte after the closing quote)`` by attribute name.
+    """Return byte spans ``(start of the name, byte after the closing quote)`` by attribute name.
 
     Args:
-        data: The bytes of the file.
+        data: Bytes of the file.
         start: Byte of the ``<`` of the tag.
     """
     spans: dict[str, tuple[int, int]] = {}
@@ -31,7 +31,7 @@ def attribute_spans(data: bytes, start: int) -> dict[str, tuple[int, int]]:
 
 
 def value_span(data: bytes, span: tuple[int, int]) -> tuple[int, int]:
-    """The span of the value between its quotes, for a span from :func:`attribute_spans`."""
+    """Return the span of the value between its quotes, for a span of :func:`attribute_spans`."""
     match = _ATTRIBUTE.match(data, span[0])
     if match is None:
         return span
@@ -39,7 +39,7 @@ def value_span(data: bytes, span: tuple[int, int]) -> tuple[int, int]:
 
 
 def tag_end(data: bytes, start: int) -> int:
-    """Byte after the ``>`` that ends the tag starting at ``start``."""
+    """Return the byte after the ``>`` that ends the tag starting at ``start``."""
     name = _TAG_NAME.match(data, start)
     position = name.end() if name else start
     while match := _ATTRIBUTE.match(data, position):

@@ -1,7 +1,7 @@
-"""Feed a file to expat, with what is refused in any description, and say why it was.
+"""XML parsing with checks common to all descriptions, and explanations of errors.
 
-Refused: what is not well-formed, entity declarations (which covers entity bombs and external
-entities) and nesting deeper than ``MAX_DEPTH``.
+Rejected are text that is not well-formed, entity declarations (which covers entity bombs and
+external entities) and nesting deeper than ``MAX_DEPTH``.
 """
 
 from __future__ import annotations
@@ -17,25 +17,25 @@ MAX_DEPTH = 200
 
 
 class OpenElement(Protocol):
-    """An element whose end has not been seen: what an error says of it."""
+    """Element whose end tag has not been read; used in error messages."""
 
     start: int
 
     @property
     def tag(self) -> str:
-        """Its name."""
+        """Return the name."""
 
 
 def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> None:
-    """Feed a file to an expat parser, with the refusals that hold for every description.
+    """Parse a file with an expat parser and the common checks.
 
     Args:
-        parser: The parser, its handlers set.
+        parser: Parser with its handlers set.
         file: The file.
-        stack: The elements that are open, as the handlers keep it.
+        stack: Open elements, maintained by the handlers.
 
     Raises:
-        XmlError: As :func:`parse`.
+        XmlError: The file is not well-formed, declares entities, or cannot be decoded.
     """
 
     def entity(name: str, *_: object) -> None:
@@ -82,7 +82,7 @@ def _codec(encoding: str) -> str:
 
 
 def _as_expat_reads(file: SourceFile) -> bytes:
-    """The bytes; text in UTF-16 or UTF-32 is turned into UTF-8, so that offsets mean characters."""
+    """Return the bytes of a file; convert UTF-16 and UTF-32 to UTF-8, in ``file.data`` too."""
     for mark, encoding in (
         (b"\xff\xfe\x00\x00", "utf-32"),
         (b"\x00\x00\xfe\xff", "utf-32"),
@@ -100,7 +100,7 @@ def _as_expat_reads(file: SourceFile) -> bytes:
 
 
 def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[str, str, str]:
-    """Say why expat refused the text and what would be right, by which rule and in which case."""
+    """Return message, rule and case of an expat error."""
     data = file.data
     reason = expat.ErrorString(error.code) or str(error)
     closing = data[offset : data.find(b">", offset)].decode(file.encoding, "replace").strip("</ ")
@@ -156,10 +156,13 @@ def _in_comment(data: bytes, offset: int) -> bool:
 
 
 def mend(file: SourceFile) -> SourceFile | None:
-    """A file that lax readers take, made readable without moving a byte; None if it cannot be.
+    """Return a file that tolerant readers accept, made well-formed at unchanged offsets.
 
-    What TinyXML passes over is blanked: a wrong or late ``<?xml …?>`` and ``--`` in comments. It is
-    for looking further at a file that has been found not well-formed.
+    Blanks replace what TinyXML ignores: a wrong or late ``<?xml …?>`` and ``--`` in comments. The
+    result is for further checks of a file that is not well-formed.
+
+    Returns:
+        The repaired file; None if nothing was repaired or a comment is not closed.
     """
     data = bytearray(file.data)
     at = data.find(b"<?xml")

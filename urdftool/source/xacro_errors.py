@@ -1,4 +1,4 @@
-"""What a failed expansion means, in a sentence with a place."""
+"""Conversion of failed expansions to errors with a location."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ def explain(
     result: Expansion,
     workspace: Workspace,
 ) -> UrdftoolError:
-    """An error of xacro as one of ours.
+    """Convert an error of xacro to a :class:`UrdftoolError`.
 
     Args:
-        error: What was raised.
-        node: The element xacro was at.
-        failed_text: The text or expression that could not be evaluated, if it was that.
-        result: What was read so far.
-        workspace: Looks for names that are like one that is not there.
+        error: The exception.
+        node: Element that xacro was processing.
+        failed_text: Text or expression whose evaluation failed, if any.
+        result: Files and definitions read so far.
+        workspace: Lists folders to find similar names.
     """
     at = None if node is None else _place(node, failed_text, odd_parameter(error))
     for cause in causes_of(error):
         if isinstance(cause, UrdftoolError) and cause.line is None and at is not None:
-            if cause.path is not None:  # a file that could not be read, named where it is wanted
+            if cause.path is not None:  # unreadable file: report it at the reference
                 argument = _argument_of(node, result)
                 return _missing(cause.path, cause.message, at, argument, workspace)
             return type(cause)(
@@ -59,7 +59,7 @@ def explain(
 
 
 def _argument_of(include: XacroElement | None, result: Expansion) -> str:
-    """Advise to give the argument that an include takes its file from, if it was not given."""
+    """Return advice to set the argument that names an included file, if it was not given."""
     if include is None:
         return ""
     span = include.file.attribute_spans(include.start).get("filename")
@@ -72,7 +72,7 @@ def _argument_of(include: XacroElement | None, result: Expansion) -> str:
 
 
 def _missing(path: str, reason: str, at: Place, argument: str, workspace: Workspace) -> XacroError:
-    """A file that is wanted and cannot be read, with the nearest name that can."""
+    """Return the error for a file that cannot be read, with the nearest existing name."""
     folder, name = os.path.split(path)
     try:
         there = [entry.name for entry in workspace.list_folder(folder or ".")]
@@ -92,7 +92,7 @@ def _missing(path: str, reason: str, at: Place, argument: str, workspace: Worksp
 
 
 def _place(node: XacroElement, failed_text: str | None, odd: str) -> Place:
-    """The attribute that is odd, or whose value holds the text that failed; else the element."""
+    """Return the span of the unknown attribute or of the one that failed; else of the element."""
     if (odd or node.tagName == "xacro:include") and not failed_text:
         span = node.file.attribute_spans(node.start).get(odd or "filename")
         return node.place if span is None else Place(node.file, *span, node.calls)

@@ -1,9 +1,9 @@
-"""What xacro calls instead of its own functions, for the length of one expansion.
+"""Replacements of xacro's functions during an expansion.
 
-The expansion itself is the ``xacro`` package's. Replaced are the parser (for places, limits and
-refusals), the search for packages (without ROS), the evaluation of text (the same, but each
-expression is compiled once), the reading of files, and what it prints. This is the only module that
-loads xacro, a copy of its own, whose state lives in module globals: one expansion runs at a time.
+The ``xacro`` package expands. Replaced are its parser (for locations, limits and checks), package
+search (without ROS), text evaluation (equal, but each expression is compiled once), file access and
+output. Only this module loads xacro, as a separate copy whose state is in module globals: one
+expansion runs at a time.
 """
 
 from __future__ import annotations
@@ -44,10 +44,10 @@ _COPY = "urdftool_xacro"
 
 
 def _load_xacro() -> Any:
-    """Load xacro once more, under a name of its own.
+    """Load a second copy of xacro under a separate name.
 
-    Its functions are replaced for an expansion and its state is in the module: neither is seen by
-    others in this process that use xacro.
+    Its functions and module state change during an expansion; other users of xacro in this
+    process are not affected.
     """
     found = find_spec("xacro")
     if found is None or found.origin is None:
@@ -65,7 +65,7 @@ xacro: Any = _load_xacro()
 
 
 def _substitution_args() -> Any:
-    """Xacro's module for ``$(…)``, imported without yaml, which it names and hardly ever uses."""
+    """Return xacro's module for ``$(…)``, imported without yaml, which it rarely uses."""
     absent = "yaml" not in sys.modules
     if absent:
         sys.modules["yaml"] = ModuleType("yaml")
@@ -77,7 +77,7 @@ def _substitution_args() -> Any:
 
 
 class Run:
-    """One expansion under way."""
+    """Running expansion."""
 
     def __init__(self, result: Expansion, packages: Packages) -> None:
         self.result = result
@@ -92,14 +92,14 @@ class Run:
         self.patience = Patience()
 
     def expand(self) -> None:
-        """Parse the file, and let xacro expand it; the hooks are in place."""
+        """Parse the file and expand it with xacro; requires :meth:`hooks`."""
         xacro.init_stacks(self.result.file.path)
         self.result.tree = parse_xacro(self.result.file)
         xacro.process_doc(self.result.tree, mappings=dict(self.result.given), verbosity=1)
 
     @contextmanager
     def hooks(self) -> Iterator[None]:
-        """Put our functions in the place of xacro's, and take them away again."""
+        """Replace functions of xacro, and restore them at exit."""
         here: dict[str, Any] = {
             "parse": self.parse,
             "eval_text": self.eval_text,
@@ -152,10 +152,10 @@ class Run:
             substitution._eval_dict.update(saved_commands)
             xacro.substitution_args_context.clear()
 
-    # What xacro calls ------------------------------------------------------------------------
+    # Functions that xacro calls ---------------------------------------------------------------
 
     def parse(self, _: object, filename: str) -> XacroDocument:
-        """Read an included file; what cannot be opened is an IOError to xacro."""
+        """Parse an included file; raise xacro's exception if it cannot be opened."""
         path = shown_path(self.packages.installed(filename))
         if len(xacro.filestack) > MAX_INCLUDES:
             raise XacroError(
@@ -177,11 +177,11 @@ class Run:
         return parse_xacro(file, self.include_calls)
 
     def find(self, name: str) -> str:
-        """The folder of a package."""
+        """Return the folder of a package."""
         return str(self.packages.find(name))
 
     def abs_filename_spec(self, original: Callable[[str], str]) -> Callable[[str], str]:
-        """Paths relative to the file they stand in; install rules followed."""
+        """Wrap the resolution of relative paths: apply install rules to missing files."""
 
         def absolute(spec: str) -> str:
             path = original(spec)
@@ -203,7 +203,7 @@ class Run:
             yield name
 
     def load_yaml(self, filename: str) -> Any:
-        """Load a file as ``xacro.load_yaml``, within bounds and fast by libyaml."""
+        """Load a file as ``xacro.load_yaml``, within limits and with libyaml."""
         import yaml
 
         path = str(xacro.abs_filename_spec(filename))
@@ -222,11 +222,11 @@ class Run:
                 xacro.all_includes.append(path)
 
     def warning(self, *words: object, **_: object) -> None:
-        """Keep a warning with the place it was met."""
+        """Record a warning with its location."""
         self.result.warnings.append(Warned(" ".join(map(str, words)), self.place))
 
     def around(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """Know which element is worked on while a function of xacro works on it."""
+        """Wrap a function of xacro to record the element that it processes."""
 
         def wrapped(node: XacroElement, *rest: Any) -> Any:
             before, self.node = self.node, node
@@ -237,7 +237,7 @@ class Run:
         return wrapped
 
     def eval_all(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """Once for each element: where a bound on their number is kept."""
+        """Wrap the expansion of an element to limit the number of elements."""
         wrapped = self.around(original)
 
         def evaluate(node: XacroElement, macros: Any, symbols: Any) -> None:
@@ -253,7 +253,7 @@ class Run:
         return evaluate
 
     def check_attrs(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """See the arguments that are declared, as they pass."""
+        """Wrap the check of attributes to record declared arguments."""
 
         def wrapped(tag: XacroElement, required: list[str], optional: list[str]) -> Any:
             self.node = tag
@@ -266,7 +266,7 @@ class Run:
         return wrapped
 
     def reqd_attrs(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """Know the element whose attributes are read, which may be evaluated from its parent."""
+        """Wrap the reading of attributes to record their element."""
 
         def wrapped(tag: XacroElement, names: list[str]) -> Any:
             self.node = tag
@@ -275,7 +275,7 @@ class Run:
         return wrapped
 
     def grab_macro(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """Mark a macro's definition, so that its copies know their call."""
+        """Wrap the definition of a macro so that its copies record their call."""
         wrapped = self.around(original)
 
         def grab(element: XacroElement, macros: Any) -> None:
@@ -285,7 +285,7 @@ class Run:
         return grab
 
     def process_include(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """Elements of an included file came through the include."""
+        """Wrap an include so that its elements record it."""
         wrapped = self.around(original)
 
         def include(element: XacroElement, *rest: Any) -> None:
@@ -297,13 +297,13 @@ class Run:
         return include
 
     def handle_macro_call(self, original: Callable[..., bool]) -> Callable[..., bool]:
-        """Elements of a macro's instance came through its call."""
+        """Wrap a macro call so that the elements of the instance record it."""
 
         def call(node: XacroElement, macros: Any, symbols: Any) -> bool:
             tag = node.tagName
             if not tag.startswith("xacro:"):
                 return False
-            if tag == "xacro:call":  # comes back here with its macro's name
+            if tag == "xacro:call":  # calls this function again with the name of its macro
                 return bool(original(node, macros, symbols))
             if len(node.calls) > MAX_CALLS:
                 raise XacroError(
@@ -324,7 +324,7 @@ class Run:
         return call
 
     def shown(self, value: str, symbols: Any) -> str:
-        """A call's argument as evaluated, for the reader; as written where that has effects."""
+        """Return an argument of a call evaluated, or as written if that may have effects."""
         if "$" not in value or "xacro." in value or len(value) > 200:
             return value
         try:
@@ -334,7 +334,7 @@ class Run:
             return value
 
     def eval_text(self, text: str, symbols: Any) -> Any:
-        """As ``xacro.eval_text``, with the lexing and compiling done once for each text."""
+        """Evaluate a text as ``xacro.eval_text``, lexing and compiling each text once."""
         if "$" not in text:
             return text
         try:
@@ -367,7 +367,7 @@ class Run:
         return joined
 
     def evaluate(self, expression: str, symbols: Any) -> Any:
-        """The value of what stands between ``${`` and ``}``."""
+        """Return the value of an expression in ``${…}``."""
         try:
             source = str(self.eval_text(expression, symbols))
             code = compile_expression(source)
@@ -385,29 +385,29 @@ class Run:
         finally:
             self.patience.since = None
 
-    # What we tell of it ----------------------------------------------------------------------
+    # Results of the expansion -----------------------------------------------------------------
 
     @property
     def place(self) -> Place | None:
-        """Where the expansion is."""
+        """Return the location of the processed element; None before the first."""
         return None if self.node is None else self.node.place
 
     def note_dependencies(self) -> None:
-        """Take the files xacro read, each once."""
+        """Store the files that xacro read, each once."""
         seen = dict.fromkeys(
             shown_path(self.packages.installed(path)) for path in xacro.all_includes
         )
         self.result.dependencies = list(seen)
 
     def explain(self, error: Exception) -> UrdftoolError:
-        """An error of the expansion as a sentence with a place."""
+        """Convert an exception of the expansion to an error with a location."""
         from .xacro_errors import explain
 
         return explain(error, self.node, self.failed_text, self.result, self.packages.workspace)
 
 
 class _MissingFileError(OSError):
-    """What xacro needs to see to let an optional include pass."""
+    """Error with the attributes by which xacro recognizes a missing optional include."""
 
     def __init__(self, path: str, error: SourceError) -> None:
         super().__init__(error.message)
@@ -423,7 +423,7 @@ _TEXT, _EXPR, _EXTENSION = 0, 1, 2
 
 @lru_cache(maxsize=1 << 15)
 def _split(text: str) -> list[tuple[int, str]]:
-    """The pieces of a text, as xacro's own lexer finds them."""
+    """Return the tokens of a text, by xacro's lexer."""
     pieces = []
     lexer = xacro.QuickLexer(xacro.LEXER)
     lexer.lex(text)

@@ -1,4 +1,4 @@
-"""Text to the tree that xacro works on."""
+"""Parser for the tree on which xacro works."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ from .xacro_tree import (
 
 
 def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument:
-    """Parse a file into the tree that xacro works on.
+    """Parse a file into the tree on which xacro works.
 
     Args:
         file: The file.
-        calls: The includes it is read through.
+        calls: Includes that lead to the file.
 
     Raises:
-        XmlError: It is not well-formed, uses a prefix it does not declare, declares entities, or
-            is nested too deep.
+        XmlError: It is not well-formed, uses an undeclared prefix, declares entities, or is
+            nested too deeply.
     """
     parser = expat.ParserCreate(namespace_separator=" ")
     parser.namespace_prefixes = True
@@ -102,6 +102,6 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
 
 
 def _qualified(name: str) -> str:
-    """``prefix:local`` of expat's ``uri local prefix``."""
+    """Return ``prefix:local`` for expat's ``uri local prefix``."""
     parts = name.split(" ")
     return f"{parts[2]}:{parts[1]}" if len(parts) == 3 else parts[1]

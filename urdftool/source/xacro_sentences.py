@@ -1,4 +1,4 @@
-"""What xacro complains of, in our words: what is wrong, with what would be right."""
+"""Explanations of xacro's errors, with remedies."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ _TAGS = (
     *("arg", "attribute", "call", "element", "if", "include", "insert_block", "macro"),
     *("property", "unless"),
 )
-"""The tags of xacro itself; all others are calls of macros."""
+"""Tags of xacro itself; all others are macro calls."""
 _WANTS = {"env": "NAME", "optenv": "NAME DEFAULT", "find": "PACKAGE", "arg": "NAME"}
 
 
 def causes_of(error: BaseException) -> list[BaseException]:
-    """The error and what it was raised from, in any of the ways xacro wraps them."""
+    """Return the error and its causes, in all forms in which xacro wraps them."""
     found: list[BaseException] = []
     todo: list[BaseException | None] = [error]
     while todo:
@@ -52,13 +52,13 @@ def causes_of(error: BaseException) -> list[BaseException]:
 
 
 class Failure(NamedTuple):
-    """What xacro raised, and what it was at.
+    """Exception of xacro with its context.
 
     Attributes:
         error: The exception.
-        node: The element.
-        failed_text: The text or expression that could not be evaluated, if it was that.
-        result: What was read so far.
+        node: Element that xacro was processing.
+        failed_text: Text or expression whose evaluation failed, if any.
+        result: Files and definitions read so far.
     """
 
     error: Exception
@@ -68,16 +68,16 @@ class Failure(NamedTuple):
 
     @property
     def text(self) -> str:
-        """What xacro says, on one line."""
+        """Return the message of xacro on one line."""
         return " ".join(str(self.error).split()) or type(self.error).__name__
 
 
 class Explanation(NamedTuple):
-    """A failure of the expansion, explained.
+    """Explanation of a failed expansion.
 
     Attributes:
         rule: Lint rule that reports it.
-        message: One sentence: what is wrong, with what would be right.
+        message: One sentence: the fact and, where known, the correct form.
         data: Values for fixes, by name.
     """
 
@@ -87,7 +87,7 @@ class Explanation(NamedTuple):
 
 
 def sentence_of(failure: Failure) -> Explanation:
-    """Explain a failure by the rule it is a case of."""
+    """Return the explanation of a failure, with the rule to which it belongs."""
     error = failure.error
     if isinstance(error, RecursionError) or isinstance(error.__cause__, RecursionError):
         return Explanation(
@@ -104,13 +104,13 @@ def sentence_of(failure: Failure) -> Explanation:
 
 
 def _inner(error: Exception) -> object:
-    """What xacro wrapped."""
+    """Return the exception that xacro wrapped."""
     inner: object = getattr(error, "exc", None)
     return error if inner is None else inner
 
 
 def _of_names(failure: Failure) -> Explanation | None:
-    """Names that mean nothing where they stand."""
+    """Explain undefined names."""
     text, result, failed_text = failure.text, failure.result, failure.failed_text
     if match := _UNKNOWN_MACRO.search(text):
         near = nearest(match[1], sorted({*_TAGS, *(name for name, _ in _macros(result))}))
@@ -144,13 +144,13 @@ def _of_names(failure: Failure) -> Explanation | None:
 
 
 def odd_parameter(error: Exception) -> str:
-    """The attribute of a call that its macro has no parameter for; empty for other errors."""
+    """Return the attribute of a macro call without a parameter; empty for other errors."""
     match = _ODD_PARAMETER.search(str(error))
     return match[1] if match else ""
 
 
 def _of_macros(failure: Failure) -> Explanation | None:
-    """Macros, and what they are called with."""
+    """Explain errors of macros and their arguments."""
     text, node = failure.text, failure.node
     macro = node.tagName[6:] if node is not None else "?"
     if match := _NO_PARAMETERS.search(text):
@@ -188,7 +188,7 @@ def _of_macros(failure: Failure) -> Explanation | None:
 
 
 def _of_blocks(failure: Failure) -> Explanation | None:
-    """Elements that are handed to a macro."""
+    """Explain errors of block parameters."""
     text, node, result = failure.text, failure.node, failure.result
     few = "Not enough blocks" in text
     if node is not None and (few or text.startswith('Unused block "')):
@@ -232,7 +232,7 @@ def _of_blocks(failure: Failure) -> Explanation | None:
 
 
 def _of_writing(failure: Failure) -> Explanation | None:
-    """What is written in a way that xacro does not take."""
+    """Explain syntax errors."""
     text, error, failed_text = failure.text, failure.error, failure.failed_text
     if match := _NO_ATTRIBUTE.search(text):
         return Explanation("expansion-failed", f"<{match[1]}> lacks the attribute '{match[2]}'")
@@ -297,7 +297,7 @@ def _of_writing(failure: Failure) -> Explanation | None:
 
 
 def _of_files(failure: Failure) -> Explanation | None:
-    """Files that cannot be read."""
+    """Explain files that cannot be read."""
     for cause in causes_of(failure.error):
         if isinstance(cause, OSError) and cause.filename:
             reason = (cause.strerror or "cannot be read").lower()
@@ -311,7 +311,7 @@ def _of_files(failure: Failure) -> Explanation | None:
 
 
 def _children(node: XacroElement) -> Iterator[XacroElement]:
-    """The elements in an element."""
+    """Yield the child elements."""
     for child in node.childNodes:
         if isinstance(child, XacroElement):
             yield child
@@ -338,14 +338,14 @@ _DEFINED = re.compile(
 
 
 def _macros(result: Expansion) -> Iterator[tuple[str, str]]:
-    """Each macro that is defined, with its parameters as written."""
+    """Yield the defined macros with their parameters as written."""
     for kind, name, parameters in _definitions(result):
         if kind == "macro":
             yield name, parameters
 
 
 def _blocks_of(macro: str, result: Expansion) -> set[str]:
-    """The blocks that a macro takes."""
+    """Return the block parameters of a macro."""
     name = macro.rpartition(".")[2]
     return {
         block

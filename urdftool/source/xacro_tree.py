@@ -1,8 +1,8 @@
-"""The tree that xacro works on: the part of the DOM it uses, with the place of each element.
+"""Tree on which xacro works: the DOM subset that it uses, with locations.
 
-xacro expands a DOM by moving and cloning nodes. These nodes do just that, carry where they were
-written (``file``, ``start``) and which calls they came through (``calls``), and are copied several
-times faster than those of ``xml.dom.minidom``. Names follow the DOM because xacro calls them.
+xacro expands a DOM by moving and cloning nodes. These nodes support that, record their source
+(``file``, ``start``) and calls (``calls``), and are copied several times faster than those of
+``xml.dom.minidom``. xacro requires the names of the DOM.
 """
 
 # ruff: noqa: N802, N815 -- the DOM's names
@@ -19,29 +19,29 @@ ELEMENT, TEXT, CDATA, INSTRUCTION, COMMENT, DOCUMENT = 1, 3, 4, 7, 8, 9
 
 
 class Node:
-    """Anything in the tree."""
+    """Node of the tree."""
 
     __slots__ = ("nextSibling", "parentNode", "previousSibling")
     nodeType = 0
 
     def __init__(self) -> None:
-        """Make a node that is in no tree."""
+        """Create a node without a parent."""
         self.parentNode: Parent | None = None
         self.previousSibling: Node | None = None
         self.nextSibling: Node | None = None
 
     def copy(self, calls: tuple[Call, ...] | None) -> Node:
-        """A copy; with ``calls``, one that came through those calls."""
+        """Return a copy; its ``calls`` are replaced if given."""
         raise NotImplementedError
 
 
 class Characters(Node):
-    """Text, a CDATA section, a comment or a processing instruction."""
+    """Text, CDATA section, comment or processing instruction."""
 
     __slots__ = ("data", "nodeType")
 
     def __init__(self, data: str, kind: int = TEXT) -> None:
-        """Make it of text and node type."""
+        """Create a node of text and node type."""
         self.parentNode = None
         self.previousSibling = None
         self.nextSibling = None
@@ -49,31 +49,31 @@ class Characters(Node):
         self.nodeType = kind
 
     def copy(self, calls: tuple[Call, ...] | None) -> Characters:
-        """As :meth:`Node.copy`."""
+        """Return a copy; see :meth:`Node.copy`."""
         return Characters(self.data, self.nodeType)
 
 
 class Parent(Node):
-    """A node with children, kept as a linked list: xacro inserts and removes all the time."""
+    """Node with children in a linked list, for fast insertion and removal."""
 
     __slots__ = ("firstChild", "lastChild")
 
     def __init__(self) -> None:
-        """Make it without children."""
+        """Create a node without children."""
         super().__init__()
         self.firstChild: Node | None = None
         self.lastChild: Node | None = None
 
     @property
     def childNodes(self) -> Iterator[Node]:
-        """The children, in order."""
+        """Yield the children, in order."""
         child = self.firstChild
         while child is not None:
             yield child
             child = child.nextSibling
 
     def appendChild(self, node: Node) -> None:
-        """Add a node that is in no tree as the last child."""
+        """Append a node that has no parent."""
         node.parentNode = self
         last = node.previousSibling = self.lastChild
         if last is None:
@@ -83,7 +83,7 @@ class Parent(Node):
         self.lastChild = node
 
     def insertBefore(self, node: Node, reference: Node | None) -> None:
-        """Move a node in front of a child, or to the end."""
+        """Move a node before a child, or to the end if ``reference`` is None."""
         if node.parentNode is not None:
             node.parentNode.removeChild(node)
         if reference is None:
@@ -99,7 +99,7 @@ class Parent(Node):
             before.nextSibling = node
 
     def removeChild(self, node: Node) -> None:
-        """Take a child out of the tree."""
+        """Remove a child from the tree."""
         before, after = node.previousSibling, node.nextSibling
         if before is None:
             self.firstChild = after
@@ -117,21 +117,21 @@ class _Value(NamedTuple):
 
 
 class Attributes(dict[str, str]):
-    """Attributes by name; ``items`` is a list, since xacro changes them while it goes through."""
+    """Attributes by name; ``items`` returns a list, since xacro modifies them while iterating."""
 
     __slots__ = ()
 
     def items(self) -> list[tuple[str, str]]:  # type: ignore[override]
-        """Names and values, as they are now."""
+        """Return a copy of names and values."""
         return list(dict.items(self))
 
 
 class XacroElement(Parent):
-    """An element, with its place.
+    """Element with its location.
 
     Attributes:
-        definition_of: The expansion whose calls a copy of this element takes; set on a macro's
-            definition, whose copies are the macro's instances.
+        definition_of: Expansion whose current calls a copy of this element records; set on the
+            definition of a macro, whose copies are instances of the macro.
     """
 
     __slots__ = ("attributes", "calls", "definition_of", "file", "nodeName", "start", "tagName")
@@ -145,7 +145,7 @@ class XacroElement(Parent):
         start: int,
         calls: tuple[Call, ...],
     ) -> None:
-        """Make it without children."""
+        """Create an element without children."""
         self.parentNode = None
         self.previousSibling = None
         self.nextSibling = None
@@ -160,24 +160,24 @@ class XacroElement(Parent):
 
     @property
     def tag(self) -> str:
-        """Its name, as elements of a document call it."""
+        """Return the name, as ``Element.tag``."""
         return self.tagName
 
     @property
     def place(self) -> Place:
-        """The span of its start tag."""
+        """Return the span of the start tag."""
         return Place(self.file, self.start, self.file.tag_end(self.start), self.calls)
 
     def hasAttribute(self, name: str) -> bool:
-        """Whether there is an attribute of that name."""
+        """Tell whether an attribute exists."""
         return name in self.attributes
 
     def getAttribute(self, name: str) -> str:
-        """The value of an attribute; empty where there is none."""
+        """Return the value of an attribute; empty if absent."""
         return self.attributes.get(name, "")
 
     def getAttributeNode(self, name: str) -> _Value | None:
-        """The attribute as something with a ``value``; None where there is none."""
+        """Return an object with the ``value`` of an attribute; None if absent."""
         value = self.attributes.get(name)
         return None if value is None else _Value(value)
 
@@ -186,17 +186,21 @@ class XacroElement(Parent):
         self.attributes[name] = str(value)
 
     def removeAttribute(self, name: str) -> None:
-        """Take an attribute away, or raise as the DOM does."""
+        """Remove an attribute.
+
+        Raises:
+            NotFoundErr: It is absent.
+        """
         if self.attributes.pop(name, None) is None:
             raise NotFoundErr
 
     def cloneNode(self, deep: bool = True) -> XacroElement:
-        """A copy of it and all below; of a macro's definition, an instance of the macro."""
+        """Return a deep copy; a copy of the definition of a macro is an instance of the macro."""
         instances = self.definition_of
         return self.copy(None if instances is None else instances.calls)
 
     def copy(self, calls: tuple[Call, ...] | None) -> XacroElement:
-        """As :meth:`Node.copy`."""
+        """Return a deep copy; see :meth:`Node.copy`."""
         twin = XacroElement(
             self.tagName,
             Attributes(self.attributes),
@@ -212,13 +216,13 @@ class XacroElement(Parent):
 
 
 class Instances:
-    """What the copies of macro definitions are instances of: the calls under way."""
+    """Current calls, which copies of macro definitions record."""
 
     calls: tuple[Call, ...] = ()
 
 
 class XacroDocument(Parent):
-    """A file's tree."""
+    """Tree of a file."""
 
     __slots__ = ("documentElement",)
     nodeType = DOCUMENT

@@ -1,4 +1,4 @@
-"""An expanded tree to text, laid out as xacro lays it out."""
+"""Output of an expanded tree in the format of xacro."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from .xacro_tree import (
 
 
 def write_xml(document: XacroDocument, banner: list[str]) -> str:
-    """The text of an expanded tree, laid out as xacro lays it out.
+    """Return the text of an expanded tree in the format of xacro.
 
     Args:
         document: The tree.
-        banner: Comments to put in front of it.
+        banner: Comments to write before it.
     """
     parts = ['<?xml version="1.0" ?>\n']
     parts.extend(f"<!--{line}-->\n" for line in banner)

@@ -1,4 +1,4 @@
-"""YAML that is looked through before it is built, since a few lines of it can fill the memory."""
+"""Size checks of YAML before it is loaded, since a few lines of it can exhaust memory."""
 
 from __future__ import annotations
 
@@ -9,24 +9,23 @@ from ..errors import XacroError
 
 MAX_BYTES = 32 * 1024 * 1024
 MAX_VALUES = 1_000_000
-"""Values and letters of a file, aliases followed."""
+"""Maximum number of values and characters of a file, with aliases resolved."""
 MAX_DEPTH = 100
 
 
 def bounded(stream: Any, loader: Any) -> Any:
-    """A stream again from its beginning, once it was looked through.
+    """Check the size of a YAML stream and return it from its beginning.
 
-    The events of the parser are counted, none of which is kept: lists in lists would end the
-    process in libyaml's own recursion, and aliases of aliases, or merges of them, never end.
+    Counts the events of the parser without storing them: nested lists would overflow the stack in
+    libyaml, and aliases or merges of aliases may grow exponentially.
 
     Args:
         stream: The open file.
-        loader: The class that will load it.
+        loader: Loader class to be used.
 
     Raises:
-        XacroError: It is longer, deeper, or with its aliases followed larger than any robot needs,
-            or holds itself.
-        YAMLError: It is no YAML.
+        XacroError: It exceeds the limits of length, depth or size, or contains itself.
+        YAMLError: It is not valid YAML.
     """
     import yaml
 

@@ -1,4 +1,4 @@
-"""A YAML file of parameters as a tree that knows its places, within bounds."""
+"""YAML parameter files as a tree with locations, within size limits."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .location import Place, SourceFile
 
 MOST_BYTES = 256 * 1024
 MOST_NODES = 50_000
-"""Of a tree, aliases followed: what a few lines of aliases of aliases may grow to."""
+"""Maximum number of nodes of a tree, with aliases resolved."""
 
 _DEEP = 100
 _YES, _NO = ("true", "yes", "on"), ("false", "no", "off")
@@ -21,19 +21,19 @@ _YES, _NO = ("true", "yes", "on"), ("false", "no", "off")
 
 @dataclass(eq=False)
 class Node:
-    """A value.
+    """Value in a YAML file.
 
     Attributes:
         file: Its file.
         start: First byte.
         end: Byte after the last.
-        key: The key it has in the mapping around it.
-        text: Of a scalar; None for others.
-        quoted: Whether the scalar is quoted, so that it is text.
-        items: Of a sequence.
-        fields: Of a mapping.
-        kind: Of a scalar, what YAML 1.1 takes it for: ``int``, ``float``, ``bool``, ``str`` ….
-        replaced: Earlier values of the same key, which readers drop for this one.
+        key: Its key in the enclosing mapping.
+        text: Text of a scalar; None for others.
+        quoted: Whether a scalar is quoted, and therefore a string.
+        items: Items of a sequence; None for others.
+        fields: Fields of a mapping; None for others.
+        kind: Type of a scalar in YAML 1.1: ``int``, ``float``, ``bool``, ``str`` ….
+        replaced: Earlier values of the same key, which this one overrides.
     """
 
     file: SourceFile
@@ -49,16 +49,16 @@ class Node:
 
     @property
     def place(self) -> Place:
-        """Where it is."""
+        """Return the location."""
         return Place(self.file, self.start, self.end)
 
     @property
     def at(self) -> tuple[str, int, int]:
-        """The same in plain values."""
+        """Return path, first byte and byte after the last."""
         return self.file.path, self.start, self.end
 
     def find(self, *keys: str) -> Node | None:
-        """What is below some keys, written as mappings in each other or as ``a.b`` or ``a/b``."""
+        """Return the node at a path of keys; a key may also join several, as ``a.b`` or ``a/b``."""
         if not keys:
             return self
         for count in range(1, len(keys) + 1):
@@ -79,7 +79,7 @@ class Node:
         return Node(self.file, first.start, last.end, keys[-1], None, False, None, parts)
 
     def walk(self, *path: str) -> Iterator[tuple[tuple[str, ...], Node]]:
-        """All mappings with the keys that lead to them, this one first."""
+        """Yield all mappings with the keys that lead to them, this one first."""
         if self.fields is None:
             return
         yield path, self
@@ -87,14 +87,14 @@ class Node:
             yield from node.walk(*path, key)
 
     def wrong(self, message: str) -> ConfigError:
-        """An error about it."""
+        """Return an error at this location."""
         return ConfigError(message, at=self.place)
 
     def number(self, what: str) -> float:
-        """A finite number.
+        """Return a finite number.
 
         Raises:
-            ConfigError: It is none.
+            ConfigError: The value is not a finite number.
         """
         try:
             value = float(self.text) if self.text is not None and not self.quoted else math.nan
@@ -105,10 +105,10 @@ class Node:
         return value
 
     def truth(self, what: str) -> bool:
-        """Yes or no.
+        """Return a boolean.
 
         Raises:
-            ConfigError: It is neither.
+            ConfigError: The value is not a boolean.
         """
         word = (self.text or "").lower()
         if word in _YES or word in _NO:
@@ -116,10 +116,10 @@ class Node:
         raise self.wrong(f"{what} is {self.said}; write true or false")
 
     def names(self, what: str) -> list[Node]:
-        """Names in a list, or one alone, each as a scalar.
+        """Return the scalars of a list of names, or a single name as a list.
 
         Raises:
-            ConfigError: Something else stands there.
+            ConfigError: A value is not a non-empty scalar.
         """
         nodes = [self] if self.items is None else self.items
         for node in nodes:
@@ -129,7 +129,7 @@ class Node:
 
     @property
     def said(self) -> str:
-        """What it is, in words."""
+        """Return a description of the value for messages."""
         if self.fields is not None:
             return "a mapping"
         if self.items is not None:
@@ -139,24 +139,24 @@ class Node:
 
 
 def read_yaml(path: str) -> Node:
-    """The mapping in a file.
+    """Return the mapping in a file.
 
     Raises:
-        ConfigError: It is no YAML, no mapping, or beyond the bounds.
+        ConfigError: It is not valid YAML, not a mapping, or exceeds the limits.
         SourceError: It cannot be read.
     """
     return yaml_of(read_file(path))
 
 
 def yaml_of(file: SourceFile) -> Node:
-    """The mapping in a file that was read.
+    """Return the mapping in a file that was read.
 
-    Several documents are one mapping. Of a key that is written again the last value counts, as for
-    PyYAML, which ROS 1 reads parameters with; with ``ros__parameters`` mappings of the same key are
-    merged, as rcl_yaml_param_parser of ROS 2 does (``parse_file_events``, ``find_node``).
+    Several documents are one mapping. The last value of a duplicate key counts, as in PyYAML, with
+    which ROS 1 reads parameters; in files with ``ros__parameters``, mappings of the same key are
+    merged, as in rcl_yaml_param_parser of ROS 2 (``parse_file_events``, ``find_node``).
 
     Raises:
-        ConfigError: It is no YAML, no mapping, or beyond the bounds.
+        ConfigError: It is not valid YAML, not a mapping, or exceeds the limits.
     """
     import yaml
 
@@ -194,7 +194,7 @@ def yaml_of(file: SourceFile) -> Node:
 
 
 def _is_empty(root: Any) -> bool:
-    """Whether a document has nothing in it, as after a last ``---``."""
+    """Tell whether a document is empty, as after a final ``---``."""
     return str(root.tag).endswith(":null") and not root.value
 
 
@@ -244,7 +244,7 @@ class _Reader:
         return {**merged, **(own.fields or {})}
 
     def add(self, mapping: Node, name: str, value: Node) -> None:
-        """Add a value to a mapping, merged with what the key has already or in place of that."""
+        """Add a value to a mapping; merge it with or replace the present value of its key."""
         fields = mapping.fields
         assert fields is not None
         known = fields.get(name)
