@@ -1,7 +1,7 @@
-"""Findings that were there before: a file of them, so that only new ones fail.
+"""Baselines: files of known findings, so that only new findings fail.
 
-An entry knows its finding by :func:`fingerprint`, never by its line, and its file relative to the
-folder of the baseline. ``count`` is how many such findings there are in the file.
+An entry identifies its finding by :func:`fingerprint` instead of its line, and its file by the path
+relative to the folder of the baseline. ``count`` is the number of equal findings in the file.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ _KEYS = {"path", "rule", "element", "fingerprint", "count"}
 
 
 class Entry(NamedTuple):
-    """What a finding is known by.
+    """Identity of a finding.
 
     Attributes:
-        path: Its file, relative to the baseline's folder.
-        rule: Its rule.
-        kind: What it is about: ``link``, ``joint``, …
-        name: The name of that.
-        fingerprint: The fingerprint, which has the attributes too.
+        path: File, relative to the folder of the baseline.
+        rule: Name of the rule.
+        kind: Kind of the object: ``link``, ``joint``, …
+        name: Name of the object.
+        fingerprint: Fingerprint, which covers attributes too.
     """
 
     path: str
@@ -41,18 +41,18 @@ class Entry(NamedTuple):
 
 @dataclass
 class Baseline:
-    """The findings that were there, and how many of each.
+    """Known findings and their numbers.
 
     Attributes:
-        path: The file.
-        counts: How many findings there are of each entry.
+        path: Path of the file.
+        counts: Number of findings by entry.
     """
 
     path: str
     counts: Mapping[Entry, int] = field(default_factory=dict)
 
     def entry(self, finding: Finding) -> Entry:
-        """The entry that a finding has in this file."""
+        """Return the entry of a finding in this file."""
         path = finding.place.path
         if finding.place.file.path != "<stdin>":
             folder = os.path.dirname(os.path.abspath(self.path))
@@ -60,7 +60,7 @@ class Baseline:
         return Entry(path, finding.rule, finding.kind, finding.name, fingerprint(finding))
 
     def file_of(self, entry: Entry) -> str:
-        """The file of an entry, as an absolute path."""
+        """Return the absolute path of the file of an entry."""
         return os.path.abspath(
             os.path.join(os.path.dirname(os.path.abspath(self.path)), entry.path)
         )
@@ -70,7 +70,7 @@ def read_baseline(path: str) -> Baseline:
     """Read a baseline.
 
     Raises:
-        ConfigError: It cannot be read, or is not what ``--write-baseline`` writes.
+        ConfigError: It cannot be read, or is not in the format of ``--write-baseline``.
     """
     try:
         if os.path.exists(path) and not os.path.isfile(path):
@@ -115,7 +115,7 @@ def _entry(record: Any, number: int, path: str) -> tuple[Entry, int]:
 
 
 def compare(outcome: Outcome, baseline: Baseline) -> tuple[Outcome, list[Entry]]:
-    """A run with what the baseline has set apart, and the entries that nothing matches."""
+    """Separate the known findings of a run; return the run and the entries without a finding."""
     left = Counter(baseline.counts)
     new: list[Finding] = []
     known: list[Finding] = []
@@ -133,19 +133,19 @@ def compare(outcome: Outcome, baseline: Baseline) -> tuple[Outcome, list[Entry]]
 
 
 def baseline_of(path: str, findings: Iterable[Finding], kept: Mapping[Entry, int]) -> Baseline:
-    """A baseline for a file of that path.
+    """Return a baseline with the present findings.
 
     Args:
-        path: Where it will be written.
-        findings: What there is now.
-        kept: Entries that stay, with their counts.
+        path: Path of the file to be written.
+        findings: Present findings.
+        kept: Entries to keep, with their counts.
     """
     counts = Counter(map(Baseline(path).entry, findings))
     return Baseline(path, {**kept, **counts})
 
 
 def to_text(baseline: Baseline) -> str:
-    """A baseline as it is written: an entry a line, sorted, so that changes merge well."""
+    """Return a baseline as JSON with one sorted entry per line, so that changes merge well."""
     lines = []
     for entry, count in sorted(baseline.counts.items()):
         record = {

@@ -1,9 +1,9 @@
-"""Reports kept for the next time, with everything that they hang on.
+"""Cache of reports with their dependencies.
 
-An entry is found by the question (the file, the settings, the arguments, the tool's own code) and
-counts only while all that was asked of the file system for it (:mod:`urdftool.dependencies`)
-would be answered the same: a mesh that was missing and has come counts like one that changed.
-A file whose stamp is as it was is not read again, unless it was so young that its stamp may lie.
+The key of an entry covers the file, the settings, the arguments and the code of urdftool. An entry
+is valid while all recorded queries to the file system (:mod:`urdftool.dependencies`) have the same
+answers: a missing mesh that appears counts like a changed one. A file with an unchanged stamp is
+not read again, unless its stamp was too recent to be reliable.
 """
 
 from __future__ import annotations
@@ -40,18 +40,18 @@ _DAYS = 30
 _MOST = 200 * 1024 * 1024
 
 Row = tuple[str, str, str, "Stamp | None"]
-"""A question, its answer, and the stamp that vouches for it; None where it has to be asked."""
+"""Query, its answer, and the stamp that proves it unchanged; None if it must be repeated."""
 
 
 class Cache:
-    """Reports by question. One command has one; what it has looked at, it does not look at again.
+    """Reports by key, for one command; each query is made at most once.
 
     Attributes:
-        store: Where they are.
+        store: Cache on disk.
     """
 
     def __init__(self, store: DiskCache) -> None:
-        """Take the folder."""
+        """Set the cache on disk."""
         self.store = store
         self._code = _code()
         self._stamps: dict[Question, Stamp | None] = {}
@@ -66,7 +66,7 @@ class Cache:
         configuration: Configuration,
         settings: Settings,
     ) -> str:
-        """The question, in one word."""
+        """Return the key of a check: a digest of its inputs."""
         facts = [
             *(_FORMAT, self._code, os.getcwd(), str(path), sorted(options.arguments.items())),
             *(_folders(options.packages), [str(path) for path in options.package_paths]),
@@ -78,7 +78,7 @@ class Cache:
         return sha256(repr(facts).encode("utf-8", "surrogateescape")).hexdigest()
 
     def read(self, key: str) -> Report | None:
-        """A report that would come out the same now; None where none is known."""
+        """Return a report that is still valid; None if there is none."""
         data = self.store.get(key)
         if data is None:
             return None
@@ -92,7 +92,7 @@ class Cache:
         return found if isinstance(found, Report) else None
 
     def write(self, key: str, report: Report, read: Dependencies) -> None:
-        """Keep a report, unless something that it hangs on changed meanwhile."""
+        """Store a report, unless it is incomplete or a dependency changed during the check."""
         if report.error is not None or report.failed_rules:
             return
         try:
@@ -111,10 +111,11 @@ class Cache:
         self.store.put(key, pickle.dumps((rows, stream.getvalue()), 5))
 
     def source(self, path: str, encoding: str, digest: str) -> SourceFile:
-        """A file as it was when it was checked.
+        """Return a file that is unchanged since the check.
 
         Raises:
-            ValueError: It is not as it was.
+            OSError: It cannot be read.
+            ValueError: It has changed.
         """
         with open(path, "rb") as stream:
             data = stream.read()
@@ -123,7 +124,7 @@ class Cache:
         return SourceFile(path, data, encoding)
 
     def _rows(self, read: Dependencies) -> list[Row] | None:
-        """What was asked, with the answers; None if a stamp is no longer what it was then."""
+        """Return the queries with their answers; None if a stamp has changed since the query."""
         rows: list[Row] = []
         for question, stamp in read.asked.items():
             if question not in self._answers:
@@ -136,7 +137,7 @@ class Cache:
         return rows
 
     def _set(self, read: Dependencies) -> str | None:
-        """The digest by which the questions of a shared result are kept."""
+        """Store the queries of a shared result; return their digest, None if a stamp changed."""
         if read not in self._sets:
             rows = self._rows(read)
             if rows is None:
@@ -147,7 +148,7 @@ class Cache:
         return self._sets[read]
 
     def _holds(self, row: Row) -> bool:
-        """Whether a question is answered as it was."""
+        """Tell whether a query still has the same answer."""
         kind, path, said, stamp = row
         if kind == "many":
             return self._set_holds(path)
@@ -170,7 +171,7 @@ class Cache:
         return self._valid[digest]
 
     def trim(self) -> None:
-        """Remove what has not been used for long."""
+        """Remove entries that were not used for 30 days, and the oldest above 200 MiB."""
         self.store.trim(days=_DAYS, most=_MOST)
 
 
@@ -181,7 +182,7 @@ _NOT_WHOLE = (
 
 
 class _Writer(pickle.Pickler):
-    """Writes reports; a file of the source by its path and digest, where it is as on the disk."""
+    """Pickler that replaces source files unchanged on disk by path and digest."""
 
     def __init__(self, stream: io.BytesIO, digests: Mapping[str, str]) -> None:
         super().__init__(stream, 5)
@@ -199,7 +200,7 @@ class _Writer(pickle.Pickler):
 
 
 class _Reader(pickle.Unpickler):
-    """Reads reports, and refuses whatever is none of ours."""
+    """Unpickler that accepts only classes of urdftool and a few built-in types."""
 
     def __init__(self, stream: io.BytesIO, cache: Cache | None = None) -> None:
         super().__init__(stream)
@@ -228,7 +229,7 @@ _BUILTINS = {("builtins", "frozenset"), ("builtins", "set")}
 
 
 def _code() -> str:
-    """What stands for the code that would run: the tool's files, Python, what is installed."""
+    """Return a digest of the code that runs: files of urdftool, Python, installed libraries."""
     root = Path(__file__).parents[1]
     folders = [str(root)]
     files: list[tuple[str, int, int]] = []
@@ -245,7 +246,7 @@ def _code() -> str:
 
 
 def _installed(path: Iterable[str]) -> Iterable[tuple[str, int]]:
-    """The folders of libraries, with when something was installed in them."""
+    """Yield the library folders with their modification times [ns]."""
     for folder in path:
         if os.path.basename(folder) in ("site-packages", "dist-packages"):
             try:
@@ -259,7 +260,7 @@ def _folders(packages: Mapping[str, str | Path]) -> list[tuple[str, str]]:
 
 
 def _plain(settings: Settings) -> list[Any]:
-    """Settings without order where they have none."""
+    """Return the settings as a list, sorted where order is irrelevant."""
     return [
         *(settings.select, settings.extend_select, settings.ignore),
         None if settings.targets is None else sorted(settings.targets),

@@ -1,4 +1,4 @@
-"""The descriptions among what the user named: files as they are, folders searched."""
+"""Discovery of descriptions: named files, and descriptions in named folders."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ _HEAD = 16_384
 
 
 def find_descriptions(paths: Iterable[str]) -> list[str]:
-    """The files to check, each once: files that are named, and descriptions below folders.
+    """Return the files to check, each once: named files, and descriptions below named folders.
 
-    Hidden folders are passed over. A path that does not exist is kept, so that it is reported.
+    Hidden folders are skipped. A path that does not exist is kept, so that it is reported.
     """
     found: dict[str, str] = {}
     for path in paths:
@@ -24,14 +24,14 @@ def find_descriptions(paths: Iterable[str]) -> list[str]:
 
 
 def parts_below(paths: Iterable[str]) -> list[str]:
-    """The ``.xacro`` files of searched folders that are not taken for descriptions."""
+    """Return the ``.xacro`` files below named folders that are not descriptions by their name."""
     folders = [path for path in paths if os.path.isdir(path)]
     found = (path for folder in folders for path in _below(folder, (".xacro",)))
     return [path for path in dict.fromkeys(found) if not path.endswith(ENDINGS)]
 
 
 def nothing_below(paths: Iterable[str]) -> str:
-    """What to say where folders have no description, with a ``.xacro`` that may be one."""
+    """Return the message for folders without a description, with a ``.xacro`` that may be one."""
     folders = list(paths)
     said = f"no .urdf or .urdf.xacro below {', '.join(folders)}"
     for folder in folders:
@@ -42,7 +42,7 @@ def nothing_below(paths: Iterable[str]) -> str:
 
 
 def _has_name(path: str) -> bool:
-    """Whether a file is a robot with a name, as parts that are included seldom are."""
+    """Tell whether a file has a ``<robot>`` with a name, which included files rarely have."""
     try:
         with open(path, "rb") as stream:
             return re.search(rb"<robot\b[^>]*\sname\s*=", stream.read(_HEAD)) is not None

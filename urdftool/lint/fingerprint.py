@@ -1,4 +1,4 @@
-"""What a finding is known by when lines move: its rule, its element, and what is written there."""
+"""Identity of a finding that does not depend on line numbers."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from ..finding import Finding
 
 
 def fingerprint(finding: Finding) -> str:
-    """Sixteen hexadecimal digits from the rule, the element's kind and name, and its attributes.
+    """Return 16 hexadecimal digits of the rule, kind and name of the element, and its attributes.
 
-    Neither lines nor blanks nor the order of attributes count, so that a finding keeps its
-    fingerprint while the file is edited around it. That of a group is made of those of its members,
-    so one that has a new member is a new finding.
+    Lines, whitespace and the order of attributes are ignored, so that edits elsewhere in the file
+    keep the fingerprint. That of a group covers its members, so a group with a new member is a new
+    finding.
     """
     from hashlib import sha256
 
@@ -21,7 +21,7 @@ def fingerprint(finding: Finding) -> str:
 
 
 def _written(finding: Finding) -> list[str]:
-    """The attributes of the tag the finding stands at, or the text it underlines."""
+    """Return the attributes of the tag at the location of a finding, or the text there."""
     file, start, end, _ = finding.place
     data = file.data[start:end]
     spans = file.attribute_spans(start) if data.startswith(b"<") else {}

@@ -1,4 +1,4 @@
-"""What mends the findings of one description: proposals of the rules, as bytes of its source."""
+"""Fixes of the findings of one description: proposals of rules converted to source edits."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from .outcome import Options, Report
 
 
 class Origin(NamedTuple):
-    """Where a finding came from: the problem, and the file that was looked at, if it was one."""
+    """Origin of a finding: the problem, and the checked file for rules that check files."""
 
     problem: Problem
     document: Document | None
 
 
 DOUBTED_SIZES = frozenset(("mesh-in-millimetres", "mesh-scaled-twice", "mesh-scale-out-of-line"))
-"""Rules that doubt how large a mesh is: nothing is weighed by meshes while one of them speaks."""
+"""Rules that question the size of a mesh; if one reports, no mass is computed from meshes."""
 
 
 def add_fixes(
@@ -38,17 +38,18 @@ def add_fixes(
     description: Description,
     options: Options,
 ) -> None:
-    """Give findings their fixes, before the instances of one macro are merged.
+    """Add fixes to findings, before the instances of a macro are merged.
 
-    A fixer that breaks is a bug of ours: it is written down with its rule, and the others go on.
+    An exception in a fixer is a bug of urdftool: it is recorded in ``failed_rules``, and other
+    fixes continue.
 
     Args:
-        report: Where that is written down.
-        findings: What was found and is not excused.
-        origins: What each came from, by its identity; a file that could not be read has none.
+        report: Report that records refused, skipped and failed fixes.
+        findings: Findings that are not suppressed.
+        origins: Origin by ``id`` of the finding; none for a file that could not be read.
         robot: The robot, if it could be read.
         description: The description.
-        options: What the command line says.
+        options: Options of the command line.
     """
     groups: dict[tuple[Any, ...], list[Finding]] = {}
     for finding in findings:
@@ -89,7 +90,7 @@ _COMMENT = re.compile(rb"<!--(?!\s*urdftool-).*?-->", re.DOTALL)
 
 
 def _lost_comments(replacements: Sequence[Replacement]) -> bool:
-    """Whether comments go with what goes: they are the user's, who is asked then."""
+    """Tell whether the replacements delete comments of the user, which makes a fix unsafe."""
     kept = b"".join(replacement.data for replacement in replacements)
     return any(
         comment not in kept
@@ -99,9 +100,10 @@ def _lost_comments(replacements: Sequence[Replacement]) -> bool:
 
 
 def _proposal(finding: Finding, origin: Origin | None, context: FixContext) -> Proposal | None:
-    """Ask the rule of a finding for a fix.
+    """Return the fix that the rule of a finding proposes.
 
-    A rule's finding in a file that could not be expanded is fixed by the fixes of files alone.
+    Findings without an origin concern files that could not be expanded; only fixes of files
+    apply to them.
     """
     if (origin is None) != FIXES[finding.rule].of_file:
         return None

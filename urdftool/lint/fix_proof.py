@@ -1,4 +1,4 @@
-"""What is worse after a fix than before, so that it is taken back."""
+"""Comparison of reports before and after a fix: a fix that makes them worse is reverted."""
 
 from __future__ import annotations
 
@@ -43,18 +43,19 @@ REVEALING = frozenset(
         "odd-link-without-collision",
     )
 )
-"""Rules whose fix lets readers see what they passed over, with what is wrong in it."""
+"""Rules whose fix lets readers see content that they ignored, with its own defects."""
 
 Key = tuple[Any, ...]
 
 
 class Wrong(NamedTuple):
-    """Why fixes are not kept.
+    """Reason to revert fixes.
 
     Attributes:
-        text: What is worse.
-        of_a_file: Whether that is a file that they are made of.
-        subjects: What has more findings than before, or those that were to be gone: kind and name.
+        text: Description of the deterioration.
+        of_a_file: Whether a file that a fix rewrites cannot be computed.
+        subjects: Kind and name of objects with more findings than before, or with findings that
+            the fixes did not resolve.
     """
 
     text: str
@@ -63,24 +64,24 @@ class Wrong(NamedTuple):
 
 
 def key_of(finding: Finding) -> Key:
-    """What stands for a finding, also when bytes above it have changed."""
+    """Return the identity of a finding, which does not depend on the preceding bytes."""
     place = finding.place
     key: Key = (finding.rule, place.path, finding.kind, finding.name, finding.message)
     return (*key, place.start) if finding.kind == "file" else key
 
 
 def likeness(finding: Finding) -> Key:
-    """What a finding has in common with its like in another description."""
+    """Return what equal findings in different descriptions have in common."""
     return finding.rule, finding.kind, finding.name, finding.message
 
 
 def subject_of(finding: Finding) -> tuple[str, str]:
-    """The kind and the name of what a finding is about."""
+    """Return kind and name of the object of a finding."""
     return finding.kind, finding.name
 
 
 def worse(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | None:
-    """What is worse after some fixes; None where nothing is."""
+    """Return what is worse after the fixes of ``chosen``; None if nothing is."""
     if after.error is not None and before.error is None:
         return Wrong(f"the file could not be read: {after.error.message}")
     if after.skipped and not before.skipped:
@@ -101,7 +102,7 @@ def worse(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | N
     for level in (Severity.ERROR, Severity.WARNING):
         now, then = _counted(after, level), _counted(before, level)
         more = frozenset(subject for subject, count in now.items() if count > then[subject])
-        # among many, one that brings as much as it takes away is not seen in the sum
+        # a sum over several fixes would hide one that adds as many findings as it resolves
         gone = sum(one.severity >= level for one in chosen) if more and len(chosen) > 1 else 0
         if sum(now.values()) > sum(then.values()) - gone:
             new = [f for f in after.findings if f.severity >= level and not there[key_of(f)]]
@@ -111,10 +112,10 @@ def worse(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | N
 
 
 def _stops(report: Report) -> list[Finding]:
-    """What keeps the robot from being known."""
+    """Return the findings that prevent reading the robot."""
     return [f for f in report.findings if f.kind == "file" and f.severity is Severity.ERROR]
 
 
 def _counted(report: Report, level: Severity) -> Counter[tuple[str, str]]:
-    """How many findings there are of each subject, from a severity on."""
+    """Return the number of findings of each object, from a severity on."""
     return Counter(subject_of(f) for f in report.findings if f.severity >= level)

@@ -1,12 +1,11 @@
-"""Apply the fixes of descriptions until none is left, and prove each step before it is kept.
+"""Application of fixes until none is left, with a check of each step.
 
-Nothing is written here. The edited bytes are read in place of the files; they must be well-formed,
-expand, and have fewer findings than before. A fix that makes things worse is our bug: it is taken
-back and said.
+Nothing is written here. Edited bytes are read through a workspace overlay; they must be
+well-formed, expand, and have fewer findings. A fix that makes the report worse is a bug of
+urdftool: it is reverted and reported.
 
-Fixes are applied many at once, those of all descriptions together, and what they concern is linted
-once for all of them. Only where that is worse are they tried in halves, and halves of those, until
-the fix is found that does it.
+Fixes of all descriptions are applied together and linted once. If the result is worse, they are
+bisected until the fix that causes it is found.
 """
 
 from __future__ import annotations
@@ -33,14 +32,14 @@ class FixResult:
     """Descriptions with fixes applied.
 
     Attributes:
-        reports: What is wrong with each now, in the order given.
-        before: The bytes of each file that changed, as they were; None for one that is new.
-        after: The same as they are to be.
-        applied: How many fixes of each rule were made.
-        broken: Rules whose fix would have made things worse, with how.
-        unmade: Rules whose fix wants a file made of one that cannot be read, with which.
-        made: Each fix that was made: its rule, and the files that it changed.
-        groups: Files that are written together or not at all.
+        reports: Present report of each description, in the order given.
+        before: Original bytes of each changed file; None for a new file.
+        after: New bytes of the same files.
+        applied: Number of applied fixes by rule.
+        broken: Deterioration by rules whose fix was reverted.
+        unmade: Reason by rules whose fix needs a file that cannot be computed.
+        made: Rule and changed files of each applied fix.
+        groups: Sets of files that are written together or not at all.
     """
 
     reports: list[Report]
@@ -53,7 +52,7 @@ class FixResult:
     groups: list[set[str]] = field(default_factory=list)
 
     def drop(self, paths: set[str]) -> None:
-        """Take back the changes of files that are not written, and the count of their fixes."""
+        """Discard the changes of files that are not written, and the count of their fixes."""
         for path in paths:
             del self.before[path], self.after[path]
         for rule, where in self.made:
@@ -64,15 +63,15 @@ class FixResult:
 
 @dataclass
 class Mended:
-    """A description with fixes applied.
+    """Description with fixes applied.
 
     Attributes:
-        report: What is wrong with it now.
-        before: The bytes of each file that changed, as they were; None for one that is new.
-        after: The same as they are to be.
-        applied: How many fixes of each rule were made.
-        broken: Rules whose fix would have made things worse, with how.
-        unmade: Rules whose fix wants a file made of one that cannot be read, with which.
+        report: Present report.
+        before: Original bytes of each changed file; None for a new file.
+        after: New bytes of the same files.
+        applied: Number of applied fixes by rule.
+        broken: Deterioration by rules whose fix was reverted.
+        unmade: Reason by rules whose fix needs a file that cannot be computed.
     """
 
     report: Report
@@ -87,13 +86,13 @@ def mend(report: Report, options: Options, *, unsafe: bool = False, meshes: bool
     """Apply the fixes of one description.
 
     Args:
-        report: The description, checked with the same options.
-        options: What the command line says; ``fixes`` must be on.
-        unsafe: Whether unsafe fixes are applied as well.
-        meshes: Whether fixes that write mesh files are applied as well.
+        report: Report of the description, made with the same options.
+        options: Options of the command line; ``fixes`` must be on.
+        unsafe: Whether to apply unsafe fixes too.
+        meshes: Whether to apply fixes that write mesh files too.
 
     Raises:
-        ConfigError: The configuration is wrong.
+        ConfigError: The configuration is invalid.
     """
     done = apply_fixes([report], options, unsafe=unsafe, meshes=meshes)
     return Mended(done.reports[0], done.before, done.after, done.applied, done.broken, done.unmade)
@@ -102,16 +101,16 @@ def mend(report: Report, options: Options, *, unsafe: bool = False, meshes: bool
 def apply_fixes(
     reports: Sequence[Report], options: Options, *, unsafe: bool = False, meshes: bool = False
 ) -> FixResult:
-    """Apply the fixes of many descriptions, of which none becomes worse.
+    """Apply the fixes of many descriptions; no description gets worse.
 
     Args:
-        reports: The descriptions, checked with the same options.
-        options: What the command line says; ``fixes`` must be on.
-        unsafe: Whether unsafe fixes are applied as well.
-        meshes: Whether fixes that write mesh files are applied as well.
+        reports: Reports of the descriptions, made with the same options.
+        options: Options of the command line; ``fixes`` must be on.
+        unsafe: Whether to apply unsafe fixes too.
+        meshes: Whether to apply fixes that write mesh files too.
 
     Raises:
-        ConfigError: The configuration is wrong.
+        ConfigError: The configuration is invalid.
     """
     result = FixResult(list(reports))
     banned, doubted = set[Key](), set[Key]()
@@ -125,7 +124,7 @@ def apply_fixes(
 
 
 class _Wanted(NamedTuple):
-    """A fix that is tried: the number of its report, and the finding."""
+    """Candidate fix: the index of its report, and the finding."""
 
     number: int
     finding: Finding
@@ -139,7 +138,7 @@ class _Wanted(NamedTuple):
 def _choose(
     reports: Sequence[Report], banned: set[Key], *, unsafe: bool, meshes: bool
 ) -> list[_Wanted]:
-    """Findings whose fixes do not overlap; what several of them do alike is done once."""
+    """Return findings with non-overlapping fixes; identical changes are chosen once."""
     chosen: list[_Wanted] = []
     taken: dict[str, list[tuple[int, int, bytes]]] = {}
     for number, report in enumerate(reports):
@@ -163,7 +162,7 @@ _ALL = 1 << 62
 
 
 def _meets(taken: Sequence[tuple[int, int, bytes]], start: int, end: int, data: bytes) -> bool:
-    """Whether bytes are taken; several things may be put in one place, each once."""
+    """Tell whether bytes are already changed; different insertions at one place do not conflict."""
     for begin, stop, other in taken:
         if (begin < end and start < stop) or begin < start == end < stop or start < begin < end:
             return True
@@ -173,12 +172,12 @@ def _meets(taken: Sequence[tuple[int, int, bytes]], start: int, end: int, data: 
 
 
 class _Round:
-    """Fixes of one choice, all of them in bytes as they are before the first is applied."""
+    """Fixes of one selection; their spans refer to the bytes before the first of them."""
 
     def __init__(
         self, result: FixResult, options: Options, banned: set[Key], doubted: set[Key]
     ) -> None:
-        """Start with nothing applied."""
+        """Create a round with no fix applied."""
         self.result = result
         self.options = options
         self.banned = banned
@@ -195,12 +194,12 @@ class _Round:
             self.concerned.setdefault(path, set()).add(number)
 
     def prove(self, chosen: Sequence[_Wanted]) -> None:
-        """Apply what can be applied; fixes with no description in common do not meet.
+        """Apply the fixes that do not make a report worse.
 
-        Those that reveal what is wrong with what was ignored come by themselves: with one of them,
-        more findings are no reason to take the others back. So do new names, after which findings
-        are of other subjects. What was wrong with a fix in another description, such as a variant
-        of the robot, is likely to be wrong with its like.
+        Fixes without a common description are independent. Fixes of ``REVEALING`` rules are tried
+        separately, since more findings are no reason to revert them, and so are renames, since
+        findings then have other objects. A fix like one that failed in another description, such as
+        a variant of the robot, is tried separately too.
         """
         for part in self._apart(chosen):
             self.kept = []
@@ -214,7 +213,7 @@ class _Round:
                 self._halve(self._current(some))
 
     def _current(self, some: Sequence[_Wanted]) -> list[_Wanted]:
-        """The fixes whose findings are as they were; of others the next round knows more."""
+        """Return the fixes whose findings still exist; the next round handles the others."""
         there = {
             number: set(map(key_of, self.result.reports[number].findings))
             for number in {one.number for one in some}
@@ -222,7 +221,7 @@ class _Round:
         return [one for one in some if key_of(one.finding) in there[one.number]]
 
     def _apart(self, chosen: Sequence[_Wanted]) -> list[list[_Wanted]]:
-        """Sort fixes so that those in two lists concern no description in common."""
+        """Partition fixes into lists that concern no common description."""
         group = {n: n for n in range(len(self.result.reports))}
 
         def root(number: int) -> int:
@@ -240,9 +239,10 @@ class _Round:
         return list(parts.values())
 
     def _halve(self, chosen: Sequence[_Wanted]) -> None:
-        """Apply fixes; where that is worse, some of them and then the others.
+        """Apply fixes; if the result is worse, apply subsets.
 
-        What has become worse is mostly what a fix was of; where it is not, they are halved.
+        Objects with more findings are mostly those of a faulty fix; their fixes are separated from
+        the others. Otherwise the fixes are bisected.
         """
         if not chosen:
             return
@@ -263,7 +263,7 @@ class _Round:
             self._halve(self._current(suspects))
             return
         if len({subject_of(one.finding) for one in suspects}) == len(chosen):
-            for one in suspects:  # each has become worse itself
+            for one in suspects:  # every object got worse by itself
                 self._halve(self._current([one]))
             return
         middle = _middle(chosen)
@@ -271,7 +271,7 @@ class _Round:
         self._halve(self._current(chosen[middle:]))
 
     def _attempt(self, some: Sequence[_Wanted]) -> Wrong | None:
-        """Apply fixes beside those that are kept; gives what is worse, None where they are kept."""
+        """Apply fixes in addition to the kept ones; return what is worse, None if they are kept."""
         result = self.result
         try:
             before, edited = self._edited([*self.kept, *some])
@@ -304,10 +304,10 @@ class _Round:
     def _edited(
         self, chosen: Sequence[_Wanted]
     ) -> tuple[dict[str, bytes | None], dict[str, bytes]]:
-        """The bytes of the files that fixes change, before and after.
+        """Return the bytes of the files that fixes change, before and after.
 
         Raises:
-            _UnmadeError: A file cannot be made.
+            _UnmadeError: A file cannot be computed.
         """
         replaced: dict[str, list[tuple[int, int, bytes]]] = {}
         files: dict[str, bytes] = {}
@@ -334,7 +334,7 @@ class _Round:
         return before, edited
 
     def _bytes_of(self, number: int, path: str, data: bytes) -> bytes:
-        """The bytes that places in a file mean; of one that was repaired to be read, its own."""
+        """Return the bytes to which spans of a file refer; the original of a repaired file."""
         if path in self.start:
             return self.start[path]
         for other in self.findings[number]:
@@ -344,11 +344,11 @@ class _Round:
 
 
 class _UnmadeError(Exception):
-    """A file that a fix makes cannot be made; the text says why."""
+    """Error for a file of a fix that cannot be computed; the text gives the reason."""
 
 
 def _middle(chosen: Sequence[_Wanted]) -> int:
-    """Where to part fixes: between two rules, if it can be, as most fail by rule."""
+    """Return where to split fixes: near the middle, between two rules, since most fail by rule."""
     half = len(chosen) / 2
     edges = [
         n for n in range(1, len(chosen)) if chosen[n].finding.rule != chosen[n - 1].finding.rule
@@ -357,7 +357,7 @@ def _middle(chosen: Sequence[_Wanted]) -> int:
 
 
 def _groups(result: FixResult) -> list[set[str]]:
-    """The files that changed, by what is written together: the sources of a description."""
+    """Return the changed files, grouped by descriptions and fixes that they share."""
     group = {path: {path} for path in result.after}
     linked = [set(report.files) for report in result.reports]
     for paths in (*linked, *(where for _, where in result.made)):
@@ -376,7 +376,7 @@ def _rewrites(chosen: Iterable[Finding]) -> Iterator[FileRewrite]:
 
 
 def _now(workspace: Workspace, path: str) -> bytes | None:
-    """What is in a file; None where it is not there."""
+    """Return the contents of a file; None if it does not exist."""
     return workspace.read_bytes(path) if workspace.exists_or_is_link(path) else None
 
 
@@ -392,7 +392,7 @@ def _spliced(data: bytes, spans: Sequence[tuple[int, int, bytes]]) -> bytes:
 
 
 def concerns(report: Report, paths: Iterable[str]) -> bool:
-    """Whether a description, or a fix of it, is of any of these files."""
+    """Tell whether a description or one of its fixes uses any of the files."""
     return not _paths(report).isdisjoint(paths)
 
 

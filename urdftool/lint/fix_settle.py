@@ -1,9 +1,8 @@
-"""Where in the source a change is made, and whether it may be.
+"""Conversion of changes to source edits, with checks of their permission.
 
-One place of a source may be many elements of the robot: what a macro writes appears once for each
-of its calls. A place is edited only if every element that comes from it is to change in the same
-way. A value that an expression computes is not overwritten, and files outside the description's
-package are not edited.
+One element of the source may be many elements of the robot: an element in a macro appears once for
+each call. It is edited only if all of its instances need the same change. Values computed by an
+expression are not overwritten, and files outside the package of the description are not edited.
 """
 
 from __future__ import annotations
@@ -27,10 +26,10 @@ _QUOTES = {"&quot;": '"', "&apos;": "'"}
 
 
 class Settler:
-    """Turns changes of one description's elements into bytes of its source."""
+    """Converter of element changes of one description to edits of its source."""
 
     def __init__(self, description: Description) -> None:
-        """Look up which elements come from one place."""
+        """Index the elements by their location in the source."""
         self.description = description
         self.main = description.files[0].path
         self.sources: dict[str, edit.Source] = {}
@@ -41,10 +40,10 @@ class Settler:
             self.expanded.add(id(element))
 
     def settle(self, proposals: Sequence[Proposal]) -> tuple[Replacement, ...]:
-        """The bytes that change for the proposals of one finding, which has several instances.
+        """Return the replacements for the proposals of one finding, one proposal for each instance.
 
         Raises:
-            RefusedError: They cannot be made where they would have to be.
+            RefusedError: The source cannot be edited in that way.
         """
         spans = [c for p in proposals for c in p.changes if isinstance(c, Span)]
         found = [self._span(span) for span in dict.fromkeys(spans)]
@@ -76,10 +75,10 @@ class Settler:
         return tuple(found)
 
     def rewrites(self, proposals: Sequence[Proposal]) -> tuple[FileRewrite, ...]:
-        """List the files that the proposals of one finding write whole.
+        """Return the files that the proposals of one finding rewrite.
 
         Raises:
-            RefusedError: One of them is not the user's to write.
+            RefusedError: A file is outside the package of the description.
         """
         found = [c for p in proposals for c in p.changes if isinstance(c, FileRewrite)]
         for rewrite in found:
@@ -109,7 +108,7 @@ class Settler:
         return self.sources[file.path]
 
     def _check_file(self, file: SourceFile) -> None:
-        """Refuse files that are not the user's to edit, or not in an encoding that is edited."""
+        """Check that a file belongs to the package, and that its encoding supports edits."""
         if file.path != STDIN and file.path not in self.sources:
             with self.description.workspace.open(file.path) as stream:
                 if stream.read(4).startswith((b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")):
@@ -125,7 +124,7 @@ class Settler:
 
 
 def _edits(source: edit.Source, raw: Element, change: Change) -> Iterator[edit.Edit]:
-    """The edits of the source that make one change to an element as it is written."""
+    """Yield the edits that apply one change to an element as written."""
     kind, name, value = change.kind, change.name, change.value
     if kind == "set":
         written = edit.literal(raw, name)
@@ -172,7 +171,7 @@ def _spans(raw: Element, name: str) -> tuple[int, int]:
 
 
 def _without(source: edit.Source, raw: Element, name: str) -> edit.Edit:
-    """An attribute taken away, with the blanks in front of it."""
+    """Return the edit that removes an attribute and the whitespace before it."""
     begin, end = _spans(raw, name)
     data = source.file.data
     while data[begin - 1 : begin].isspace():
@@ -181,7 +180,7 @@ def _without(source: edit.Source, raw: Element, name: str) -> edit.Edit:
 
 
 def _removed(source: edit.Source, raw: Element) -> edit.Edit:
-    """An element taken away; a comment that stands behind it on its line moves up to its place."""
+    """Return the edit that removes an element; a comment after it moves to its place."""
     made = edit.remove_element(source, raw)
     data = source.file.data
     if made.end == raw.end and source.indentation(raw) is not None:
@@ -201,7 +200,7 @@ def _retagged(source: edit.Source, raw: Element, tag: str) -> Iterator[edit.Edit
 
 
 def _retold(source: edit.Source, raw: Element, change: Change) -> edit.Edit:
-    """Another text between two tags; the blanks around it stay."""
+    """Return the edit that replaces the text of an element, keeping surrounding whitespace."""
     data = source.file.data
     begin, end = source.file.tag_end(raw.start), data.rfind(b"</", 0, raw.end)
     inner = data[begin:end]

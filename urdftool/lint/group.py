@@ -1,7 +1,7 @@
-"""Findings as they are reported: consequences under their cause, one fact many times as one.
+"""Grouping of findings for reports: consequences under their cause, equal facts as one finding.
 
-Comments, baselines, fixes and variants work on each finding by itself. What is put together here is
-the last step before a report is written, and every format writes it.
+Suppression comments, baselines, fixes and variants apply to single findings. Grouping is the last
+step before a report is written, in all formats.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from .merge import in_order
 from .outcome import Outcome
 
 NAMES = 5
-"""How many names the sentence of a group has; the others are counted."""
+"""Maximum number of names in the message of a group; the others are counted."""
 
 
 def together(outcome: Outcome) -> Outcome:
-    """A run as it is reported.
+    """Return a run with grouped findings.
 
     Args:
-        outcome: The run, after what a baseline has was set apart.
+        outcome: The run, without the findings of the baseline.
     """
     robots: dict[Any, int] = {}
     for number, report in enumerate(outcome.reports):
@@ -39,17 +39,17 @@ def together(outcome: Outcome) -> Outcome:
 
 
 def group(findings: Iterable[Finding], robots: Mapping[Any, int] | None = None) -> list[Finding]:
-    """Findings with consequences under their causes, and one finding for each group.
+    """Nest consequences under their causes, and merge each group to one finding.
 
     Args:
         findings: Findings, in the order of the source.
-        robots: The description that each comes from; without it, all are of one.
+        robots: Index of the description of each finding; without it, all belong to one.
     """
     return in_order(_grouped(_nested(list(findings)), robots or {}))
 
 
 def _nested(findings: list[Finding]) -> list[Finding]:
-    """Findings without those that another explains, which has them as its consequences."""
+    """Return the findings without those that another explains, nested as its consequences."""
     if not any(finding.cause for finding in findings):
         return findings
     causes: dict[tuple[str, Site | None], list[int]] = {}
@@ -79,7 +79,7 @@ def _candidates(cause: Cause, causes: Mapping[tuple[str, Site | None], list[int]
 
 
 def _explains(cause: Finding, finding: Finding) -> bool:
-    """Whether a cause is there wherever its consequence is."""
+    """Tell whether a cause exists in all variants and instances of its consequence."""
     if cause.variants and not set(finding.variants or ("",)) <= set(cause.variants):
         return False
     if finding.site != cause.site:
@@ -88,7 +88,7 @@ def _explains(cause: Finding, finding: Finding) -> bool:
 
 
 def _is_above(number: int, other: int, above: Mapping[int, int]) -> bool:
-    """Whether a finding is the other, or explains it already."""
+    """Tell whether a finding is the other one or one of its causes."""
     while other != number and other in above:
         other = above[other]
     return other == number
@@ -109,7 +109,7 @@ def _grouped(findings: Iterable[Finding], robots: Mapping[Any, int]) -> list[Fin
 
 
 def _key(finding: Finding, robots: Mapping[Any, int]) -> Any:
-    """What the findings of one group have in common."""
+    """Return what the findings of one group have in common."""
     if finding.group is None:
         return id(finding)
     where: Any = robots.get(_identity(finding), 0)
@@ -121,7 +121,7 @@ def _key(finding: Finding, robots: Mapping[Any, int]) -> Any:
 
 
 _QUOTED_OR_NUMBER = re.compile(r"'[^']*'|(?<![\w<])-?\d[\d.]*(?:e[-+]?\d+)?")
-"""What may differ between messages that say the same of several things."""
+"""Parts in which equivalent messages may differ."""
 
 
 def _identity(finding: Finding) -> Any:
@@ -130,7 +130,7 @@ def _identity(finding: Finding) -> Any:
 
 
 def _repository(folder: str) -> str:
-    """The nearest folder that has a ``.git``, from a folder upward; empty where there is none."""
+    """Return the nearest folder with a ``.git``, from a folder upward; empty if there is none."""
     for above in (Path(folder), *Path(folder).parents):
         if (above / ".git").exists():
             return str(above)
@@ -138,7 +138,7 @@ def _repository(folder: str) -> str:
 
 
 def _as_one(found: Sequence[Finding]) -> Finding:
-    """One finding for several of a group, at the place of the first."""
+    """Return one finding for a group, at the place of the first."""
     first = found[0]
     rest = [
         (name, calls) for f in found[1:] for name, calls in ((f.name, f.place.calls), *f.others)
@@ -167,14 +167,14 @@ def _sentence(group: Group, whole: Finding) -> str:
 
 
 def _listed(names: Sequence[str]) -> str:
-    """``'a', 'b' and 7 more``."""
+    """Return names as ``'a', 'b' and 7 more``."""
     shown = ", ".join(f"'{name}'" for name in names[:NAMES])
     more = len(names) - NAMES
     return f"{shown} and {more} more" if more > 0 else shown
 
 
 def _fix(found: Sequence[Finding]) -> Fix | None:
-    """What fixes a group; where that is not all of it, the message says how much."""
+    """Return the combined fix of a group; its message tells how many findings it covers."""
     fixes = [finding.fix for finding in found if finding.fix is not None]
     safe = [fix for fix in fixes if fix.safe]
     chosen = safe or fixes

@@ -1,4 +1,4 @@
-"""Many findings of one cause as one, in the order of the source."""
+"""Merging of findings with one cause, in the order of the source."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .outcome import Outcome, Report
 
 
 def merge(findings: Iterable[Finding]) -> list[Finding]:
-    """Findings with the instances of one macro as one, in the order they came."""
+    """Merge the findings of instances of one macro, keeping the order."""
     merged: dict[tuple[Any, ...], Finding] = {}
     copied: set[tuple[Any, ...]] = set()
     for finding in findings:
@@ -23,7 +23,7 @@ def merge(findings: Iterable[Finding]) -> list[Finding]:
         if first is None:
             merged[key] = finding
         elif place.calls and place.calls != first.place.calls:
-            if key not in copied:  # the findings that came in stay as they are
+            if key not in copied:  # do not modify the given findings
                 copied.add(key)
                 first = merged[key] = replace(first, others=list(first.others))
             first.expansions += finding.expansions
@@ -33,12 +33,12 @@ def merge(findings: Iterable[Finding]) -> list[Finding]:
 
 
 def in_order(findings: Iterable[Finding]) -> list[Finding]:
-    """Findings by file, place and rule."""
+    """Sort findings by file, place and rule."""
     return sorted(findings, key=lambda f: (f.place.file.path, f.place.start, f.rule))
 
 
 def gather(reports: Iterable[Report]) -> Outcome:
-    """All reports as one: a file that several descriptions include is spoken of once."""
+    """Merge all reports; a finding in a file that several descriptions include appears once."""
     reports = list(reports)
     findings = in_order(merge(f for report in reports for f in report.findings))
     ignored: dict[str, list[Finding]] = {}

@@ -1,4 +1,4 @@
-"""Leave out what a reader does with a defect, where it rejects the robot for another one."""
+"""Removal of effects on readers that reject the robot for another defect."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from ..rules.inertia.presence import has_bare_moved_body
 from ..rules.rule import GAZEBO
 
 _THROUGH_URDFDOM = ("pinocchio", "KDL", "robot_state_publisher", "rviz", "moveit", "check_urdf")
-"""Readers that read a robot with urdfdom, and get none where it rejects one."""
+"""Readers based on urdfdom, which fail where it rejects a robot."""
 
 _IRREGULAR = {"have": "has", "do": "does", "are": "is", "go": "goes"}
 
 
 class Rejections:
-    """The readers that reject one robot, each with the rules that say so.
+    """Readers that reject one robot, with the rules that report it.
 
     Args:
-        robot: The robot; None where it could not be read.
+        robot: The robot; None if it could not be read.
     """
 
     def __init__(self, robot: Robot | None) -> None:
-        """Read which effects are rejections: what ``python -m tests.effects`` recorded."""
+        """Read which effects are rejections, as recorded by ``python -m tests.effects``."""
         path = Path(rules.__file__).with_name("effect_rejections.json")
         self._table: dict[str, dict[str, list[str]]] = json.loads(path.read_text("utf-8"))
         self._by_reader: dict[str, set[str]] = {}
@@ -36,7 +36,7 @@ class Rejections:
             self._add_massless(robot)
 
     def _add_massless(self, robot: Robot) -> None:
-        """Take what rejects the robot by rules that are off for some targets."""
+        """Add rejections that are reported by rules which are off for some targets."""
         if kept_links(robot) == set():
             for reader in GAZEBO:
                 self._by_reader[reader] = {"massless-root-body"}
@@ -44,7 +44,12 @@ class Rejections:
             self._by_reader["mujoco"] = {"massless-moving-body"}
 
     def add(self, rule: str, keys: Iterable[str]) -> None:
-        """Take the effects of a finding, by their keys with the case."""
+        """Add the rejections among the effects of a finding.
+
+        Args:
+            rule: Name of the rule.
+            keys: Keys of the effects, with their case.
+        """
         known = self._table.get(rule)
         if not known:
             return
@@ -55,7 +60,7 @@ class Rejections:
                     self._by_reader.setdefault(one, set()).add(rule)
 
     def without_moot(self, finding: Finding) -> Finding:
-        """Leave out of a finding the readers that reject the robot for other defects alone."""
+        """Remove the readers from a finding that reject the robot only for other defects."""
         effects = {}
         for key, effect in finding.effects.items():
             readers = key.split(", ")
@@ -67,7 +72,7 @@ class Rejections:
 
 
 def in_singular(effect: str) -> str:
-    """Write what one reader does, of what several do: ``take it`` becomes ``takes it``."""
+    """Return an effect for one reader instead of several: ``take it`` becomes ``takes it``."""
     verb, space, rest = effect.partition(" ")
     verb, colon = (verb[:-1], ":") if verb.endswith(":") else (verb, "")
     if verb in _IRREGULAR:

@@ -1,4 +1,4 @@
-"""Which links and joints can move, for rules whose facts matter in motion only."""
+"""Links and joints that cannot move, for rules that matter only in motion."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ UNUSED_JOINT = "does not use it, because the joint is fixed"
 
 
 def why_unused(robot: Robot | None, element: Element) -> str:
-    """Why no reader uses the dynamics of a link or joint; empty where some do."""
+    """Return why no reader uses the dynamics of a link or joint; empty if some do."""
     name = element.get("name")
     if robot is None or name is None:
         return ""
@@ -31,10 +31,10 @@ def why_unused(robot: Robot | None, element: Element) -> str:
 
 
 def is_welded_in_mujoco(robot: Robot | None, element: Element) -> bool:
-    """Whether MuJoCo's reader of URDF fixes a link to the world: the root, and what is fixed to it.
+    """Tell whether MuJoCo's URDF parser fixes a link to the world: the root and links fixed to it.
 
-    Its ``world`` body has no mass, so that of such a link is lost. A root named ``world`` is the
-    world itself.
+    The ``world`` body of MuJoCo has no mass, so the mass of such a link is lost. A root named
+    ``world`` is the world itself.
     """
     name = element.get("name")
     if robot is None or element.tag != "link" or name not in robot.tree.bodies:

@@ -1,4 +1,4 @@
-"""Files that are not robot descriptions, and descriptions that nothing of is checked."""
+"""Detection of files that are not robot descriptions or cannot be checked."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _HEAD = 1024
 
 
 def refuse_other_files(file: SourceFile) -> None:
-    """Refuse what is a part of a package and not a robot description.
+    """Check that a file can be a robot description.
 
     Raises:
-        SourceError: The file is a mesh, a binary file or the manifest of a package.
+        SourceError: It is a mesh, a binary file or a package manifest.
     """
     name = os.path.basename(file.path).lower()
     if name.endswith(_MESHES):
@@ -34,16 +34,16 @@ def refuse_other_files(file: SourceFile) -> None:
             "of the package, which checks the manifest as far as they need it",
             path=file.path,
         )
-    text = (b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")  # UTF-16 and UTF-32 have zero bytes
+    text = (b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")  # has zero bytes in UTF-16 and UTF-32
     if b"\0" in file.data[:_HEAD] and not file.data.startswith(text):
         raise SourceError("is a binary file, not a robot description", path=file.path)
 
 
 def refuse_srdf(description: Description) -> None:
-    """Refuse an SRDF, which is checked with its robot.
+    """Check that a description is not an SRDF, which is checked with its robot.
 
     Raises:
-        SourceError: The description is an SRDF.
+        SourceError: It is an SRDF.
     """
     root = description.document.root
     if description.path.endswith(".srdf") and root.tag == "robot" and not root.child("link"):
@@ -55,11 +55,11 @@ def refuse_srdf(description: Description) -> None:
 
 
 def refuse_other_roots(description: Description) -> None:
-    """Refuse XML that readers of robot descriptions find no robot in, or only a part of it.
+    """Check that readers find a complete robot in an XML file.
 
     Raises:
-        SourceError: The root is not ``<robot>``, or tags of xacro have no namespace, so that
-            nothing of them is expanded.
+        SourceError: The root is not ``<robot>``, or xacro tags have no declared namespace and
+            are not expanded.
     """
     root = description.document.root
     if root.tag != "robot":
@@ -85,13 +85,13 @@ def _first(elements: list[Element]) -> Element:
 def finding_of(
     failure: UrdftoolError, severities: Mapping[str, Severity | None], *, unchecked: bool
 ) -> Finding:
-    """What kept a description from being read, as a finding.
+    """Return an error of reading a description as a finding.
 
     Args:
         failure: The error.
-        severities: The severities of rules that the configuration gives.
-        unchecked: Whether nothing of the robot was checked, which is an error whatever the
-            configuration says.
+        severities: Configured severities of rules.
+        unchecked: Whether the robot was not checked at all; the finding then is an error in any
+            configuration.
     """
     place = failure.at or Place(SourceFile(failure.path or "", b""), 0, 0)
     rule = failure.rule or "not-well-formed"
@@ -110,9 +110,9 @@ def finding_of(
 
 
 def _effects_of(name: str, failure: UrdftoolError) -> dict[str, str]:
-    """Select what readers do with a failure, as the page of its rule has it.
+    """Return the effects of a failure on readers, from the documentation of its rule.
 
-    A package that is missing here is one that xacro looks for; no other reader comes that far.
+    A missing package is an effect on xacro only; no other reader gets that far.
     """
     from ..rules import get_rule
     from ..rules.rule import holding

@@ -1,4 +1,4 @@
-"""What goes into a check of one description, and what comes out."""
+"""Input and output of a check: options, reports, outcome."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ if TYPE_CHECKING:
 
 @dataclass
 class Options:
-    """What the command line says for every file.
+    """Options of the command line for every file.
 
     Attributes:
         settings: Rules, targets, severities.
         arguments: xacro arguments.
         packages: Folders by package name.
-        package_paths: Folders with packages below.
-        config: A configuration file that was named.
-        cache: Where reports are kept for the next time; None keeps none.
-        fixes: Whether findings are to say what would mend them, in bytes.
-        weigh: What links weigh and how their mass lies, for fixes that fill in inertia: gives
-            (mass, centre, six numbers) by link, in the link frame, for a robot and link names.
-        gltf_up: The axis that is up in glTF meshes; None for what the configuration says.
-        workspace: Reads the files of the run.
+        package_paths: Folders that contain packages.
+        config: Configuration file named by the user.
+        cache: Cache of reports; None disables it.
+        fixes: Whether to compute fixes for findings.
+        weigh: Function for fixes that fill in inertia: returns (mass [kg], center of mass [m],
+            six tensor elements [kg·m²]) by link, in the link frame, for a robot and link names.
+        gltf_up: Up axis of glTF meshes; None uses the configuration.
+        workspace: Access to the files of the run.
     """
 
     settings: Settings = field(default_factory=Settings)
@@ -50,21 +50,21 @@ class Options:
 
 @dataclass
 class Report:
-    """What there is to say of one description.
+    """Result of checking one description.
 
     Attributes:
-        path: The description.
-        findings: What is wrong with it.
-        targets: The targets it was checked for.
-        ignored: Findings that comments cover, each with the reason its comment gives.
-        files: The files of its source that were read.
-        skipped: Why it was not checked; empty if it was.
-        error: What kept it from being read.
-        stopped: What kept the robot in it from being read, so that nothing of it was checked.
-        failed_rules: Rules that broke, which is a bug of ours, with what they raised.
-        skipped_rules: Rules that require an optional library that is not installed, with its name.
-        skipped_fixes: Rules whose fix requires an optional library that is not installed.
-        unmended: Findings whose fix cannot be made in the source, with the reason.
+        path: Path of the description.
+        findings: Findings that are not suppressed.
+        targets: Targets for which it was checked.
+        ignored: Suppressed findings, each with the reason in its comment.
+        files: Source files read.
+        skipped: Reason why it was not checked; empty if it was.
+        error: Error that prevented reading it.
+        stopped: Reason why its robot could not be read, so that it was not checked.
+        failed_rules: Exceptions by rule, which are bugs of urdftool.
+        skipped_rules: Missing optional library by rules that require it.
+        skipped_fixes: Missing optional library by rules whose fix requires it.
+        unmended: Findings whose fix cannot be applied to the source, with the reason.
     """
 
     path: str
@@ -82,29 +82,29 @@ class Report:
 
     @property
     def suppressed(self) -> int:
-        """How many findings comments cover."""
+        """Return the number of suppressed findings."""
         return len(self.ignored)
 
     @property
     def checked(self) -> bool:
-        """Whether the robot in it was checked."""
+        """Tell whether the robot was checked."""
         return not self.skipped and not self.not_checked
 
     @property
     def not_checked(self) -> str:
-        """Why the robot in it was not checked, though it should have been; empty if it was."""
+        """Return why the robot was not checked, though it should have been; empty if it was."""
         return self.stopped if self.error is None else self.error.message
 
 
 @dataclass
 class Outcome:
-    """What there is to say of all descriptions of a run.
+    """Result of a run over several descriptions.
 
     Attributes:
-        reports: A report for each description.
-        findings: Their findings, merged, in the order of the source.
-        ignored: Findings that comments cover, each with the reason its comment gives.
-        known: Findings that the baseline has, which are not among the others.
+        reports: Report of each description.
+        findings: Merged findings of all reports, in the order of the source.
+        ignored: Suppressed findings, each with the reason in its comment.
+        known: Findings in the baseline, which are not in ``findings``.
     """
 
     reports: list[Report]
@@ -114,7 +114,7 @@ class Outcome:
 
     @property
     def skipped_rules(self) -> dict[str, str]:
-        """Rules that require an optional library that is not installed, with its name."""
+        """Return the missing optional library by rules that require it."""
         return {
             rule: library
             for report in self.reports
@@ -123,10 +123,10 @@ class Outcome:
 
     @property
     def not_checked(self) -> list[Report]:
-        """The descriptions whose robot was not checked."""
+        """Return the descriptions whose robot was not checked."""
         return [report for report in self.reports if report.not_checked]
 
     @property
     def complete(self) -> bool:
-        """Whether all robots were checked and no rule broke."""
+        """Tell whether all robots were checked without an exception in a rule."""
         return not any(report.not_checked or report.failed_rules for report in self.reports)

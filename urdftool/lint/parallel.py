@@ -1,4 +1,4 @@
-"""Check many descriptions, on several cores where that is faster."""
+"""Check of many descriptions, on several cores if that is faster."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from functools import partial
 from .outcome import Options, Report
 from .run import known_report, lint_file
 
-WORTH_IT = 40  # below so many files, starting workers takes longer than they save
+WORTH_IT = 40  # files; below, starting workers costs more than it saves
 
 
 def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) -> Iterator[Report]:
-    """A report for each description, in the order given.
+    """Yield a report for each description, in the order given.
 
     Args:
         paths: The descriptions.
-        options: What the command line says.
-        jobs: Processes to use; None is one per core where it is worth it.
+        options: Options of the command line.
+        jobs: Number of processes; None chooses by the number of files and cores.
     """
     if options.cache is None:
         yield from _check(paths, options, jobs)
@@ -32,7 +32,7 @@ def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) 
 
 
 def _check(paths: Sequence[str], options: Options, jobs: int | None) -> Iterator[Report]:
-    """A report for each description, whatever is known of it."""
+    """Yield a report for each description, without the cache of reports."""
     if len(paths) < WORTH_IT and not jobs:  # most calls, which need not wait for an import
         yield from (lint_file(path, options) for path in paths)
         return
@@ -41,6 +41,6 @@ def _check(paths: Sequence[str], options: Options, jobs: int | None) -> Iterator
     wanted = jobs or cores()
     workers = 1 if "-" in paths else wanted
     if workers > 1 and len(paths) > 1:
-        yield lint_file(paths[0], options)  # imports the rules, which forked workers then have
+        yield lint_file(paths[0], options)  # imports the rules before workers are forked
         paths = paths[1:]
     yield from in_order(map_tasks(partial(lint_file, options=options), paths, workers=workers))

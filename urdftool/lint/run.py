@@ -1,4 +1,4 @@
-"""Check a description: findings in the order of the source."""
+"""Check of a description by the rules."""
 
 from __future__ import annotations
 
@@ -46,28 +46,27 @@ def check(
     gltf_up: GltfUp | None = None,
     grouped: bool = False,
 ) -> list[Finding]:
-    """What is wrong with a robot.
+    """Check a robot and return the findings in the order of the source.
 
     Args:
-        robot: A robot from :func:`urdftool.load`, or the path of a description. A path is more:
-            a file that is not well-formed or cannot be expanded is a finding too, an error with
-            ``unchecked`` where nothing else of the robot could be checked.
-        args: Values for xacro arguments, for a path.
+        robot: A robot from :func:`urdftool.load`, or the path of a description. For a path, a
+            file that is not well-formed or cannot be expanded is a finding too, an error with
+            ``unchecked`` if nothing else of the robot could be checked.
+        args: Values of xacro arguments, for a path.
         packages: Folders of ROS packages by name, for a path.
-        package_paths: Folders with ROS packages below, for a path.
-        select: Rule names, prefixes with ``*`` and families; None is what is on by default.
-        ignore: The same, taken away.
-        targets: Simulators and middlewares; none means that they are inferred.
-        config: A configuration file, instead of the nearest above the description.
-        fixes: Whether each finding is to have its ``fix``, as bytes of the source.
-        gltf_up: The axis that is up in glTF meshes, for a path; None for what the configuration
-            says.
-        grouped: Whether a fact that many links or files have is one finding with ``members``, and
-            what another finding explains is among its ``consequences``, as in ``urdftool lint``.
+        package_paths: Folders that contain ROS packages, for a path.
+        select: Rule names, prefixes with ``*`` and families; None selects the default rules.
+        ignore: Rule names, prefixes and families to exclude.
+        targets: Simulators and middleware; if empty, they are inferred.
+        config: Configuration file; None uses the nearest one above the description.
+        fixes: Whether to compute the ``fix`` of each finding, as bytes of the source.
+        gltf_up: Up axis of glTF meshes, for a path; None uses the configuration.
+        grouped: Whether to merge equal findings of many links or files to one with ``members``,
+            and to nest ``consequences`` of another finding, as in ``urdftool lint``.
 
     Raises:
         SourceError: The file cannot be read.
-        ConfigError: A rule, target or option is not known.
+        ConfigError: A rule, target or option is unknown.
     """
     line = Settings(
         select=None if select is None else check_selectors(select),
@@ -97,19 +96,19 @@ def check(
 
 
 def lint_file(path: str | Path, options: Options) -> Report:
-    """Check one description; whatever is wrong with it is in the report.
+    """Check one description; all its defects are in the report.
 
     Raises:
-        ConfigError: The configuration is wrong.
+        ConfigError: The configuration is invalid.
     """
     return _as_one([_checked(*question) for question in _questions(path, options)])
 
 
 def known_report(path: str | Path, options: Options) -> Report | None:
-    """What a cache knows of a description; None where it has to be checked.
+    """Return the cached report of a description; None if it must be checked.
 
     Raises:
-        ConfigError: The configuration is wrong.
+        ConfigError: The configuration is invalid.
     """
     cache = options.cache
     if cache is None or str(path) == "-":
@@ -127,7 +126,7 @@ _Question = tuple[str | Path, Options, Configuration, Settings]
 
 
 def _questions(path: str | Path, options: Options) -> list[_Question]:
-    """What is to be checked: a description with each set of arguments that it has."""
+    """Return the checks of a description: one for each set of xacro arguments."""
     configuration = find_configuration(path, options.config, options.workspace)
     settings = settings_for(path, configuration, options.settings)
     each = [options]
@@ -141,7 +140,7 @@ def _questions(path: str | Path, options: Options) -> list[_Question]:
 def _checked(
     path: str | Path, options: Options, configuration: Configuration, settings: Settings
 ) -> tuple[str, Report]:
-    """A report by the label of its arguments; it is kept where there is a cache."""
+    """Return the label of the xacro arguments and the report, which is cached if possible."""
     question = path, options, configuration, settings
     if options.cache is None or str(path) == "-":
         return label(options.arguments), _lint_once(*question)
@@ -214,7 +213,7 @@ def _read(file: SourceFile, options: Options, configuration: Configuration) -> D
 def _read_mended(
     file: SourceFile, options: Options, configuration: Configuration
 ) -> Description | None:
-    """What lax readers see of a file that is not well-formed, so that the rest of it is checked."""
+    """Read a file that is not well-formed as tolerant readers do, to check the rest of it."""
     mended = None if is_xacro(file) else mend(file)
     if mended is None:
         return None
@@ -227,7 +226,7 @@ def _read_mended(
 def _unexpanded(
     file: SourceFile, failures: list[UrdftoolError], workspace: Workspace
 ) -> Description:
-    """A description whose robot is not known: its source alone."""
+    """Return a description without a robot, for its source files."""
     from ..source.packages import Packages
 
     files = [file]
@@ -300,14 +299,14 @@ def _check_description(
     findings = [rejections.without_moot(finding) for finding in findings]
     report.findings = in_order(merge(findings))
     for memo in (description.memo, *([robot.memo] if robot is not None else ())):
-        memo.clear()  # refers to the robot, and would wait with it for the garbage collector
+        memo.clear()  # breaks a reference cycle with the robot
 
 
 _TELLING = frozenset(tag for tags in APPLIES_TO.values() for tag in tags)
 
 
 def _rules(settings: Settings, targets: frozenset[str], description: Description) -> list[Rule]:
-    """The rules that are to run; selected once for descriptions of one kind."""
+    """Return the rules to run, computed once for descriptions with equal tags and targets."""
     tags = frozenset(_tags(description) & _TELLING)
     return settings.memo.get((targets, tags), lambda: settings.rules(targets, tags))
 
@@ -323,7 +322,7 @@ def _tags(description: Description) -> set[str]:
 
 
 def _documents(description: Description) -> Iterator[Document]:
-    """Each file of the source, unexpanded; those that are not well-formed are left out."""
+    """Yield the source files, unexpanded, without those that are not well-formed."""
     if description.expansion is None and description.document.root.tag:
         yield description.document
         return
@@ -337,7 +336,7 @@ def _documents(description: Description) -> Iterator[Document]:
 def _problems(
     rule: Rule, subjects: Mapping[str, Any], settings: Settings, report: Report
 ) -> list[Problem]:
-    """What a rule finds, as far as it gets: one that breaks is a bug of ours, not of the robot."""
+    """Return the problems that a rule finds; an exception is recorded as a bug of urdftool."""
     found: list[Problem] = []
     try:
         arguments = [subjects[name] for name in rule.needs]
@@ -361,7 +360,7 @@ def _finding(
     targets: frozenset[str],
     robot: Robot | None,
 ) -> Finding | None:
-    """Make a finding of a problem; None for one on the motion of what is fixed to the world."""
+    """Convert a problem to a finding; None for a defect in motion of a link fixed to the world."""
     severity = settings.severity.get(rule.name)
     effects = rule.effects_in(problem.effects)
     if severity is None:
@@ -394,7 +393,7 @@ def _finding(
 
 
 def _without_mujoco(effects: dict[str, str]) -> dict[str, str]:
-    """Say of MuJoCo that it does not use a value, where it is one of several that take it."""
+    """Replace the effect on MuJoCo by ``WELDED`` where it is one of at least three readers."""
     found = {}
     for key, effect in effects.items():
         readers = key.split(", ")

@@ -1,4 +1,4 @@
-"""What to look for in a file: the command line over the configuration over the defaults."""
+"""Lint settings of a file: command line, then configuration, then defaults."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ _LEVELS = ("off", "info", "warning", "error")
 
 @dataclass(frozen=True)
 class Settings:
-    """Choices for one file.
+    """Lint settings of one file.
 
     Attributes:
-        select: Rule names, prefixes with ``*`` and families; None is what is on by default.
-        extend_select: The same, on top.
-        ignore: The same, taken away.
-        targets: The active targets; None means that they are inferred from the file.
-        severity: Severity by rule name, instead of the rule's; None turns it off.
+        select: Rule names, prefixes with ``*`` and families; None selects the default rules.
+        extend_select: Rules to add to ``select``.
+        ignore: Rules to exclude.
+        targets: Active targets; None infers them from the file.
+        severity: Severity by rule name, overriding that of the rule; None turns the rule off.
         thresholds: Thresholds by rule name.
-        memo: The rules by targets and elements, selected once.
+        memo: Rules to run by targets and tags, computed once.
     """
 
     select: tuple[str, ...] | None = None
@@ -46,7 +46,7 @@ class Settings:
     memo: Memo = field(default_factory=Memo, init=False, repr=False, compare=False)
 
     def names(self) -> list[str]:
-        """The rules that are selected, whether or not they are on for the targets."""
+        """Return the selected rules, whether or not they are on for the targets."""
         wanted = set(FAMILY_OF) if self.select is None else _expand(self.select)
         wanted |= _expand(self.extend_select)
         wanted -= _expand(self.ignore)
@@ -57,11 +57,11 @@ class Settings:
         ]
 
     def rules(self, targets: frozenset[str], tags: Set[str]) -> list[Rule]:
-        """The rules that are to run.
+        """Return the rules to run.
 
         Args:
-            targets: The active targets.
-            tags: The elements the description has.
+            targets: Active targets.
+            tags: Tags that occur in the description.
         """
         named = {*(self.select or ()), *self.extend_select}
         chosen = []
@@ -74,7 +74,7 @@ class Settings:
 
 
 def _expand(selectors: Iterable[str]) -> set[str]:
-    """The rule names that selectors mean."""
+    """Return the rule names that selectors denote."""
     names: set[str] = set()
     for selector in selectors:
         if selector in ("all", "ALL", "*"):
@@ -89,10 +89,10 @@ def _expand(selectors: Iterable[str]) -> set[str]:
 
 
 def check_selectors(selectors: Iterable[str], path: str | None = None) -> tuple[str, ...]:
-    """Selectors, split at commas.
+    """Return selectors, split at commas.
 
     Raises:
-        ConfigError: One means no rule; the message names the nearest that does.
+        ConfigError: A selector denotes no rule; the message suggests the nearest one.
     """
     words = [word.strip() for text in selectors for word in text.split(",") if word.strip()]
     for word in words:
@@ -110,20 +110,20 @@ def check_selectors(selectors: Iterable[str], path: str | None = None) -> tuple[
 
 
 def nearest_rule(word: str) -> str:
-    """A hint at the rule or family that was perhaps meant."""
+    """Return a suggestion of the nearest rule or family, as the end of a message."""
     return nearest(word, (*FAMILY_OF, *FAMILIES)) or "; --list-rules shows them all"
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """Return a hint at the word that was perhaps meant; empty if none is near."""
+    """Return a suggestion of the nearest known word; empty if none is near."""
     return did_you_mean(word, known, 0.5)
 
 
 def check_targets(targets: Iterable[str], path: str | None = None) -> frozenset[str] | None:
-    """Targets, split at commas; None where none is named.
+    """Return targets, split at commas; None if there are none.
 
     Raises:
-        ConfigError: One is not known.
+        ConfigError: A target is unknown.
     """
     words = [word.strip() for text in targets for word in text.split(",") if word.strip()]
     for word in words:
@@ -134,12 +134,12 @@ def check_targets(targets: Iterable[str], path: str | None = None) -> frozenset[
 
 
 def settings_for(file: str | Path, configuration: Configuration, line: Settings) -> Settings:
-    """The settings for a file.
+    """Return the settings of a file.
 
     Args:
-        file: The description.
-        configuration: What the configuration says.
-        line: What the command line says, which counts more.
+        file: Path of the description.
+        configuration: Its configuration.
+        line: Settings of the command line, which have priority.
 
     Raises:
         ConfigError: The configuration has an unknown rule, option or value.

@@ -1,4 +1,4 @@
-"""Files of searched folders that are not checked by themselves, and why."""
+"""Files in searched folders that are not checked separately, with the reason."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _DEFINITIONS = frozenset(f"xacro:{word}" for word in ("macro", "property", "arg"
 
 
 def why_without_links(description: Description) -> str:
-    """Why a xacro file that expands to no link is not checked."""
+    """Return why a xacro file that expands to no link is not checked."""
     from ..rules.xacro.definitions import macro_names
 
     macros = sorted(macro_names(description))
@@ -36,11 +36,11 @@ def why_without_links(description: Description) -> str:
 
 
 def with_parts(reports: Iterable[Report], paths: Iterable[str]) -> Iterator[Report]:
-    """Reports, and after them one for each ``.xacro`` of searched folders that none has read.
+    """Yield the reports, then a skipped report for each unread ``.xacro`` file of named folders.
 
     Args:
-        reports: The reports of descriptions.
-        paths: The files and folders that were named.
+        reports: Reports of descriptions.
+        paths: Files and folders named by the user.
     """
     read: set[str] = set()
     for report in reports:
@@ -52,7 +52,7 @@ def with_parts(reports: Iterable[Report], paths: Iterable[str]) -> Iterator[Repo
 
 
 def _why(path: str) -> str:
-    """Why a ``.xacro`` in a folder is not checked by itself."""
+    """Return why a ``.xacro`` file in a folder is not checked separately."""
     try:
         root = parse(read_file(path)).root
     except SourceError as error:
@@ -66,16 +66,16 @@ def _why(path: str) -> str:
 def without_excluded(
     files: Sequence[str], named: Collection[str], config: str | None, workspace: Workspace
 ) -> tuple[list[str], list[Report]]:
-    """The files to check, and a report for each that a configuration's ``lint.exclude`` leaves out.
+    """Return the files to check, and a skipped report for each file matching ``lint.exclude``.
 
     Args:
-        files: The files that were found.
-        named: Those that the user named, which are checked in any case.
-        config: The configuration file that the user named.
-        workspace: Reads the files.
+        files: Files found.
+        named: Files named by the user, which are never excluded.
+        config: Configuration file named by the user.
+        workspace: Access to files.
 
     Raises:
-        ConfigError: The option is not a list of patterns.
+        ConfigError: ``lint.exclude`` is not a list of patterns.
     """
     kept: list[str] = []
     excluded: list[Report] = []
@@ -89,7 +89,7 @@ def without_excluded(
 
 
 def _pattern(file: str, config: str | None, workspace: Workspace) -> str | None:
-    """The pattern that leaves out a file."""
+    """Return the pattern that excludes a file; None if there is none."""
     configuration = find_configuration(file, config, workspace)
     patterns = configuration.lint.get("exclude", [])
     if not isinstance(patterns, list) or not all(isinstance(word, str) for word in patterns):

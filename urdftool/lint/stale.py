@@ -1,4 +1,4 @@
-"""Which entries of a baseline a run has looked for, so that their absence says something."""
+"""Selection of baseline entries that a run could have found."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from .settings import Settings
 def looked_for(
     entries: Iterable[Entry], baseline: Baseline, outcome: Outcome, line: Settings
 ) -> list[Entry]:
-    """The entries whose file was read and whose rule has run, or whose file is gone.
+    """Return the entries whose file was read or is gone, and whose rule has run or is unknown.
 
     Args:
-        entries: Some entries of the baseline.
+        entries: Entries of the baseline.
         baseline: The baseline.
         outcome: The run.
-        line: What the command line says of rules.
+        line: Rule settings of the command line.
     """
     checked = [report for report in outcome.reports if report.checked]
     files = {os.path.abspath(path) for report in checked for path in report.files}
@@ -36,7 +36,7 @@ def looked_for(
 
 
 def _was_read(file: str, files: set[str]) -> bool:
-    """Whether a file is one of these, or stands above one and is no description, or is gone."""
+    """Tell whether a file was read, is gone, or is another kind of file above a read one."""
     if file in files or not os.path.exists(file):
         return True
     if file.endswith((*ENDINGS, ".xacro")):

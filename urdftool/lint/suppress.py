@@ -1,9 +1,9 @@
-"""``<!-- urdftool-ignore[RULE, …] reason -->``: findings that are there on purpose.
+"""Suppression comments, ``<!-- urdftool-ignore[RULE, …] reason -->``.
 
-The comment is read from the source, where it covers its own line if something stands before it on
-that line, and the next element otherwise. A finding is covered if it stands in what is covered, or
-came through a call that does: so a comment before a macro call covers all that it expands to, and
-one inside the macro covers every expansion. ``urdftool-ignore-file[RULE]`` covers the file.
+A comment applies to its own line if other text precedes it there, else to the next element. It
+suppresses findings located in that range, and findings whose xacro calls are in it: a comment
+before a macro call applies to the whole expansion, one inside the macro to every expansion.
+``urdftool-ignore-file[RULE]`` applies to the file.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ _COMMENT = re.compile(r"\s*urdftool-ignore(-file)?\b\s*(?:\[([^\]]*)\])?")
 
 @dataclass
 class Suppression:
-    """One comment.
+    """Suppression comment.
 
     Attributes:
-        names: The rules, prefixes and families it names.
-        place: The comment.
-        start: First byte that it covers.
-        end: Byte after the last that it covers.
-        reason: What it says after the rules.
-        used: Whether it has covered a finding.
+        names: Rules, prefixes and families named in it.
+        place: Location of the comment.
+        start: First byte to which it applies.
+        end: Byte after the last to which it applies.
+        reason: Text after the rules.
+        used: Whether it has suppressed a finding.
     """
 
     names: tuple[str, ...]
@@ -46,7 +46,7 @@ class Suppression:
     used: bool = False
 
     def covers(self, finding: Finding) -> bool:
-        """Whether a finding is in what it covers, by its rule and its place."""
+        """Tell whether the comment suppresses a finding, by its rule and place."""
         if not self._names(finding.rule):
             return False
         places = [(finding.place.file, finding.place.start)]
@@ -65,7 +65,7 @@ class Suppression:
 
 
 def read_suppressions(documents: Iterable[Document]) -> tuple[list[Suppression], list[Finding]]:
-    """The comments in the files of a description, and what is wrong with them."""
+    """Return the suppression comments in the files, and findings on invalid ones."""
     found: list[Suppression] = []
     wrong: list[Finding] = []
     for document in documents:
@@ -96,7 +96,7 @@ def _unknown(word: str, place: Place) -> Finding:
 
 
 def _faults(names: str | None, place: Place) -> Iterator[Finding]:
-    """Unknown rules, and a comment without any."""
+    """Yield findings on unknown rules, and on a comment without rules."""
     if not (names or "").strip():
         yield Finding(
             "unknown-rule",
@@ -120,7 +120,7 @@ def _faults(names: str | None, place: Place) -> Iterator[Finding]:
 
 
 def _covered(document: Document, comment: Place) -> tuple[int, int]:
-    """The bytes a comment covers: its line, or the next element."""
+    """Return the range of bytes to which a comment applies: its line, or the next element."""
     data = document.file.data
     line_start = data.rfind(b"\n", 0, comment.start) + 1
     if data[line_start : comment.start].strip():
@@ -135,7 +135,7 @@ def _covered(document: Document, comment: Place) -> tuple[int, int]:
 
 
 def _with_element(document: Document, start: int, end: int) -> tuple[int, int]:
-    """A line; where a tag that starts above it ends on it, from that tag's start."""
+    """Return the range of a line, extended to the start of a tag that ends on it."""
     inside = [
         element.start
         for element in document.root.walk()
@@ -147,7 +147,7 @@ def _with_element(document: Document, start: int, end: int) -> tuple[int, int]:
 def suppress(
     findings: Iterable[Finding], suppressions: list[Suppression]
 ) -> tuple[list[Finding], list[tuple[Finding, str]]]:
-    """The findings that no comment covers, and those that one does, with its reason."""
+    """Return the findings that are not suppressed, and the suppressed ones with the reason."""
     kept: list[Finding] = []
     ignored: list[tuple[Finding, str]] = []
     for finding in findings:
@@ -162,7 +162,7 @@ def suppress(
 
 
 def unused(suppressions: Iterable[Suppression], ran: set[str]) -> Iterator[Finding]:
-    """A finding for each comment that covers nothing, though a rule it names has run."""
+    """Yield a finding for each comment that suppresses nothing though a rule of it has run."""
     for suppression in suppressions:
         if suppression.used or not any(suppression._names(rule) for rule in ran):
             continue

@@ -1,4 +1,4 @@
-"""Which simulators and middlewares a description is meant for, read off from what it shows."""
+"""Inference of the simulators and middleware for which a description is made."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ _GZ_DEPENDENCIES = (
 
 
 def infer_targets(robot: Robot, description: Description) -> frozenset[str]:
-    """The targets a description shows signs of.
+    """Return the targets of which a description has signs.
 
-    Plugins tell Gazebo Classic from gz, those that an attribute names as in old versions too; a
-    ``<gazebo>`` tag that tells neither counts for the one that the package's build type goes with.
-    The package.xml tells ROS 1 from ROS 2.
+    Plugins distinguish Gazebo Classic from gz, also those in attributes of old versions; without
+    such a plugin, a ``<gazebo>`` tag counts for gz if the targets include ROS 2, else for Gazebo
+    Classic. The package.xml distinguishes ROS 1 from ROS 2.
     """
     targets = set(_of_package(description))
     for plugin in robot.plugins:

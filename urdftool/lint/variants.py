@@ -1,4 +1,4 @@
-"""``[[lint.variants]]``: several sets of xacro arguments for one file, with one set of findings."""
+"""``[[lint.variants]]``: several sets of xacro arguments for one file, with merged findings."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _KEYS = ("file", "args")
 
 
 def variants_for(file: str | Path, configuration: Configuration) -> list[dict[str, str]]:
-    """The sets of arguments that the configuration has for a file.
+    """Return the sets of arguments that the configuration has for a file.
 
     Raises:
-        ConfigError: A variant has an unknown key, a wrong value or a file that is not there.
+        ConfigError: A variant has an unknown key, an invalid value or a missing file.
     """
     table, path = configuration.lint.get("variants", []), configuration.path
     if not isinstance(table, list):
@@ -63,15 +63,15 @@ def _text(value: Any, where: str, path: str | None) -> str:
 
 
 def label(arguments: Mapping[str, str]) -> str:
-    """A set of arguments in words: ``prefix=left_ gripper=true``."""
+    """Return a set of arguments as text: ``prefix=left_ gripper=true``."""
     return " ".join(f"{name}={value}" for name, value in arguments.items()) or "no arguments"
 
 
 def as_one(reports: Mapping[str, Report]) -> Report:
-    """The reports of a file's variants, by label, as one.
+    """Merge the reports of the variants of a file, given by label.
 
-    A finding that some variants do not have says which have it. What is unused in some and used in
-    others is not unused. A file is not checked if one of its variants is not.
+    A finding that some variants do not have lists those that have it. An unused item that another
+    variant uses is not reported. A file counts as not checked if one of its variants is not.
     """
     checked = {
         name: report
@@ -106,7 +106,7 @@ def _key(finding: Finding) -> tuple[str, str, int, int]:
 
 
 def _merged(by_variant: Mapping[str, Sequence[Finding]], number: int) -> list[Finding]:
-    """Findings of one rule at one place as one, though arguments may be in their messages."""
+    """Merge findings of one rule at one place, even if arguments change their messages."""
     groups: dict[tuple[str, str, int, int], list[tuple[Finding, list[str]]]] = {}
     for name, findings in by_variant.items():
         for finding in findings:
