@@ -1,1 +1,1 @@
-"""The public functions that are no room's own: what the commands do, without a command line."""
+"""Public functions that combine several packages: the commands without a command line."""

@@ -1,4 +1,4 @@
-"""``urdftool.simplify_collisions``: collision geometry that is cheap, tight and measured."""
+"""``urdftool.simplify_collisions``: simplified collision geometry with a measured error."""
 
 from __future__ import annotations
 
@@ -26,32 +26,33 @@ def simplify_collisions(
     cache: bool = True,
     overwrite: bool = False,
 ) -> dict[str, list[Result]]:
-    """Write a robot whose links collide as primitives, hulls or convex pieces.
+    """Write a robot with primitives, convex hulls or convex pieces as collision geometry.
 
     Args:
         robot: A robot from ``load``.
-        output: The new URDF; of xacro, the expanded text.
-        settings: The method and its bounds; None keeps within 1 % of a part's size.
-        source: ``"visual"`` or ``"collision"``, the meshes to simplify; None takes the visuals, or
-            the collisions where there are none.
-        links: The links to work on; none means all.
-        skip_links: Links to leave as they are.
-        keep_primitives: Whether collisions that are primitives already stay.
-        mesh_dir: The folder of the pieces; None is one beside the output.
-        uri: ``"package"``, ``"relative"``, ``"file"``, or ``"auto"``: as the robot names its own.
+        output: Path of the new URDF; for xacro, of the expanded text.
+        settings: Method and error bounds; None allows an error of 1 % of the size of a part.
+        source: ``"visual"`` or ``"collision"``, the meshes to simplify; None uses the visuals, or
+            the collisions of links without visuals.
+        links: Links to process; if empty, all.
+        skip_links: Links to skip.
+        keep_primitives: Whether to keep existing primitive collisions.
+        mesh_dir: Folder of the new meshes; None is a folder next to the output.
+        uri: ``"package"``, ``"relative"``, ``"file"``, or ``"auto"``: the form that the robot uses.
         mesh_format: ``"stl"`` or ``"obj"``.
-        jobs: Processes to use; None is one for each core.
-        cache: Whether to take results from the cache of the command, and to keep new ones there.
-        overwrite: Whether to replace mesh files that are not ours.
+        jobs: Number of processes; None is one per core.
+        cache: Whether to read and store results in the cache of the command.
+        overwrite: Whether to replace mesh files not written by urdftool.
 
     Returns:
-        For each link that was worked on, what became of its meshes.
+        The results of the meshes of each processed link, by link name.
 
     Raises:
-        ConfigError: A link or setting is not known.
+        ConfigError: A link or setting is unknown.
         MeshError: A mesh cannot be read or simplified; nothing was written.
         MissingDependency: A library of the extra 'mesh' is not installed.
-        OutputError: A file cannot be written; what was there is as it was.
+        ModelError: The robot was not read from a description.
+        OutputError: A file cannot be written; previous contents are unchanged.
     """
     from ..collision.links import Wishes, plan
     from ..collision.parallel import compute_all

@@ -16,16 +16,16 @@ def expand(
     packages: Mapping[str, str | Path] | None = None,
     package_paths: Iterable[str | Path] = (),
 ) -> str:
-    """Expand a xacro file to URDF, equal as XML to what ``xacro`` prints.
+    """Expand a xacro file to URDF that is equal, as XML, to the output of ``xacro``.
 
     Args:
-        path: A xacro file, or ``-`` for standard input. A plain URDF comes out as it is.
-        args: Values for its xacro arguments.
-        packages: Folders of ROS packages by name; others are found as on the command line.
-        package_paths: Folders with ROS packages below.
+        path: A xacro file, or ``-`` for standard input. Plain URDF is returned equal as XML.
+        args: Values of xacro arguments.
+        packages: Folders of ROS packages by name; others are searched as on the command line.
+        package_paths: Folders that contain ROS packages.
 
     Raises:
-        SourceError: It, or a file it includes, cannot be read or expanded.
+        SourceError: It, or an included file, cannot be read or expanded.
     """
     from ..source.expand import expand_xacro
 

@@ -1,4 +1,4 @@
-"""``urdftool.export_sdf`` and ``export_mjcf``: the robot in the language of a simulator."""
+"""``urdftool.export_sdf`` and ``urdftool.export_mjcf``: conversion to simulator formats."""
 
 from __future__ import annotations
 
@@ -35,27 +35,28 @@ def export_sdf(
     verify: bool = False,
     overwrite: bool = False,
 ) -> Written:
-    """Turn a robot into SDF for Gazebo.
+    """Convert a robot to SDF for Gazebo.
 
     Args:
         robot: A robot from ``load``.
         output: A folder, or a file that ends in .sdf, .xml or .world; None writes nothing.
-        target: The Gazebo it is for.
-        version: The version of SDF; the target's default if empty.
-        fixed_joints: Keep them, or make one link of what they join; the target's default if empty.
-        uri: How meshes are named; the usual of the target if empty.
-        world: Whether to write a world with ground and sun around it.
-        fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` mends tensors that no rigid body has.
-        mesh_dir: The folder of the meshes, relative to the model.
+        target: Gazebo version: ``"gz"`` or ``"gazebo-classic"``.
+        version: SDF version; empty uses the default of the target.
+        fixed_joints: ``"keep"``, or ``"lump"`` to merge their links; empty uses the default of the
+            target.
+        uri: Form of mesh URIs; empty uses the default of the target.
+        world: Whether to write a world with ground and sun around the model.
+        fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` repairs physically inconsistent tensors.
+        mesh_dir: Folder of the meshes, relative to the model.
         actuator_config: A TOML file with damping, friction and force range of joints.
-        force: Whether to go on past errors where a robot is left.
-        verify: Whether to read the result back and compare it; ``checks`` has what was found.
-        overwrite: Whether to replace also what urdftool did not write.
+        force: Whether to continue past errors if a robot remains.
+        verify: Whether to read the result back and compare it; ``checks`` has the result.
+        overwrite: Whether to replace files not written by urdftool.
 
     Raises:
-        ModelError: The robot has errors past which it cannot be written; ``notes`` has the others.
+        ModelError: The robot has errors that prevent writing it; ``notes`` lists the others.
         ConfigError: The target does not read that version.
-        OutputError: A file cannot be written; what was there is as it was.
+        OutputError: A file cannot be written; previous contents are unchanged.
     """
     from ..errors import ConfigError
     from ..formats.export import finish_export
@@ -112,45 +113,45 @@ def export_mjcf(
     verify: bool = False,
     overwrite: bool = False,
 ) -> Written:
-    """Turn a robot into a MuJoCo model.
+    """Convert a robot to a MuJoCo model.
 
     Args:
         robot: A robot from ``load``.
         output: A folder, or a file that ends in .xml or .mjcf; None writes nothing.
-        actuators: ``"auto"`` as transmissions, ros2_control and drive plugins say, ``"none"``, or
+        actuators: ``"auto"`` follows transmissions, ros2_control and drive plugins; ``"none"``; or
             ``"position"``, ``"velocity"`` or ``"motor"`` for all joints.
-        base: Whether the root is ``"fixed"`` or ``"free"``; ``"auto"`` is free where the robot
-            stands on legs or driven wheels, or where the description says so.
-        scene: Whether to write also a scene with floor and light.
-        srdf: A MoveIt SRDF whose disabled collisions are taken over, and a group state as the
-            home position.
-        fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` mends tensors that no rigid body has.
-        decompose: Whether to cut meshes that collide and are not convex into pieces.
-        keep_locked_joints: Whether to keep joints with equal limits, held by an equality, where
-            their links would be welded.
-        pose: Positions of joints by name [rad, m] in the home position.
-        state: The group state of the SRDF that is the home position; its likeliest if empty.
-        base_sensors: Whether to add linear velocity, gyro, accelerometer and orientation of a free
-            base where the file has none.
+        base: ``"fixed"`` or ``"free"``; ``"auto"`` is free if the robot stands on legs or driven
+            wheels, or if the description requires it.
+        scene: Whether to write a scene with floor and light too.
+        srdf: A MoveIt SRDF that provides disabled collisions, and a group state as the home
+            position.
+        fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` repairs physically inconsistent tensors.
+        decompose: Whether to decompose non-convex collision meshes into convex pieces.
+        keep_locked_joints: Whether to keep joints with equal limits, constrained by an equality,
+            instead of welding their links.
+        pose: Joint positions by name [rad, m] in the home position.
+        state: Group state of the SRDF for the home position; empty chooses the likeliest.
+        base_sensors: Whether to add sensors of linear velocity, angular velocity, acceleration and
+            orientation to a free base that has none.
         actuator_config: A TOML file with gains, armature, damping, friction and force range of
             joints by name or pattern.
-        armature: Rotor inertia reflected at every joint [kg·m², kg of a slide].
-        exclude: Pairs of links that never collide: ``"adjacent"`` that a joint joins,
-            ``"touching"`` also those that overlap at home, ``"none"``.
-        fuse: Whether to merge links that are fixed to another into it; their frames become sites.
-        mesh_dir: The folder of the meshes, relative to the model.
-        force: Whether to go on past errors where a robot is left.
-        verify: Whether to compare the result, compiled in MuJoCo, with the robot; ``checks`` has
-            what was found. It is compiled in any case where MuJoCo is installed.
-        overwrite: Whether to replace also what urdftool did not write.
+        armature: Reflected rotor inertia of every joint [kg·m², or kg for a slide joint].
+        exclude: Pairs of links that never collide: ``"adjacent"`` excludes links connected by a
+            joint, ``"touching"`` also those that overlap in the home position, ``"none"`` none.
+        fuse: Whether to merge links fixed to another link into it; their frames become sites.
+        mesh_dir: Folder of the meshes, relative to the model.
+        force: Whether to continue past errors if a robot remains.
+        verify: Whether to compare the model compiled by MuJoCo with the robot; ``checks`` has the
+            result. The model is compiled in any case if MuJoCo is installed.
+        overwrite: Whether to replace files not written by urdftool.
 
     Raises:
-        ModelError: The robot has errors past which it cannot be written, in ``notes``; or it has no
-            joint of the pose.
+        ModelError: The robot has errors that prevent writing it, listed in ``notes``; or it lacks
+            a joint of ``pose``.
         ConfigError: The SRDF has no such group state.
-        MissingDependency: MuJoCo, to verify, or CoACD, to decompose, is not installed.
-        OutputError: A file cannot be written, or MuJoCo does not compile it; what was there is as
-            it was.
+        MissingDependency: MuJoCo (for ``verify``) or CoACD (for ``decompose``) is not installed.
+        OutputError: A file cannot be written, or MuJoCo cannot compile it; previous contents are
+            unchanged.
     """
     from ..formats.export import finish_export
     from ..formats.mjcf.options import Options
@@ -193,18 +194,18 @@ PLUGIN_RULES = (
     "drive-size-mismatch",
     "drive-direction-mismatch",
 )
-"""Rules of lint about what a plugin is given: the simulator loads it, and it does not work."""
+"""Lint rules on parameters with which a simulator loads a plugin that then does not work."""
 
 
 def check_plugins(robot: Robot, target: str) -> list[Finding]:
-    """Check what the plugins of a robot are given, by the rules of ``urdftool lint``.
+    """Check the parameters of the plugins of a robot by lint rules.
 
     Args:
         robot: The robot.
         target: ``gz`` or ``gazebo-classic``.
 
     Returns:
-        Warnings, each with its place in the description.
+        Findings as warnings, each with its place in the description.
     """
     from ..errors import ConfigError
     from ..finding import Severity
@@ -214,7 +215,7 @@ def check_plugins(robot: Robot, target: str) -> list[Finding]:
         return []
     try:
         found = check(robot, select=PLUGIN_RULES, targets=(target,))
-    except ConfigError:  # of lint, which says so itself
+    except ConfigError:  # of the lint configuration, reported by lint
         return []
     return [replace(f, severity=Severity.WARNING) for f in found if _is_of_plugin(robot, f)]
 
@@ -230,16 +231,16 @@ def _is_of_plugin(robot: Robot, finding: Finding) -> bool:
 def measure_overlap(
     robot: Robot, positions: Mapping[str, float], one: str, other: str
 ) -> float | None:
-    """Measure how deep the authored collision geometry of two links overlaps [m].
+    """Return the penetration depth [m] of the original collision geometry of two links.
 
     Args:
         robot: The robot.
-        positions: Of its joints by name [rad or m].
-        one: A link.
-        other: Another.
+        positions: Joint positions by name [rad or m].
+        one: Name of a link.
+        other: Name of another link.
 
     Returns:
-        The depth; None where neither has a mesh, so that the engine's own answer is exact.
+        The depth; None if neither has a mesh, so that the result of the engine is exact.
     """
     from ..model.elements import Mesh
     from ..model.kinematics import link_poses
@@ -256,14 +257,17 @@ def _gltf_up(robot: Robot) -> GltfUp:
 
 
 def cut_meshes(paths: Sequence[Path], gltf_up: GltfUp = "y") -> dict[Path, Cut | str]:
-    """The convex pieces of meshes, as ``urdftool collision`` finds them with CoACD.
+    """Decompose meshes into convex pieces, as ``urdftool collision`` does with CoACD.
 
     Args:
         paths: The mesh files.
-        gltf_up: The axis of a glTF file that is up.
+        gltf_up: Up axis of glTF files.
+
+    Returns:
+        The pieces by path, or the message of the error for a mesh that cannot be decomposed.
 
     Raises:
-        MissingDependency: A library that it needs is not installed.
+        MissingDependency: A required library is not installed.
     """
     from ..collision.compute import Result, Task
     from ..collision.parallel import compute_all

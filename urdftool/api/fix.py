@@ -1,4 +1,4 @@
-"""``urdftool.fix``: a description with its findings mended."""
+"""``urdftool.fix``: a description with its findings fixed."""
 
 from __future__ import annotations
 
@@ -24,30 +24,29 @@ def fix(
     write: bool = False,
     gltf_up: GltfUp | None = None,
 ) -> Mended:
-    """Mend what ``check`` finds, in the bytes of the source and no others.
+    """Fix the findings of ``check``, changing only the affected bytes of the source.
 
-    Each fix is proved: the description is read again, and what would leave more to find is not
-    done. Nothing is written unless that is asked for.
+    Each fix is checked: the description is read again, and a fix that adds findings is reverted.
+    Nothing is written by default.
 
     Args:
-        path: A ``.urdf`` or ``.xacro`` file. Files that it includes are mended, too, where they
-            are in its project.
-        args: Values for xacro arguments.
-        packages: Folders of ROS packages by name; others are found as on the command line.
-        package_paths: Folders with ROS packages below.
-        select: Rule names, prefixes with ``*`` and families; None is what is on by default.
-        ignore: The same, taken away.
-        targets: Simulators and middlewares; none means that they are inferred.
-        config: A configuration file, instead of the nearest above the description.
-        unsafe: Whether to make also fixes that invent or remove physics.
-        meshes: Whether to make also fixes that write mesh files.
-        write: Whether to write the files that changed: all of them, or none.
-        gltf_up: The axis that is up in glTF meshes; None for what the configuration says.
+        path: A ``.urdf`` or ``.xacro`` file. Included files of its project are fixed too.
+        args: Values of xacro arguments.
+        packages: Folders of ROS packages by name; others are searched as on the command line.
+        package_paths: Folders that contain ROS packages.
+        select: Rule names, prefixes with ``*`` and families; None selects the default rules.
+        ignore: Rule names, prefixes and families to exclude.
+        targets: Simulators and middleware; if empty, they are inferred.
+        config: Configuration file; None uses the nearest one above the description.
+        unsafe: Whether to apply fixes that add or remove physical properties too.
+        meshes: Whether to apply fixes that write mesh files too.
+        write: Whether to write the changed files: all of them, or none.
+        gltf_up: Up axis of glTF meshes; None uses the configuration.
 
     Raises:
         SourceError: The file cannot be read.
-        ConfigError: A rule, target or option is not known.
-        OutputError: A file cannot be written, or was changed meanwhile.
+        ConfigError: A rule, target or option is unknown.
+        OutputError: A file cannot be written, or was changed by another program.
     """
     from ..lint.fix_run import mend
     from ..lint.outcome import Options

@@ -1,4 +1,4 @@
-"""``urdftool.simulate``: does it stand?"""
+"""``urdftool.simulate``: simulation of a robot that settles on a plane."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from ..simulation.verdict import Verdict
 def simulate(
     robot: Robot, settings: Settings | None = None, *, engine: str | None = None
 ) -> list[Verdict]:
-    """Spawn a robot above a plane, let it settle, and judge it.
+    """Spawn a robot above a plane, let it settle, and evaluate the result.
 
     Args:
         robot: A robot from ``load``.
-        settings: How it is spawned, and for how long it is watched; None is five seconds, each
-            joint held at zero.
-        engine: ``"pybullet"`` or ``"mujoco"``; None is PyBullet, or MuJoCo where PyBullet has no
-            wheels.
+        settings: Spawn pose, duration and other settings; None simulates 5 s with each joint held
+            at zero.
+        engine: ``"pybullet"`` or ``"mujoco"``; None uses PyBullet, or MuJoCo where PyBullet has no
+            binary package.
 
     Returns:
         A verdict for each trial.
 
     Raises:
-        ConfigError: There is no such engine.
+        ConfigError: The engine is unknown.
         MissingDependency: The engine is not installed.
-        ModelError: The robot cannot be simulated: it has two roots, or nothing that weighs, or
-            the settings name a joint or link that it does not have.
-        MeshError: A mesh that collides cannot be read.
+        ModelError: The robot cannot be simulated: it has two roots or no link with mass, or the
+            settings name an unknown joint or link.
+        MeshError: A collision mesh cannot be read.
     """
     from ..errors import ConfigError
     from ..extras import require
