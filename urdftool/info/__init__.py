@@ -1,8 +1,8 @@
-"""A robot in one table: ``count`` what is written, ``measure`` what its shapes come to.
+"""Summary of a robot: ``count`` for its elements, ``measure`` for its geometry.
 
-One module an idea, each imported on its own (this package loads nothing by itself):
+Modules are imported separately (this package imports nothing):
 
 - ``counts``: links, joints by type, degrees of freedom, mass, plugins, sensors, packages;
-- ``zero_pose``: where each link is when every joint is at zero;
-- ``size``: the box around all shapes at zero pose, and the meshes with their triangles.
+- ``size``: the bounding box of all geometry at zero joint positions, and the meshes with their
+  triangles.
 """

@@ -1,4 +1,4 @@
-"""What is written in a robot, counted."""
+"""Counts of the elements of a robot."""
 
 from __future__ import annotations
 
@@ -10,38 +10,38 @@ from ..errors import PackageNotFound
 from ..model.elements import Joint, Mesh, Robot
 
 FREEDOMS = {"revolute": 1, "continuous": 1, "prismatic": 1, "planar": 3, "floating": 6}
-"""Coordinates of a joint of each type; a planar one slides two ways and turns, as in MoveIt."""
+"""Degrees of freedom by joint type; a planar joint has two translations and one rotation."""
 
 
 @dataclass(frozen=True)
 class Named:
-    """A plugin, sensor or piece of hardware: its name, and its library or type."""
+    """Plugin, sensor or hardware component: its name, and its library or type."""
 
     name: str
     what: str
     on: str | None
-    """The link or joint it is on; None for the robot."""
+    """Link or joint to which it belongs; None for the robot."""
 
 
 @dataclass
 class Counts:
-    """What is written in a robot.
+    """Counts of the elements of a robot.
 
     Attributes:
-        links: How many links.
-        frames: How many of them are mere frames.
-        joints: How many joints of each type, the most frequent first.
-        mimics: How many joints follow another.
-        freedom: Degrees of freedom: coordinates of all joints that follow no other.
-        mass: The masses that are written, summed [kg].
-        massless: How many links that are no mere frames have no mass.
-        roots: Names of links that are no joint's child.
-        depth: Joints between the root and the link farthest from it.
-        plugins: Of Gazebo, with their libraries.
-        sensors: Of Gazebo and ros2_control, with their types.
+        links: Number of links.
+        frames: Number of links without visual, collision and inertial.
+        joints: Number of joints by type, the most frequent first.
+        mimics: Number of mimic joints.
+        freedom: Degrees of freedom of all joints that are not mimic joints.
+        mass: Sum of the masses [kg].
+        massless: Number of links with geometry or an inertial, but without a mass.
+        roots: Names of links that are not the child of a joint.
+        depth: Number of joints from the root to the farthest link.
+        plugins: Gazebo plugins, with their libraries.
+        sensors: Sensors of Gazebo and ros2_control, with their types.
         hardware: ``<ros2_control>`` blocks, with their plugins.
         transmissions: Names of the transmissions.
-        packages: Folders of the packages that are named, by name; None where one is not found.
+        packages: Folders of referenced packages by name; None if not found.
     """
 
     links: int
@@ -61,7 +61,7 @@ class Counts:
 
 
 def count(robot: Robot) -> Counts:
-    """Count what is written in a robot."""
+    """Count the elements of a robot."""
     types: dict[str, int] = {}
     for joint in robot.joints:
         types[joint.type] = types.get(joint.type, 0) + 1
@@ -85,7 +85,7 @@ def count(robot: Robot) -> Counts:
 
 
 def degrees_of_freedom(joints: Iterable[Joint]) -> int:
-    """Coordinates of all joints that follow no other."""
+    """Return the degrees of freedom of all joints that are not mimic joints."""
     return sum(FREEDOMS.get(joint.type, 0) for joint in joints if joint.mimic is None)
 
 
@@ -120,7 +120,7 @@ def _sensors(robot: Robot) -> list[Named]:
 
 
 def _packages(robot: Robot) -> dict[str, str | None]:
-    """Those that xacro looked for, and those that meshes are in."""
+    """Return the folders of packages used by xacro and by meshes; None if not found."""
     found: dict[str, str | None] = {}
     if robot.source is not None:
         found = {name: str(folder) for name, folder in robot.source.packages.used.items()}

@@ -1,4 +1,4 @@
-"""The box around all shapes at zero pose, and the meshes with their triangles."""
+"""Bounding box of all geometry at zero joint positions, and meshes with their triangles."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass
 class MeshFile:
-    """A mesh file of a robot.
+    """Mesh file of a robot.
 
     Attributes:
-        uri: As it is written.
-        path: The file; None where it is not found.
-        triangles: How many are in it; None where it cannot be read.
-        visuals: How many visuals show it.
-        collisions: How many collisions are made of it.
-        reason: Why it cannot be read; empty where it can.
+        uri: URI as written.
+        path: Path of the file; None if not found.
+        triangles: Number of triangles; None if it cannot be read.
+        visuals: Number of visuals that use it.
+        collisions: Number of collisions that use it.
+        reason: Reason why it cannot be read; empty if it can.
     """
 
     uri: str
@@ -39,28 +39,29 @@ class MeshFile:
 
 @dataclass
 class Measured:
-    """What the shapes of a robot come to.
+    """Dimensions of the geometry of a robot.
 
     Attributes:
-        bounds: The box around them all at zero pose, along the axes of the root [m]; None where
-            there is no shape that could be read, or one is larger than numbers go.
-        meshes: The mesh files, in the order they are named.
+        bounds: Bounding box at zero joint positions, along the axes of the root [m]; None if no
+            geometry can be read, or a length is not finite.
+        meshes: Mesh files, in the order of their first reference.
     """
 
     bounds: Bounds | None = None
     meshes: list[MeshFile] = field(default_factory=list)
 
     def triangles(self, kind: str) -> int:
-        """Triangles of all ``visuals`` or ``collisions``, a mesh counted as often as it is used."""
+        """Return the number of triangles of all ``visuals`` or ``collisions``; each use counts."""
         return sum((mesh.triangles or 0) * getattr(mesh, kind) for mesh in self.meshes)
 
 
 def measure(robot: Robot, progress: Progress = lambda *_: None) -> Measured:
-    """Read the meshes of a robot and put all its shapes where they are at zero pose.
+    """Compute the bounding box of a robot at zero joint positions, and read its meshes.
 
     Args:
-        robot: The robot, read from a description, which finds its packages.
-        progress: Told of each mesh before it is read: its number, how many, its URI.
+        robot: The robot, read from a description.
+        progress: Called before each mesh is read, with its number, the number of meshes and its
+            URI.
     """
     poses = link_poses(robot)
     measured = Measured()
@@ -86,12 +87,12 @@ def measure(robot: Robot, progress: Progress = lambda *_: None) -> Measured:
     for box in boxes:
         measured.bounds = box if measured.bounds is None else measured.bounds.joined(box)
     if measured.bounds is not None and not all(map(math.isfinite, measured.bounds.size)):
-        measured.bounds = None  # a shape larger than numbers go
+        measured.bounds = None  # overflow
     return measured
 
 
 def _primitive(shape: Visual | Collision, at: Pose) -> Bounds | None:
-    """The box around a primitive, along the axes of the frame its link's pose is in."""
+    """Return the bounding box of a primitive in the frame of the link pose."""
     pose = at @ pose_of(shape.origin)
     origin = Origin(shape.element, pose.translation, rpy_of_rotation(pose.rotation))
     return bounds_of(Collision(shape.element, origin=origin, geometry=shape.geometry))
@@ -100,7 +101,7 @@ def _primitive(shape: Visual | Collision, at: Pose) -> Bounds | None:
 def _read(
     robot: Robot, mesh: MeshFile, shapes: list[tuple[Pose | None, Visual | Collision]]
 ) -> Iterator[Bounds]:
-    """Read a mesh, at each scale it is used; the box around each use of it.
+    """Read a mesh at each scale; yield the bounding box of each use.
 
     Raises:
         UrdftoolError: It is not found or cannot be read.
@@ -125,7 +126,7 @@ def _read(
 
 
 def _around(vertices: Any, pose: Pose) -> Bounds:
-    """The box around points, each axis at a time: rows of the rotation times all of them."""
+    """Return the bounding box of points, an array of shape (n, 3), at a pose [m]."""
     low, high = [], []
     for row, shift in zip(pose.rotation, pose.translation, strict=True):
         along = vertices @ row
