@@ -1,11 +1,11 @@
-"""What changed between two robots, as a reviewer means it.
+"""Semantic differences between two robots.
 
-One module an idea, each imported on its own (this package loads nothing by itself):
+Modules are imported separately (this package imports nothing):
 
-- ``differences``: ``compare``, the way in;
-- ``change``: ``Change``, what it yields;
-- ``links``, ``joints``, ``extensions``: the changes of one part;
-- ``renames``: which link or joint is another under a new name;
-- ``closeness``: when two numbers, poses or tensors are equal;
-- ``revision``: a description as it was in git.
+- ``differences``: ``compare``, the entry point;
+- ``change``: ``Change``, its result;
+- ``links``, ``joints``, ``extensions``: differences of these parts;
+- ``renames``: detection of renamed links and joints;
+- ``closeness``: equality of numbers, poses and tensors;
+- ``revision``: descriptions at a git revision.
 """

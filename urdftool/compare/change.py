@@ -1,4 +1,4 @@
-"""One thing that changed between two robots."""
+"""Difference between two robots."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from ..source.location import Place
 
 @dataclass(frozen=True)
 class Change:
-    """One thing that changed.
+    """Difference between two robots.
 
     Attributes:
         kind: ``link``, ``joint``, ``robot``, ``gazebo``, ``transmission`` or ``ros2_control``.
-        name: The name of that, in the second robot unless it is gone.
+        name: Name of the object, in the second robot unless it was removed.
         what: ``added``, ``removed``, ``renamed``, or the property, such as ``mass``.
-        before: Its value in the first robot; None where it had none.
-        after: Its value in the second robot; None where it has none.
-        unit: The unit of both values, for people.
-        remark: What the change comes to, for people, such as how far something moved.
-        place: Where it is written, in the second robot unless it is gone.
+        before: Value in the first robot; None if absent.
+        after: Value in the second robot; None if absent.
+        unit: Unit of both values, for display.
+        remark: Size of the change, for display, such as the distance moved.
+        place: Location, in the second robot unless it was removed.
     """
 
     kind: str

@@ -1,4 +1,4 @@
-"""When two numbers, vectors, poses or tensors are equal."""
+"""Equality of numbers, vectors, poses and tensors within a tolerance."""
 
 from __future__ import annotations
 
@@ -9,20 +9,22 @@ from ..model.elements import Vector
 from ..model.pose import Pose, Rotation, matrix_product, transpose
 
 TOLERANCE = 1e-9
-"""Relative; for places [m] and angles [rad] absolute. Above what rounding in xacro makes."""
+"""Relative tolerance, absolute for positions [m] and angles [rad]; above rounding errors in xacro
+files.
+"""
 
 _NOTHING = 1e-12
 
 
 def close(a: float | None, b: float | None, tolerance: float) -> bool:
-    """Whether two numbers are equal, relative to the larger; None equals itself alone."""
+    """Tell whether two numbers are equal, relative to the larger; None equals only None."""
     if a is None or b is None:
         return a is b
     return math.isclose(a, b, rel_tol=tolerance, abs_tol=_NOTHING)
 
 
 def all_close(a: Sequence[float] | None, b: Sequence[float] | None, tolerance: float) -> bool:
-    """Whether two vectors or tensors are equal, relative to the largest of their numbers."""
+    """Tell whether two vectors or tensors are equal, relative to their largest element."""
     if a is None or b is None:
         return a is b
     largest = max(map(abs, (*a, *b)), default=0.0)
@@ -32,19 +34,19 @@ def all_close(a: Sequence[float] | None, b: Sequence[float] | None, tolerance: f
 
 
 def distance(a: Vector, b: Vector) -> float:
-    """How far two points are apart [m]."""
+    """Return the distance of two points [m]."""
     return math.dist(a, b)
 
 
 def angle(a: Rotation, b: Rotation) -> float:
-    """By how much one is turned against the other [rad], from 0 to π, exact near 0."""
+    """Return the angle between two rotations [rad], from 0 to π, accurate near 0."""
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = matrix_product(transpose(a), b)
     sine = math.hypot(zy - yz, xz - zx, yx - xy) / 2
     return math.atan2(sine, (xx + yy + zz - 1) / 2)
 
 
 def same_pose(a: Pose, b: Pose, tolerance: float) -> bool:
-    """Whether two poses are equal, in place [m] and angle [rad]."""
+    """Tell whether two poses are equal, in position [m] and angle [rad]."""
     return (
         distance(a.translation, b.translation) <= tolerance
         and angle(a.rotation, b.rotation) <= tolerance
@@ -52,7 +54,7 @@ def same_pose(a: Pose, b: Pose, tolerance: float) -> bool:
 
 
 def moved(a: Pose, b: Pose) -> str:
-    """How far one pose is from the other, for people."""
+    """Return the distance and angle between two poses as text."""
     far, turned = distance(a.translation, b.translation), angle(a.rotation, b.rotation)
     said = []
     if far > _NOTHING:

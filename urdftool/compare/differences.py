@@ -1,4 +1,4 @@
-"""Two robots to the changes between them."""
+"""Comparison of two robots."""
 
 from __future__ import annotations
 
@@ -14,14 +14,15 @@ from .renames import find_renames
 
 
 def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Change]:
-    """What changed from one robot to another: links, joints, then what hangs on them.
+    """Yield the differences from one robot to another: links, joints, then extensions.
 
-    Order, comments and layout do not count, nor does how a pose, an axis or a tensor is written.
+    Order, comments and formatting are ignored, and so are equivalent notations of poses, axes and
+    tensors.
 
     Args:
-        a: The robot as it was.
-        b: The robot as it is.
-        tolerance: As in ``closeness``.
+        a: The first (old) robot.
+        b: The second (new) robot.
+        tolerance: Tolerance as in ``closeness.TOLERANCE``.
     """
     materials = _materials(a), _materials(b)
 
@@ -55,7 +56,7 @@ def _presence(
     b: Mapping[str, Link] | Mapping[str, Joint],
     renamed: Mapping[str, str],
 ) -> Iterator[Change]:
-    """What is there in one robot alone."""
+    """Yield renamed parts, and parts that only one robot has."""
     for old, new in renamed.items():
         yield Change(kind, new, "renamed", old, new, place=b[new].place)
     for name, part in a.items():
@@ -68,14 +69,14 @@ def _presence(
 
 
 def _what(part: Link | Joint) -> dict[str, object]:
-    """What is worth saying of a part that is new or gone."""
+    """Return the main properties of an added or removed part."""
     if isinstance(part, Joint):
         return {"type": part.type, "parent": part.parent, "child": part.child}
     return {"mass": part.inertial.mass if part.inertial is not None else None}
 
 
 def _materials(robot: Robot) -> dict[str, Material]:
-    """Named materials; one that is written out in a visual is known to all, as urdfdom has it."""
+    """Return named materials; definitions inside visuals are global, as in urdfdom."""
     found: dict[str, Material] = {}
     written = [v.material for link in robot.links for v in link.visuals if v.material is not None]
     for material in (*robot.materials, *written):

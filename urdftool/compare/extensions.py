@@ -1,4 +1,4 @@
-"""What changed of the blocks for simulators and controllers: by the path of what is in them."""
+"""Differences of blocks for simulators and controllers, by the path of their elements."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _NAMING = ("name", "reference", "filename", "type")
 def extension_changes(
     a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
 ) -> Iterator[Change]:
-    """What changed of ``<gazebo>``, ``<transmission>`` and ``<ros2_control>`` blocks."""
+    """Yield differences of ``<gazebo>``, ``<transmission>`` and ``<ros2_control>`` blocks."""
     for tag in ("transmission", "gazebo", "ros2_control"):
         one = _blocks(a, tag, renamed)
         two = _blocks(b, tag, {})
@@ -26,7 +26,7 @@ def extension_changes(
 
 
 def _blocks(robot: Robot, tag: str, renamed: Mapping[str, str]) -> dict[str, list[Element]]:
-    """Blocks by what they are called or refer to."""
+    """Return blocks by their name or reference."""
     found: dict[str, list[Element]] = {}
     for element in robot.element.all(tag):
         name = element.get("reference" if tag == "gazebo" else "name") or ""
@@ -65,9 +65,9 @@ def _changes(
 
 
 def _renamings(before: Flat, after: Flat) -> Iterator[tuple[str, str, str]]:
-    """Elements whose name alone changed: the path without it, and both names.
+    """Yield elements of which only the name changed: the path without it, and both names.
 
-    That is where one element of a tag is gone from a place, and another one of it is new there.
+    One element of a tag was removed from a parent, and one element of that tag was added to it.
     """
     gone, new = (_by_tag(one, other) for one, other in ((before, after), (after, before)))
     for path, names in gone.items():
@@ -76,7 +76,7 @@ def _renamings(before: Flat, after: Flat) -> Iterator[tuple[str, str, str]]:
 
 
 def _by_tag(one: Flat, other: Flat) -> dict[str, list[str]]:
-    """The names of elements that are in one robot alone, by their path without the name."""
+    """Return the names of elements that only one robot has, by their path without the name."""
     found: dict[str, list[str]] = {}
     for path in one:
         start, mark, end = path.rpartition("[")
@@ -86,7 +86,7 @@ def _by_tag(one: Flat, other: Flat) -> dict[str, list[str]]:
 
 
 def _move(flat: Flat, path: str, to: str) -> None:
-    """Give an element and what is below it another path."""
+    """Change the path of an element and its descendants."""
     for known in [known for known in flat if known == path or known.startswith(f"{path}/")]:
         flat[to + known.removeprefix(path)] = flat.pop(known)
 
@@ -105,7 +105,7 @@ def _same(a: str | None, b: str | None, tolerance: float, renamed: Mapping[str, 
 
 
 def _flat(elements: list[Element], renamed: Mapping[str, str]) -> Flat:
-    """Every attribute and text below some elements, by a path; order among them counts not."""
+    """Return attributes and texts below some elements by path, independent of their order."""
     found: Flat = {}
     for element in elements:
         for child in element.children or [element]:

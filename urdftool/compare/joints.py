@@ -1,4 +1,4 @@
-"""What changed of a joint."""
+"""Differences of joints."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ _X: Vector = (1.0, 0.0, 0.0)
 def joint_changes(
     a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]
 ) -> Iterator[Change]:
-    """What changed of a joint.
+    """Yield the differences of a joint.
 
     Args:
         a: The joint in the first robot.
         b: The joint in the second.
-        tolerance: As in ``closeness``.
-        renamed: New names of links and joints, by the old ones.
+        tolerance: Tolerance as in ``closeness.TOLERANCE``.
+        renamed: New names of links and joints by old names.
     """
 
     def change(
@@ -48,7 +48,7 @@ def joint_changes(
 
 
 def _axis(joint: Joint) -> Vector:
-    """The axis, of length 1 where it has one."""
+    """Return the axis, normalized unless it is zero."""
     x, y, z = joint.axis.xyz if joint.axis is not None else _X
     length = norm((x, y, z)) or 1.0
     return x / length, y / length, z / length
@@ -76,7 +76,7 @@ def _numbers(a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]) -
             before = None if one is None else getattr(one, name)
             after = None if two is None else getattr(two, name)
             if part == "limit" and name in ("lower", "upper") and a.is_limited and b.is_limited:
-                before, after = before or 0.0, after or 0.0  # what readers take
+                before, after = before or 0.0, after or 0.0  # default of readers
             if isinstance(before, str) or isinstance(after, str):
                 same = renamed.get(before or "", before) == after
             else:

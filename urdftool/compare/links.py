@@ -1,4 +1,4 @@
-"""What changed of a link: its mass, and the shapes that are seen and touched."""
+"""Differences of links: mass properties, visual geometry and collision geometry."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ Shape = Visual | Collision
 def link_changes(
     a: Link, b: Link, tolerance: float, materials: tuple[Materials, Materials]
 ) -> Iterator[Change]:
-    """What changed of a link.
+    """Yield the differences of a link.
 
     Args:
         a: The link in the first robot.
         b: The link in the second.
-        tolerance: As in ``closeness``.
-        materials: The named materials of both robots.
+        tolerance: Tolerance as in ``closeness.TOLERANCE``.
+        materials: Named materials of both robots.
     """
     yield from _inertial(a, b, tolerance)
     yield from _shapes("visual", a.visuals, b.visuals, b, tolerance, materials)
@@ -67,7 +67,7 @@ def _mass(inertial: Inertial | None) -> float | None:
 
 
 def _tensor(inertial: Inertial) -> SymmetricTensor | None:
-    """``ixx, ixy, ixz, iyy, iyz, izz`` about the centre of mass, along the link's axes [kg·m²]."""
+    """Return ``ixx, ixy, ixz, iyy, iyz, izz`` about the center of mass, in link axes [kg·m²]."""
     i = inertial.inertia
     if i is None:
         return None
@@ -87,7 +87,7 @@ def _shapes(
     tolerance: float,
     materials: tuple[Materials, Materials],
 ) -> Iterator[Change]:
-    """Shapes by their names; those without a name in their order, equal ones first."""
+    """Match visuals or collisions (equal, same name, same type, then by order) and compare them."""
     left: list[Shape] = list(a)
     right: list[Shape] = list(b)
     pairs: list[tuple[Shape, Shape]] = []
@@ -156,7 +156,7 @@ def _shape(
 
 
 def shape_facts(geometry: Geometry | None) -> dict[str, Any]:
-    """A shape as data: its kind, and its lengths [m] or its file."""
+    """Return geometry as data: its type, and its lengths [m] or its file."""
     if geometry is None:
         return {"shape": None}
     facts: dict[str, Any] = {"shape": geometry.element.tag}
@@ -172,12 +172,12 @@ def shape_facts(geometry: Geometry | None) -> dict[str, Any]:
 
 
 def pose_facts(pose: Pose) -> dict[str, Any]:
-    """A pose as data: ``xyz`` [m] and ``rpy`` [rad]."""
+    """Return a pose as data: ``xyz`` [m] and ``rpy`` [rad]."""
     return {"xyz": pose.translation, "rpy": rpy_of_rotation(pose.rotation)}
 
 
 def _look(material: Material | None, named: Materials) -> dict[str, Any] | None:
-    """The colour and texture of a visual, wherever they are written."""
+    """Return color and texture of a visual, resolving a named material."""
     if material is None:
         return None
     if material.color is None and material.texture is None:

@@ -1,4 +1,4 @@
-"""Which link or joint is another under a new name."""
+"""Detection of renamed links and joints."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ SameJoint = Callable[[Joint, Joint], bool]
 def find_renames(
     a: Robot, b: Robot, same_link: SameLink, same_joint: SameJoint
 ) -> tuple[dict[str, str], dict[str, str]]:
-    """New names of links and of joints that are gone, by the old ones.
+    """Return the new names of renamed links and of renamed joints, by old names.
 
-    A link has a new name if one that is new hangs in its place, is equal to it, and so is the
-    joint it hangs on; a joint, if it joins the same two links.
+    A link is renamed if a new link has the same parent and is equal, and so is its parent joint. A
+    joint is renamed if an equal new joint connects the same links.
 
     Args:
         a: The first robot.
-        b: The second.
-        same_link: Whether two links are equal but for their names.
-        same_joint: Whether two joints are equal but for their names and links.
+        b: The second robot.
+        same_link: Tells whether two links are equal except for their names.
+        same_joint: Tells whether two joints are equal except for their names and links.
     """
     links: dict[str, str] = {}
     joints: dict[str, str] = {}
@@ -57,7 +57,7 @@ def find_renames(
 def _in_its_place(
     a: Robot, b: Robot, name: str, joint: Joint | None, links: dict[str, str]
 ) -> Iterator[tuple[Joint | None, Link]]:
-    """The links of the second robot that hang where a link of the first hangs."""
+    """Yield joints and links of the second robot with the same parent as a link of the first."""
     if joint is None:
         yield from ((None, link) for link in b.tree.roots)
         return

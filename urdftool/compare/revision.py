@@ -1,8 +1,8 @@
-"""A description as it was in git: ``REV:path``, with its includes at that revision.
+"""Descriptions at a git revision: ``REV:path``, with its includes at that revision.
 
-The files of the revision are put in a temporary folder as git keeps them: no filter, hook or
-attribute of the repository has a part in it, and its working tree and index are left alone.
-Meshes and pictures are left out, as a description is read without them.
+The files of the revision are written to a temporary folder as stored in git: filters, hooks and
+attributes of the repository do not apply, and its working tree and index are not changed. Meshes
+and images are omitted, since reading a description does not need them.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ _MEDIA = frozenset(
 
 
 class Named(NamedTuple):
-    """What ``REV:path`` names."""
+    """Revision and path of ``REV:path``."""
 
     revision: str
     path: str
 
 
 class Entry(NamedTuple):
-    """What git keeps under a path: an object and its bytes, none known of a submodule."""
+    """Entry of a git tree: object and size [bytes], -1 for a submodule."""
 
     path: str
     sha: str
@@ -50,14 +50,14 @@ class Entry(NamedTuple):
 
 @dataclass(frozen=True)
 class Checkout:
-    """The files of a revision in a temporary folder.
+    """Files of a revision in a temporary folder.
 
     Attributes:
-        path: The description there.
-        folder: The folder, which stands for the root of the repository.
-        top: The root of the repository's working tree.
-        revision: As the user named it.
-        modules: Submodules, by their paths in the repository.
+        path: Path of the description there.
+        folder: Folder that corresponds to the root of the repository.
+        top: Root of the working tree of the repository.
+        revision: Revision as named by the user.
+        modules: Paths of submodules in the repository.
     """
 
     path: Path
@@ -67,19 +67,22 @@ class Checkout:
     modules: tuple[str, ...] = ()
 
     def shown(self, text: str) -> str:
-        """A text with each path of the temporary folder as ``REV:path``."""
+        """Return a text with paths of the temporary folder as ``REV:path``."""
         text = text.replace(f"{self.folder}{os.sep}", f"{self.revision}:")
         return text.replace(str(self.folder), f"{self.revision}:")
 
     def there(self, folder: str | Path) -> Path:
-        """Where a folder of the working tree was at the revision; elsewhere, the folder itself."""
+        """Map a folder of the working tree to the temporary folder; other folders are unchanged."""
         real = Path(os.path.realpath(folder))
         if real == self.top or self.top in real.parents:
             return self.folder / real.relative_to(self.top)
         return real
 
     def renamed(self, robot: Robot) -> Robot:
-        """The robot with each path of the temporary folder as it is in the working tree."""
+        """Replace paths of the temporary folder in a robot by paths of the working tree.
+
+        Source files get ``REV:path``. The robot is modified and returned.
+        """
         if robot.source is not None:
             for file in robot.source.files:
                 file.path = self.shown(file.path)
@@ -95,7 +98,7 @@ class Checkout:
         return robot
 
     def renamed_error(self, error: UrdftoolError) -> UrdftoolError:
-        """The error with each path of the temporary folder as ``REV:path``."""
+        """Replace paths of the temporary folder in an error by ``REV:path`` and return it."""
         error.message = self.shown(error.message)
         error.path = None if error.path is None else self.shown(error.path)
         error.notes = tuple(map(self.shown, error.notes))
@@ -104,10 +107,10 @@ class Checkout:
         return error
 
     def neighbours(self) -> Mapping[str, Path]:
-        """Packages in submodules as they are now, and beside a repository that is a package."""
+        """Return packages in present submodules, and next to a repository that is a package."""
         found: dict[str, Path] = {}
         above = self.top.parent
-        if len(above.parts) > 2 and (self.top / "package.xml").exists():  # never crawl / or /home
+        if len(above.parts) > 2 and (self.top / "package.xml").exists():  # do not search / or /home
             beside = packages_below(above)
             found |= {n: p for n, p in beside.items() if self.top not in (p, *p.parents)}
         for module in self.modules:
@@ -116,7 +119,7 @@ class Checkout:
 
 
 def named(word: str) -> Named | None:
-    """The revision and path that a word names; None if it is the path of a file."""
+    """Return the revision and path in an argument; None if it is the path of a file."""
     revision, colon, path = word.partition(":")
     if not (colon and path) or os.path.exists(word) or (len(revision) == 1 and os.name == "nt"):
         return None
@@ -125,10 +128,10 @@ def named(word: str) -> Named | None:
 
 @contextmanager
 def checked_out(wanted: Named) -> Iterator[Checkout]:
-    """The files of a revision, for as long as they are wanted.
+    """Provide the files of a revision during a ``with`` block.
 
     Raises:
-        SourceError: There is no such repository, revision or file.
+        SourceError: The repository, revision or file does not exist.
         MissingDependency: git is not installed.
     """
     revision, path = wanted
@@ -155,7 +158,7 @@ def checked_out(wanted: Named) -> Iterator[Checkout]:
 
 
 def _inner(path: str, top: Path, blobs: Mapping[str, Entry]) -> str | None:
-    """The path in the repository: from its root, as git has it, or from the current folder."""
+    """Return the path in the repository, given from its root, as in git, or the current folder."""
     here = os.path.relpath(os.path.realpath(path), os.path.realpath(top))
     candidates = [os.path.normpath(path), here]
     if path.startswith(("./", "../")):
@@ -177,11 +180,11 @@ def _listing(top: Path, tree: str) -> Iterator[Entry]:
 
 
 def _write(top: Path, blobs: Mapping[str, Entry], folder: Path) -> None:
-    """Write files as git has them, all in one call."""
+    """Write files as stored in git, with one call of git."""
     data = _git(
         top, "cat-file", "--batch", given="".join(f"{b.sha}\n" for b in blobs.values()).encode()
     )
-    (folder / ".git").mkdir(parents=True)  # empty: the mark where the search for packages ends
+    (folder / ".git").mkdir(parents=True)  # empty; ends the search for packages
     at = 0
     for path, blob in blobs.items():
         end = data.index(b"\n", at)
@@ -196,7 +199,7 @@ def _write(top: Path, blobs: Mapping[str, Entry], folder: Path) -> None:
             target.write_bytes(content)
             continue
         goal = os.path.normpath(target.parent / os.fsdecode(content))
-        if goal.startswith(f"{folder}{os.sep}"):  # nothing is read from outside the revision
+        if goal.startswith(f"{folder}{os.sep}"):  # links must not leave the revision
             target.symlink_to(os.fsdecode(content))
 
 
