@@ -1,1 +1,1 @@
-"""The machinery of the linter, not its opinions."""
+"""Execution of lint rules: settings, reports, suppression, baselines, cache and fixes."""

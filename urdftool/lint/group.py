@@ -174,7 +174,7 @@ def _listed(names: Sequence[str]) -> str:
 
 
 def _fix(found: Sequence[Finding]) -> Fix | None:
-    """Return the combined fix of a group; its message tells how many findings it covers."""
+    """Return the combined fix of a group; its message has the number of findings if not all."""
     fixes = [finding.fix for finding in found if finding.fix is not None]
     safe = [fix for fix in fixes if fix.safe]
     chosen = safe or fixes
