@@ -1,6 +1,6 @@
 """Configuration of a description: the nearest configuration file in its folder or above.
 
-``pyproject.toml`` holds it under ``[tool.urdftool]``; ``urdftool.toml`` and ``.urdftool.toml``, for
+``pyproject.toml`` has it under ``[tool.urdftool]``; ``urdftool.toml`` and ``.urdftool.toml``, for
 ROS packages without a ``pyproject.toml``, at the top level.
 """
 

@@ -161,7 +161,7 @@ class Workspace:
             self._base._known.setdefault(key, entry)
         return self._known.setdefault(key, entry)
 
-    # Questions -----------------------------------------------------------------------------
+    # Queries -------------------------------------------------------------------------------
 
     def record(self, kind: str, path: str | Path) -> None:
         """Record a dependency, such as on a file that a library opens itself.
