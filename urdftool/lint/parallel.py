@@ -33,7 +33,7 @@ def lint_files(paths: Sequence[str], options: Options, jobs: int | None = None) 
 
 def _check(paths: Sequence[str], options: Options, jobs: int | None) -> Iterator[Report]:
     """Yield a report for each description, without the cache of reports."""
-    if len(paths) < WORTH_IT and not jobs:  # most calls, which need not wait for an import
+    if len(paths) < WORTH_IT and not jobs:  # avoids an import in most calls
         yield from (lint_file(path, options) for path in paths)
         return
     from ..parallel import cores, in_order, map_tasks

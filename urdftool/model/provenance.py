@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from typing import Protocol
 
     class Provenance(Protocol):
-        """Source of a part: an :class:`Element` of URDF, or a :class:`Written` of another format."""
+        """Source of a part: an element of URDF, or a :class:`Written` of another format."""
 
         @property
         def place(self) -> Place:
@@ -22,10 +22,14 @@ NOWHERE = Place(SourceFile("", b""), 0, 0)
 
 
 class Written:
-    """Source of a part in a format other than URDF."""
+    """Source of a part in a format other than URDF.
+
+    Attributes:
+        place: Span in the file.
+    """
 
     __slots__ = ("place",)
 
     def __init__(self, place: Place) -> None:
-        """Keep the place."""
+        """Store the place."""
         self.place = place
