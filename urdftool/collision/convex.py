@@ -10,7 +10,6 @@ from ..geometry.mesh import Faces, Points
 from .vec3 import dot, lengths, normals
 
 _AT_ONCE = 200_000  # point-plane distances per block
-_LIMIT = 4000  # hull vertices beyond which only extreme points of each direction are considered
 
 
 def hull(points: Points) -> tuple[Points, Faces]:

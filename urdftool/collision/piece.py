@@ -17,8 +17,6 @@ from .vec3 import bounds
 PRIMITIVES = ("sphere", "capsule", "box", "cylinder")
 """Kinds that require no mesh file."""
 
-CONVEX = (*PRIMITIVES, "convex")
-
 
 @dataclass(frozen=True, eq=False)
 class Piece:

@@ -31,11 +31,6 @@ _MAX_CLIMB = 6
 _NEAR = 3
 
 
-def package_name(folder: Path, workspace: Workspace | None = None) -> str | None:
-    """Return the name in the ``package.xml`` of a folder; None without a ``package.xml``."""
-    return _names(workspace or Workspace(), str(folder))
-
-
 @memoized
 def _names(workspace: Workspace, folder: str) -> str | None:
     try:

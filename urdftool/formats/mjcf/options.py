@@ -15,10 +15,6 @@ Actuators = Literal["auto", "none", "position", "velocity", "motor"]
 Base = Literal["auto", "fixed", "free"]
 Exclude = Literal["touching", "adjacent", "none"]
 
-ACTUATORS: tuple[Actuators, ...] = ("auto", "none", "position", "velocity", "motor")
-BASES: tuple[Base, ...] = ("auto", "fixed", "free")
-EXCLUDES: tuple[Exclude, ...] = ("touching", "adjacent", "none")
-
 Overlap = Callable[[Robot, Mapping[str, float], str, str], float | None]
 """Measures how deep the collision geometry of two links, as written, overlaps [m] in a pose."""
 

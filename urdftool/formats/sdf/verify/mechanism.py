@@ -10,9 +10,6 @@ import numpy.typing as npt
 
 Array = npt.NDArray[np.float64]
 
-INFINITE = 1e15
-"""A limit at or beyond this is none: older readers and writers have no infinity."""
-
 
 @dataclass
 class Body:
