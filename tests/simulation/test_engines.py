@@ -31,6 +31,12 @@ def test_each_package_has_its_engine(name):
     assert engine.capabilities.name == name
 
 
+def test_both_are_the_first_two_engines(monkeypatch):
+    monkeypatch.setitem(registry.REGISTRY, "third", "third")
+    assert registry.engine_names(registry.BOTH) == NAMES[:2]
+    assert registry.engine_names("third") == ("third",)
+
+
 def test_finding_an_engine_imports_no_library(monkeypatch):
     for name in NAMES:
         monkeypatch.delitem(sys.modules, name, raising=False)
