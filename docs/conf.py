@@ -37,7 +37,7 @@ MENU = {
             "lint-precision",
         ),
     ),
-    "For contributors": ("house", "contributing"),
+    "For contributors": ("architecture", "contributing"),
 }
 """The pages of the menu, by caption; one that is not there yet is left out."""
 
