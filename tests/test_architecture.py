@@ -34,7 +34,7 @@ BELOW = {
     "rules": ("finding", "mechanics", "model", "source", "geometry", *BASE),
     "lint": ("rules", "finding", "model", "source", "configuration", *BASE),
     "formats": ("finding", "mechanics", "model", "source", "geometry", "output", *BASE),
-    "graph": ("finding", "model", "source", *BASE),
+    "graph": ("lint", "rules", "finding", "model", "source", *BASE),
     "simulation": (
         *("drawing", "formats", "finding", "lint", "mechanics", "geometry", "inertia", "model"),
         *("rules", "source", *BASE),

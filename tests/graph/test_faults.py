@@ -6,6 +6,7 @@ from urdftool.graph.faults import find_faults
 from urdftool.graph.fold import fold_fixed
 from urdftool.graph.marks import mark_faults
 from urdftool.graph.ros import ros_figure
+from urdftool.lint.validate import validate
 
 CASES = {
     "two roots": (
@@ -70,9 +71,15 @@ def test_a_fault_has_its_place():
     model = tree("abc", [("ab", "a", "b"), ("ac", "a", "c"), ("bc", "b", "c")])
     (fault,) = find_faults(model)
     assert str(fault.place) == "r.urdf:4:1"
-    assert fault.message == (
-        "link 'c' is the child of 2 joints, 'ac' and 'bc'; a link has one parent"
-    )
+    assert fault.rule == "multiple-parents"
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_lint_reports_what_keeps_a_robot_from_being_a_tree(case):
+    model, _ = CASES[case]
+    rules = {fault.rule for fault in find_faults(model)} - {""}
+    assert rules
+    assert rules <= {finding.rule for finding in validate(model, "graph")}
 
 
 def test_a_joint_without_links_is_drawn_apart():

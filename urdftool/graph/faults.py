@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
+from ..lint.validate import find_problems
 from ..model.elements import Joint, Link, Robot
+from ..rules.rule import Problem
 from ..source.location import Place
 from .words import visible
 
@@ -16,24 +18,36 @@ class Fault(NamedTuple):
     Attributes:
         part: The link or joint it is about.
         mark: A few words that stand on its node.
-        message: A sentence, with what would be right.
+        message: The sentence of the rule, with what would be right.
         place: Where it is written.
+        rule: The rule of ``lint`` that reports it; empty for what follows from other faults.
     """
 
     part: Link | Joint
     mark: str
     message: str
     place: Place
+    rule: str = ""
 
 
 def find_faults(robot: Robot) -> Iterator[Fault]:
     """Every fault of a robot's tree, links first."""
-    yield from _roots(robot)
-    yield from _loops(robot)
-    yield from _parents(robot)
-    yield from _twins(robot)
-    for joint in robot.joints:
-        yield from _ends(robot, joint)
+    found: dict[str, list[Problem]] = {}
+    for rule, problem in find_problems(robot, "graph"):
+        found.setdefault(rule, []).append(problem)
+    yield from _roots(robot, found.get("multiple-roots", []))
+    yield from _loops(robot, found.get("detached-cycle", []))
+    yield from _parents(found.get("multiple-parents", []))
+    yield from _twins(robot, "link", found.get("duplicate-link-name", []))
+    yield from _twins(robot, "joint", found.get("duplicate-joint-name", []))
+    ends = [
+        fault
+        for rule in ("joint-to-itself", *_END_MARKS)
+        for problem in found.get(rule, [])
+        for fault in _end(rule, problem)
+    ]
+    order = {id(joint): number for number, joint in enumerate(robot.joints)}
+    yield from sorted(ends, key=lambda f: (order[id(f.part)], f.mark.endswith("child")))
 
 
 def first_of_each(faults: Iterable[Fault]) -> dict[str, Fault]:
@@ -44,117 +58,74 @@ def first_of_each(faults: Iterable[Fault]) -> dict[str, Fault]:
     return found
 
 
-def _roots(robot: Robot) -> Iterator[Fault]:
-    roots = robot.tree.roots
-    if len(roots) < 2:
-        return
-    message = (
-        f"{len(roots)} links have no parent, {_names(link.name for link in roots)}; "
-        "a robot has one such link, its root"
-    )
-    for number, link in enumerate(roots, 1):
-        yield Fault(link, f"root {number} of {len(roots)}", message, link.place)
-
-
-def _loops(robot: Robot) -> Iterator[Fault]:
-    """Links that are their own ancestors, each loop once; and what hangs on a loop alone."""
-    tree = robot.tree
-    told: set[str] = set()
-    for link in robot.link.values():
-        chain = _loop_through(robot, link.name) if link.name else []
-        if len(chain) > 1 and link.name not in told:
-            told.update(chain)
-            shown = " → ".join(f"'{visible(name)}'" for name in _shortened([*chain, chain[0]]))
-            message = f"links hang on each other in a loop, {shown}; one of them hangs elsewhere"
-            for name in chain:
-                yield Fault(robot.link[name], "in a loop", message, robot.link[name].place)
-    for link in tree.detached:
-        if link.name not in told:
+def _roots(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
+    if problems:
+        message, roots = visible(problems[0].group), robot.tree.roots
+        for number, link in enumerate(roots, 1):
             yield Fault(
-                link,
-                "detached",
-                f"link '{visible(link.name)}' hangs on no root; the joints above it end in a loop "
-                "or at a link that is not there",
-                link.place,
+                link, f"root {number} of {len(roots)}", message, link.place, "multiple-roots"
             )
 
 
-def _loop_through(robot: Robot, name: str) -> list[str]:
-    """The links of the loop that a link is in, from it downwards; by first parents; or none."""
-    chain = [name]
-    seen = {name}
-    joint = robot.tree.parent_joint(name)
-    while joint is not None and joint.parent in robot.link:
-        if joint.parent == name:
-            return [name, *chain[:0:-1]]
-        if joint.parent in seen:
-            return []
-        seen.add(joint.parent)
-        chain.append(joint.parent)
-        joint = robot.tree.parent_joint(joint.parent)
-    return []
-
-
-def _parents(robot: Robot) -> Iterator[Fault]:
-    for name, joints in robot.tree.joints_of_child.items():
-        link = robot.link.get(name)
-        if name and link is not None and len(joints) > 1:
-            named = _names(joint.name for joint in joints)
-            yield Fault(
-                link,
-                f"{len(joints)} parents",
-                f"link '{visible(name)}' is the child of {len(joints)} joints, {named}; "
-                "a link has one parent",
-                link.place,
+def _loops(robot: Robot, problems: list[Problem]) -> Iterator[Fault]:
+    """Links that are their own ancestors, each loop once; then the others that no root reaches."""
+    reported: set[str] = set()
+    for problem in problems:
+        names: list[str] = problem.data["links"]
+        if len(names) > 1 and names[0] not in reported:
+            reported.update(names)
+            for name in names:
+                link = robot.link[name]
+                message = visible(problem.message)
+                yield Fault(link, "in a loop", message, link.place, "detached-cycle")
+    for link in robot.tree.detached:
+        if link.name not in reported:
+            message = (
+                f"link '{visible(link.name)}' is connected to no root; the joints above it end in "
+                "a loop or at a link that does not exist"
             )
+            yield Fault(link, "detached", message, link.place)
 
 
-def _twins(robot: Robot) -> Iterator[Fault]:
-    for kind, parts in (("link", robot.links), ("joint", robot.joints)):
-        counts: dict[str, list[Link | Joint]] = {}
+def _parents(problems: list[Problem]) -> Iterator[Fault]:
+    reported: set[str] = set()
+    for problem in problems:
+        link = problem.subject
+        if isinstance(link, Link) and link.name not in reported:
+            reported.add(link.name)
+            mark = f"{problem.data['parents']} parents"
+            yield Fault(link, mark, visible(problem.message), link.place, "multiple-parents")
+
+
+def _twins(robot: Robot, kind: str, problems: list[Problem]) -> Iterator[Fault]:
+    """Parts that share a name: each joint, and the first link, which is drawn for all of them."""
+    by_name: dict[str, list[Problem]] = {}
+    for problem in problems:
+        by_name.setdefault(problem.name, []).append(problem)
+    for name, same in by_name.items():
+        joints = [joint for joint in robot.joints if joint.name == name]
+        parts: list[Link | Joint] = [robot.link[name]] if kind == "link" else [*joints]
+        mark = f"one of {len(same) + 1} of this name"
         for part in parts:
-            counts.setdefault(part.name, []).append(part)
-        for name, same in counts.items():
-            if len(same) > 1:
-                for part in same if kind == "joint" else same[:1]:
-                    yield Fault(
-                        part,
-                        f"one of {len(same)} of this name",
-                        f"{len(same)} {kind}s are called '{visible(name)}'; "
-                        "each wants a name of its own",
-                        same[1].place,
-                    )
+            message, place = visible(same[0].message), same[0].element.place
+            yield Fault(part, mark, message, place, f"duplicate-{kind}-name")
 
 
-def _ends(robot: Robot, joint: Joint) -> Iterator[Fault]:
-    name = visible(joint.name)
-    if joint.parent and joint.parent == joint.child:
-        yield Fault(
-            joint,
-            "joins a link to itself",
-            f"joint '{name}' joins link '{visible(joint.parent)}' to itself; "
-            "its parent and its child are two links",
-            joint.place,
-        )
-    for end, link, element in (
-        ("parent", joint.parent, joint.parent_element),
-        ("child", joint.child, joint.child_element),
-    ):
-        place = joint.place if element is None else element.place
-        if not link:
-            mark = f"no {end}"
-            message = f"joint '{name}' has no {end}; <{end} link=\"…\"/> names a link"
-            yield Fault(joint, mark, message, place)
-        elif link not in robot.link:
-            mark = f"unknown {end}"
-            message = f"the {end} of joint '{name}', '{visible(link)}', is no link of this robot"
-            yield Fault(joint, mark, message, place)
+_END_MARKS = {
+    "missing-parent-or-child": "no {end}",
+    "unknown-parent-link": "unknown parent",
+    "unknown-child-link": "unknown child",
+}
 
 
-def _names(names: Iterable[str]) -> str:
-    shown = [f"'{visible(name)}'" for name in _shortened(list(names))]
-    return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} and {shown[-1]}"
-
-
-def _shortened(names: list[str], most: int = 6) -> list[str]:
-    return names if len(names) <= most else [*names[: most - 2], "…", names[-1]]
+def _end(rule: str, problem: Problem) -> Iterator[Fault]:
+    joint = problem.subject
+    if not isinstance(joint, Joint):
+        return
+    if rule == "joint-to-itself":
+        mark, element = "joins a link to itself", None
+    else:
+        mark = _END_MARKS[rule].format(end=problem.data.get("end"))
+        element = joint.parent_element if mark.endswith("parent") else joint.child_element
+    place = joint.place if element is None else element.place
+    yield Fault(joint, mark, visible(problem.message), place, rule)

@@ -37,6 +37,9 @@ Two arguments of the decorator say how findings are reported together:
 A fix is a function below its rule, ``@zero_axis.fix(UNSAFE)``; see :mod:`urdftool.rules.fix`. It
 takes what it needs from ``Problem(data=…)``.
 
+A second function, ``@no_root.full``, is asked by ``lint.validate`` in place of the check, where the
+check leaves out what keeps a robot from being used: what another rule reports with its cause.
+
 A file of rules that can find something only in robots with certain elements names these in
 ``APPLIES_TO``, and is not imported for other robots; ``APPLIES_TO = ()`` where the rules look at
 nothing themselves, because readers of files report them. ``FILES`` of a family are its files in
@@ -52,7 +55,7 @@ from types import FunctionType
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ..finding import Scope, Severity
-from ..model.elements import Part
+from ..model.elements import Part, Robot
 from ..source.document import Element
 from ..source.location import Place
 
@@ -64,6 +67,7 @@ GAZEBO = ("gazebo-classic", "gz")
 ROS = ("ros1", "ros2")
 
 Check = Callable[..., Iterable["Problem"]]
+CheckRobot = Callable[["Robot"], Iterable["Problem"]]
 
 SAFE, UNSAFE, BOTH = "safe", "unsafe", "safe or unsafe"
 """Applicability of the fixes of a rule; ``BOTH`` where it depends on the case."""
@@ -220,6 +224,8 @@ class Rule:
         make_fix: Proposes changes for a problem, or None where this case is not fixed; None where
             the rule has no fix.
         fix_traits: Facts about that.
+        full_check: A check of a robot that reports every case, each at its own part; None where
+            ``check`` does.
     """
 
     name: str
@@ -237,6 +243,17 @@ class Rule:
     of_motion: bool = False
     make_fix: Callable[..., Proposal | None] | None = None
     fix_traits: FixTraits | None = None
+    full_check: CheckRobot | None = None
+
+    def full(self, check: CheckRobot) -> CheckRobot:
+        """Make a function the full check of this rule.
+
+        It takes the robot alone, and leaves out neither the cases that another rule reports with
+        their cause nor the parts that one finding of ``lint`` stands for. ``lint.validate`` asks it
+        whether a robot can be used.
+        """
+        self.full_check = check
+        return check
 
     def fix(
         self,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ...model.elements import Joint, Robot
+from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
 from ...source.document import Element
 from ..cross_file_references import check_not_included
@@ -47,7 +47,20 @@ def no_links(robot: Robot, description: Description) -> Iterator[Problem]:
     if not (robot.name.strip() or robot.element.children) and description.document.comments:
         return
     if not robot.links and "link" not in misspelt_children(robot.element).values():
-        yield Problem(robot, f"robot '{robot.name}' has no link; write <link name=\"…\"/>")
+        yield _no_link(robot)
+
+
+@no_links.full
+def every_missing_link(robot: Robot) -> Iterator[Problem]:
+    """Report a robot without links, also a placeholder or one whose links are misspelt."""
+    if not robot.links:
+        yield _no_link(robot)
+
+
+def _no_link(robot: Robot) -> Problem:
+    macros = robot.source is not None and robot.source.expansion is not None
+    what = "name a file that calls its macros" if macros else 'write <link name="…"/>'
+    return Problem(robot, f"robot '{robot.name}' has no link; {what}")
 
 
 @rule(
@@ -66,12 +79,27 @@ def duplicate_link_name(robot: Robot) -> Iterator[Problem]:
     for link in robot.links:
         first = robot.link[link.name]
         if first is not link and link.name.strip():
-            where = f"line {first.place.line}"
-            yield Problem(
-                link,
-                f"a second link is called '{link.name}'; the first is at {where}",
-                at=link.element.attribute_place("name"),
-            )
+            yield _second(link, first)
+
+
+@duplicate_link_name.full
+def every_second_link(robot: Robot) -> Iterator[Problem]:
+    """Report each link after the first of its name, also of a blank or empty one."""
+    for link in robot.links:
+        first = robot.link[link.name]
+        if first is not link:
+            yield _second(link, first)
+
+
+def _second(part: Link | Joint, first: Link | Joint) -> Problem:
+    kind = "link" if isinstance(part, Link) else "joint"
+    named = "name" in part.element.attributes
+    return Problem(
+        part,
+        f"a second {kind} is called '{part.name}'; the first is at line {first.place.line}",
+        at=part.element.attribute_place("name") if named else None,
+        data={"has_name": bool(part.name)},
+    )
 
 
 @rule(
@@ -91,11 +119,16 @@ def duplicate_joint_name(robot: Robot) -> Iterator[Problem]:
     for joint in robot.joints:
         first = robot.joint[joint.name]
         if first is not joint and joint.name.strip():
-            yield Problem(
-                joint,
-                f"a second joint is called '{joint.name}'; the first is at line {first.place.line}",
-                at=joint.element.attribute_place("name"),
-            )
+            yield _second(joint, first)
+
+
+@duplicate_joint_name.full
+def every_second_joint(robot: Robot) -> Iterator[Problem]:
+    """Report each joint after the first of its name, also of a blank or empty one."""
+    for joint in robot.joints:
+        first = robot.joint[joint.name]
+        if first is not joint:
+            yield _second(joint, first)
 
 
 @duplicate_joint_name.fix(UNSAFE)
@@ -209,18 +242,30 @@ def unknown_parent_link(robot: Robot) -> Iterator[Problem]:
         if name in robot.link or name.strip() in stripped or is_unexpanded(name):
             continue
         if name.strip() and joint.parent_element is not None:
-            is_world = name == "world"
-            yield Problem(
-                joint,
-                f"parent '{name}' of joint '{joint.name}' is no link{_remedy(name, robot)}",
-                at=joint.parent_element.attribute_place("link"),
-                data={"suggestion": nearest(name, robot.link)},
-                severity=INFO if is_world and is_for_another_reader(robot.element) else None,
-                effects=holding(
-                    _WITHOUT_PARENT,
-                    "the parent is world" if is_world else "the parent is not world",
-                ),
-            )
+            yield _unknown_parent(robot, joint, joint.parent_element)
+
+
+@unknown_parent_link.full
+def every_unknown_parent(robot: Robot) -> Iterator[Problem]:
+    """Report each name of a parent that is no link, also with blanks around it or unexpanded."""
+    for joint in robot.joints:
+        if joint.parent and joint.parent not in robot.link and joint.parent_element is not None:
+            yield _unknown_parent(robot, joint, joint.parent_element)
+
+
+def _unknown_parent(robot: Robot, joint: Joint, parent: Element) -> Problem:
+    name = joint.parent
+    is_world = name == "world"
+    return Problem(
+        joint,
+        f"parent '{name}' of joint '{joint.name}' is no link{_remedy(name, robot)}",
+        at=parent.attribute_place("link"),
+        data={"suggestion": nearest(name, robot.link)},
+        severity=INFO if is_world and is_for_another_reader(robot.element) else None,
+        effects=holding(
+            _WITHOUT_PARENT, "the parent is world" if is_world else "the parent is not world"
+        ),
+    )
 
 
 @unknown_parent_link.fix(BOTH)
@@ -278,17 +323,30 @@ def unknown_child_link(robot: Robot) -> Iterator[Problem]:
     ]
     for joint in missing:
         if joint.child_element is not None:
-            name, orphans = joint.child, _orphans(robot, joint)
-            meant = orphans[0] if len(orphans) == len(missing) == 1 else nearest(name, orphans, 0.6)
-            right = _remedy(name, robot)
-            if meant:
-                right = f"; did you mean '{meant}'? It is the child of no joint"
-            yield Problem(
-                joint,
-                f"child '{name}' of joint '{joint.name}' is no link{right}",
-                at=joint.child_element.attribute_place("link"),
-                data={"suggestion": nearest(name, robot.link), "orphan": meant},
-            )
+            yield _unknown_child(robot, joint, joint.child_element, len(missing) == 1)
+
+
+@unknown_child_link.full
+def every_unknown_child(robot: Robot) -> Iterator[Problem]:
+    """Report each name of a child that is no link, also with blanks around it or unexpanded."""
+    missing = [joint for joint in robot.joints if joint.child and joint.child not in robot.link]
+    for joint in missing:
+        if joint.child_element is not None:
+            yield _unknown_child(robot, joint, joint.child_element, len(missing) == 1)
+
+
+def _unknown_child(robot: Robot, joint: Joint, child: Element, alone: bool) -> Problem:
+    name, orphans = joint.child, _orphans(robot, joint)
+    meant = orphans[0] if alone and len(orphans) == 1 else nearest(name, orphans, 0.6)
+    right = _remedy(name, robot)
+    if meant:
+        right = f"; did you mean '{meant}'? It is the child of no joint"
+    return Problem(
+        joint,
+        f"child '{name}' of joint '{joint.name}' is no link{right}",
+        at=child.attribute_place("link"),
+        data={"suggestion": nearest(name, robot.link), "orphan": meant},
+    )
 
 
 def _orphans(robot: Robot, joint: Joint) -> list[str]:
@@ -335,18 +393,34 @@ def missing_parent_or_child(robot: Robot) -> Iterator[Problem]:
         missing = list(_missing_ends(joint))
         if not missing:
             continue
-        tag, element = missing[0]
         if len(missing) == 2:
-            tag, element = "parent", None
-            what = "neither <parent> nor <child>"
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' has neither <parent> nor <child>; "
+                'write <parent link="…"/> and <child link="…"/>',
+            )
         else:
-            what = f"no <{tag}>" if element is None else f"a <{tag}> without a link"
-        also = ' and <child link="…"/>' if len(missing) == 2 else ""
-        yield Problem(
-            joint,
-            f"joint '{joint.name}' has {what}; write <{tag} link=\"…\"/>{also}",
-            at=element,
-        )
+            yield _missing_end(joint, *missing[0])
+
+
+@missing_parent_or_child.full
+def every_missing_end(robot: Robot) -> Iterator[Problem]:
+    """Report each end of a joint that names no link, also where its element is misspelt."""
+    for joint in robot.joints:
+        if not joint.parent:
+            yield _missing_end(joint, "parent", joint.parent_element)
+        if not joint.child:
+            yield _missing_end(joint, "child", joint.child_element)
+
+
+def _missing_end(joint: Joint, tag: str, element: Element | None) -> Problem:
+    what = f"no <{tag}>" if element is None else f"a <{tag}> without a link"
+    return Problem(
+        joint,
+        f"joint '{joint.name}' has {what}; write <{tag} link=\"…\"/>",
+        at=element,
+        data={"end": tag},
+    )
 
 
 def _missing_ends(joint: Joint) -> Iterator[tuple[str, Element | None]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.elements import Link, Robot
+from ...model.elements import Joint, Link, Robot
 from ..rule import ERROR, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import quoted
@@ -41,13 +41,30 @@ def multiple_roots(robot: Robot) -> Iterator[Problem]:
     lost = sum(1 for joint in robot.joints if joint.child not in robot.link)
     if len(others) <= lost or any(is_unexpanded(link.name) for link in others):
         return
+    yield Problem(others[0], _of_roots(main, others))
+
+
+@multiple_roots.full
+def every_root(robot: Robot) -> Iterator[Problem]:
+    """Report each root after the first, also those that another finding explains."""
+    roots = robot.tree.roots
+    for link in roots[1:]:
+        yield Problem(
+            link,
+            _of_roots(roots[0], [link]),
+            group=_of_roots(roots[0], roots[1:]),
+            data={"roots": [root.name for root in roots]},
+        )
+
+
+def _of_roots(main: Link, others: list[Link]) -> str:
     names = ", ".join(f"'{link.name}'" for link in others[:_SHOWN])
     more = f" and {len(others) - _SHOWN} more" if len(others) > _SHOWN else ""
     if len(others) == 1:
         message = f"link {names} is the child of no joint, as is '{main.name}'; join them"
     else:
         message = f"links {names}{more} are children of no joint, as is '{main.name}'; join them"
-    yield Problem(others[0], f"{message} by joints")
+    return f"{message} by joints"
 
 
 _STANDARD = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
@@ -101,9 +118,22 @@ def no_root(robot: Robot) -> Iterator[Problem]:
     joint = robot.tree.parent_joint(cycle[0].name)
     yield Problem(
         robot if joint is None else joint,
-        f"every link is some joint's child: {_round(cycle)}; one link must be the root",
+        _without_root(cycle),
         at=None if joint is None else joint.child_element,
     )
+
+
+@no_root.full
+def every_missing_root(robot: Robot) -> Iterator[Problem]:
+    """Report a robot with links and no root, also where a link that does not exist is above all."""
+    if robot.links and not robot.tree.roots:
+        cycles = (_cycle(robot, link) for link in robot.links)
+        yield Problem(robot, _without_root(next(filter(None, cycles), [])))
+
+
+def _without_root(cycle: list[Link]) -> str:
+    shown = f": {_round(cycle)}" if cycle else ""
+    return f"every link is some joint's child{shown}; one link must be the root"
 
 
 @rule(
@@ -129,11 +159,47 @@ def detached_cycle(robot: Robot) -> Iterator[Problem]:
         cycle = _cycle(robot, link)
         if len(cycle) > 1:
             seen.update((cycle[0].name, *robot.tree.descendants(cycle[0].name)))
-            yield Problem(
-                cycle[0],
-                f"links hang on each other and not on the root: {_round(cycle)}; "
-                "let one of these joints start at a link of the tree",
-            )
+            yield Problem(cycle[0], _of_cycle(cycle))
+
+
+@detached_cycle.full
+def every_link_on_cycle(robot: Robot) -> Iterator[Problem]:
+    """Report each link that is in a cycle or below one, also where a second joint joins it."""
+    has_root = bool(robot.tree.roots)
+    detached = {link.name for link in robot.tree.detached}
+    for name, cycle in _cycles(robot).items():
+        if cycle:
+            data = {
+                "links": [link.name for link in cycle],
+                "is_detached": name in detached,
+                "has_root": has_root,
+            }
+            message = _of_cycle(cycle) if has_root else _without_root(cycle)
+            yield Problem(robot.link[name], message, data=data)
+
+
+def _cycles(robot: Robot) -> dict[str, list[Link]]:
+    """Find the cycle that each link is in or below, as ``_cycle`` does, in linear time."""
+    found: dict[str, list[Link]] = {}
+    for link in robot.link.values():
+        above: dict[str, None] = {}
+        name = link.name
+        while name in robot.link and name not in found and name not in above:
+            above[name] = None
+            joint = robot.tree.parent_joint(name)
+            if joint is None:
+                break
+            name = joint.parent
+        cycle = found[name] if name in found else _cycle(robot, link)
+        found.update(dict.fromkeys(above, cycle))
+    return {name: found[name] for name in robot.link}
+
+
+def _of_cycle(cycle: list[Link]) -> str:
+    return (
+        f"links hang on each other and not on the root: {_round(cycle)}; "
+        "let one of these joints start at a link of the tree"
+    )
 
 
 def _cycle(robot: Robot, link: Link) -> list[Link]:
@@ -191,15 +257,32 @@ def multiple_parents(robot: Robot) -> Iterator[Problem]:
         for joint in joined[1:]:
             if joint.name == first.name:
                 continue
-            if joint.parent in orphans:
-                right = f"is '{joint.parent}' meant to be the child, and '{name}' the parent?"
-            elif len(orphans) == 1:
-                right = f"is '{next(iter(orphans))}' meant, which hangs on no joint?"
-            else:
-                right = "take one away, or close the chain in the simulator"
-            yield Problem(
-                joint,
-                f"link '{name}' is the child of joint '{joint.name}' and already of "
-                f"'{first.name}'; {right}",
-                at=joint.child_element,
-            )
+            yield Problem(joint, _second_parent(first, joint, orphans), at=joint.child_element)
+
+
+@multiple_parents.full
+def every_second_parent(robot: Robot) -> Iterator[Problem]:
+    """Report a link for each joint after the first that it is the child of, of any names."""
+    orphans = {link.name for link in robot.tree.roots[1:]}
+    for name, (first, *others) in robot.tree.joints_of_child.items():
+        for joint in others:
+            if name in robot.link:
+                yield Problem(
+                    robot.link[name],
+                    _second_parent(first, joint, orphans),
+                    at=joint.child_element or joint,
+                    data={"has_name": bool(name), "parents": len(others) + 1},
+                )
+
+
+def _second_parent(first: Joint, joint: Joint, orphans: set[str]) -> str:
+    if joint.parent in orphans:
+        right = f"is '{joint.parent}' meant to be the child, and '{joint.child}' the parent?"
+    elif len(orphans) == 1:
+        right = f"is '{next(iter(orphans))}' meant, which hangs on no joint?"
+    else:
+        right = "take one away, or close the chain in the simulator"
+    return (
+        f"link '{joint.child}' is the child of joint '{joint.name}' and already of "
+        f"'{first.name}'; {right}"
+    )
