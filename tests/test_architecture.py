@@ -33,7 +33,10 @@ BELOW = {
     "viewer": ("drawing", "mechanics", "finding", "model", "source", *BASE),
     "rules": ("finding", "mechanics", "model", "source", "geometry", *BASE),
     "lint": ("rules", "finding", "model", "source", "configuration", *BASE),
-    "formats": ("finding", "mechanics", "model", "source", "geometry", "output", *BASE),
+    "formats": (
+        *("lint", "rules", "finding", "mechanics", "model", "source", "geometry", "output"),
+        *BASE,
+    ),
     "graph": ("lint", "rules", "finding", "model", "source", *BASE),
     "simulation": (
         *("drawing", "formats", "finding", "lint", "mechanics", "geometry", "inertia", "model"),

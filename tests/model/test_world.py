@@ -110,11 +110,13 @@ def test_exports_refuse_it_and_take_it_for_the_world_if_forced(urdftool, robot, 
     refused = urdftool("export", form, robot, "-o", out)
     assert refused.code == 2
     assert refused.err.count("error:") == 1
-    assert "parent link 'world' of joint 'j' does not exist" in refused.err
+    assert "r.urdf:2:9: error: " in refused.err
+    assert "[unknown-parent-link]" in refused.err
     assert not out.exists()
     forced = urdftool("export", form, robot, "-o", out, "--force", "--verify")
     assert forced.code == 0, forced.err
-    assert "parent link 'world' of joint 'j' does not exist" in forced.err
+    assert "r.urdf:2:9: " in forced.err
+    assert "unknown-parent-link]" in forced.err
     assert 'name="j"' in out.read_text("utf-8")
 
 

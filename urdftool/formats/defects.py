@@ -7,15 +7,13 @@ others an exporter can go on if it is told to, and says what it did instead.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain
 
 from ..errors import ModelError
 from ..finding import Finding, Severity
-from ..model.elements import JOINT_TYPES, Joint, Link, Robot
-from ..model.load import without_links
-from ..model.pose import norm
+from ..lint.validate import validate
+from ..model.elements import Robot
 from ..model.read import numbers
-from ..model.world import WORLD, with_world
+from ..model.world import with_world
 from ..source.document import Element
 from ..source.location import Place
 
@@ -28,11 +26,7 @@ FATAL = frozenset(
      "missing-name", "detached-cycle", "immense-number")
 )  # fmt: skip
 
-BALL_TYPES = frozenset(("spherical", "ball"))
-"""Joint types that URDF does not know and several readers do."""
-
-# tag -> attribute -> how many numbers
-NUMBERS: dict[str, dict[str, int]] = {
+_SIZES: dict[str, dict[str, int]] = {
     "origin": {"xyz": 3, "rpy": 3, "quat_xyzw": 4},
     "mass": {"value": 1},
     "inertia": dict.fromkeys(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), 1),
@@ -43,10 +37,9 @@ NUMBERS: dict[str, dict[str, int]] = {
     "mesh": {"scale": 3},
     "color": {"rgba": 4},
     "axis": {"xyz": 3},
-    "limit": dict.fromkeys(("lower", "upper", "effort", "velocity"), 1),
-    "dynamics": {"damping": 1, "friction": 1},
     "mimic": {"multiplier": 1, "offset": 1},
 }
+"""Numbers of masses, sizes and distances, and how many an attribute takes, by its element."""
 
 
 class Refused(ModelError):  # noqa: N818 -- reads as what happened
@@ -81,10 +74,8 @@ def refuse(findings: Iterable[Finding], *, force: bool, fatal: frozenset[str] = 
 
 def defects(robot: Robot) -> Iterator[Finding]:
     """Each defect of a robot's links, joints and numbers; meshes are looked at elsewhere."""
-    structural = list(chain(_names(robot), _ends(robot), _roots(robot)))
-    yield from structural
-    yield from _numbers(robot)
-    yield from _joints(robot)
+    yield from validate(robot, "export")
+    yield from _immense_numbers(robot)
 
 
 def taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
@@ -96,8 +87,13 @@ def taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
     whole, joint = with_world(robot)
     if joint is None:
         return robot, []
-    remain = set(map(str, _ends(whole)))
-    return whole, [finding for finding in _ends(robot) if str(finding) not in remain]
+    remain = set(map(identity, validate(whole, "join")))
+    return whole, [f for f in validate(robot, "join") if identity(f) not in remain]
+
+
+def identity(finding: Finding) -> tuple[str, Place, str]:
+    """Get what two findings about one defect of a robot have in common."""
+    return finding.rule, finding.place, finding.name
 
 
 def defect(
@@ -113,192 +109,20 @@ def defect(
     return Finding(rule, Severity.ERROR, message, place, kind, name, hint=hint, data=data or {})
 
 
-def _names(robot: Robot) -> Iterator[Finding]:
-    if wrong := without_links(robot):
-        yield defect("no-links", wrong, robot.place, "robot")
-    named: tuple[tuple[str, Sequence[Link | Joint]], ...] = (
-        ("link", robot.links),
-        ("joint", robot.joints),
-    )
-    for kind, parts in named:
-        seen: dict[str, Link | Joint] = {}
-        for part in parts:
-            if not part.name:
-                yield defect("missing-name", f"a {kind} has no name", part.place, kind)
-            elif part.name in seen:
-                yield defect(
-                    f"duplicate-{kind}-name",
-                    f"{kind} '{part.name}' is there already ({seen[part.name].place}); rename one",
-                    part.element.attribute_place("name"),
-                    kind,
-                    part.name,
-                )
-            seen.setdefault(part.name, part)
-
-
-def _ends(robot: Robot) -> Iterator[Finding]:
-    for joint in robot.joints:
-        for end, name, element in (
-            ("parent", joint.parent, joint.parent_element),
-            ("child", joint.child, joint.child_element),
-        ):
-            if not name:
-                place = joint.place if element is None else element.place
-                yield defect(
-                    "missing-parent-or-child",
-                    f"joint '{joint.name}' names no {end} link",
-                    place,
-                    "joint",
-                    joint.name,
-                )
-            elif name not in robot.link and element is not None:
-                hint = '; write <link name="world"/> first' if name == WORLD else ""
-                yield defect(
-                    f"unknown-{end}-link",
-                    f"{end} link '{name}' of joint '{joint.name}' does not exist{hint}",
-                    element.attribute_place("link"),
-                    "joint",
-                    joint.name,
-                )
-
-
-def _roots(robot: Robot) -> Iterator[Finding]:
-    tree = robot.tree
-    for name, joints in tree.joints_of_child.items():
-        for joint in joints[1:]:
-            if name in robot.link:
-                yield defect(
-                    "multiple-parents",
-                    f"link '{name}' is the child of joint '{joints[0].name}' and of "
-                    f"'{joint.name}'; a link hangs on one joint",
-                    (joint.child_element or joint.element).place,
-                    "link",
-                    name,
-                )
-    if robot.links and not tree.roots:
-        yield defect(
-            "no-root",
-            "every link is some joint's child, so there is no root; one must be nobody's child",
-            robot.place,
-            "robot",
-        )
-    elif len(tree.roots) > 1:
-        for link in tree.roots[1:]:
-            yield defect(
-                "multiple-roots",
-                f"link '{link.name}' hangs on nothing, and so does '{tree.roots[0].name}'; a robot "
-                "has one root",
-                link.place,
-                "link",
-                link.name,
-            )
-    if tree.roots:
-        for link in [link for link in tree.detached if _is_in_loop(robot, link)][:1]:
-            yield defect(
-                "detached-cycle",
-                f"link '{link.name}' hangs on a loop of joints, not on the root",
-                link.place,
-                "link",
-                link.name,
-            )
-
-
-def _is_in_loop(robot: Robot, link: Link) -> bool:
-    """Whether no root is above a link; one that hangs on a link that does not exist is told so."""
-    *_, top = (link.name, *robot.tree.ancestors(link.name))
-    joint = robot.tree.parent_joint(top)
-    return joint is not None and joint.parent in robot.link
-
-
-def _joints(robot: Robot) -> Iterator[Finding]:
-    for joint in robot.joints:
-        if joint.type not in JOINT_TYPES | BALL_TYPES:
-            yield defect(
-                "unknown-joint-type",
-                f"joint '{joint.name}' has type '{joint.type}'; the types are "
-                + ", ".join(sorted(JOINT_TYPES)),
-                joint.element.attribute_place("type"),
-                "joint",
-                joint.name,
-            )
-        if joint.has_axis and joint.axis is not None and norm(joint.axis.xyz) < 1e-6:
-            yield defect(
-                "zero-axis",
-                f"axis of joint '{joint.name}' is zero; write a direction such as 0 0 1",
-                joint.axis.element.attribute_place("xyz"),
-                "joint",
-                joint.name,
-            )
-        limit = joint.limit
-        if joint.is_limited and limit is not None and (limit.lower or 0) > (limit.upper or 0):
-            yield defect(
-                "lower-above-upper",
-                f"lower limit {limit.lower or 0:g} of joint '{joint.name}' is above its upper "
-                f"limit {limit.upper or 0:g}",
-                limit.place,
-                "joint",
-                joint.name,
-            )
-        yield from _mimic(robot, joint)
-
-
-def _mimic(robot: Robot, joint: Joint) -> Iterator[Finding]:
-    mimic = joint.mimic
-    if mimic is None:
-        return
-    place = mimic.element.attribute_place("joint")
-    if mimic.joint == joint.name:
-        text = f"joint '{joint.name}' mimics itself"
-        yield defect("mimic-cycle", text, place, "joint", joint.name)
-    elif mimic.joint not in robot.joint:
-        yield defect(
-            "mimic-unknown-joint",
-            f"joint '{joint.name}' mimics '{mimic.joint}', which does not exist",
-            place,
-            "joint",
-            joint.name,
-        )
-    else:
-        seen, leader = {joint.name}, robot.joint[mimic.joint]
-        while leader.mimic is not None and leader.name not in seen:
-            seen.add(leader.name)
-            leader = robot.joint.get(leader.mimic.joint, joint)
-        if leader.name == joint.name and leader.mimic is not None:
-            yield defect(
-                "mimic-cycle",
-                f"joint '{joint.name}' mimics '{mimic.joint}', which in the end mimics it",
-                place,
-                "joint",
-                joint.name,
-            )
-
-
-def _numbers(robot: Robot) -> Iterator[Finding]:
+def _immense_numbers(robot: Robot) -> Iterator[Finding]:
     for part in (*robot.links, *robot.joints, *robot.materials):
         for element in part.element.walk():
-            for attribute, count in NUMBERS.get(element.tag, {}).items():
-                text = element.get(attribute)
-                if text is not None and (wanted := _wanted(element.tag, text, count)):
-                    yield _not_a_number(element, attribute, text, wanted, part.element)
+            for attribute, count in _SIZES.get(element.tag, {}).items():
+                values = numbers(element.get(attribute), count) or ()
+                if any(abs(value) > ENORMOUS for value in values):
+                    yield _immense_number(element, attribute, part.element)
 
 
-def _wanted(tag: str, text: str, count: int) -> str:
-    """What should stand there instead; nothing where it is right."""
-    values = numbers(text, count)
-    if values is None:
-        return "a finite number" if count == 1 else f"{count} finite numbers"
-    if tag not in ("limit", "dynamics") and any(abs(value) > ENORMOUS for value in values):
-        return f"below {ENORMOUS:g}, as all that a robot can have"
-    return ""
-
-
-def _not_a_number(
-    element: Element, attribute: str, text: str, wanted: str, part: Element
-) -> Finding:
+def _immense_number(element: Element, attribute: str, part: Element) -> Finding:
     return defect(
-        "not-a-number" if wanted.endswith(("number", "numbers")) else "immense-number",
-        f'{attribute}="{text}" of <{element.tag}> in {part.tag} '
-        f"'{part.get('name') or ''}' is not {wanted}",
+        "immense-number",
+        f'{attribute}="{element.get(attribute)}" of <{element.tag}> in {part.tag} '
+        f"'{part.get('name') or ''}' is above {ENORMOUS:g}; write one that a robot can have",
         element.attribute_place(attribute),
         part.tag,
         part.get("name") or "",

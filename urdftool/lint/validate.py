@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from ..finding import Finding, Severity
-from ..model.elements import Robot
+from ..model.elements import Joint, Link, Robot
 from ..rules import get_rule
 from ..rules.rule import Problem
 
@@ -21,19 +21,55 @@ class Requirement(NamedTuple):
 
     Attributes:
         rule: Its name.
-        where: Values that the data of a problem must have; others are accepted.
+        where: Values that the data of a problem may have, by key; others are accepted.
         most: How many of its problems are reported; None for all.
     """
 
     rule: str
-    where: Mapping[str, object] = MappingProxyType({})
+    where: Mapping[str, frozenset[object]] = MappingProxyType({})
     most: int | None = None
 
 
-_ENDS = tuple(
+_NAMED = MappingProxyType({"has_name": frozenset((True,))})
+_DETACHED = MappingProxyType(dict.fromkeys(("is_detached", "has_root"), frozenset((True,))))
+_NO_BALL = MappingProxyType({"is_ball": frozenset((False,))})
+_WRITTEN = MappingProxyType(
+    {
+        "attribute": frozenset(
+            (
+                *("xyz", "rpy", "quat_xyzw", "size", "radius", "length", "scale", "rgba"),
+                *("value", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
+                *("lower", "upper", "effort", "velocity", "damping", "friction"),
+                *("multiplier", "offset"),
+            )
+        )
+    }
+)
+"""Numbers that an export writes; those of ``<safety_controller>`` are not among them."""
+
+ENDS = tuple(
     map(Requirement, ("missing-parent-or-child", "unknown-parent-link", "unknown-child-link"))
 )
-_NAMED = MappingProxyType({"has_name": True})
+"""Joints join two links of the robot."""
+
+STRUCTURE = (
+    Requirement("no-links"),
+    Requirement("missing-name"),
+    Requirement("duplicate-link-name", _NAMED),
+    Requirement("duplicate-joint-name", _NAMED),
+    *ENDS,
+    Requirement("multiple-parents"),
+    Requirement("no-root"),
+    Requirement("multiple-roots"),
+    Requirement("detached-cycle", _DETACHED, most=1),
+    Requirement("not-a-number", _WRITTEN),
+    Requirement("unknown-joint-type", _NO_BALL),
+    Requirement("zero-axis"),
+    Requirement("lower-above-upper"),
+    Requirement("mimic-unknown-joint"),
+    Requirement("mimic-cycle"),
+)
+"""The links are one tree, by names that are unique, and the numbers can be read."""
 
 PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
     {
@@ -44,8 +80,10 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
             Requirement("duplicate-link-name"),
             Requirement("duplicate-joint-name"),
             Requirement("joint-to-itself"),
-            *_ENDS,
+            *ENDS,
         ),
+        "join": ENDS,
+        "export": STRUCTURE,
     }
 )
 """What each purpose requires of a robot, in the order in which it is reported."""
@@ -73,7 +111,7 @@ def find_problems(robot: Robot, purpose: str) -> Iterator[tuple[str, Problem]]:
         check = rule.full_check or rule.check
         number = 0
         for problem in check(robot):
-            if all(problem.data.get(key) == value for key, value in where.items()):
+            if all(problem.data.get(key) in values for key, values in where.items()):
                 if number == most:
                     break
                 number += 1
@@ -82,13 +120,16 @@ def find_problems(robot: Robot, purpose: str) -> Iterator[tuple[str, Problem]]:
 
 def as_error(rule: str, problem: Problem) -> Finding:
     """Make a finding of severity error of a rule's problem."""
+    part, kind, name = problem.subject, problem.kind, problem.name
+    if isinstance(part, Link | Joint):  # which may be renamed, or made of another element
+        kind, name = "link" if isinstance(part, Link) else "joint", part.name
     return Finding(
         rule,
         Severity.ERROR,
         problem.message,
         problem.place,
-        problem.kind,
-        problem.name,
+        kind,
+        name,
         hint=problem.hint,
         data=problem.data,
     )

@@ -256,6 +256,9 @@ class Axis(Part):
 MOVING_TYPES = frozenset(("revolute", "continuous", "prismatic", "floating", "planar"))
 JOINT_TYPES = MOVING_TYPES | {"fixed"}
 
+BALL_TYPES = frozenset(("spherical", "ball"))
+"""Joint types that URDF does not have and several readers do."""
+
 
 @dataclass(slots=True)
 class Joint(Part):

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from ..errors import ModelError
 from ..finding import Finding
-from ..formats.defects import BALL_TYPES, FATAL, defect, defects, refuse
-from ..model.elements import Robot
+from ..formats.defects import FATAL, defect, defects, refuse
+from ..model.elements import BALL_TYPES, Robot
 from ..model.kinematics import check_positions
 from ..suggestions import did_you_mean
 from .rigid_bodies import RigidBodyModel, make_rigid_bodies

@@ -8,7 +8,7 @@ from dataclasses import replace
 from ...finding import Finding
 from ...model.elements import Joint, Link, Robot
 from ...model.world import with_world
-from ..defects import defects
+from ..defects import defects, identity
 from ..written import Written
 from .naming import free_name
 
@@ -62,10 +62,10 @@ def tree_defects(robot: Robot, left: Robot, forced: bool) -> Iterator[Finding]:
         forced: Whether that is what is written, so that its own trees count.
     """
     own, later = list(defects(robot)), list(defects(left))
-    remain = set(map(str, later))
-    yield from (f for f in own if f.rule not in OF_TREES or str(f) in remain)
-    known = set(map(str, own))
-    yield from (f for f in later if forced and f.rule in OF_TREES and str(f) not in known)
+    remain = set(map(identity, later))
+    yield from (f for f in own if f.rule not in OF_TREES or identity(f) in remain)
+    known = set(map(identity, own))
+    yield from (f for f in later if forced and f.rule in OF_TREES and identity(f) not in known)
 
 
 def report_passed_defects(written: Written, found: Iterable[Finding]) -> None:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from ...finding import Severity
-from ...model.elements import Joint
+from ...model.elements import BALL_TYPES, Joint
 from ...model.pose import norm
 from ..common.actuator_config import JointSettings
 from ..common.numbers import number_text, numbers_text
-from ..defects import BALL_TYPES
 from .extensions import joint_extensions, note_dissolved_joint
 from .joint_base import axis_of, start
 from .joint_settings import effort_of

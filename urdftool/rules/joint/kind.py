@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.elements import JOINT_TYPES, Robot
+from ...model.elements import BALL_TYPES, JOINT_TYPES, Joint, Robot
 from ..fix import (
     FixContext,
     Proposal,
@@ -50,28 +50,39 @@ def unknown_joint_type(robot: Robot, targets: frozenset[str]) -> Iterator[Proble
     for any other word; MuJoCo and PyBullet load ``spherical`` nevertheless.
     """
     for joint in robot.joints:
-        kind = joint.type
-        if kind.lower() in JOINT_TYPES or is_unexpanded(kind):
+        if joint.type.lower() in JOINT_TYPES or is_unexpanded(joint.type):
             continue
-        element, word = joint.element, None
-        if "type" in element.attributes:
-            instead = _ELSEWHERE.get(kind)
-            if instead is None:
-                word = _SYNONYMS.get(kind) or meant(kind, JOINT_TYPES)
-                instead = f"write {word}" if word else f"there are {', '.join(sorted(JOINT_TYPES))}"
-            message = f"joint '{joint.name}' is of unknown type '{kind}'; {instead}"
-        elif any(name.lower() == "type" for name in element.attributes):
-            continue
-        else:
-            message = f"joint '{joint.name}' has no type; write type=\"…\""
-        loads = kind == "spherical" and targets and targets <= {"mujoco", "pybullet"}
-        yield Problem(
-            joint,
-            message,
-            at=element.attribute_place("type"),
-            severity=INFO if loads else None,
-            data={"write": word} if word else None,
-        )
+        names = joint.element.attributes
+        if "type" in names or not any(name.lower() == "type" for name in names):
+            yield _unknown_type(joint, targets)
+
+
+@unknown_joint_type.full
+def every_unknown_type(robot: Robot) -> Iterator[Problem]:
+    """Report each type that URDF does not have, also in capitals or unexpanded."""
+    for joint in robot.joints:
+        if joint.type not in JOINT_TYPES:
+            yield _unknown_type(joint, frozenset())
+
+
+def _unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
+    kind, word = joint.type, None
+    if "type" in joint.element.attributes:
+        instead = _ELSEWHERE.get(kind)
+        if instead is None:
+            word = _SYNONYMS.get(kind) or meant(kind, JOINT_TYPES)
+            instead = f"write {word}" if word else f"there are {', '.join(sorted(JOINT_TYPES))}"
+        message = f"joint '{joint.name}' is of unknown type '{kind}'; {instead}"
+    else:
+        message = f"joint '{joint.name}' has no type; write type=\"…\""
+    loads = kind == "spherical" and targets and targets <= {"mujoco", "pybullet"}
+    return Problem(
+        joint,
+        message,
+        at=joint.element.attribute_place("type"),
+        severity=INFO if loads else None,
+        data={"is_ball": kind in BALL_TYPES, **({"write": word} if word else {})},
+    )
 
 
 @unknown_joint_type.fix(UNSAFE)

@@ -47,18 +47,35 @@ def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
             continue
         if not name.strip():
             if "joint" in mimic.element.attributes or not _is_misspelt(mimic.element):
-                message = f"<mimic> of joint '{joint.name}' names no joint; write joint=\"…\""
-                yield Problem(joint, message, at=mimic)
-            continue
-        if name.strip() in stripped:
-            continue
-        near = did_you_mean(name, robot.joint)
-        yield Problem(
-            joint,
-            f"joint '{joint.name}' mimics '{name}', which is no joint{near}",
-            at=mimic.element.attribute_place("joint"),
-            data={"suggestion": nearest(name, robot.joint)},
-        )
+                yield Problem(joint, _without_leader(joint), at=mimic)
+        elif name.strip() not in stripped:
+            yield _unknown_leader(robot, joint, mimic)
+
+
+@mimic_unknown_joint.full
+def every_unknown_leader(robot: Robot) -> Iterator[Problem]:
+    """Report each joint that follows none of the robot, also where the attribute is misspelt."""
+    for joint, mimic in _mimics(robot):
+        if mimic.joint not in robot.joint:
+            if mimic.joint.strip():
+                yield _unknown_leader(robot, joint, mimic)
+            else:
+                place = mimic.element.attribute_place("joint")
+                yield Problem(joint, _without_leader(joint), at=place)
+
+
+def _without_leader(joint: Joint) -> str:
+    return f"<mimic> of joint '{joint.name}' names no joint; write joint=\"…\""
+
+
+def _unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
+    near = did_you_mean(mimic.joint, robot.joint)
+    return Problem(
+        joint,
+        f"joint '{joint.name}' mimics '{mimic.joint}', which is no joint{near}",
+        at=mimic.element.attribute_place("joint"),
+        data={"suggestion": nearest(mimic.joint, robot.joint)},
+    )
 
 
 def _is_misspelt(element: Element) -> bool:
@@ -103,6 +120,19 @@ def mimic_cycle(robot: Robot) -> Iterator[Problem]:
             names.append(follower.name)
             follower = robot.joint.get(follower.mimic.joint)
         done.update(names)
+
+
+@mimic_cycle.full
+def every_joint_of_circle(robot: Robot) -> Iterator[Problem]:
+    """Report each joint that follows itself in the end."""
+    for joint, mimic in _mimics(robot):
+        circle = [joint.name]
+        leader = joint if mimic.joint == joint.name else robot.joint.get(mimic.joint)
+        while leader is not None and leader.mimic is not None and leader.name not in circle:
+            circle.append(leader.name)
+            leader = robot.joint.get(leader.mimic.joint)
+        if leader is not None and leader.mimic is not None and leader.name == joint.name:
+            yield _of_circle(joint, circle)
 
 
 def _of_circle(joint: Joint, circle: list[str]) -> Problem:

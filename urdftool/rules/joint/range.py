@@ -40,24 +40,39 @@ def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     """
     for joint, limit, lower, upper in _bounded(robot):
         if lower > upper:
-            if says_unlimited(lower, upper):
-                so = "PyBullet and MuJoCo take it as unlimited, other readers do not; "
-                so += (
-                    "make the joint continuous if it is unlimited, or else write lower below upper"
-                    if joint.type == "revolute"
-                    else "write lower below upper, as far apart as the joint may slide"
-                )
-            else:
-                so = "PyBullet and MuJoCo ignore such limits; swap them"
             meant = says_unlimited(lower, upper) and targets and targets <= {"pybullet", "mujoco"}
             yield Problem(
                 joint,
-                f"lower limit {lower:g} of joint '{joint.name}' is above its upper limit "
-                f"{upper:g}; {so}",
+                _inverted(joint, lower, upper),
                 at=limit.element.attribute_place("lower"),
                 severity=INFO if meant else None,
                 data={"lower": lower, "upper": upper},
             )
+
+
+@lower_above_upper.full
+def every_inverted_limit(robot: Robot) -> Iterator[Problem]:
+    """Report each inverted limit at its element; a bound that is not written is 0."""
+    for joint in robot.joints:
+        limit = joint.limit
+        if joint.is_limited and limit is not None:
+            lower, upper = limit.lower or 0.0, limit.upper or 0.0
+            if lower > upper:
+                message = _inverted(joint, lower, upper)
+                yield Problem(joint, message, at=limit, data={"lower": lower, "upper": upper})
+
+
+def _inverted(joint: Joint, lower: float, upper: float) -> str:
+    if says_unlimited(lower, upper):
+        so = "PyBullet and MuJoCo take it as unlimited, other readers do not; "
+        so += (
+            "make the joint continuous if it is unlimited, or else write lower below upper"
+            if joint.type == "revolute"
+            else "write lower below upper, as far apart as the joint may slide"
+        )
+    else:
+        so = "PyBullet and MuJoCo ignore such limits; swap them"
+    return f"lower limit {lower:g} of joint '{joint.name}' is above its upper limit {upper:g}; {so}"
 
 
 def says_unlimited(lower: float, upper: float) -> bool:

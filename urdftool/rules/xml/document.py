@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from ...finding import Finding
+from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
 from ...source.document import Element
 from ..fix import FixContext, Proposal, Span, safe, set_attribute, unsafe
@@ -149,16 +150,29 @@ def missing_name(description: Description) -> Iterator[Problem]:
     for element in elements:
         if element.tag in ("robot", *named) and not (element.get("name") or "").strip():
             at = element.attribute_place("name") if "name" in element.attributes else None
-            how = "an empty name" if at else "no name"
             severity = WARNING if element.tag == "transmission" else ERROR
             case = (f"a {element.tag}", *["a link or joint"] * (element.tag in ("link", "joint")))
             yield Problem(
                 element,
-                f'<{element.tag}> has {how}; write name="…"',
+                _nameless(element),
                 at=at,
                 severity=severity,
                 effects=holding(_NAMELESS, *case),
             )
+
+
+@missing_name.full
+def every_missing_name(robot: Robot) -> Iterator[Problem]:
+    """Report each link and joint of the robot that has no name, or an empty one."""
+    parts: tuple[Link | Joint, ...] = (*robot.links, *robot.joints)
+    for part in parts:
+        if not part.name:
+            yield Problem(part, _nameless(part.element))
+
+
+def _nameless(element: Element) -> str:
+    how = "an empty name" if "name" in element.attributes else "no name"
+    return f'<{element.tag}> has {how}; write name="…"'
 
 
 @missing_name.fix(UNSAFE)

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Robot
-from ...model.read import number
+from ...model.read import number, numbers
 from ...source.description import Description
 from ...source.document import Element
 from ...source.tags import value_span
@@ -88,13 +88,17 @@ def wrong_arity(robot: Robot) -> Iterator[Problem]:
                 amount = "too few numbers" if len(words) < count else "too many numbers"
                 yield Problem(
                     element,
-                    f"{name} of <{tag}> in {owner(element)} has "
-                    f"{_counted(len(words))}; write {count}",
+                    _of_arity(element, name, len(words), count),
                     at=element.attribute_place(name),
                     effects=effects_read(
                         holding(_WRONG_ARITY, *_where(element), amount), element, name
                     ),
                 )
+
+
+def _of_arity(element: Element, name: str, written: int, count: int) -> str:
+    where = f"{name} of <{element.tag}> in {owner(element)}"
+    return f"{where} has {_counted(written)}; write {count}"
 
 
 _PLACES = {
@@ -190,6 +194,33 @@ def not_a_number(robot: Robot) -> Iterator[Problem]:
                         break
 
 
+@not_a_number.full
+def every_unreadable_number(robot: Robot) -> Iterator[Problem]:
+    """Report each attribute without as many finite numbers as it takes, on its link or joint.
+
+    A blank behind a number is left out: it can be read.
+    """
+    for part in (*robot.links, *robot.joints, *robot.materials):
+        for element in part.element.walk():
+            kind = VOCABULARY.get(element.tag)
+            for name, count in kind.numbers.items() if kind is not None else ():
+                text = element.get(name)
+                if text is not None and numbers(text, count) is None:
+                    yield Problem(
+                        part.element,
+                        _unusable(element, name, text, count),
+                        at=element.attribute_place(name),
+                        data={"element": element.tag, "attribute": name},
+                    )
+
+
+def _unusable(element: Element, name: str, text: str, count: int) -> str:
+    for word in text.split() if count > 1 else [text]:
+        if number(word) is None:
+            return _of_number(element, name, _fault(word))
+    return _of_arity(element, name, len(text.split()), count)
+
+
 def _fault(text: str) -> str:
     """What is wrong with a number's text, with what would be right; empty if nothing is."""
     try:
@@ -258,10 +289,14 @@ def _unreadable(element: Element, name: str, fault: str, word: str) -> Problem:
     conditions = (*_where(element), _kind(word), *_in_drake(element, name, word))
     return Problem(
         element,
-        f"{name} of <{element.tag}> in {owner(element)} has {fault}",
+        _of_number(element, name, fault),
         at=element.attribute_place(name),
         effects=effects_read(holding(_NOT_A_NUMBER, *conditions), element, name),
     )
+
+
+def _of_number(element: Element, name: str, fault: str) -> str:
+    return f"{name} of <{element.tag}> in {owner(element)} has {fault}"
 
 
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
