@@ -71,6 +71,8 @@ STRUCTURE = (
 )
 """The links are one tree, by names that are unique, and the numbers can be read."""
 
+_NOT_IN_DRAKE = MappingProxyType({"is_in_drake": frozenset((False,))})
+
 PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
     {
         "graph": (
@@ -84,9 +86,20 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
         ),
         "join": ENDS,
         "export": STRUCTURE,
+        "export:sdf": (
+            Requirement("empty-geometry"),
+            Requirement("unsupported-shape"),
+            Requirement("missing-limit"),
+        ),
+        "export:mjcf": (
+            Requirement("empty-geometry"),
+            Requirement("unsupported-shape", _NOT_IN_DRAKE),
+        ),
     }
 )
-"""What each purpose requires of a robot, in the order in which it is reported."""
+"""What each purpose requires of a robot, in the order in which it is reported.
+
+``export:sdf`` and ``export:mjcf`` come on top of ``export``."""
 
 
 def validate(robot: Robot, purpose: str) -> list[Finding]:

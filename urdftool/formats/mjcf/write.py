@@ -6,7 +6,8 @@ import re
 from pathlib import Path
 
 from ...finding import Finding
-from ...model.elements import Mesh, Robot
+from ...lint.validate import validate
+from ...model.elements import Robot
 from ..common.directory import mark
 from ..common.naming import file_name
 from ..defects import FATAL, defect, defects, refuse, taken_world
@@ -14,7 +15,6 @@ from ..written import Written
 from .base import with_base
 from .extension import extension_defects
 from .gazebo import gazebo_defects
-from .geom import shape_size
 from .home import home_of, home_positions
 from .inertials import inertials
 from .loops import loop_defects
@@ -60,7 +60,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         *gazebo_defects(robot),
         *loop_defects(robot),
         *extension_defects(robot),
-        *_shape_defects(robot),
+        *validate(robot, "export:mjcf"),
     ]
     if any(finding.rule in FATAL for finding in found):
         refuse(found, force=options.force)
@@ -111,21 +111,3 @@ def _too_deep(structure: Structure) -> list[Finding]:
             text = f"link '{link}' is below {depth} others; MuJoCo reads at most {MAX_DEPTH}"
             return [defect("too-deep", text, structure.robot.link[link].place, "link", link)]
     return []
-
-
-def _shape_defects(robot: Robot) -> list[Finding]:
-    """Visuals and collisions without a geometry, or with one that nobody knows."""
-    found = []
-    for link, shape in robot.shapes:
-        what = shape.element.tag
-        if shape.geometry is None:
-            text = f"a {what} of link '{link.name}' has no geometry"
-            found.append(defect("empty-geometry", text, shape.place, "link", link.name))
-        elif not isinstance(shape.geometry, Mesh) and shape_size(shape.geometry) is None:
-            text = (
-                f"a {what} of link '{link.name}' is a <{shape.geometry.element.tag}>; the shapes "
-                "are box, cylinder, sphere, capsule and mesh"
-            )
-            place = shape.geometry.place
-            found.append(defect("unsupported-shape", text, place, "link", link.name))
-    return found

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...finding import Finding
+from ...lint.validate import validate
 from ...mechanics.spatial_inertia import link_inertia
-from ...model.elements import Collision, Joint, Link, Mesh, Robot, UnknownShape, Visual
+from ...model.elements import Joint, Link, Mesh, Robot
 from ...model.read import numbers
 from ...source.document import Element
 from ..common.gazebo_blocks import read_value, value_of
@@ -29,9 +30,9 @@ _WANTED = {
 
 def written_defects(robot: Robot) -> Iterator[Finding]:
     """Defects that can be seen without the files that the robot names."""
+    yield from validate(robot, "export:sdf")
     for link in robot.links:
         yield from _inertial(link)
-        yield from _shapes(link)
         yield from _extension(robot, link)
     for joint in robot.joints:
         yield from _joint(robot, joint)
@@ -96,23 +97,7 @@ def _inertial(link: Link) -> Iterator[Finding]:
         yield defect("negative-mass", text, mass.attribute_place("value"), "link", link.name)
 
 
-def _shapes(link: Link) -> Iterator[Finding]:
-    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
-    for shape in shapes:
-        kind, geometry = shape.element.tag, shape.geometry
-        if geometry is None:
-            text = f"a {kind} of link '{link.name}' has no geometry"
-            yield defect("empty-geometry", text, shape.place, "link", link.name)
-        elif isinstance(geometry, UnknownShape):
-            text = f"a {kind} of link '{link.name}' is a <{geometry.element.tag}>"
-            text += ", which is no shape of URDF; there are box, cylinder, sphere, capsule and mesh"
-            yield defect("unsupported-shape", text, geometry.place, "link", link.name)
-
-
 def _joint(robot: Robot, joint: Joint) -> Iterator[Finding]:
-    if joint.is_limited and joint.limit is None:
-        text = f"{joint.type} joint '{joint.name}' has no <limit>; write one, or make it continuous"
-        yield defect("missing-limit", text, joint.place, "joint", joint.name)
     leader = robot.joint.get(joint.mimic.joint) if joint.mimic else None
     if joint.mimic and leader is not None and leader.is_fixed:
         yield defect(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.elements import Collision, Robot, UnknownShape
+from ...model.elements import Collision, Link, Robot, UnknownShape, Visual
 from ...model.millimeters import shapes_in_millimeters
 from ...model.read import number, numbers
 from ...suggestions import nearest
@@ -111,14 +111,8 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
             rejected = keeps or isinstance(shape, Collision)
             effects = [_UNKNOWN_SHAPE, "pybullet", "drake", *["mujoco"] * rejected]
             if tag in VOCABULARY:
-                kind = shape.element.tag
-                yield Problem(
-                    link,
-                    f"<geometry> in a {kind} of link '{link.name}' begins with <{tag}>, which "
-                    "urdfdom takes for its shape; move it out of <geometry>",
-                    at=geometry,
-                    effects=effects,
-                )
+                message = _of_unknown_shape(link, shape, geometry)
+                yield Problem(link, message, at=geometry, effects=effects)
                 continue
             if tag == "plane" and numbers(geometry.element.get("normal"), 3):
                 others = targets - {"pybullet"}
@@ -131,16 +125,36 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
                     effects=effects,
                 )
                 continue
-            near = nearest(tag, _KNOWN)
-            right = _INSTEAD.get(tag, "<box>, <cylinder>, <sphere> or <mesh>")
-            remedy = f"did you mean '{near}'?" if near else f"write {right}"
             yield Problem(
                 link,
-                f"link '{link.name}' has a <{tag}>, which URDF does not know; {remedy}",
+                _of_unknown_shape(link, shape, geometry),
                 at=geometry,
                 effects=effects,
-                data={"tag": tag, "suggestion": near},
+                data={"tag": tag, "suggestion": nearest(tag, _KNOWN)},
             )
+
+
+@unsupported_shape.full
+def every_unsupported_shape(robot: Robot) -> Iterator[Problem]:
+    """Report each shape that URDF does not have, also one with a namespace and a plane."""
+    for link, shape in robot.shapes:
+        if isinstance(shape.geometry, UnknownShape):
+            message = _of_unknown_shape(link, shape, shape.geometry)
+            in_drake = shape.geometry.element.tag in ("drake:ellipsoid", "drake:capsule")
+            yield Problem(link, message, at=shape.geometry, data={"is_in_drake": in_drake})
+
+
+def _of_unknown_shape(link: Link, shape: Visual | Collision, geometry: UnknownShape) -> str:
+    tag = geometry.element.tag
+    if tag in VOCABULARY:
+        return (
+            f"<geometry> in a {shape.element.tag} of link '{link.name}' begins with <{tag}>, which "
+            "urdfdom takes for its shape; move it out of <geometry>"
+        )
+    near = nearest(tag, _KNOWN)
+    right = _INSTEAD.get(tag, "<box>, <cylinder>, <sphere> or <mesh>")
+    remedy = f"did you mean '{near}'?" if near else f"write {right}"
+    return f"link '{link.name}' has a <{tag}>, which URDF does not know; {remedy}"
 
 
 @unsupported_shape.fix(UNSAFE)

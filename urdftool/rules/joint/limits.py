@@ -40,12 +40,24 @@ def missing_limit(robot: Robot) -> Iterator[Problem]:
             continue
         if "limit" in misspelt_children(joint.element).values():
             continue
-        or_type = ", or make it continuous" if joint.type == "revolute" else ""
-        yield Problem(
-            joint,
-            f"{joint.type} joint '{joint.name}' has no <limit>; "
-            f"write lower, upper, effort and velocity{or_type}",
-        )
+        yield _without_limit(joint)
+
+
+@missing_limit.full
+def every_missing_limit(robot: Robot) -> Iterator[Problem]:
+    """Report each joint that needs limits and has none, also where they are misspelt."""
+    for joint in robot.joints:
+        if joint.is_limited and joint.limit is None:
+            yield _without_limit(joint)
+
+
+def _without_limit(joint: Joint) -> Problem:
+    or_type = ", or make it continuous" if joint.type == "revolute" else ""
+    return Problem(
+        joint,
+        f"{joint.type} joint '{joint.name}' has no <limit>; "
+        f"write lower, upper, effort and velocity{or_type}",
+    )
 
 
 @missing_limit.fix(UNSAFE)

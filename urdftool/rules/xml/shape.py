@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.elements import Robot
+from ...model.elements import Collision, Link, Robot, Visual
 from ...source.document import Element
 from ..fix import (
     Change,
@@ -159,13 +159,22 @@ def empty_geometry(robot: Robot) -> Iterator[Problem]:
         element = shape.element.child("geometry")
         if element is None and "geometry" in misspelt_children(shape.element).values():
             continue
-        kind = shape.element.tag
-        what = "no <geometry>" if element is None else "an empty <geometry>"
-        yield Problem(
-            link,
-            f"a {kind} of link '{link.name}' has {what}; give it a shape or take the {kind} out",
-            at=element if element is not None else shape,
-        )
+        at = element if element is not None else shape
+        yield Problem(link, _without_shape(link, shape), at=at)
+
+
+@empty_geometry.full
+def every_empty_geometry(robot: Robot) -> Iterator[Problem]:
+    """Report each visual and collision without a shape, also where ``<geometry>`` is misspelt."""
+    for link, shape in robot.shapes:
+        if shape.geometry is None:
+            yield Problem(link, _without_shape(link, shape), at=shape)
+
+
+def _without_shape(link: Link, shape: Visual | Collision) -> str:
+    kind, element = shape.element.tag, shape.element.child("geometry")
+    what = "no <geometry>" if element is None else "an empty <geometry>"
+    return f"a {kind} of link '{link.name}' has {what}; give it a shape or take the {kind} out"
 
 
 @empty_geometry.fix(UNSAFE)
