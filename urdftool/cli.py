@@ -140,7 +140,7 @@ def run(arguments: list[str] | None = None) -> None:
 
 
 def _is_at_work() -> bool:
-    """Tell whether a daemon thread is alive, which could crash in a library at exit."""
+    """Tell whether a daemon thread is alive, which a normal exit could interrupt in a library."""
     threading = sys.modules.get("threading")
     return threading is not None and any(
         thread.daemon and thread.is_alive() for thread in threading.enumerate()

@@ -94,7 +94,7 @@ class Fix(NamedTuple):
     """Change that resolves a finding.
 
     Attributes:
-        safe: Whether every reader gets the same robot afterwards.
+        safe: Whether readers that accepted the description get the same robot afterwards.
         message: Short description of the change: ``write 0 0 1``.
         replacements: Changed bytes, in the order of the source.
         rewrites: Files that are rewritten completely.

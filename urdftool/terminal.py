@@ -24,12 +24,12 @@ _CONTROL = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e
 
 
 def visible(text: str) -> str:
-    """Return a message with control characters escaped, except tab and line feed; colors too."""
+    """Return a message with all control characters escaped except tab and line feed."""
     return _CONTROL.sub(lambda match: match[0].encode("unicode_escape").decode(), text)
 
 
 def shown(data: bytes) -> bytes:
-    """Return UTF-8 text with control characters escaped, except colors and cleared lines."""
+    """Return UTF-8 text with control characters escaped, except those that urdftool writes."""
     return _OBEYED.sub(_written, data)
 
 

@@ -321,7 +321,11 @@ class Workspace:
         ).copy()
 
     def match(self, pattern: str) -> list[str]:
-        """Return the sorted paths that match an absolute pattern with ``*``, ``?`` and ``[…]``."""
+        """Return the sorted paths that match a path with wildcards, as ``glob.glob``.
+
+        Args:
+            pattern: A path; ``*``, ``?`` and ``[…]`` are wildcards.
+        """
         start, *names = pattern.split("/")
         found = [start or "/"]
         for name in names:

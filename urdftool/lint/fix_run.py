@@ -36,8 +36,8 @@ class FixResult:
         before: Original bytes of each changed file; None for a new file.
         after: New bytes of the same files.
         applied: Number of applied fixes by rule.
-        broken: Deterioration by rules whose fix was reverted.
-        unmade: Reason by rules whose fix needs a file that cannot be computed.
+        broken: Reason for reverted fixes, by rule.
+        unmade: Reason for fixes that need a file that cannot be computed, by rule.
         made: Rule and changed files of each applied fix.
         groups: Sets of files that are written together or not at all.
     """
@@ -70,8 +70,8 @@ class Mended:
         before: Original bytes of each changed file; None for a new file.
         after: New bytes of the same files.
         applied: Number of applied fixes by rule.
-        broken: Deterioration by rules whose fix was reverted.
-        unmade: Reason by rules whose fix needs a file that cannot be computed.
+        broken: Reason for reverted fixes, by rule.
+        unmade: Reason for fixes that need a file that cannot be computed, by rule.
     """
 
     report: Report

@@ -61,9 +61,9 @@ class Report:
         skipped: Reason why it was not checked; empty if it was.
         error: Error that prevented reading it.
         stopped: Reason why its robot could not be read, so that it was not checked.
-        failed_rules: Exceptions by rule, which are bugs of urdftool.
-        skipped_rules: Missing optional library by rules that require it.
-        skipped_fixes: Missing optional library by rules whose fix requires it.
+        failed_rules: Exception by rule; each is a bug of urdftool.
+        skipped_rules: Missing optional library by rule that requires it.
+        skipped_fixes: Missing optional library by rule whose fix requires it.
         unmended: Findings whose fix cannot be applied to the source, with the reason.
     """
 
@@ -114,7 +114,7 @@ class Outcome:
 
     @property
     def skipped_rules(self) -> dict[str, str]:
-        """Return the missing optional library by rules that require it."""
+        """Return the missing optional library by rule that requires it."""
         return {
             rule: library
             for report in self.reports

@@ -37,7 +37,7 @@ class Patience:
 
     @contextmanager
     def kept(self) -> Iterator[None]:
-        """Check the limits periodically, in the main thread on POSIX; elsewhere do nothing."""
+        """Check the limits periodically, on POSIX in the main thread if no other timer is set."""
         main = threading.current_thread() is threading.main_thread()
         if sys.platform == "win32" or not main or signal.getitimer(signal.ITIMER_REAL)[0]:
             yield
