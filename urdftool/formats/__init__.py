@@ -1,1 +1,1 @@
-"""The languages a robot can leave in: one small function a concept, in the order of the output."""
+"""Writers for the target formats (SDF, MJCF) and the steps that they share."""

@@ -1,4 +1,4 @@
-"""What a verification found: one row for each thing that was compared."""
+"""Result of the comparison of an export with its source: one row for each compared property."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ class Check:
     """One comparison of an export with its source.
 
     Attributes:
-        name: Its short name, such as ``mass matrix``.
+        name: Short name, such as ``mass matrix``.
         what: What was compared, for the table.
-        tolerance: Up to which difference it counts as equal.
+        tolerance: Largest difference that counts as equal.
         worst: The largest difference.
-        differing: What differs and nobody said so, in words.
-        announced: What differs and was said by the export.
+        differing: Descriptions of unreported differences.
+        announced: Descriptions of differences that the export reported.
     """
 
     name: str
@@ -28,18 +28,18 @@ class Check:
 
     @property
     def verdict(self) -> str:
-        """``equal``, ``announced`` or ``differs``."""
+        """Return ``equal``, ``announced`` (every difference was reported) or ``differs``."""
         if self.differing:
             return "differs"
         return "announced" if self.announced else "equal"
 
     def compare(self, difference: float, item: str, *, known: bool = False) -> None:
-        """Take a difference into account.
+        """Record a difference.
 
         Args:
-            difference: How far apart the two are; NaN counts as far.
-            item: What it is of, in words.
-            known: Whether the export said that it is changed.
+            difference: Magnitude of the difference; NaN counts as different.
+            item: Description of the compared item.
+            known: Whether the export reported the change.
         """
         if difference <= self.tolerance:
             self.worst = max(self.worst, difference)
@@ -50,7 +50,7 @@ class Check:
             place.append(item)
 
     def as_dict(self) -> dict[str, object]:
-        """The JSON form."""
+        """Return the JSON form; a worst difference that is infinite or NaN becomes null."""
         worst = self.worst if abs(self.worst) < float("inf") else None
         return {
             "check": self.name,
@@ -64,5 +64,5 @@ class Check:
 
 
 def is_faithful(checks: Iterable[Check]) -> bool:
-    """Whether nothing differs that was not announced."""
+    """Tell whether every difference was reported by the export."""
     return all(check.verdict != "differs" for check in checks)

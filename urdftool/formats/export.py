@@ -1,4 +1,4 @@
-"""The end of every export: it is checked, written, and compared with its source."""
+"""Last steps of every export: check it, write it, and compare it with its source."""
 
 from __future__ import annotations
 
@@ -27,20 +27,21 @@ def finish_export(
     """Check an export, write it, and compare it with its source.
 
     Args:
-        target: The format.
+        target: The target format.
         robot: The source.
-        options: The options it was written with.
+        options: Options of the export.
         written: The export.
-        output: The file or the folder; None writes nothing.
-        verify: Whether to compare it with its source.
-        overwrite: Replace also what urdftool did not write.
-        inputs: More files that must not be replaced; those of the robot and options never are.
+        output: Path of the file or folder; None writes nothing.
+        verify: Whether to compare the export with its source.
+        overwrite: Also replace files that urdftool did not write.
+        inputs: More files that must not be replaced, in addition to those of the robot and the
+            options.
 
     Returns:
         The comparisons; none without ``verify``.
 
     Raises:
-        OutputError: It cannot be written, or a reader of the format rejects it.
+        OutputError: The export cannot be written, or a reader of the format rejects it.
         MissingDependency: A library that the comparison needs is not installed.
     """
     checks = target.check_unwritten(robot, options, written, verify=verify)

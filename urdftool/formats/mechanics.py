@@ -1,8 +1,8 @@
-"""The mechanics of a robot as its description has them, for comparing an export with them.
+"""Reference kinematics and dynamics of a URDF robot, for comparison with an export.
 
-Nothing here is shared with an exporter, not even the arithmetic of poses: frames are 4 × 4 matrices
-made of elementary turns, the mass matrix is a sum over Jacobians of the links' centres of mass.
-Joints that are neither hinges nor slides stay at zero.
+The module shares no code with the exporters: frames are 4 × 4 matrices composed of elementary
+rotations, and the mass matrix is a sum over the Jacobians of the links' centers of mass. Joints
+other than hinges and slides stay at zero.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ SLIDING = ("prismatic",)
 
 
 class Mechanics:
-    """Frames, masses and forces of a robot whose root is held.
+    """Frames, masses and forces of a robot with a fixed base.
 
     Attributes:
-        joints: Its hinges and slides, in the order of the file.
+        joints: Hinges and slides, in file order.
     """
 
     def __init__(self, robot: Robot) -> None:
-        """Sort the joints of a tree from its root on."""
+        """Index the joints of a robot that is a tree."""
         self.robot = robot
         self.root = robot.tree.roots[0].name
         self._below: dict[str, list[Joint]] = {}
@@ -42,10 +42,10 @@ class Mechanics:
         self._column = {joint.name: index for index, joint in enumerate(self.joints)}
 
     def frames(self, positions: Mapping[str, float]) -> dict[str, Array]:
-        """The pose of every link in the root's frame, 4 × 4.
+        """Compute the pose of every link in the root's frame, 4 × 4.
 
         Args:
-            positions: Of the joints by name [rad or m]; zero where it is not given.
+            positions: Joint positions by name [rad or m]; zero for joints that are not given.
         """
         found = {self.root: np.eye(4)}
         todo = [self.root]
@@ -60,7 +60,7 @@ class Mechanics:
         return found
 
     def mass_matrix(self, positions: Mapping[str, float]) -> Array:
-        """The mass matrix of the joints [kg·m², kg·m, kg]."""
+        """Compute the joint-space mass matrix [kg·m², kg·m, kg]."""
         size = len(self.joints)
         matrix = np.zeros((size, size))
         for mass, tensor, linear, angular in self._jacobians(positions):
@@ -68,14 +68,14 @@ class Mechanics:
         return matrix
 
     def gravity(self, positions: Mapping[str, float]) -> Array:
-        """The force [N·m or N] that each joint needs to hold the robot still."""
+        """Compute the force [N·m or N] that each joint needs to hold the robot against gravity."""
         force = np.zeros(len(self.joints))
         for mass, _, linear, _ in self._jacobians(positions):
             force -= mass * linear.T @ GRAVITY
         return force
 
     def centroid(self, positions: Mapping[str, float]) -> tuple[float, Array, Array]:
-        """Mass [kg], centre of mass [m] and inertia about it [kg·m²], along the root's axes."""
+        """Compute mass [kg], center of mass [m] and inertia about it [kg·m²], in the root frame."""
         frames = self.frames(positions)
         bodies = [
             properties
@@ -94,7 +94,7 @@ class Mechanics:
         return mass, com, tensor
 
     def _jacobians(self, positions: Mapping[str, float]) -> list[tuple[float, Array, Array, Array]]:
-        """Mass, tensor, and linear and angular Jacobian of each link's centre of mass."""
+        """Compute mass, tensor, and linear and angular Jacobian of each link's center of mass."""
         frames = self.frames(positions)
         axes = {
             joint.name: frames[joint.child][:3, :3] @ (_axis(joint) / _length(joint))
@@ -126,7 +126,7 @@ class Mechanics:
 
 
 def origin_matrix(origin: Origin | None) -> Array:
-    """The 4 × 4 pose of an ``<origin>``."""
+    """Return the 4 × 4 pose of an ``<origin>``."""
     pose = np.eye(4)
     if origin is None:
         return pose
@@ -143,7 +143,7 @@ def origin_matrix(origin: Origin | None) -> Array:
 
 
 def turn(axis: Array, angle: float) -> Array:
-    """The rotation about an axis by an angle [rad] (Rodrigues)."""
+    """Compute the rotation matrix for an axis and an angle [rad] (Rodrigues' formula)."""
     length = float(np.linalg.norm(axis))
     if length == 0:
         return np.eye(3)
@@ -171,7 +171,7 @@ def _motion(joint: Joint, position: float) -> Array:
 
 
 def _mass_properties(link: Link, frame: Array) -> tuple[float, Array, Array] | None:
-    """Mass, centre of mass and tensor of a link in the root's frame."""
+    """Return mass, center of mass and inertia tensor of a link in the root's frame."""
     inertial = link.inertial
     if inertial is None:
         return None

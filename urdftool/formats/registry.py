@@ -1,14 +1,14 @@
-"""The formats of robot descriptions.
+"""Registry of the formats of robot descriptions.
 
-A format is a folder of this package and one line of ``FORMATS``. The folder has
+A format is a folder of this package and an entry in ``FORMATS``. The folder has
 
-- ``read.py`` with ``read(path, **options) -> Robot``, where the format can be read;
-- ``write.py`` with ``write(robot, options) -> Written`` and ``options.py`` with ``Options``, where
-  it can be written;
+- ``read.py`` with ``read(path, **options) -> Robot``, if the format can be read;
+- ``write.py`` with ``write(robot, options) -> Written`` and ``options.py`` with ``Options``, if it
+  can be written;
 - ``checks.py`` with ``NOT_COMPARED``, ``check_unwritten`` and ``check_output``, which compare an
   export with its source.
 
-They are imported when they are used.
+The modules are imported on first use.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ if TYPE_CHECKING:
 
 
 class ExportOptions(Protocol):
-    """The options of a writer, as far as every format has them."""
+    """Options that every writer has."""
 
     @property
     def file(self) -> str:
-        """The name of the model's file where the output is one file; empty for a folder."""
+        """Return the name of the model file if the output is one file; empty for a folder."""
 
     @property
     def input_files(self) -> Sequence[Path]:
-        """The files that the options name, which an export must not replace."""
+        """Return the input files that the options name, which an export must not replace."""
 
 
 @dataclass(frozen=True)
@@ -42,12 +42,12 @@ class Format:
     """A format of robot descriptions.
 
     Attributes:
-        name: The name of its folder, and on the command line.
-        title: Its name for people.
-        suffixes: The suffixes of its files, in lower case.
+        name: Name of its folder, also used on the command line.
+        title: Display name.
+        suffixes: File suffixes, in lower case.
         can_read: Whether it has a reader.
         can_write: Whether it has a writer.
-        cannot_express: Codes of the losses of URDF that it has no place for.
+        cannot_express: Codes of losses of URDF data that the format cannot express.
     """
 
     name: str
@@ -58,7 +58,7 @@ class Format:
     cannot_express: tuple[str, ...] = ()
 
     def has_suffix(self, path: str | Path) -> bool:
-        """Return whether a path has a suffix of the format's files."""
+        """Tell whether a path has a suffix of the format's files."""
         return Path(path).suffix.lower() in self.suffixes
 
     def read(self, path: str | Path, **options: Any) -> Robot:
@@ -72,30 +72,30 @@ class Format:
         return robot
 
     def write(self, robot: Robot, options: ExportOptions) -> Written:
-        """Turn a robot into files of the format, which are not yet on disk.
+        """Convert a robot to files of the format, in memory.
 
         Raises:
-            Refused: The robot has defects that forbid it.
+            Refused: The robot has defects that prevent the export.
         """
         written: Written = self._module("write").write(robot, options)
         return written
 
     @property
     def not_compared(self) -> tuple[str, ...]:
-        """Return what a file of the format holds and no check compares."""
+        """Return the parts of a file that no check compares."""
         names: tuple[str, ...] = self._module("checks").NOT_COMPARED
         return names
 
     def check_unwritten(
         self, robot: Robot, options: ExportOptions, written: Written, *, verify: bool
     ) -> list[Check]:
-        """Check an export before a file of the user is touched.
+        """Check an export before user files are replaced.
 
         Args:
             robot: The source.
-            options: The options it was written with.
+            options: Options of the export.
             written: The export.
-            verify: Whether to compare it with the source, beyond what is checked in any case.
+            verify: Whether to compare it with the source, in addition to the basic checks.
 
         Raises:
             OutputError: A reader of the format rejects it.
@@ -112,7 +112,7 @@ class Format:
         written: Written,
         output: str | Path | None,
     ) -> list[Check]:
-        """Compare an export on disk with its source; a copy of it where the output is None."""
+        """Compare an export on disk with its source; use a temporary copy if the output is None."""
         checks: list[Check] = self._module("checks").check_output(robot, options, written, output)
         return checks
 
@@ -151,10 +151,10 @@ FORMATS = (
 
 
 def format_named(name: str) -> Format:
-    """Return the format of a name.
+    """Return a format by its name.
 
     Raises:
-        KeyError: There is no format of that name.
+        KeyError: There is no such format.
     """
     return {format_.name: format_ for format_ in FORMATS}[name]
 

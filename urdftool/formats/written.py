@@ -13,16 +13,16 @@ from .check import Check
 
 @dataclass
 class Written:
-    """A robot in another format, not yet on disk.
+    """A robot in another format, in memory.
 
     Attributes:
-        files: Content by path relative to the output: bytes, or a file to copy.
-        main: The path of the model in ``files``.
-        losses: What was lost or changed, each with its place in the source.
+        files: Content by path relative to the output: bytes, or the path of a file to copy.
+        main: Path of the model in ``files``.
+        losses: Losses and changes, each with its location in the source.
         renamed: New names by ``kind`` and old name, such as ``("link", "wheel::left")``.
-        checks: What was compared with the source, where that was asked for.
-        summary: What the model is, in few words each, such as ``12 actuators``.
-        advice: What the user may not expect of the model, in sentences.
+        checks: Results of the comparison with the source, if requested.
+        summary: Short properties of the model, such as ``12 actuators``.
+        advice: Sentences about properties that the user may not expect.
     """
 
     main: str
@@ -35,7 +35,7 @@ class Written:
 
     @property
     def text(self) -> str:
-        """The model."""
+        """Return the model as text."""
         content = self.files[self.main]
         return (content if isinstance(content, bytes) else content.read_bytes()).decode("utf-8")
 
@@ -51,17 +51,17 @@ class Written:
         hint: str = "",
         data: Mapping[str, object] | None = None,
     ) -> None:
-        """Add a loss to the record.
+        """Record a loss.
 
         Args:
-            what: The code of the loss after ``lossy-``, such as ``mimic``.
-            message: A sentence: what is lost, and what stands in its place.
-            place: Where it is written in the source.
+            what: Code of the loss after ``lossy-``, such as ``mimic``.
+            message: Sentence with the loss and its substitute.
+            place: Location in the source.
             kind: ``link``, ``joint``, …
-            name: The name of that link or joint.
-            severity: ``INFO`` where the robot behaves the same in the target.
-            hint: What would carry it.
-            data: The values of the loss by name, for code that reads it.
+            name: Name of that link or joint.
+            severity: ``INFO`` if the robot behaves the same in the target.
+            hint: Remedy.
+            data: Values of the loss by name, for code that reads them.
         """
         code, values = f"lossy-{what}", dict(data or {})
         loss = Finding(code, severity, message, place, kind, name, hint=hint, data=values)

@@ -1,11 +1,11 @@
-"""Gains, armature and losses of joints from a TOML file, for every export that has actuators.
+"""Gains, armature and damping of joints from a TOML file, for exports with actuators.
 
-A table ``[joints."NAME"]`` is of the joint of that name, or of all whose name a pattern such as
-``*_hip_joint`` fits. A name counts before patterns, a later pattern before an earlier one, each key
-for itself::
+A table ``[joints."NAME"]`` sets the joint of that name, or all joints that match a pattern such as
+``*_hip_joint``. For each key, an exact name takes precedence over patterns, and a later pattern
+over an earlier one::
 
     [joints."*"]
-    armature = 0.01           # kg·m² (kg of a slide)
+    armature = 0.01           # kg·m² (kg for a slide)
 
     [joints."*_knee_joint"]
     kp = 120                  # N·m/rad (N/m)
@@ -34,7 +34,7 @@ _TABLE = "joints"
 
 @dataclass(frozen=True)
 class JointSettings:
-    """Settings of one joint; None where the file has none.
+    """Settings of one joint; None where the file sets none.
 
     Attributes:
         kp: Position gain [N·m/rad or N/m].
@@ -55,7 +55,7 @@ class JointSettings:
     type: str | None = None
 
     def over(self, other: JointSettings) -> JointSettings:
-        """Return these settings, completed by others."""
+        """Return these settings, with missing values taken from ``other``."""
         values = {
             field.name: getattr(other, field.name)
             if getattr(self, field.name) is None
@@ -67,7 +67,7 @@ class JointSettings:
 
 @dataclass(frozen=True)
 class ActuatorConfig:
-    """A file as it is written: settings by name or pattern, in its order."""
+    """Contents of the file: settings by joint name or pattern, in file order."""
 
     path: Path
     tables: Mapping[str, JointSettings]
@@ -76,10 +76,10 @@ class ActuatorConfig:
         """Choose the settings of each joint.
 
         Args:
-            joints: The names of the joints that move.
+            joints: Names of the movable joints.
 
         Raises:
-            ConfigError: A name or pattern of the file fits no joint.
+            ConfigError: A name or pattern of the file matches no joint.
         """
         names = list(joints)
         found = dict.fromkeys(names, JointSettings())
@@ -104,10 +104,10 @@ class ActuatorConfig:
 
 
 def read_actuator_config(path: Path) -> ActuatorConfig:
-    """Read a file.
+    """Read an actuator configuration file.
 
     Raises:
-        ConfigError: It cannot be read, is not TOML, or has a key or value that it may not have.
+        ConfigError: The file cannot be read, is not TOML, or has an invalid key or value.
     """
     if sys.version_info >= (3, 11):
         import tomllib

@@ -1,8 +1,8 @@
-"""What is copied into an export: meshes and images, and nothing that only bears their name.
+"""Filter of the files that an export copies: only meshes, images and their companion files.
 
-A description may come from a stranger, and an export is given away. A mesh or texture that is named
-``/home/me/.ssh/id_rsa``, or a link that leads there, is not to be in it. So a file is looked into
-before it is copied.
+A description may be untrusted, and an export is passed on. A mesh or texture path such as
+``/home/me/.ssh/id_rsa``, or a symbolic link to it, must not be copied. Therefore the content of
+each file is checked before it is copied.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _MATERIAL = re.compile(rb"(?m)^\s*newmtl\s")
 
 
 def explain_invalid_mesh(path: Path) -> str:
-    """Why a file is no mesh of the format that its name says; empty where it is one."""
+    """Explain why a file is not a mesh of the format of its suffix; return "" if it is one."""
     suffix = path.suffix.lower()
     looks = _MESHES.get(suffix)
     if looks is None:
@@ -41,30 +41,30 @@ def explain_invalid_mesh(path: Path) -> str:
 
 
 def is_image(path: Path) -> bool:
-    """Whether a file is an image, by its bytes."""
+    """Tell whether a file is an image, by its first bytes."""
     head = _head(path)
     return head.startswith(_STARTS) or head[8:12] == b"WEBP" or _is_tga(path, head)
 
 
 def is_companion(path: Path) -> bool:
-    """Whether a file is what meshes name: an image, materials of OBJ, or numbers of glTF."""
+    """Tell whether a mesh may refer to a file: an image, an OBJ material, or a glTF buffer."""
     suffix = path.suffix.lower()
     if suffix == ".mtl":
         return _MATERIAL.search(_head(path)) is not None
-    if suffix == ".bin":  # has no mark of its own; a link must not make one of another file
+    if suffix == ".bin":  # has no signature; a symbolic link could point to any file
         return path.resolve().suffix.lower() == ".bin"
     return is_image(path)
 
 
 def _head(path: Path) -> bytes:
-    if not os.path.isfile(path):  # nor read from what never ends
+    if not os.path.isfile(path):  # a device or pipe may never end
         return b""
     with open(path, "rb") as stream:
         return stream.read(_HEAD)
 
 
 def _is_tga(path: Path, head: bytes) -> bool:
-    """Whether the head is one of Truevision, which has no mark."""
+    """Tell whether the head is a Truevision header, a format without a signature."""
     if path.suffix.lower() != ".tga" or len(head) < 18:
         return False
     return head[1] in (0, 1) and head[2] in _TGA_KINDS and head[16] in (8, 15, 16, 24, 32)

@@ -1,4 +1,4 @@
-"""Mesh and image files of a robot: where they are, and which files they name themselves."""
+"""Mesh and image files of a robot: their paths, and the files that they refer to."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _NAMED = {
 
 
 def find_file(robot: Robot, uri: str) -> Path | None:
-    """Return the file of a URI or path in a description; None where there is none."""
+    """Return the file of a URI or path in a description; None if it does not exist."""
     if not uri or robot.source is None:
         return None
     try:
@@ -33,9 +33,9 @@ def find_file(robot: Robot, uri: str) -> Path | None:
 
 
 def find_companions(path: Path) -> Iterator[tuple[Path, str]]:
-    """Yield the images, material and buffer files that a mesh names, and the names, relative to it.
+    """Yield the images, material and buffer files that a mesh refers to, with their relative names.
 
-    What lies elsewhere than relative to the mesh, is not there, or is of another kind, is left out.
+    Absolute references, missing files and files of other kinds are skipped.
     """
     pattern = _NAMED.get(path.suffix.lower())
     if pattern is None:
@@ -54,7 +54,7 @@ def find_companions(path: Path) -> Iterator[tuple[Path, str]]:
 
 
 def package_path(path: Path) -> tuple[str, str]:
-    """Return the package of a file and its path there; its folder's name where it is in none."""
+    """Return the package of a file and its path there; without one, the name of its folder."""
     full = Path(os.path.abspath(path))
     own = own_package(full)
     if own is None:

@@ -1,8 +1,8 @@
-"""Exports on disk: a folder or a file with its companions, whole or not at all.
+"""Writing of exports to disk: a folder, or a file with its companions, all or nothing.
 
-Every text file carries a mark in its first comment: who wrote it, and a digest of what follows. So
-a later export knows its own files, also those that someone has edited since, and leaves what is not
-its own alone.
+The first comment of every text file names urdftool and holds a digest of the content. A later
+export can therefore tell its own unmodified files from edited ones and from files of others, which
+it does not replace.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ _HEAD = 4096
 
 
 def mark(xml: bytes, source: str) -> bytes:
-    """An XML file with the mark before its root element.
+    """Return an XML file with the mark before its root element.
 
     Args:
         xml: The file; a declaration stays first.
-        source: The name of the description it was made from.
+        source: Name of the source description.
     """
     start = xml.find(b"?>") + 2 if xml.startswith(b"<?xml") else 0
     head, rest = xml[:start], xml[start:].lstrip(b"\n")
@@ -38,7 +38,7 @@ def mark(xml: bytes, source: str) -> bytes:
 
 
 def is_ours(data: bytes) -> bool:
-    """Whether an export wrote these bytes and nobody changed them since."""
+    """Tell whether urdftool wrote these bytes and they were not modified since."""
     found = _MARK.search(data, 0, _HEAD)
     return found is not None and found[1].decode() == _digest(data[found.end() :])
 
@@ -51,19 +51,20 @@ def write_directory(
     overwrite: bool = False,
     inputs: Iterable[str | Path] = (),
 ) -> None:
-    """Write an export as a folder: beside its place first, then moved there.
+    """Write an export to a folder: first to a temporary folder next to it, which is then moved.
 
-    A folder of an earlier export is replaced; what else lies in it stays.
+    The files of an earlier export are replaced; other files in the folder stay.
 
     Args:
         target: The folder.
-        files: Content by relative path: bytes, or a file to copy.
-        main: The file by which a folder is known as ours.
-        overwrite: Replace also what is not ours, or was edited.
-        inputs: Files that were read, which must not be replaced.
+        files: Content by relative path: bytes, or the path of a file to copy.
+        main: File by which the folder of an earlier export is recognized.
+        overwrite: Also replace files that urdftool did not write, or that were edited.
+        inputs: Input files, which must not be replaced.
 
     Raises:
-        OutputError: It is not ours, or cannot be written. What was there is as it was.
+        OutputError: The target must not be replaced or cannot be written. Existing files are
+            unchanged.
     """
     folder = Path(os.path.realpath(target))
     _check_place(folder, target)
@@ -87,17 +88,17 @@ def write_beside(
     overwrite: bool = False,
     inputs: Iterable[str | Path] = (),
 ) -> None:
-    """Write an export as one file with its companions in the same folder; the file comes last.
+    """Write an export as one file with its companions in the same folder; the file is written last.
 
     Args:
-        target: The file, in place of ``main``.
-        files: Content by path relative to the folder: bytes, or a file to copy.
-        main: Which of ``files`` becomes the target.
-        overwrite: Replace also what is not ours, or was edited.
-        inputs: Files that were read, which must not be replaced.
+        target: Path of the file, in place of ``main``.
+        files: Content by path relative to the folder: bytes, or the path of a file to copy.
+        main: Key in ``files`` of the file that becomes the target.
+        overwrite: Also replace files that urdftool did not write, or that were edited.
+        inputs: Input files, which must not be replaced.
 
     Raises:
-        OutputError: Something there is not ours, or cannot be written.
+        OutputError: A file must not be replaced or cannot be written.
     """
     path = Path(os.path.realpath(target))
     if path.is_dir():
@@ -117,17 +118,17 @@ def write_export(
     overwrite: bool = False,
     inputs: Iterable[str | Path] = (),
 ) -> None:
-    """Write what an exporter gave back.
+    """Write an export to disk.
 
     Args:
-        target: The file or the folder.
+        target: Path of the file or folder.
         written: The export.
-        single: Whether the target is a file with its companions beside it.
-        overwrite: Replace also what is not ours, or was edited.
-        inputs: Files that were read, which must not be replaced.
+        single: Whether the target is a file, with its companions in the same folder.
+        overwrite: Also replace files that urdftool did not write, or that were edited.
+        inputs: Input files, which must not be replaced.
 
     Raises:
-        OutputError: Something there is not ours, or cannot be written.
+        OutputError: A file must not be replaced or cannot be written.
     """
     write = write_beside if single else write_directory
     write(target, written.files, main=written.main, overwrite=overwrite, inputs=inputs)
@@ -145,7 +146,7 @@ def _check_files(
     overwrite: bool,
     inputs: Iterable[str | Path],
 ) -> None:
-    """Refuse what would replace an input, or a text file that is not ours as we wrote it."""
+    """Refuse to replace an input, or a text file that urdftool did not write or that was edited."""
     read = {os.path.realpath(name) for name in inputs}
     read |= {os.path.realpath(content) for content in files.values() if isinstance(content, Path)}
     for name, content in files.items():
@@ -157,7 +158,7 @@ def _check_files(
         if overwrite or not place.is_file() or not isinstance(content, bytes):
             continue
         if not _MARK.search(content, 0, _HEAD):
-            continue  # a converted mesh beside a model of ours
+            continue  # a converted mesh next to a model that urdftool wrote
         data = place.read_bytes()
         if is_ours(data) or data == content:
             continue

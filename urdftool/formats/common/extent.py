@@ -1,4 +1,4 @@
-"""How large a link is: the box around its geometry, along its own axes."""
+"""Bounding boxes of links, along the axes of a link."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ Array = npt.NDArray[np.float64]
 
 
 def box_size(robot: Robot, links: Iterable[tuple[Link, Pose]]) -> Vector | None:
-    """Compute the edges [m] of the box around the geometry of links that are one body.
+    """Compute the edge lengths [m] of the bounding box of links that form one body.
 
     Args:
         robot: The robot.
-        links: The links, each with its pose in the frame along whose axes the box is.
+        links: The links, each with its pose in the frame of the box.
 
     Returns:
-        Those of the collision geometry, or else of the visual one; None where there is none.
+        Edges of the collision geometry, else of the visual geometry; None without geometry.
     """
     placed = list(links)
     for kind in ("collisions", "visuals"):
@@ -53,16 +53,16 @@ def box_size(robot: Robot, links: Iterable[tuple[Link, Pose]]) -> Vector | None:
 
 
 def shape_points(robot: Robot, shape: Visual | Collision) -> Array | None:
-    """Points in the link's frame [m] that reach as far as a shape does along every axis of it.
+    """Return points [m] in the link's frame with the same extent as a shape along every axis.
 
-    None where the shape has no size or its mesh cannot be read.
+    Return None if the shape has no size or its mesh cannot be read.
     """
     points = None if shape.geometry is None else _points(robot, shape.geometry)
     return None if points is None else placed(points, shape)
 
 
 def placed(points: Array, shape: Visual | Collision) -> Array:
-    """Points of a shape's geometry in the frame of its link [m], shape (n, 3)."""
+    """Transform points of a shape's geometry to the frame of its link [m], shape (n, 3)."""
     pose = pose_of(shape.origin)
     moved: Array = points @ np.array(pose.rotation).T + np.array(pose.translation)
     return moved

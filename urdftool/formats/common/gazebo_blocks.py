@@ -11,27 +11,27 @@ _FALSE = frozenset(("false", "no", "0"))
 
 
 def is_true(text: str | None) -> bool:
-    """Return whether a flag is set."""
+    """Tell whether a flag is set."""
     return text is not None and text.strip().lower() in _TRUE
 
 
 def is_false(text: str | None) -> bool:
-    """Return whether a flag is cleared."""
+    """Tell whether a flag is cleared."""
     return text is not None and text.strip().lower() in _FALSE
 
 
 def is_flag(text: str) -> bool:
-    """Return whether a text is a flag at all."""
+    """Tell whether a text is a flag."""
     return is_true(text) or is_false(text)
 
 
 def value_of(element: Element) -> str:
-    """Return what a tag is set to: its ``value`` or its text."""
+    """Return the value of an element: its attribute ``value``, or its text."""
     return (element.get("value") or element.text).strip()
 
 
 def read_value(holds: str, text: str) -> str | None:
-    """Return the text of a value as it is written, or None where it is not of the kind.
+    """Return the text of a value, or None if it is not of the kind.
 
     Args:
         holds: The kind: ``number``, ``count``, ``vector`` (3 numbers) or ``flag``.

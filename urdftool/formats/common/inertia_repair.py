@@ -1,4 +1,4 @@
-"""The choice of ``--fix-inertia``: what replaces a physically inconsistent inertia tensor."""
+"""Repair of physically inconsistent inertia tensors, as ``--fix-inertia`` selects it."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ def repair_tensor(
     *,
     lift: Callable[[SymmetricTensor], SymmetricTensor],
 ) -> tuple[SymmetricTensor, str]:
-    """Replace the inertia tensor of a body as the user chose.
+    """Repair the inertia tensor of a body by the method that the user chose.
 
     Args:
-        fix: The choice; ``none`` lifts, for a writer that goes on without one.
+        fix: The method; ``none`` lifts, for a writer that continues in spite of the defect.
         body: The body.
-        size: Returns the edges [m] of the box around the geometry; None where there is none.
+        size: Returns the edges [m] of the bounding box of the geometry; None without geometry.
         lift: Returns the nearest consistent tensor, with the margin that a format needs.
 
     Returns:
-        The tensor [kg·m²], and how it was made, for a message.
+        The tensor [kg·m²], and a description of the method for a message.
     """
     if fix == "box":
         edges = size()

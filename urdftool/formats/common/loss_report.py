@@ -9,7 +9,7 @@ from ...finding import Finding, Severity
 
 
 def merge_instances(findings: Iterable[Finding]) -> list[Finding]:
-    """Merge findings of one rule at one place: the instances of a macro are one finding."""
+    """Merge findings of one rule at one place, as those of the instances of a macro."""
     found: dict[tuple[str, str, int], Finding] = {}
     for finding in findings:
         key = finding.rule, finding.place.path, finding.place.start
@@ -21,7 +21,7 @@ def merge_instances(findings: Iterable[Finding]) -> list[Finding]:
 
 
 def format_lines(findings: Iterable[Finding]) -> Iterator[str]:
-    """Yield a line for each finding, with its remedy; files missing for one reason are one line."""
+    """Yield a line for each finding, with its remedy; files missing for one cause share a line."""
     for finding, more in _merge_missing_files(merge_instances(findings)):
         hint = f" (and {more} more)" if more else ""
         hint += f" ({finding.hint})" if finding.hint else ""
@@ -31,7 +31,7 @@ def format_lines(findings: Iterable[Finding]) -> Iterator[str]:
 
 
 def _merge_missing_files(findings: Iterable[Finding]) -> Iterator[tuple[Finding, int]]:
-    """Yield the first of the files that are missing for one reason, and how many more there are."""
+    """Yield the first of the files that are missing for one cause, and the number of the others."""
     groups: dict[object, list[Finding]] = {}
     for index, finding in enumerate(findings):
         cause = finding.data.get("not_found_because")
@@ -40,5 +40,8 @@ def _merge_missing_files(findings: Iterable[Finding]) -> Iterator[tuple[Finding,
 
 
 def losses_as_errors(findings: Iterable[Finding]) -> list[Finding]:
-    """Return the losses with severity error, without notes, where the robot behaves the same."""
+    """Raise the severity of losses to error.
+
+    Losses of severity info, after which the robot behaves the same, are left out.
+    """
     return [replace(f, severity=Severity.ERROR) for f in findings if f.severity > Severity.INFO]

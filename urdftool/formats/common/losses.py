@@ -1,4 +1,4 @@
-"""The losses that an export declared, for those who compare the result with the source."""
+"""The losses that an export reported, for the verification of the result."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from ...finding import Finding
 
 @dataclass(frozen=True)
 class DeclaredLosses:
-    """The losses that an export reported, for a verification that excuses what they explain.
+    """Losses that an export reported; a verification accepts the differences that they explain.
 
     Attributes:
-        losses: Pairs of the code of a loss and the name of the link, joint or file it is about.
+        losses: Pairs of the code of a loss and the name of its link, joint or file.
     """
 
     losses: frozenset[tuple[str, str]] = frozenset()

@@ -1,4 +1,4 @@
-"""The lumping plan: which links are one rigid body, and where each is in it."""
+"""The lumping plan: which links form one rigid body, and their poses in it."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from ...model.pose import IDENTITY, Pose, pose_of
 
 @dataclass(frozen=True)
 class LumpingPlan:
-    """Groups of links without a moving joint between them.
+    """Groups of links that fixed joints connect.
 
     Attributes:
-        top: The topmost link of each link's group, by the name of the link.
-        members: The links of each group in the order of the tree, by the topmost, the first.
-        pose: The pose of each link in the frame of the topmost link of its group.
+        top: Topmost link of each link's group, by link name.
+        members: Links of each group in the order of the tree, the topmost first, by its name.
+        pose: Pose of each link in the frame of the topmost link of its group.
     """
 
     top: dict[str, str]
@@ -35,11 +35,11 @@ def plan_lumping(
     is_lumped: Callable[[Joint], bool],
     joint_pose: Callable[[Joint], Pose] = pose_of_child,
 ) -> LumpingPlan:
-    """Group the links that lumped joints join.
+    """Group the links that lumped joints connect.
 
     Args:
         robot: A robot that is a tree, or several.
-        links: The names of the links, parents first; others are in no group.
+        links: Names of the links, parents first; links that are not listed are in no group.
         is_lumped: Returns whether the links of a joint become one body.
         joint_pose: Returns the pose of the child of a lumped joint in its parent.
     """

@@ -1,4 +1,4 @@
-"""Why a file that a robot names is not found: one reason, however many files have it."""
+"""Causes of missing files; files with the same cause share one explanation."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from ..defects import defect
 
 
 class MissingFile(NamedTuple):
-    """Why a file is not found.
+    """Why a file is missing.
 
     Attributes:
-        message: The predicate of a sentence about it: ``is not there``.
-        hint: A remedy or the path that was looked at; empty where nothing is known.
-        cause: The package, folder or file that is missing: the same for all files that are
-            missing for one reason. Empty where nothing is known.
+        message: Predicate of a sentence about the file: ``is not there``.
+        hint: A remedy, or the path that was tried; may be empty.
+        cause: The missing package, folder or file, equal for all files that are missing for the
+            same cause; may be empty.
     """
 
     message: str
@@ -28,11 +28,11 @@ class MissingFile(NamedTuple):
 
 
 def explain_missing_file(robot: Robot, filename: str) -> MissingFile:
-    """Find out why a file cannot be read.
+    """Determine why a file cannot be read.
 
     Args:
-        robot: The robot that names it.
-        filename: The URI or path as it is written.
+        robot: The robot that refers to it.
+        filename: The URI or path as written.
     """
     if not filename or robot.source is None:
         return MissingFile("names no file")
@@ -50,7 +50,7 @@ def explain_missing_file(robot: Robot, filename: str) -> MissingFile:
 
 
 def missing_mesh(robot: Robot, link: Link, mesh: Mesh) -> Finding:
-    """Make the finding of a mesh file that is not found.
+    """Create the finding for a mesh file that does not exist.
 
     Args:
         robot: The robot.

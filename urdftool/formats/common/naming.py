@@ -1,4 +1,4 @@
-"""Unique names of a kind, and names that may stand in a file's."""
+"""Unique names, and names that are valid in file names."""
 
 from __future__ import annotations
 
@@ -8,30 +8,30 @@ from itertools import chain, count
 
 
 def numbered(stem: str, first: int = 2, suffix: str = "") -> Iterator[str]:
-    """Yield a name with each number from ``first`` on: ``arm_2``, ``arm_3``."""
+    """Yield a name with increasing numbers from ``first``: ``arm_2``, ``arm_3``."""
     for number in count(first):
         yield f"{stem}_{number}{suffix}"
 
 
 def first_free(candidates: Iterable[str], taken: Container[str | None]) -> str:
-    """Return the first of some names that is not taken."""
+    """Return the first candidate that is not taken."""
     return next(name for name in candidates if name not in taken)
 
 
 def free_name(name: str, taken: Container[str | None]) -> str:
-    """Return a name that is not taken: itself, or itself with the least number from 2 on."""
+    """Return a name that is not taken: the name itself, or with the least number from 2."""
     return first_free(chain((name,), numbered(name)), taken)
 
 
 class UniqueNames:
-    """The names of a kind that are taken."""
+    """Set of the names of a kind that are taken."""
 
     def __init__(self, taken: Iterable[str] = (), *, fold: bool = False) -> None:
-        """Start with the names that are taken.
+        """Initialize the set.
 
         Args:
-            taken: Names that nothing else may have.
-            fold: Whether case makes no difference, as in some file systems.
+            taken: Names that are taken already.
+            fold: Whether to ignore case, as some file systems do.
         """
         self._fold = fold
         self._taken = {self._key(name) for name in taken}
@@ -53,5 +53,5 @@ class UniqueNames:
 
 
 def file_name(text: str) -> str:
-    """Return a name with letters, digits, dots, dashes and underscores alone."""
+    """Replace characters other than letters, digits, dots, dashes and underscores in a name."""
     return re.sub(r"[^\w.-]+", "_", text).strip("._-") or "unnamed"

@@ -6,7 +6,10 @@ from collections.abc import Iterable
 
 
 def number_text(value: float) -> str:
-    """The shortest text of a number; whole numbers have no point, and there is no ``-0``."""
+    """Format a number as the shortest text that reads back as the same double.
+
+    Whole numbers have no decimal point; -0 is written as 0.
+    """
     if value == 0:
         return "0"
     if value == int(value) and abs(value) < 1e16:
@@ -15,5 +18,5 @@ def number_text(value: float) -> str:
 
 
 def numbers_text(values: Iterable[float]) -> str:
-    """Numbers with blanks between."""
+    """Format numbers, separated by blanks."""
     return " ".join(map(number_text, values))

@@ -1,6 +1,6 @@
-"""MJCF, the language of MuJoCo: a model as one would have written it by hand.
+"""Export to MJCF, the model format of MuJoCo, in the style of a hand-written model.
 
-In the order of the work: ``structure`` (what hangs on what), ``inertials`` and ``meshes`` (what
-needs arithmetic), ``body`` with ``joint`` and ``geom`` (the tree), then each section of the file in
-a module of its name, ``write`` (all of it), ``scene`` and ``verify``.
+Modules in processing order: ``structure`` (kinematic tree), ``inertials`` and ``meshes``
+(conversions), ``body`` with ``joint`` and ``geom`` (``<worldbody>``), one module for each other
+section of the file, ``write`` (whole model), ``scene`` and ``verify``.
 """

@@ -1,7 +1,7 @@
-"""Actuators: what transmissions, ros2_control and drive plugins say, or one kind for every joint.
+"""Actuators: from transmissions, ros2_control and drive plugins, or one kind for every joint.
 
-URDF has no gains; ``gains`` chooses them, and a file of the user may. Damping is critical for the
-inertia that the joint moves (``dampratio``).
+URDF has no gains; ``gains`` chooses them, and an actuator configuration file overrides them.
+Position servos are critically damped for the inertia that the joint moves (``dampratio``).
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ INTERFACES = ("position", "velocity", "effort")
 
 @dataclass(frozen=True)
 class Drive:
-    """How a joint is driven: ``position``, ``velocity`` or ``motor``, and by which gear."""
+    """Actuator of a joint: ``position``, ``velocity`` or ``motor``, with its gear reduction."""
 
     joint: Joint
     kind: str
@@ -42,14 +42,14 @@ def actuator_section(
     settings: Mapping[str, JointSettings],
     written: Written,
 ) -> tuple[etree._Element | None, list[Drive]]:
-    """``<actuator>``, or None where there is none; and the drives in its order.
+    """Build ``<actuator>``; None if it is empty. Also return the drives in its order.
 
     Args:
-        structure: The tree.
-        actuators: The kinds that the user chose.
-        inertias: What each joint moves at home, with its armature [kg·m² or kg].
-        settings: What the user set of joints.
-        written: Takes what is lost, and which gains are assumed.
+        structure: The kinematic tree.
+        actuators: Kind of actuators that the user chose.
+        inertias: Inertia that each joint moves at home, with its armature [kg·m² or kg].
+        settings: Settings by joint name, from the user.
+        written: Receives losses and the assumed gains.
     """
     drives = list(_drives(structure, actuators, settings, written))
     if not drives:
@@ -92,7 +92,7 @@ def _drives(
 
 
 def _chosen(joint: Joint, drive: Drive | None, settings: JointSettings) -> Drive | None:
-    """The drive of a joint as the user's settings have it."""
+    """Return the drive of a joint after applying the user's settings."""
     kind = settings.type
     if kind is None and settings.kp is not None:
         kind = "position"
@@ -116,7 +116,7 @@ def _report_follower(joint: Joint, written: Written) -> None:
 
 
 def _report_assumed_gains(robot: Robot, assumed: Mapping[str, Gain], written: Written) -> None:
-    """Report the gains that stand nowhere, and those that the inertia bounds."""
+    """Report assumed gains, and those that the inertia bounds."""
     bounded = [f"'{name}'" for name, gain in assumed.items() if gain.is_bounded]
     text = f"gains of {len(assumed)} servos are assumed, because URDF has none: 10 times the effort"
     if bounded:
@@ -134,7 +134,7 @@ def _report_assumed_gains(robot: Robot, assumed: Mapping[str, Gain], written: Wr
 
 
 def _described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple[str, float]]]:
-    """What drives each joint by name, as far as the description says; the last holds."""
+    """Yield kind and reduction of each joint that the description drives; the last wins."""
     for name, kind in plugin_drives(robot).items():
         yield name, (kind, 1.0)
     for transmission in robot.transmissions:
@@ -172,7 +172,7 @@ def _described(robot: Robot, written: Written) -> Iterator[tuple[str, tuple[str,
 
 
 def _kind(interfaces: list[str]) -> str:
-    """The kind of actuator for a joint's hardware interfaces; the first that is known counts."""
+    """Return the actuator kind for hardware interfaces; the first known interface counts."""
     for name in interfaces:
         for interface in INTERFACES:
             if interface in name.lower().rpartition("/")[2]:

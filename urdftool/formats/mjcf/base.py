@@ -1,4 +1,4 @@
-"""Whether the root of a robot is held by the world or moves freely."""
+"""Choice between a fixed and a floating base."""
 
 from __future__ import annotations
 
@@ -23,15 +23,16 @@ def with_base(
     home: Mapping[str, float],
     written: Written,
 ) -> Structure:
-    """Decide whether the root is free.
+    """Decide whether the root is free, and return the structure with the decision.
 
     Args:
-        structure: The tree.
-        base: Held, free, or what the description says and how the robot stands.
-        virtual_joint: Type of the joint to the world in an SRDF, if there is one.
-        boxes: The boxes of the robot's shapes.
-        home: Where the joints are at home [rad, m].
-        written: Takes a root that is free for what the robot stands on.
+        structure: The kinematic tree.
+        base: ``fixed``, ``free``, or ``auto``, which uses the description and the support of the
+            robot.
+        virtual_joint: Type of the SRDF's virtual joint, if there is one.
+        boxes: Boxes of the robot's shapes.
+        home: Joint positions at home [rad, m].
+        written: Receives a note if the root is free because of what supports the robot.
     """
     free, reason = _decide(structure, base, virtual_joint)
     if not reason:
@@ -50,7 +51,7 @@ def with_base(
 
 
 def _decide(structure: Structure, base: Base, virtual_joint: str | None) -> tuple[bool, str]:
-    """Whether the root is free and why, by what is written; no reason where nothing is."""
+    """Return whether the root is free, and why; without a reason if nothing defines it."""
     robot = structure.robot
     if structure.in_world:
         return False, "the root link is the world"

@@ -1,4 +1,4 @@
-"""Sensors of a free base that every policy reads, where the description has none."""
+"""Sensors of a floating base that control policies read, added where the description has none."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ KINDS = (
     ("accelerometer", "_accelerometer"),
     ("framequat", "_orientation"),
 )
-"""The sensors, with what follows the link's name in theirs."""
+"""Sensor types, with the suffix of their names after the link's name."""
 
 
 def add_base_sensors(
     structure: Structure, bodies: Bodies, section: etree._Element | None, written: Written
 ) -> etree._Element | None:
-    """Add the sensors that the rigid body of a free base does not have, at its link's frame.
+    """Add missing sensors to the rigid body of a floating base, in the frame of its link.
 
     Args:
-        structure: The tree.
-        bodies: The body of each link; the base's takes a site.
+        structure: The kinematic tree.
+        bodies: Body of each link; the base's gets a site.
         section: ``<sensor>``, if there is one.
-        written: Takes the advice where the base is not free.
+        written: Receives advice if the base is fixed.
 
     Returns:
-        ``<sensor>``, or None where nothing is measured.
+        ``<sensor>``, or None if it is empty.
     """
     base = _free_link(structure)
     if base is None:
@@ -61,7 +61,7 @@ def add_base_sensors(
 
 
 def _free_link(structure: Structure) -> str | None:
-    """The link of a free base: the root, or what floats below a root that is the world."""
+    """Return the link of a floating base: the root, or the one floating link below a world root."""
     if structure.free:
         return structure.root.name
     floating = [j.child for j in structure.moving if structure.kind(j) == "free"]

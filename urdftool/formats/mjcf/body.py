@@ -1,4 +1,4 @@
-"""The tree: one body a link, none fused, each with its inertia, joint and geometry."""
+"""The body tree: one body for each link, with its inertia, joint and geometry."""
 
 from __future__ import annotations
 
@@ -25,15 +25,16 @@ Bodies = dict[str, etree._Element]
 def body_tree(
     structure: Structure, home: Home, model: str, written: Written
 ) -> tuple[etree._Element, Bodies]:
-    """``<worldbody>`` with an empty body for each link, and these by the link's name.
+    """Build ``<worldbody>`` with an empty body for each link; return it and the bodies by link.
 
-    A root link named world is the world itself. Free bodies hang on the world, as MuJoCo wants it.
+    A root link named world becomes the worldbody. Free bodies are children of the worldbody, as
+    MuJoCo requires.
 
     Args:
-        structure: The tree.
-        home: Where the robot starts.
-        model: The model's name, which is that of its default class.
-        written: Takes what is lost.
+        structure: The kinematic tree.
+        home: Initial configuration.
+        model: Name of the model and of its default class.
+        written: Receives losses.
     """
     robot = structure.robot
     world = etree.Element("worldbody")
@@ -72,7 +73,7 @@ def fill_bodies(
     materials: Materials,
     written: Written,
 ) -> None:
-    """Put into each body what belongs to its link, before the bodies below it."""
+    """Insert inertial, joints and geoms of each link into its body, before its child bodies."""
     names = UniqueNames()
     leaves = massless_leaves(structure)
     for name, body in bodies.items():

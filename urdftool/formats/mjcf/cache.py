@@ -1,4 +1,4 @@
-"""Conversions of meshes, kept for the next export of the same file."""
+"""Disk cache of mesh conversions."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ _BIG = 400_000
 
 
 Job = tuple[Path, bool, GltfUp]
-"""A file, whether it collides, and the axis of a glTF file that is up."""
+"""A file, whether it is collision geometry, and the up axis of a glTF file."""
 
 
 def convert_all(jobs: Sequence[Job]) -> list[Converted | str]:
-    """``conversion`` of each, from the cache or side by side."""
+    """Return the ``conversion`` of each job, from the cache or computed in parallel."""
     keys = [_key(*job) for job in jobs]
     cache = DiskCache(cache_folder("mjcf-meshes"))
     found: list[Converted | str | None] = [
@@ -55,7 +55,7 @@ def _key(path: Path, collides: bool, gltf_up: GltfUp) -> str | None:
     """Return the key of a conversion; None if it depends on more than can be read cheaply."""
     suffix = path.suffix.lower()
     if suffix == ".gltf":
-        return None  # its buffers are other files
+        return None  # its buffers are separate files
     try:
         inputs = [path.read_bytes()]
         if suffix == ".obj":
@@ -72,7 +72,7 @@ def _libraries(data: bytes) -> Iterable[str]:
 
 
 def _decoded(entry: bytes | None, path: Path) -> Converted | None:
-    """Return the conversion of a file that an entry of the cache holds; None if it holds none."""
+    """Decode the conversion of a file from a cache entry; return None if the entry is not valid."""
     if entry is None:
         return None
     stream = BytesIO(entry)
@@ -95,7 +95,7 @@ def _decoded(entry: bytes | None, path: Path) -> Converted | None:
 
 
 def _encoded(made: Converted, path: Path) -> bytes:
-    """Return a conversion as an entry of the cache."""
+    """Encode a conversion as a cache entry."""
     head = {
         "hull": made.hull,
         "notes": made.notes,

@@ -1,4 +1,4 @@
-"""The checks of an export to MJCF: a copy is compiled before a file of the user is touched."""
+"""Checks of an export to MJCF: a temporary copy is compiled before user files are replaced."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ NOT_COMPARED = (
     "<visual>, <statistic> and <size>",
     "comments",
 )
-"""What a model holds and no row compares."""
+"""Parts of a model that the verification does not compare."""
 
 
 def check_unwritten(
     robot: Robot, options: Options, written: Written, *, verify: bool
 ) -> list[Check]:
-    """Compile a copy of an export, where MuJoCo is installed, and compare it with its source.
+    """Compile a copy of an export if MuJoCo is installed, and compare it with its source.
 
     Args:
         robot: The source.
-        options: The options it was written with.
+        options: Options of the export.
         written: The export.
-        verify: Whether to compare it; if not, it is compiled alone.
+        verify: Whether to compare the copy; otherwise it is only compiled.
 
     Raises:
         OutputError: MuJoCo does not compile it.
-        MissingDependency: MuJoCo is not installed, and it is to be compared.
+        MissingDependency: MuJoCo is not installed, and ``verify`` is set.
     """
     if verify:
         from .verify import verify_copy
@@ -46,5 +46,5 @@ def check_unwritten(
 def check_output(
     robot: Robot, options: Options, written: Written, output: str | Path | None
 ) -> list[Check]:
-    """Check nothing: a copy was compared already."""
+    """Return no checks: ``check_unwritten`` compares a copy already."""
     return []

@@ -1,4 +1,4 @@
-"""Default classes by role: joints that share limits and gains, and feet, as in MuJoCo Menagerie."""
+"""Default classes by role, as in MuJoCo Menagerie: joints with equal limits and gains, and feet."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ SIDES = (
     "l", "r", "left", "right", "fl", "fr", "rl", "rr", "hl", "hr", "lf", "rf", "lh", "rh", "lr",
     "front", "rear", "hind", "back", "upper", "lower", "joint", "jnt", "link", "motor", "actuator",
 )  # fmt: skip
-"""Words of a joint's name that tell where it is, not what it does."""
+"""Words of a joint's name that describe its location, not its function."""
 
 FEET = ("foot", "feet", "toe", "sole", "paw")
-"""Words in the name of a link that stands on the ground."""
+"""Words in the names of links that stand on the ground."""
 
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 _OWN = ("name", "class", "joint")
@@ -27,13 +27,13 @@ Signature = tuple[tuple[str, str], ...]
 def add_joint_classes(
     robot: etree._Element, world: etree._Element, actuators: etree._Element | None, model: str
 ) -> None:
-    """Give joints that share limits, losses and the gains of their actuator a class.
+    """Create a class for joints that share limits, damping and the gains of their actuator.
 
     Args:
-        robot: The ``<default>`` of the robot's class, which gets those of the joints.
-        world: ``<worldbody>``, whose joints are changed.
-        actuators: ``<actuator>``, whose elements are changed; None where there is none.
-        model: The name of the robot's class.
+        robot: ``<default>`` of the robot's class, which receives the classes.
+        world: ``<worldbody>``, whose joints are modified.
+        actuators: ``<actuator>``, whose elements are modified; may be None.
+        model: Name of the robot's class.
     """
     driven: dict[str, list[etree._Element]] = {}
     for actuator in actuators if actuators is not None else ():
@@ -69,11 +69,11 @@ def add_joint_classes(
 
 
 def add_foot_class(collision: etree._Element, world: etree._Element) -> None:
-    """Give the collision geometry of feet the class ``foot``, so that one can set their contact.
+    """Create the class ``foot`` for the collision geoms of feet, for users to set their contact.
 
     Args:
-        collision: The ``<default>`` of the class ``collision``, which gets that of the feet.
-        world: ``<worldbody>``, whose geoms are changed.
+        collision: ``<default>`` of the class ``collision``, which receives the class.
+        world: ``<worldbody>``, whose geoms are modified.
     """
     feet = [
         geom
@@ -97,7 +97,7 @@ def _is_foot(body: etree._Element | None) -> bool:
 
 
 def _take_off(element: etree._Element, default: etree._Element, name: str) -> None:
-    """Put an element into a class, without what the class says."""
+    """Assign a class to an element, and remove the attributes that the class sets."""
     for attribute in default.attrib:
         del element.attrib[attribute]
     element.set("class", name)
@@ -108,7 +108,7 @@ def _signature(element: etree._Element, but: Iterable[str]) -> Signature:
 
 
 def _role(names: Sequence[str]) -> str:
-    """The words that the names of all joints have, without those of the side."""
+    """Join the words common to the names of all joints, without those that describe a location."""
     first, *others = (_words(name) for name in names)
     common = [word for word in first if all(word in words for words in others)]
     return "_".join(dict.fromkeys(word for word in common if word not in SIDES))

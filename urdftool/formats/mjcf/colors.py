@@ -1,4 +1,4 @@
-"""Colours that several geoms share, as materials with a plain name."""
+"""Materials for colors that several geoms share."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ PLAIN: dict[tuple[float, ...], str] = {
 
 
 def share_colors(world: etree._Element, materials: list[etree._Element]) -> None:
-    """Give the colours of two or more visuals a material each.
+    """Create a material for each color of two or more visual geoms.
 
     Args:
-        world: ``<worldbody>``, whose geoms are changed.
-        materials: The materials there are, to which those of the colours are added.
+        world: ``<worldbody>``, whose geoms are modified.
+        materials: Elements of ``<asset>``, to which the materials are appended.
     """
     geoms = [g for g in world.iter("geom") if g.get("class") == "visual" and g.get("rgba")]
     counts = Counter(geom.get("rgba", "") for geom in geoms)
@@ -43,7 +43,7 @@ def share_colors(world: etree._Element, materials: list[etree._Element]) -> None
 
 
 def color_name(rgba: str) -> str:
-    """A name for a colour: a plain word, the per cent of a grey, or its hexadecimal digits."""
+    """Name a color: a plain word, the percentage of a gray, or its hexadecimal digits."""
     red, green, blue, alpha = (min(max(float(part), 0.0), 1.0) for part in rgba.split())
     name = PLAIN.get((red, green, blue))
     if name is None and red == green == blue:

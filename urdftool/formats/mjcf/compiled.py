@@ -1,4 +1,4 @@
-"""A compiled MJCF file: what MuJoCo made of it. The only module that imports mujoco."""
+"""Access to a compiled MJCF model. The only module that imports mujoco."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _PLAIN = (
 
 
 def mujoco_module() -> Any:
-    """The library.
+    """Import and return the MuJoCo library.
 
     Raises:
         MissingDependency: It is not installed.
@@ -41,17 +41,17 @@ def compile_file(path: Path) -> tuple[Any, list[str]]:
     """Compile a file.
 
     Returns:
-        MuJoCo's model, and what the compiler warned of.
+        MuJoCo's model, and the warnings of the compiler.
 
     Raises:
         MissingDependency: MuJoCo is not installed.
-        OutputError: It does not compile.
+        OutputError: The file does not compile.
     """
     import warnings
 
     mujoco = mujoco_module()
     said: list[str] = []
-    mujoco.set_mju_user_warning(said.append)  # without it a log is written to the folder
+    mujoco.set_mju_user_warning(said.append)  # else MuJoCo writes a log file
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -66,7 +66,7 @@ def compile_file(path: Path) -> tuple[Any, list[str]]:
 
 
 def compile_copy(written: Written) -> None:
-    """Compile a copy of an export, where MuJoCo is installed, before a file of the user changes.
+    """Compile a temporary copy of an export; skip this if MuJoCo is not installed.
 
     Raises:
         OutputError: The model, or the scene around it, does not compile.
@@ -80,7 +80,7 @@ def compile_copy(written: Written) -> None:
 
 
 def compile_all(written: Written, folder: Path) -> None:
-    """Compile the model and the scene of an export that lies in a folder.
+    """Compile the model and the scene of an export that was written to a folder.
 
     Raises:
         MissingDependency: MuJoCo is not installed.
@@ -93,7 +93,7 @@ def compile_all(written: Written, folder: Path) -> None:
 
 @contextmanager
 def copied(written: Written) -> Iterator[Path]:
-    """Write a copy of an export to a temporary folder."""
+    """Write a copy of an export to a temporary folder, and yield the folder."""
     with tempfile.TemporaryDirectory(prefix="urdftool-") as place:
         folder = Path(os.path.realpath(place)) / "model"
         write_directory(folder, written.files, main=written.main)
@@ -101,15 +101,15 @@ def copied(written: Written) -> Iterator[Path]:
 
 
 class Compiled:
-    """A model in MuJoCo, posed joint by joint.
+    """A compiled MuJoCo model, posed joint by joint.
 
     Attributes:
         model: MuJoCo's model.
-        root: The body of the robot's root link; 0 is the world.
+        root: Body of the robot's root link; 0 is the world.
         renamed: New names by kind and old name.
-        warnings: What the compiler said, which should be nothing.
-        written_options: The options of the physics by name, as the file has them; the model's own
-            gravity is the one that mechanics are compared with.
+        warnings: Warnings of the compiler; none are expected.
+        written_options: Physics options of the file by name; gravity of ``model`` itself is
+            replaced by that of the reference mechanics.
     """
 
     def __init__(
@@ -119,12 +119,12 @@ class Compiled:
 
         Args:
             path: The file.
-            root: The name of the root link.
+            root: Name of the root link.
             renamed: New names by kind and old name.
 
         Raises:
             MissingDependency: MuJoCo is not installed.
-            OutputError: It does not compile.
+            OutputError: The file does not compile.
         """
         self.mujoco = mujoco_module()
         self._reference: Any = None
@@ -138,7 +138,7 @@ class Compiled:
 
     @property
     def tensor_rounding(self) -> float:
-        """How exactly MuJoCo keeps a full tensor; before 4 its diagonalisation stops early."""
+        """Return the relative error of a full tensor; diagonalization stops early before 4.0."""
         major = str(self.mujoco.__version__).partition(".")[0]
         return 1e-8 if major.isdigit() and int(major) >= 4 else 2e-6
 
@@ -147,7 +147,7 @@ class Compiled:
         return {name: np.array(getattr(model.opt, name)).tolist() for name in names}
 
     def options_of(self, section: str) -> dict[str, Any]:
-        """Return the options of a model with nothing but an ``<option>``; none if it is wrong."""
+        """Return the options that an ``<option>`` element sets; empty if MuJoCo rejects it."""
         try:
             model = self.mujoco.MjModel.from_xml_string(f"<mujoco>{section}</mujoco>")
         except ValueError:
@@ -155,7 +155,7 @@ class Compiled:
         return self._options(model)
 
     def reference(self) -> Any:
-        """Return a model of one body, joint and geom at MuJoCo's defaults."""
+        """Return a model of one body, joint and geom with MuJoCo's defaults."""
         if self._reference is None:
             self._reference = self.mujoco.MjModel.from_xml_string(_PLAIN)
         return self._reference
@@ -166,25 +166,25 @@ class Compiled:
             self.warnings.append(line)
 
     def id(self, kind: str, name: str) -> int:
-        """Number of an object by its kind (``BODY``, ``JOINT`` …) and name; -1 if there is none."""
+        """Return the index of an object by kind (``BODY``, ``JOINT`` …) and name; -1 for none."""
         number = self.mujoco.mj_name2id(
             self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{kind}"), name
         )
         return int(number)
 
     def body(self, link: str) -> int:
-        """Number of a link's body; -1 if there is none. The world is 0."""
+        """Return the index of a link's body; -1 if not found, 0 for the world."""
         return self.id("BODY", self.renamed.get(("link", link), link))
 
     def name(self, kind: str, number: int) -> str:
-        """The name of an object; empty if it has none."""
+        """Return the name of an object; empty if it has none."""
         found = self.mujoco.mj_id2name(
             self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{kind}"), number
         )
         return found or ""
 
     def pose(self, positions: Mapping[str, float]) -> None:
-        """Put the joints to positions by name [rad or m], the others to where they start."""
+        """Set joint positions by name [rad or m]; the other joints get their initial positions."""
         self.mujoco.mj_resetData(self.model, self.data)
         for name, value in positions.items():
             joint = self.id("JOINT", name)
@@ -195,13 +195,13 @@ class Compiled:
         self.mujoco.mj_camlight(self.model, self.data)
 
     def pose_at_key(self, key: int) -> None:
-        """Put the model to a key."""
+        """Set the state to a keyframe."""
         self.mujoco.mj_resetDataKeyframe(self.model, self.data, key)
         self.mujoco.mj_fwdPosition(self.model, self.data)
         self.mujoco.mj_fwdVelocity(self.model, self.data)
 
     def positions_of_key(self, key: int) -> dict[str, float]:
-        """Return the position [rad or m] of each hinge and slide in a key, by name."""
+        """Return the position [rad or m] of each hinge and slide in a keyframe, by name."""
         model, found = self.model, {}
         for joint in range(model.njnt):
             if int(model.jnt_type[joint]) in (2, 3):
@@ -210,27 +210,27 @@ class Compiled:
         return found
 
     def frame(self, link: str) -> Array | None:
-        """The pose of a link in the root's frame, 4 × 4; None if it is no body."""
+        """Return the pose of a link in the root's frame, 4 × 4; None if it is not a body."""
         body = self.body(link)
         return None if body < 0 else self._in_root(self.data.xpos[body], self.data.xmat[body])
 
     def geoms(self, body: int) -> range:
-        """Return the numbers of the geoms of a body, in the order of the file."""
+        """Return the indices of the geoms of a body, in file order."""
         if body < 0:
             return range(0)
         first = int(self.model.body_geomadr[body])
         return range(first, first + int(self.model.body_geomnum[body])) if first >= 0 else range(0)
 
     def geom_frame(self, geom: int) -> Array:
-        """The pose of a geom in the root's frame, 4 × 4."""
+        """Return the pose of a geom in the root's frame, 4 × 4."""
         return self._in_root(self.data.geom_xpos[geom], self.data.geom_xmat[geom])
 
     def site_frame(self, site: int) -> Array:
-        """The pose of a site in the root's frame, 4 × 4."""
+        """Return the pose of a site in the root's frame, 4 × 4."""
         return self._in_root(self.data.site_xpos[site], self.data.site_xmat[site])
 
     def camera_frame(self, camera: int) -> Array:
-        """The pose of a camera in the root's frame, 4 × 4; it looks along -z."""
+        """Return the pose of a camera in the root's frame, 4 × 4; it looks along -z."""
         return self._in_root(self.data.cam_xpos[camera], self.data.cam_xmat[camera])
 
     def _in_root(self, position: Array, rotation: Array) -> Array:
@@ -241,15 +241,15 @@ class Compiled:
         return pose
 
     def dofs(self, joints: list[str]) -> list[int]:
-        """The degree of freedom of each hinge or slide; -1 where there is no such joint."""
+        """Return the degree of freedom of each hinge or slide; -1 for joints that do not exist."""
         numbers = [self.id("JOINT", name) for name in joints]
         return [int(self.model.jnt_dofadr[n]) if n >= 0 else -1 for n in numbers]
 
     def mass_matrix(self, dofs: list[int]) -> Array:
-        """The mass matrix of some degrees of freedom, without armature."""
+        """Compute the mass matrix of some degrees of freedom, without armature."""
         count = self.model.nv
         full = np.zeros((count, count))
-        for dof in range(count):  # one column at a time: the call for all has changed its form
+        for dof in range(count):  # the call for the whole matrix changed its form
             unit, column = np.zeros(count), np.zeros(count)
             unit[dof] = 1.0
             self.mujoco.mj_mulM(self.model, self.data, column, unit)
@@ -258,9 +258,9 @@ class Compiled:
         return full[np.ix_(dofs, dofs)]
 
     def moved_by(self, joint: str) -> tuple[float, float]:
-        """Return the inertia [kg·m² or kg] that a joint moves: with all others held, and free.
+        """Return the inertia [kg·m² or kg] that a joint moves: with other joints held, and free.
 
-        MuJoCo makes critical damping of the first, and since version 4 of the second.
+        MuJoCo computes critical damping from the first, and from the second since version 4.
         """
         everything = list(range(self.model.nv))
         matrix = self.mass_matrix(everything) + np.diag(self.model.dof_armature)
@@ -271,11 +271,11 @@ class Compiled:
         return float(matrix[dof, dof]), 1 / float(free) if free > 0 else 0.0
 
     def gravity(self, dofs: list[int]) -> Array:
-        """The force [N·m or N] that each degree of freedom needs to hold still."""
+        """Return the force [N·m or N] that each degree of freedom needs to hold still."""
         return np.array(self.data.qfrc_bias)[dofs]
 
     def centroid(self) -> tuple[float, Array, Array]:
-        """Mass [kg], centre of mass [m] and inertia about it [kg·m²], along the root's axes."""
+        """Compute mass [kg], center of mass [m] and inertia about it [kg·m²], in the root frame."""
         masses = np.array(self.model.body_mass)
         mass = float(masses.sum())
         if mass == 0:

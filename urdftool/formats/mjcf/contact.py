@@ -1,9 +1,8 @@
-"""Pairs of bodies that do not collide.
+"""Contact exclusions.
 
-MuJoCo does not collide the geoms of one rigid body, nor those of a rigid body with those of the
-one it hangs on, unless that one is held by the world. Those pairs are excluded here, as every
-engine for URDF does it; then those that a joint joins which closes a loop, and those that an SRDF
-disables.
+MuJoCo does not collide geoms of one rigid body, nor those of a body and its parent body, unless the
+parent is static. URDF engines ignore a link and its parent in that case too, so these pairs are
+excluded, in addition to the pairs that a loop-closing joint connects or an SRDF disables.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ from .structure import Structure
 def contact_section(
     structure: Structure, bodies: Bodies, srdf: Srdf | None, exclude: Exclude
 ) -> etree._Element | None:
-    """``<contact>``, or None where nothing needs to be excluded."""
+    """Build ``<contact>``, or return None if no pair is excluded."""
     pairs = _beside_the_world(structure, bodies) if exclude != "none" else []
     filtered = set(map(frozenset, pairs))
     joined = [(loop.parent, loop.child) for loop in loops(structure)] if exclude != "none" else []
@@ -39,7 +38,7 @@ def contact_section(
 
 
 def _touching(structure: Structure, bodies: Bodies, top: str) -> list[str]:
-    """The links of a rigid body that have a geom which collides."""
+    """Return the links of a rigid body that have a collision geom."""
     return [
         link.name
         for link in structure.members[top]
@@ -48,7 +47,7 @@ def _touching(structure: Structure, bodies: Bodies, top: str) -> list[str]:
 
 
 def _beside_the_world(structure: Structure, bodies: Bodies) -> list[tuple[str, str]]:
-    """What is held by the world, with each link of the rigid bodies that hang on it."""
+    """Pair the static links with the links of the moving bodies attached to them."""
     if structure.free:
         return []
     pairs = []
@@ -63,7 +62,7 @@ def _beside_the_world(structure: Structure, bodies: Bodies) -> list[tuple[str, s
 
 
 def _can_collide(structure: Structure, bodies: Bodies, one: str, other: str) -> bool:
-    """Whether two links would collide in MuJoCo without an exclusion."""
+    """Tell whether two links would collide in MuJoCo without an exclusion."""
     if one not in bodies or other not in bodies:
         return False
     tops = structure.group[one], structure.group[other]

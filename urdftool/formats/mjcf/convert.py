@@ -1,8 +1,8 @@
-"""One mesh file as MuJoCo reads it: copied where it can, else converted to OBJ by material.
+"""Conversion of a mesh file for MuJoCo: copied if possible, otherwise converted to OBJ.
 
-MuJoCo reads binary STL of at most 200,000 triangles and OBJ, of which older versions take the first
-object alone; it wants four points that are not in one plane for what collides, and a volume for
-what is not declared a shell.
+MuJoCo reads binary STL of at most 200,000 triangles and OBJ; older versions read only the first
+object of an OBJ file. A collision mesh needs four points that are not coplanar; a mesh that is not
+declared a shell needs volume. Visual meshes are split by material.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ FLAT = 1e-6
 """Thickness relative to the size below which a mesh counts as flat."""
 
 THICKENED = 1e-3
-"""What a flat mesh that collides is thickened to, relative to its size."""
+"""Thickness that a flat collision mesh gets, relative to its size."""
 
 LONG_FACE = re.compile(rb"\nf(?:[ \t]+\S+){101}")
-"""A polygon of over 100 corners, which MuJoCo leaves out without a word."""
+"""A polygon of more than 100 vertices, which MuJoCo skips without a warning."""
 
 Rgba = tuple[float, float, float, float]
 Image = Path | bytes
@@ -38,13 +38,13 @@ Image = Path | bytes
 
 @dataclass
 class Piece:
-    """One mesh asset: its file, and how it looks.
+    """One mesh asset: its file and appearance.
 
     Attributes:
-        data: The file; None for the original.
-        rgba: Its colour, where the file gives one.
-        texture: Its image, where the file gives one: a file, or the image itself.
-        shell: Whether it has too little volume to be anything but a shell.
+        data: Content of the file; None for the original file.
+        rgba: Color in the mesh file, if any.
+        texture: Image in the mesh file, if any: the path of a file, or the image itself.
+        shell: Whether its volume is too small for MuJoCo's volume inertia.
     """
 
     data: bytes | None
@@ -55,13 +55,13 @@ class Piece:
 
 @dataclass
 class Converted:
-    """A mesh file in one role.
+    """A mesh file, converted as collision or visual geometry.
 
     Attributes:
-        pieces: One for what collides; one for each material of what is seen.
-        hull: Volume of the convex hull over that of the mesh; None where the mesh has none.
-        notes: What a user should know of the conversion.
-        thick: Whether it was flat, and is thickened.
+        pieces: One for collision geometry; one for each material of visual geometry.
+        hull: Ratio of the volume of the convex hull to that of the mesh; None for open meshes.
+        notes: Notes to the user about the conversion.
+        thick: Whether the mesh was flat and was thickened.
     """
 
     pieces: list[Piece]
@@ -71,10 +71,10 @@ class Converted:
 
 
 def convert(path: Path, *, collides: bool, gltf_up: GltfUp = "y") -> Converted:
-    """A mesh file in MuJoCo's formats, unscaled, in the frame of the ``<geometry>``.
+    """Convert a mesh file to MuJoCo's formats, unscaled, in the frame of the ``<geometry>``.
 
     Raises:
-        MeshError: It cannot be read.
+        MeshError: The file cannot be read.
     """
     mesh = load_mesh(path, gltf_up=gltf_up)
     notes = list(mesh.notes)
@@ -96,7 +96,7 @@ def convert(path: Path, *, collides: bool, gltf_up: GltfUp = "y") -> Converted:
             notes.append(MeshNote("few-points", message, lossy=True))
             data, image = _thick_obj(vertices[faces]), None
         elif not (copied and len(groups) == 1):
-            # without a look of its own it may get an image from the material of the visual
+            # a piece without a color may get an image from the material of the visual
             seen = image is not None or part.rgba is None
             data = obj_bytes(vertices, faces, uv if seen else None)
         pieces.append(Piece(data, part.rgba, image, shell))
@@ -127,7 +127,7 @@ def _is_readable(mesh: Mesh) -> bool:
         )
     if mesh.format == "obj":
         data = b"\n" + mesh.path.read_bytes()
-        # points of no face, which MuJoCo would take into the hull
+        # MuJoCo would include points without a face in the hull
         stray = data.count(b"\nv ") > len(mesh.vertices)
         if stray or LONG_FACE.search(data):
             return False
@@ -136,14 +136,14 @@ def _is_readable(mesh: Mesh) -> bool:
 
 
 def part_image(part: Part) -> Image | None:
-    """The image of a part, if it can be shown: where it is known how it lies on the faces."""
+    """Return the image of a part; None if the part has no valid texture coordinates."""
     if part.uv is None or not np.isfinite(part.uv).all():
         return None
     return part.image if part.texture is None else part.texture
 
 
 def _by_material(mesh: Mesh) -> list[tuple[Part, Faces, Points | None]]:
-    """The faces by how they look, with their texture coordinates, in the order of the file."""
+    """Group the faces by color and image, with their texture coordinates, in file order."""
     looks: dict[tuple[Rgba | None, Path | bytes | None], list[Part]] = {}
     for part in mesh.parts:
         looks.setdefault((part.rgba, part_image(part)), []).append(part)
@@ -157,12 +157,12 @@ def _by_material(mesh: Mesh) -> list[tuple[Part, Faces, Points | None]]:
 
 
 def _points(corners: Points) -> int:
-    """How many different points there are, counted up to four."""
+    """Count the distinct points among the first 64, up to four."""
     return min(len(np.unique(corners.reshape(-1, 3)[:64], axis=0)), 4)
 
 
 def _thickness(points: Points) -> float:
-    """The extent of points across their flattest direction, relative to their size."""
+    """Compute the extent of points along their thinnest direction, relative to their size."""
     centred = points - points.mean(axis=0)
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     if size == 0:
@@ -172,7 +172,7 @@ def _thickness(points: Points) -> float:
 
 
 def _thick_obj(corners: Points) -> bytes:
-    """Triangles, shape (n, 3, 3), as two layers with walls between: a body with volume."""
+    """Convert triangles, shape (n, 3, 3), to an OBJ of two offset layers connected by walls."""
     points = corners.reshape(-1, 3)
     size = float(np.linalg.norm(np.ptp(points, axis=0))) or 1e-3
     centred = points - points.mean(axis=0)
@@ -190,7 +190,7 @@ def _thick_obj(corners: Points) -> bytes:
 
 
 def signed_volume(vertices: Points, faces: Faces) -> float:
-    """Volume [m³] by the divergence theorem; of a closed surface, wherever the origin is."""
+    """Compute the volume [m³] by the divergence theorem; it is exact for closed surfaces."""
     a, b, c = (vertices[faces[:, i]] - vertices[faces[0, 0]] for i in range(3))
     return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum()) / 6
 
@@ -202,7 +202,7 @@ def _is_shell(vertices: Points, faces: Faces) -> bool:
 
 
 def _hull_ratio(mesh: Mesh) -> float | None:
-    """Volume of the hull over the mesh's; None for an open or a flat mesh."""
+    """Compute the ratio of the hull's volume to the mesh's; None for an open or flat mesh."""
     if not _is_closed(mesh):
         return None
     volume = signed_volume(mesh.vertices, mesh.faces)
@@ -213,7 +213,7 @@ def _hull_ratio(mesh: Mesh) -> float | None:
 
 
 def _is_closed(mesh: Mesh) -> bool:
-    """Whether every edge is run through once in either direction, equal points being one."""
+    """Tell whether every edge is used once in each direction, after merging equal points."""
     _, same = np.unique(mesh.vertices, axis=0, return_inverse=True)
     faces = same.reshape(-1)[mesh.faces]
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
@@ -225,7 +225,7 @@ def _is_closed(mesh: Mesh) -> bool:
 
 
 def conversion(path: Path, collides: bool, gltf_up: GltfUp) -> Converted | str:
-    """As ``convert``; a file that cannot be read gives its message, for a worker process."""
+    """Call ``convert``; return the message of a MeshError, for use in a worker process."""
     try:
         return convert(path, collides=collides, gltf_up=gltf_up)
     except MeshError as error:

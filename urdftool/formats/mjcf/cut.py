@@ -1,4 +1,4 @@
-"""Meshes that collide as convex pieces: what cuts them is given from outside."""
+"""Interface to the convex decomposition of collision meshes; the caller supplies the algorithm."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from ...geometry.mesh import Faces, Points
 
 @dataclass(frozen=True)
 class Cut:
-    """Convex pieces that stand for a mesh, unscaled.
+    """Convex decomposition of a mesh, unscaled.
 
     Attributes:
-        pieces: Points and triangles of each.
-        error: Largest distance of the surfaces, relative to the diagonal of the mesh's box.
+        pieces: Vertices and triangles of each convex piece.
+        error: Largest distance between the surfaces, relative to the diagonal of the mesh's
+            bounding box.
     """
 
     pieces: Sequence[tuple[Points, Faces]]
@@ -23,4 +24,4 @@ class Cut:
 
 
 Cutter = Callable[[Sequence[Path]], Mapping[Path, Cut | str]]
-"""Cuts mesh files; one that cannot be cut has the reason in words."""
+"""Decomposes mesh files; a mesh that cannot be decomposed has a message instead."""

@@ -1,4 +1,4 @@
-"""Which loss of an export excuses which difference."""
+"""Groups of reported losses by the difference that they explain."""
 
 from __future__ import annotations
 
@@ -6,40 +6,40 @@ INERTIA = (
     "lossy-inertia", "lossy-massless", "lossy-point-mass", "lossy-world-mass", "negative-mass",
     "inertia-triangle-inequality",
 )  # fmt: skip
-"""Masses or tensors are changed."""
+"""Masses or tensors were changed."""
 
 TREE = (
     "lossy-mimic", "lossy-mimic-fixed", "zero-axis", "unknown-joint-type",
     "mimic-unknown-joint", "mimic-cycle",
 )  # fmt: skip
-"""A joint moves otherwise than it is written."""
+"""A joint moves differently from its description."""
 
 FREE = "lossy-free-base"
-"""The root is free for what the robot stands on."""
+"""The root is free because of what supports the robot."""
 
 LOOPS = ("lossy-loop", "bad-extension-number")
-"""A joint that closes a loop is left out."""
+"""A loop-closing joint was dropped."""
 
 LIMITS = (
     "lossy-limit-inverted", "lower-above-upper", "not-a-number", "lossy-mimic-fixed",
     "lossy-actuator-config",
 )  # fmt: skip
-"""A joint's bounds are changed."""
+"""The limits of a joint were changed."""
 
 TORN = ("lossy-floating",)
-"""A body that floats hangs on the world instead of its parent."""
+"""A floating body is a child of the world instead of its parent."""
 
 EFFORT = ("lossy-effort", "not-a-number", "lossy-actuator-config")
-"""The bound of its effort is changed."""
+"""The effort limit of a joint was changed."""
 
 SHAPES = (
     "lossy-collision", "lossy-visual", "lossy-mesh", "mesh-not-found", "bad-scale",
     "corrupt-mesh", "empty-geometry", "unsupported-shape", "not-a-number",
 )  # fmt: skip
-"""A shape is dropped or changed."""
+"""A shape was dropped or changed."""
 
 CUT = ("lossy-convex",)
-"""A mesh that collides is cut into pieces."""
+"""A collision mesh was decomposed into convex pieces."""
 
 LOOKS = ("lossy-material", "lossy-texture")
-"""A colour is."""
+"""A color or texture was changed."""

@@ -1,4 +1,4 @@
-"""Default classes as in MuJoCo Menagerie: what most joints and geoms share is said once."""
+"""Default classes as in MuJoCo Menagerie, for attributes that most joints or geoms share."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from lxml import etree
 from .classes import add_foot_class, add_joint_classes
 from .gazebo import DEFAULT_FRICTION
 
-# attribute -> what MuJoCo takes where neither the element nor a class says it
+# attribute -> MuJoCo's default
 JOINT = {"axis": "0 0 1", "damping": "0", "frictionloss": "0", "armature": "0"}
 GEOM = {"type": "sphere", "friction": DEFAULT_FRICTION}
 
@@ -20,12 +20,12 @@ COLLISION = {"group": "3"}
 def default_section(
     model: str, world: etree._Element, actuators: etree._Element | None = None
 ) -> etree._Element:
-    """``<default>`` with the robot's class; what it says is taken off the elements.
+    """Build ``<default>`` with the robot's class; remove the shared attributes from the elements.
 
     Args:
-        model: The model's name, which is that of the class.
-        world: ``<worldbody>``, whose joints and geoms are changed.
-        actuators: ``<actuator>``, whose elements are changed.
+        model: Name of the model and of the class.
+        world: ``<worldbody>``, whose joints and geoms are modified.
+        actuators: ``<actuator>``, whose elements are modified.
     """
     section = etree.Element("default")
     robot = etree.SubElement(section, "default", {"class": model})
@@ -57,7 +57,7 @@ def default_section(
 def _share(
     default: etree._Element, elements: list[etree._Element], builtin: dict[str, str]
 ) -> None:
-    """Give the default what more than half of the elements have; the others say their own."""
+    """Move values that more than half of the elements share to the default; write others out."""
     for attribute, plain in builtin.items():
         counts = Counter(element.get(attribute, plain) for element in elements)
         if not counts:

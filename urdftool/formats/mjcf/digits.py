@@ -1,8 +1,8 @@
-"""Numbers as text without the noise of floating point: ``2.375e-06``, not its neighbor.
+"""Numbers as text without floating-point noise: ``2.375e-06``, not ``2.3749999999999997e-06``.
 
-xacro computes ``2.3749999999999997e-06`` of a mass and a size, and a rotation of an inertia tensor
-leaves the like. A number within a few units in the last place of one with at
-most ten digits is that one: it changes by less than 2e-15 of itself.
+xacro expressions and rotations of inertia tensors leave such rounding errors. A number within a few
+units in the last place of one with at most ten digits is replaced by that one: a relative change
+below 2e-15.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from collections.abc import Iterable
 from ..common import numbers
 
 DIGITS = 10
-"""The most digits of a number that somebody wrote."""
+"""Maximum number of significant digits of a number that a person wrote."""
 
 NOISE = 8
-"""Units in the last place that rounding explains."""
+"""Units in the last place that are attributed to rounding."""
 
 
 def snapped(value: float) -> float:
-    """Return the number of at most ten digits that a number is, up to rounding; or itself."""
+    """Round a number to ten significant digits if the change is within rounding noise."""
     if not math.isfinite(value) or value == 0:
         return value
     short = float(f"{value:.{DIGITS}g}")
@@ -28,10 +28,10 @@ def snapped(value: float) -> float:
 
 
 def number_text(value: float) -> str:
-    """Format a number as the shortest text that reads back as it, without noise."""
+    """Format a number as the shortest text that reads back as the same double, without noise."""
     return numbers.number_text(snapped(value))
 
 
 def numbers_text(values: Iterable[float]) -> str:
-    """Format numbers with blanks between."""
+    """Format numbers without noise, separated by blanks."""
     return " ".join(map(number_text, values))

@@ -1,4 +1,4 @@
-"""The sections as a file: in Menagerie's order, two blanks a level, a line between sections."""
+"""Serialization of the sections: in Menagerie's order, indented by two blanks, with blank lines."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ ORDER = (
     "contact", "equality", "actuator", "sensor", "keyframe", "custom",
 )  # fmt: skip
 
-# the order in which one would write the attributes of an element
+# order of the attributes of an element
 ATTRIBUTES = (
     "name", "class", "joint", "joint1", "joint2", "body1", "body2", "site", "objtype", "objname",
     "type", "childclass", "mass", "size", "pos", "quat", "axis", "dir", "mesh", "material", "rgba",
@@ -24,11 +24,11 @@ ATTRIBUTES = (
 
 
 def assemble(model: str, sections: dict[str, etree._Element]) -> bytes:
-    """The file of a model.
+    """Serialize a model.
 
     Args:
-        model: Its name.
-        sections: By the name of their element.
+        model: Name of the model.
+        sections: Sections by element name.
     """
     root = etree.Element("mujoco", model=model)
     for name in ORDER:
@@ -39,7 +39,7 @@ def assemble(model: str, sections: dict[str, etree._Element]) -> bytes:
 
 
 def serialise(root: etree._Element) -> bytes:
-    """A tree as text, the same bytes for the same tree."""
+    """Serialize a tree; equal trees give equal bytes."""
     for element in root.iter(etree.Element):
         _order(element)
     etree.indent(root, "  ")
@@ -52,7 +52,7 @@ def serialise(root: etree._Element) -> bytes:
 
 
 def note_losses(losses: Iterable[Finding], bodies: Bodies) -> None:
-    """Write what was lost of a link or joint as a comment where it would stand."""
+    """Insert the losses of a link or joint as comments at its element."""
     joints = {
         element.get("name"): element
         for tag in ("site", "joint")  # a locked joint is a site
@@ -70,7 +70,7 @@ def note_losses(losses: Iterable[Finding], bodies: Bodies) -> None:
 
 
 def comment(text: str) -> etree._Comment:
-    """A comment; XML allows no two dashes in it."""
+    """Create a comment; XML does not allow two consecutive dashes in it."""
     return etree.Comment(f" {re.sub('-(?=-)', '- ', text.rstrip('-'))} ")
 
 

@@ -1,4 +1,4 @@
-"""Which joints the description drives: by transmissions, ros2_control, or Gazebo's plugins."""
+"""Joints that the description drives: by transmissions, ros2_control, or Gazebo plugins."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PLUGINS = (
     "mecanum",
     "hoverboard",
 )
-"""Words in the name of a Gazebo plugin that drives a robot over the ground."""
+"""Words in the names of Gazebo plugins that drive a robot over the ground."""
 
 
 def drive_plugins(robot: Robot) -> list[Plugin]:
@@ -30,11 +30,10 @@ def drive_plugins(robot: Robot) -> list[Plugin]:
 
 
 def plugin_drives(robot: Robot) -> dict[str, str]:
-    """Return how a drive plugin moves each joint that it names.
+    """Return how drive plugins actuate the joints that they name.
 
     Returns:
-        ``velocity`` for a wheel, ``position`` for a joint with limits, which steers, by the name
-        of the joint.
+        By joint name: ``velocity`` for a wheel, ``position`` for a joint with limits, which steers.
     """
     found = {}
     for plugin in drive_plugins(robot):
@@ -49,7 +48,7 @@ def plugin_drives(robot: Robot) -> dict[str, str]:
 
 
 def commanded_joints(robot: Robot) -> set[str]:
-    """Return the names of joints that a transmission, ros2_control or a drive plugin moves."""
+    """Return the names of joints that a transmission, ros2_control or a drive plugin actuates."""
     names = {joint.name for part in robot.transmissions for joint in part.joints}
     for block in robot.ros2_controls:
         names |= {joint.name for joint in block.joints if joint.command_interfaces}

@@ -1,4 +1,4 @@
-"""Joints that follow another, cannot move, or close a loop, as equalities."""
+"""Equality constraints for mimic joints, locked joints and loop-closing joints."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .structure import Structure, locked_at
 
 
 def equality_section(structure: Structure, written: Written) -> etree._Element | None:
-    """``<equality>``, or None where no joint follows, is locked or closes a loop."""
+    """Build ``<equality>``; None if no joint mimics another, is locked or closes a loop."""
     section = etree.Element("equality")
     for joint in structure.moving:
         if joint.mimic is not None:
@@ -28,7 +28,7 @@ def equality_section(structure: Structure, written: Written) -> etree._Element |
 
 
 def follows(structure: Structure, joint: Joint) -> bool:
-    """Whether a joint follows another in MuJoCo."""
+    """Tell whether a joint mimics another one."""
     if joint.mimic is None or structure.kind(joint) not in ("hinge", "slide"):
         return False
     leader = structure.robot.joint.get(joint.mimic.joint)

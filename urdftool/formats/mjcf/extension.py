@@ -1,4 +1,4 @@
-"""The ``<mujoco>`` element of a URDF: what of it speaks of the model is taken over."""
+"""The ``<mujoco>`` element of a URDF: its model options are copied to the export."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ OURS = frozenset(
      "balanceinertia", "inertiafromgeom", "inertiagrouprange", "eulerseq", "coordinate",
      "autolimits", "boundmass", "boundinertia", "settotalmass", "convexhull")
 )  # fmt: skip
-"""Attributes of ``<compiler>`` about reading URDF, or that would change the robot."""
+"""Attributes of ``<compiler>`` that control the reading of URDF, or that would change the robot."""
 
 SECTIONS = ("option", "size", "visual", "statistic")
 
@@ -26,10 +26,10 @@ SECTIONS = ("option", "size", "visual", "statistic")
 BOOLEAN = ("true", "false")
 
 WHOLE = 0
-"""One whole number."""
+"""Marks a single integer."""
 
-# tag -> attribute -> how many numbers (-n for at most n), or the words it may be; what is not here
-# is taken as it is
+# tag -> attribute -> count of numbers (-n for at most n), or allowed words; other attributes
+# are copied unchecked
 VALUES: dict[str, dict[str, int | tuple[str, ...]]] = {
     "compiler": {
         **dict.fromkeys(("alignfree", "fitaabb", "usethread", "saveinertial"), BOOLEAN),
@@ -89,7 +89,7 @@ VALUES: dict[str, dict[str, int | tuple[str, ...]]] = {
 
 
 def extension_defects(robot: Robot) -> Iterator[Finding]:
-    """Values that MuJoCo would refuse: what is no number, too few of them, or an unknown word."""
+    """Yield values that MuJoCo rejects: not a number, too few numbers, or an unknown word."""
     for extension in robot.element.all("mujoco"):
         for part in extension.children:
             if part.tag != "compiler" and part.tag not in SECTIONS:
@@ -108,7 +108,7 @@ def extension_defects(robot: Robot) -> Iterator[Finding]:
 
 
 def _refused(element: Element, name: str) -> str:
-    """What an attribute should be and is not; empty where nothing is wrong."""
+    """Describe the required value of an attribute; return "" if the value is valid."""
     wanted = VALUES.get(element.tag, {}).get(name)
     value = element.get(name) or ""
     if wanted is None or (element.tag == "compiler" and name in OURS):
@@ -127,7 +127,7 @@ def _refused(element: Element, name: str) -> str:
 
 
 def apply_extension(robot: Robot, sections: dict[str, etree._Element], written: Written) -> None:
-    """Take over ``<compiler>``, ``<option>`` and what else is known, into sections by name."""
+    """Copy ``<compiler>``, ``<option>`` and other known elements to the sections, by name."""
     for extension in robot.element.all("mujoco"):
         for child in extension.children:
             if child.tag == "compiler":

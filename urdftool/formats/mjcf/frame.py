@@ -1,4 +1,4 @@
-"""Where a body, geom or site is: ``pos`` [m] and ``quat`` (w, x, y, z) in its parent."""
+"""Poses of elements: ``pos`` [m] and ``quat`` (w, x, y, z) in the parent's frame."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _SAME = 1e-15
 
 
 def set_origin(element: etree._Element, origin: Origin | None) -> None:
-    """Put an element at a URDF origin; what is MuJoCo's default is not written."""
+    """Set the pose of an element to a URDF origin; MuJoCo's defaults are not written."""
     if origin is None:
         return
     if any(origin.xyz):
@@ -25,7 +25,7 @@ def set_origin(element: etree._Element, origin: Origin | None) -> None:
 
 
 def set_pose(element: etree._Element, pose: Pose) -> None:
-    """Put an element at a pose; what is MuJoCo's default is not written."""
+    """Set the pose of an element; MuJoCo's defaults are not written."""
     if any(pose.translation):
         element.set("pos", numbers_text(pose.translation))
     quaternion = plain(quaternion_of_rotation(pose.rotation))
@@ -34,7 +34,7 @@ def set_pose(element: etree._Element, pose: Pose) -> None:
 
 
 def quaternion_of(origin: Origin) -> Quaternion | None:
-    """The quaternion of an origin as one would write it; None for no rotation."""
+    """Return the simplified quaternion of an origin; None for no rotation."""
     if origin.quaternion is not None:
         x, y, z, w = origin.quaternion
         return plain((w, x, y, z))
@@ -44,10 +44,10 @@ def quaternion_of(origin: Origin) -> Quaternion | None:
 
 
 def plain(quaternion: Quaternion) -> Quaternion | None:
-    """A quaternion as one would write it by hand, or None for no rotation.
+    """Simplify a quaternion (w, x, y, z) for writing; return None for no rotation.
 
-    MuJoCo normalises, so that a quarter turn may be ``1 1 0 0``. Parts count as equal, or as zero,
-    only where they are so to the last bits of a double.
+    MuJoCo normalizes quaternions, so a quarter turn may be ``1 1 0 0``. Components count as equal
+    or zero only within the last bits of a double.
     """
     size = max(map(abs, quaternion))
     if size == 0:

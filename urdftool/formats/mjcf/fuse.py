@@ -1,9 +1,9 @@
-"""Links that are fixed to another, merged into it: fewer bodies, and every frame as a site.
+"""Merging of rigidly attached links into their parents: fewer bodies, every link frame as a site.
 
-MuJoCo welds a body without a joint to its parent, and still pays for it in every step. The merged
-body has the exact mass properties of its links, and their geometry, sensors and frames where they
-were. A body stays where it has a meaning of its own: something refers to it, a force or touch
-sensor measures at it, or gravity does not act on it as on its parent.
+MuJoCo welds a body without a joint to its parent, but it still costs time in every step. The merged
+body has the exact mass properties of its links and keeps the poses of their geometry, sensors and
+frames. A body is not merged if something refers to it, if a force or touch sensor measures at it,
+or if gravity acts differently on it and on its parent.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ from .link_inertia import LinkInertia, inertial_element
 from .structure import Structure
 
 REFERENCES = ("body", "body1", "body2", "objname", "refname", "target")
-"""Attributes that name a body."""
+"""Attributes that refer to a body."""
 
 AT_BODY = ("force", "torque", "touch")
-"""Sensors that measure between the body of their site and its parent, or on all of a body."""
+"""Sensors that measure between the body of their site and its parent, or on the whole body."""
 
 
 def fuse_links(
@@ -42,11 +42,11 @@ def fuse_links(
     """Merge each link without a joint of its own into its parent, and keep its frame as a site.
 
     Args:
-        structure: The tree.
-        bodies: The body of each link, which are changed.
-        sections: The model, whose exclusions are changed.
+        structure: The kinematic tree.
+        bodies: Body of each link, modified in place.
+        sections: The model, whose exclusions are modified.
         masses: Mass properties of the links.
-        written: Takes which links are merged.
+        written: Receives a note with the number of merged links.
     """
     kept = _kept(sections)
     apart = _apart(sections.get("contact"))
@@ -69,7 +69,7 @@ def fuse_links(
             of_top = apart.get(bodies[top].get("name", ""), set())
             first = contacts.setdefault(top, of_top if _collides(bodies[top]) else own)
             if first != own:
-                continue  # merged, links would be kept apart that are not
+                continue  # a merged body would exclude contacts that one of the links has
         owner[link] = top
         poses[link] = pose_of_element(body)  # those above it are merged already
         _merge(body, bodies[top], sites)
@@ -97,7 +97,7 @@ def _vector(text: str | None) -> Vector:
 
 
 def pose_of_element(element: etree._Element) -> Pose:
-    """Read ``pos`` and ``quat`` of an element."""
+    """Read the pose of an element from ``pos`` and ``quat``."""
     w, a, b, c = (float(part) for part in (element.get("quat") or "1 0 0 0").split())
     size = (w * w + a * a + b * b + c * c) ** 0.5
     return Pose(
@@ -107,7 +107,7 @@ def pose_of_element(element: etree._Element) -> Pose:
 
 
 def _kept(sections: Mapping[str, etree._Element]) -> set[str]:
-    """The names of the bodies that something refers to or measures at."""
+    """Return the names of the bodies that something refers to or measures at."""
     names = {
         str(element.get(attribute))
         for name in ("equality", "sensor", "actuator")
@@ -128,7 +128,7 @@ def _kept(sections: Mapping[str, etree._Element]) -> set[str]:
 
 
 def _apart(contact: etree._Element | None) -> dict[str, set[str]]:
-    """For each body that does not collide with others the names of these."""
+    """Return for each body in an exclusion the names of its partners."""
     found: dict[str, set[str]] = {}
     for exclude in contact if contact is not None else ():
         one, other = exclude.get("body1", ""), exclude.get("body2", "")
@@ -142,7 +142,7 @@ def _collides(body: etree._Element) -> bool:
 
 
 def _merge(body: etree._Element, into: etree._Element, sites: UniqueNames) -> None:
-    """Move what a body has into another, at the same place."""
+    """Move the content of a body into another body, keeping its pose."""
     at = pose_of_element(body)
     where = into.index(body)
     into.remove(body)
@@ -180,7 +180,7 @@ def _write_inertia(
     poses: Mapping[str, Pose],
     masses: Mapping[str, LinkInertia],
 ) -> None:
-    """Write the mass properties of several links as one."""
+    """Write the combined mass properties of several links."""
     parts = [(masses[name], poses.get(name, Pose())) for name in links if name in masses]
     if not parts or (len(parts) == 1 and links[0] in masses):
         return
@@ -192,10 +192,10 @@ def _write_inertia(
 
 
 def composed(parts: list[tuple[LinkInertia, Pose]]) -> LinkInertia:
-    """Compute the mass properties of several links that are one rigid body.
+    """Compute the mass properties of several links that form one rigid body.
 
     Args:
-        parts: Mass properties of each, and the pose of its link in the frame of the whole.
+        parts: Mass properties of each link, with the link's pose in the frame of the whole.
     """
     whole = combine(read.body.moved(pose) for read, pose in parts)
     return LinkInertia(whole, parts[0][0].place)
@@ -211,7 +211,7 @@ def _leading_comments(body: etree._Element) -> Iterator[etree._Element]:
 def _rename_exclusions(
     contact: etree._Element | None, owner: Mapping[str, str], bodies: Bodies
 ) -> None:
-    """Let exclusions name the bodies into which links were merged, each pair once."""
+    """Rename bodies in exclusions to those into which they were merged; remove duplicates."""
     if contact is None:
         return
     into = {bodies[link].get("name"): bodies[top].get("name") for link, top in owner.items()}

@@ -1,15 +1,15 @@
-"""Gains that a description does not have: from the effort, within what the time step allows.
+"""Default gains, which URDF does not have: from the effort limit, bounded for the time step.
 
-A servo asks for the whole effort of its joint at a small error. Many descriptions have a
-placeholder as effort, and a servo of 10 times that would be stiffer than any time step can
-integrate. So a gain is bounded by the inertia M that the joint moves at home: the servo swings at
-250 rad/s at most, which is M/Δt² / 4 at MuJoCo's time step of 2 ms, and 1.56 M/Δt² at 5 ms.
+A position servo applies the full effort of its joint at a small error. Many descriptions have a
+placeholder effort, and a gain of 10 times that would be too stiff for any time step. Therefore the
+gain is bounded by the inertia M that the joint moves at home: the servo oscillates at 250 rad/s at
+most, which is 0.25 M/Δt² at MuJoCo's time step of 2 ms, and 1.56 M/Δt² at 5 ms.
 
-Measured in MuJoCo 4.0 with ``implicitfast`` and critical damping, on the 104 robots of
-example-robot-data and pybullet_data that have joints, without contacts, at 2 ms and 5 ms: with
-gains of up to 1.56 M/(5 ms)² all but two hold still, which do not have the effort for it; six do
-not at 4, seventeen at 16, and twenty-one without a bound. Velocity servos, which ``implicitfast``
-integrates implicitly, are stable up to 1000 M/Δt: they need no bound.
+Measured in MuJoCo 4.0 with ``implicitfast`` and critical damping, on the 104 robots with joints of
+example-robot-data and pybullet_data, without contacts, at 2 ms and 5 ms: with gains of up to
+1.56 M/(5 ms)² all but two hold still, which lack the effort; six do not at 4 times M/(5 ms)²,
+seventeen at 16 times, and twenty-one without a bound. Velocity servos, which ``implicitfast``
+integrates implicitly, are stable up to 1000 M/Δt and need no bound.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ TIMESTEP = 0.002
 """Physics time step [s] for which gains are bounded: MuJoCo's default."""
 
 PART = 0.25
-"""The largest position gain, as a part of M/Δt²."""
+"""Maximum position gain as a fraction of M/Δt²."""
 
 POSITION_GAIN = {"hinge": 10.0, "slide": 100.0}
-"""Gain of a position servo over its joint's effort [1/rad or 1/m]: all of it at 0.1 rad or 1 cm."""
+"""Ratio of position gain to effort limit [1/rad or 1/m]: full effort at 0.1 rad or 1 cm."""
 
 VELOCITY_GAIN = 10.0
-"""Gain of a velocity servo over effort by velocity: all of it at a tenth of the velocity."""
+"""Ratio of velocity gain to effort/velocity: full effort at a tenth of the velocity limit."""
 
 PLAIN_GAIN = {
     "position": {"hinge": 100.0, "slide": 1000.0},
     "velocity": {"hinge": 10.0, "slide": 100.0},
 }
-"""Gains where no effort is written."""
+"""Gains for joints without an effort limit."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ def position_gain(kind: str, effort: float | None, inertia: float) -> Gain:
 
     Args:
         kind: ``hinge`` or ``slide``.
-        effort: The effort limit [N·m or N], where there is one.
+        effort: The effort limit [N·m or N], if any.
         inertia: The inertia that the joint moves, with its armature [kg·m² or kg].
     """
     wanted = effort * POSITION_GAIN[kind] if effort else PLAIN_GAIN["position"][kind]
@@ -63,8 +63,8 @@ def velocity_gain(kind: str, effort: float | None, velocity: float) -> Gain:
 
     Args:
         kind: ``hinge`` or ``slide``.
-        effort: The effort limit [N·m or N], where there is one.
-        velocity: The velocity limit [rad/s or m/s]; 0 where there is none.
+        effort: The effort limit [N·m or N], if any.
+        velocity: The velocity limit [rad/s or m/s]; 0 for none.
     """
     wanted = PLAIN_GAIN["velocity"][kind]
     if effort and velocity:

@@ -1,4 +1,4 @@
-"""What ``<gazebo>`` says of links, joints and the robot, as far as MuJoCo has it."""
+"""Settings of links, joints and the robot in ``<gazebo>`` that MuJoCo supports."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ NUMERIC = (
 )  # fmt: skip
 """Keywords whose value is a number."""
 
-# keyword -> what becomes of it, and whether that changes the robot
+# keyword -> why it is not exported, and the severity of the loss
 LOST: dict[str, tuple[str, Severity]] = {
     "fdir1": ("friction has no direction of its own in MuJoCo's geoms", Severity.WARNING),
     "kp": ("contacts keep MuJoCo's stiffness (solref)", Severity.INFO),
@@ -54,14 +54,14 @@ KNOWN = frozenset(
      "springStiffness", "springReference", "static", "preserveFixedJoint",
      "disableFixedJointLumping", "canonicalBody", "visual", "collision", "pose", "joint")
 )  # fmt: skip
-"""Keywords that are carried, or need not be."""
+"""Keywords that are exported or need no export."""
 
 
 def link_friction(robot: Robot, link: str) -> dict[str, str]:
-    """Return the attributes of a link's collision geoms for the friction that Gazebo is told.
+    """Return the friction attributes of a link's collision geoms, from Gazebo's ``mu1``.
 
-    MuJoCo takes the larger friction of two geoms, Gazebo the smaller. A friction below MuJoCo's
-    default gets a priority, by which it is taken as it is; a caster of friction 0 slides.
+    MuJoCo uses the larger friction of two geoms, Gazebo the smaller. A friction below MuJoCo's
+    default gets a ``priority``, so that it is used unchanged; a caster with friction 0 slides.
     """
     sliding = None
     for block in robot.extensions.get(link, ()):
@@ -76,7 +76,7 @@ def link_friction(robot: Robot, link: str) -> dict[str, str]:
 
 
 def link_is_weightless(robot: Robot, link: str) -> bool:
-    """Whether gravity does not act on a link."""
+    """Tell whether gravity is disabled for a link."""
     weightless = False
     for block in robot.extensions.get(link, ()):
         off, gravity = block.value("turnGravityOff"), block.value("gravity")
@@ -88,9 +88,9 @@ def link_is_weightless(robot: Robot, link: str) -> bool:
 
 
 def joint_spring(robot: Robot, joint: str) -> tuple[float, float] | None:
-    """The stiffness [N·m/rad, N/m] of a joint's spring and where it is at rest [rad, m].
+    """Return stiffness [N·m/rad, N/m] and reference [rad, m] of a joint's spring.
 
-    None where Gazebo says nothing of a spring, or a stiffness of zero.
+    Return None if Gazebo defines no spring, or one with zero stiffness.
     """
     found = None
     for block in robot.extensions.get(joint, ()):
@@ -101,7 +101,7 @@ def joint_spring(robot: Robot, joint: str) -> tuple[float, float] | None:
 
 
 def gazebo_defects(robot: Robot) -> Iterator[Finding]:
-    """Numbers of extensions that are none."""
+    """Yield values of numeric keywords that are not finite numbers."""
     for block in robot.gazebo:
         for keyword in NUMERIC:
             text = block.value(keyword)
@@ -119,7 +119,7 @@ def gazebo_defects(robot: Robot) -> Iterator[Finding]:
 
 
 def gazebo_losses(robot: Robot, written: Written) -> None:
-    """Say what of the extensions is not carried."""
+    """Report the extensions that are not exported."""
     for block in robot.gazebo:
         reference = block.reference
         if reference is not None and reference not in robot.link and reference not in robot.joint:

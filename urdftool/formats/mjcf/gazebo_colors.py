@@ -1,10 +1,10 @@
-"""Colours of Gazebo Classic's material scripts, by the name in ``<gazebo><material>``."""
+"""Colors of Gazebo Classic's material scripts, by the name in ``<gazebo><material>``."""
 
 from __future__ import annotations
 
 from ...model.elements import Robot
 
-# diffuse colours of media/materials/scripts/gazebo.material
+# diffuse colors of media/materials/scripts/gazebo.material
 COLORS: dict[str, tuple[float, float, float, float]] = {
     "Black": (0, 0, 0, 1),
     "Blue": (0, 0, 1, 1),
@@ -47,7 +47,7 @@ COLORS: dict[str, tuple[float, float, float, float]] = {
 
 
 def gazebo_color(robot: Robot, link: str) -> tuple[float, float, float, float] | None:
-    """The colour that Gazebo gives to a link; None where it gives none that is known."""
+    """Return the color that ``<gazebo>`` sets for a link; None without a known color."""
     color = None
     for block in robot.extensions.get(link, ()):
         text = block.value("material") or ""

@@ -1,4 +1,4 @@
-"""What is seen of a link and what touches, as geoms of the classes ``visual`` and ``collision``."""
+"""Visual and collision geometry as geoms of the classes ``visual`` and ``collision``."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ SIZELESS = "dropped: it has no size"
 def visual_geoms(
     link: Link, assets: Assets, materials: Materials, names: UniqueNames, written: Written
 ) -> Iterator[etree._Element]:
-    """The geoms of a link's visuals, one for each material of a mesh."""
+    """Yield the geoms of a link's visuals, one for each material of a mesh."""
     for visual in link.visuals:
         for index, (geom, piece) in enumerate(_geoms(link, visual, assets, written)):
             _set_name(geom, link, visual, names, index)
@@ -43,7 +43,7 @@ def visual_geoms(
 def collision_geoms(
     link: Link, assets: Assets, names: UniqueNames, written: Written, friction: dict[str, str]
 ) -> Iterator[etree._Element]:
-    """The geoms of a link's collisions, with attributes for their friction."""
+    """Yield the geoms of a link's collisions, with the given friction attributes."""
     for collision in link.collisions:
         for index, (geom, _) in enumerate(_geoms(link, collision, assets, written)):
             _set_name(geom, link, collision, names, index)
@@ -54,7 +54,7 @@ def collision_geoms(
 
 
 def shape_size(shape: object) -> tuple[str, tuple[float, ...]] | None:
-    """MuJoCo's type and half sizes [m] of a simple shape; None for a mesh or an unknown one."""
+    """Return MuJoCo's type and half sizes [m] of a primitive; None for other geometry."""
     if isinstance(shape, Box):
         return "box", tuple(edge / 2 for edge in shape.size)
     if isinstance(shape, Cylinder):
@@ -69,7 +69,7 @@ def shape_size(shape: object) -> tuple[str, tuple[float, ...]] | None:
 
 
 def _drake_size(shape: UnknownShape) -> tuple[str, tuple[float, ...]] | None:
-    """The shapes that Drake adds."""
+    """Return type and half sizes [m] of Drake's extra shapes; None for others."""
     read = {
         name: number(shape.element.get(name)) or 0.0 for name in ("a", "b", "c", "radius", "length")
     }
@@ -127,7 +127,7 @@ def _report_shape_loss(
 def _set_name(
     geom: etree._Element, link: Link, shape: Visual | Collision, names: UniqueNames, index: int
 ) -> None:
-    """Keep a name that is written; geoms of several links may not share one."""
+    """Keep the name of a shape, made unique among all geoms."""
     if not shape.name:
         return
     kind = "visual" if isinstance(shape, Visual) else "collision"

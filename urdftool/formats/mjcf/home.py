@@ -1,4 +1,4 @@
-"""The position in which the robot starts: where the joints are, and how high a free base stands."""
+"""The home configuration: joint positions, and the height of a floating base."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ from .standing import ground_of
 from .structure import Structure
 
 NAMES = ("home", "default", "ready", "stand", "standing", "initial", "neutral")
-"""Names of an SRDF's group states, in the order in which they are taken for the home position."""
+"""Names of SRDF group states, in order of preference for the home configuration."""
 
 NEAT = 1e-6
-"""The step to which the height of a base is rounded down [m]."""
+"""Step [m] to which the height of a base is rounded down."""
 
 
 @dataclass(frozen=True)
 class Home:
-    """Where a robot starts.
+    """Initial configuration of a robot.
 
     Attributes:
-        positions: Of the joints that have one [rad, m].
-        pose: The pose of the root with the joints there; a free one stands on the floor.
-        start: The same with every joint at zero, or at its lock.
-        floating: The poses of the bodies below floating joints, by the name of the joint.
+        positions: Joint positions [rad, m].
+        pose: Pose of the root at these positions; a free root stands on the floor.
+        start: Pose of the root with every joint at zero or at its locked position.
+        floating: Poses of the bodies below floating joints, by joint name.
     """
 
     positions: dict[str, float]
@@ -43,15 +43,15 @@ class Home:
 
 
 def home_of(structure: Structure, boxes: ShapeBoxes, positions: dict[str, float]) -> Home:
-    """Put a robot on the floor at z = 0, where its root is free; a held one stays as it is.
+    """Place a robot with a free root on the floor at z = 0; a fixed one keeps its pose.
 
-    A floating joint below a root that is the world is one of a free base, too: what it carries is
-    lifted where it would reach below the floor.
+    A floating joint below a world root counts as a floating base: the bodies that it carries are
+    lifted if they would reach below the floor.
 
     Args:
-        structure: The tree.
-        boxes: The boxes of its shapes.
-        positions: Of the joints at home [rad, m].
+        structure: The kinematic tree.
+        boxes: Boxes of its shapes.
+        positions: Joint positions at home [rad, m].
     """
     root = pose_of(robot_origin(structure.robot))
     pose, start = root, root
@@ -79,21 +79,21 @@ def home_positions(
     srdf: Srdf | None,
     written: Written,
 ) -> dict[str, float]:
-    """Choose the position [rad, m] of every joint that has one, within limits, mimics consistent.
+    """Choose joint positions [rad, m] at home, within limits and consistent with mimic joints.
 
-    In this order, what is not given by one comes from the next: the user's pose, a group state of
-    the SRDF, the initial values of ros2_control, and zero or the limit nearest to it.
+    Sources in order of precedence: the user's pose, a group state of the SRDF, the initial values
+    of ros2_control, and zero or the limit nearest to it.
 
     Args:
-        structure: The tree.
+        structure: The kinematic tree.
         pose: Positions by joint, from the user.
-        state: The name of a group state, from the user; empty for the first of ``NAMES``.
+        state: Name of a group state, from the user; empty for the first of ``NAMES``.
         srdf: The SRDF, if there is one.
-        written: Takes positions that are beyond limits.
+        written: Receives the positions beyond limits.
 
     Raises:
         ConfigError: The SRDF has no such state.
-        ModelError: The joint does not exist, or it mimics another.
+        ModelError: A joint of ``pose`` does not exist or mimics another.
     """
     robot = structure.robot
     check_positions(robot, pose)
@@ -117,7 +117,7 @@ def home_positions(
 
 
 def _leaders(robot: Robot) -> dict[str, str]:
-    """Whom each joint mimics that mimics another."""
+    """Return the leader of each movable mimic joint, by name."""
     movable = movable_joints(robot)
     return {
         joint.name: joint.mimic.joint
@@ -143,7 +143,7 @@ def _within(robot: Robot, joint: Joint, value: float, source: str, written: Writ
 
 
 def _initial_positions(robot: Robot) -> dict[str, float]:
-    """The initial position [rad or m] of each joint for which ros2_control gives one."""
+    """Return the initial joint positions [rad or m] of ros2_control."""
     found = {}
     for block in robot.ros2_controls:
         for component in block.joints:
@@ -158,7 +158,7 @@ def _initial_positions(robot: Robot) -> dict[str, float]:
 
 
 def _state(srdf: Srdf | None, name: str) -> Mapping[str, float]:
-    """The positions of a group state, of all groups that have one of its name."""
+    """Return the joint positions of a group state, merged over all groups that define it."""
     states = {} if srdf is None else srdf.states
     if name:
         if name in states:
@@ -173,14 +173,14 @@ def _state(srdf: Srdf | None, name: str) -> Mapping[str, float]:
 
 
 def _candidates(states: Mapping[str, Mapping[str, float]]) -> Iterator[str]:
-    """The names of states, the likeliest home position first."""
+    """Yield the names of states, the likeliest home configuration first."""
     lowered = {name.casefold(): name for name in reversed(list(states))}
     yield from (lowered[name] for name in NAMES if name in lowered)
     yield from states
 
 
 def robot_origin(robot: Robot) -> Origin | None:
-    """Return the pose of the whole robot in its world, which some readers take from ``<robot>``."""
+    """Return the ``<origin>`` of ``<robot>``, which some readers use as its pose in the world."""
     element = robot.element.child("origin")
     if element is None:
         return None
@@ -196,13 +196,13 @@ def robot_origin(robot: Robot) -> Origin | None:
 def lifted(
     structure: Structure, boxes: ShapeBoxes, positions: Mapping[str, float], root: Pose
 ) -> Pose:
-    """Raise or lower the root so that the lowest point of what collides is at z = 0.
+    """Shift the root vertically so that the lowest point of the collision geometry is at z = 0.
 
     Args:
-        structure: The tree.
-        boxes: The boxes of its shapes.
-        positions: Of the joints [rad, m].
-        root: The pose of the root as the description has it.
+        structure: The kinematic tree.
+        boxes: Boxes of its shapes.
+        positions: Joint positions [rad, m].
+        root: Pose of the root in the description.
     """
     ground = ground_of(structure, boxes, positions, root)
     if ground is None:
@@ -212,7 +212,7 @@ def lifted(
 
 
 def _neat(height: float) -> float:
-    """Round a height [m] down to a number that is short to write, so that what touches, touches."""
-    if not abs(height) < 1 / NEAT:  # of no robot; a double has no micrometers left there
+    """Round a height [m] down to micrometers, so that contacts at the floor are kept."""
+    if not abs(height) < 1 / NEAT:  # a double has no micrometer resolution there
         return height
     return math.floor(height / NEAT + 1e-3) / round(1 / NEAT)

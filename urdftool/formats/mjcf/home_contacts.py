@@ -1,8 +1,8 @@
-"""Links that overlap in MuJoCo at home: looked for in the compiled model, reported, and excluded.
+"""Links that interpenetrate at home in the compiled model: detected, reported, and excluded.
 
-MuJoCo pushes bodies that overlap apart, so a robot whose collision geometry does so at its home
-configuration never holds still there. What overlaps may be the geometry as it is written, or only
-the convex hulls that MuJoCo makes of its meshes.
+MuJoCo pushes interpenetrating bodies apart, so such a robot never holds still at its home
+configuration. The interpenetration may be in the collision geometry as authored, or only in the
+convex hulls that MuJoCo computes for its meshes.
 """
 
 from __future__ import annotations
@@ -25,21 +25,22 @@ from .options import Options
 from .structure import Structure
 
 OVERLAP = 1e-3
-"""Depth [m] from which two links overlap: less is a touch, as that of closed fingers."""
+"""Penetration depth [m] above which two links overlap; less is a contact, as of closed fingers."""
 
 SHOWN = 8
-"""Pairs that the warning names."""
+"""Maximum number of pairs that the warning lists."""
 
 
 @dataclass(frozen=True)
 class Pair:
-    """Two links that overlap in the compiled model.
+    """Two links that interpenetrate in the compiled model.
 
     Attributes:
-        one: A link.
-        other: Another.
-        depth: How deep they overlap in MuJoCo [m].
-        authored: How deep their geometry does as it is written [m]; None where that is the same.
+        one: Name of the first link.
+        other: Name of the second link.
+        depth: Penetration depth in MuJoCo [m].
+        authored: Penetration depth of the authored geometry [m]; None if it was not measured, or if
+            without meshes ``depth`` is exact.
     """
 
     one: str
@@ -49,7 +50,7 @@ class Pair:
 
     @property
     def is_of_hulls(self) -> bool:
-        """Whether only the convex hulls overlap."""
+        """Tell whether only the convex hulls overlap."""
         return self.authored is not None and self.authored < OVERLAP
 
 
@@ -62,18 +63,18 @@ def exclude_overlapping(
     options: Options,
     written: Written,
 ) -> None:
-    """Look for overlaps at home, report them, and exclude the pairs if the user chose so.
+    """Find overlaps at home, report them, and exclude the pairs if the user chose so.
 
-    Nothing is looked for where MuJoCo is not installed.
+    Do nothing if MuJoCo is not installed.
 
     Args:
-        structure: The tree.
-        positions: Of the joints at home [rad or m].
-        sections: The model, of which ``contact`` gets the pairs.
-        bodies: The body of each link.
+        structure: The kinematic tree.
+        positions: Joint positions at home [rad or m].
+        sections: The model; ``contact`` receives the pairs.
+        bodies: Body of each link.
         assets: The meshes.
-        options: The choices.
-        written: Has the mesh files, and takes the warning.
+        options: Options of the export.
+        written: Holds the mesh files, and receives the warning.
     """
     if options.exclude != "touching" and options.overlap is None:
         return
@@ -109,7 +110,7 @@ def _overlaps(
     positions: Mapping[str, float],
     written: Written,
 ) -> dict[tuple[str, str], float]:
-    """Find the pairs of links that overlap, and how deep they do [m]."""
+    """Find the pairs of links that overlap, with their penetration depths [m]."""
     with tempfile.TemporaryDirectory(prefix="urdftool-") as place:
         path = Path(place) / "home.xml"
         model, files = _collision_model(sections, assets)
@@ -146,7 +147,7 @@ def _overlaps(
 def _collision_model(
     sections: Mapping[str, etree._Element], assets: Assets
 ) -> tuple[etree._Element, set[str]]:
-    """Copy what collides of a model, without its classes; and the mesh files that it names."""
+    """Copy the collision geometry of a model, without classes; return it and its mesh files."""
     root = etree.Element("mujoco")
     for name in ("compiler", "option", "worldbody", "contact"):
         if name in sections:

@@ -1,8 +1,8 @@
-"""Mass and inertia of every body: as written wherever MuJoCo takes it, else exact by other means.
+"""Mass and inertia of every body: as written if MuJoCo accepts them, otherwise repaired.
 
-Links that are welded are one rigid body, so a tensor that no body has can be mended exactly where a
-neighbour in the same rigid body can take up the difference. Only what is left after that changes
-the robot, and then only as the user chose.
+Welded links form one rigid body, so an inconsistent tensor can be repaired exactly if a neighbor in
+the same rigid body can absorb the difference. Only the remaining defects change the robot, by the
+method that the user chose.
 """
 
 from __future__ import annotations
@@ -31,27 +31,27 @@ from .link_inertia import LinkInertia, inertia_of
 from .structure import Structure
 
 TINY = 1e-12
-"""Mass [kg] and moment [kg·m²] of a moving body that has none; MuJoCo wants more than 1e-15."""
+"""Mass [kg] and moment [kg·m²] of a moving body without mass; MuJoCo requires more than 1e-15."""
 
 LEAST = 2e-15
-"""The same where an armature keeps the mass matrix regular."""
+"""The same for bodies where armature keeps the mass matrix regular."""
 
 ENOUGH = 1e-14
-"""What MuJoCo takes for a mass [kg] or a moment [kg·m²] above zero, with a margin."""
+"""Mass [kg] or moment [kg·m²] that MuJoCo accepts as positive, with a margin."""
 
 NEGLIGIBLE = 1e-8
-"""Part of a joint's inertia that does not count."""
+"""Fraction of a joint's inertia that is negligible."""
 
 LEAF_ARMATURE = 1e-4
-"""Inertia [kg·m² or kg] added to the joint of a massless last link, so that it can be simulated."""
+"""Armature [kg·m² or kg] of the joint of a massless leaf link, so that it can be simulated."""
 
 
 def inertials(
     structure: Structure, fix: FixInertia, written: Written, *, force: bool = False
 ) -> tuple[dict[str, LinkInertia], list[Finding]]:
-    """Mass properties by link, as they are to be written, and the defects that forbid an export.
+    """Compute the mass properties by link to write, and the defects that prevent an export.
 
-    Links without mass are not in it.
+    Links without mass are omitted.
     """
     found: dict[str, LinkInertia] = {}
     wrong: list[Finding] = []
@@ -76,7 +76,7 @@ def inertials(
 
 
 def massless_leaves(structure: Structure) -> set[str]:
-    """Topmost links of moving rigid bodies that have no mass, nor has anything below them."""
+    """Return the topmost links of moving bodies without mass and without mass below them."""
     weight = {
         top: sum(max(link.mass, 0.0) for link in links) for top, links in structure.members.items()
     }
@@ -104,7 +104,7 @@ def _negative(link: Link) -> Iterator[Finding]:
 def _compose(
     structure: Structure, top: str, group: dict[str, LinkInertia], bad: list[str], written: Written
 ) -> bool:
-    """Repair tensors exactly inside a rigid body; return whether all of them could be."""
+    """Repair tensors exactly inside a rigid body; return whether all of them are repaired."""
     for name in bad:
         source = group[name]
         turn = structure.pose_in_group(name).rotation
@@ -136,7 +136,7 @@ def _compose(
 def _unite(
     structure: Structure, top: str, group: dict[str, LinkInertia], bad: list[str], written: Written
 ) -> bool:
-    """Write a rigid body's whole mass to its topmost link, if that is a tensor a body has."""
+    """Write the combined mass properties to the topmost link, if they are consistent."""
     if len(group) < 2 and top in group:
         return False
     whole = combine(read.body.moved(structure.pose_in_group(name)) for name, read in group.items())
@@ -168,7 +168,7 @@ def _repair(
     force: bool,
     written: Written,
 ) -> Iterator[Finding]:
-    """Repair a tensor as the user chose; of links fixed to the world also if not asked to."""
+    """Repair a tensor as the user chose; always repair static links."""
     read = group[name]
     before = moments_text(read.tensor)
     static = structure.is_static(name)
@@ -214,9 +214,9 @@ def _repaired(
 
 
 def _part_of_tiny(structure: Structure, top: str, group: dict[str, LinkInertia]) -> float:
-    """The inertia that is given to a point mass, relative to what it has about its joint's axis.
+    """Return the inertia added to a point mass, relative to that about its joint's axis.
 
-    Zero where the joint does not turn it, or moves other bodies too.
+    Return zero if the joint does not rotate it, or moves other bodies too.
     """
     joint = structure.robot.tree.parent_joint(top)
     below = set(structure.robot.tree.descendants(top)) - group.keys()
@@ -235,7 +235,7 @@ def _part_of_tiny(structure: Structure, top: str, group: dict[str, LinkInertia])
 def _give_weight(
     structure: Structure, top: str, group: dict[str, LinkInertia], written: Written
 ) -> None:
-    """Give a moving body the least that MuJoCo wants, where it has no mass or is a point."""
+    """Give a moving body without mass or inertia the minimum that MuJoCo requires."""
     if any(read.is_heavy(ENOUGH) for read in group.values()):
         return
     link = structure.robot.link[top]

@@ -1,4 +1,4 @@
-"""Joints: hinges, slides, and what else URDF's types become."""
+"""Joints: hinges, slides, and the conversion of the other URDF types."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from .inertials import LEAF_ARMATURE
 from .structure import Structure, bounds
 
 PLANAR_SUFFIXES = ("_TX", "_TY", "_RZ")
-"""What follows the joint's name in the two slides and the hinge of a planar joint."""
+"""Suffixes of the joint name for the two slides and the hinge of a planar joint."""
 
 SITE = {"size": "0.005", "group": "5"}
-"""Size [m] and group of a site, which is drawn only where one asks for it."""
+"""Size [m] and group of a site; viewers hide this group by default."""
 
 UNIT: Vector = (1.0, 0.0, 0.0)
 
@@ -27,13 +27,13 @@ UNIT: Vector = (1.0, 0.0, 0.0)
 def joint_elements(
     structure: Structure, joint: Joint, written: Written, *, leaf: bool = False
 ) -> list[etree._Element]:
-    """The elements of a joint that moves, in the order MuJoCo applies them.
+    """Build the elements of a movable joint, in the order in which MuJoCo applies them.
 
     Args:
-        structure: The tree.
+        structure: The kinematic tree.
         joint: A joint that is not welded.
-        written: Takes what is lost.
-        leaf: Whether nothing that it moves has mass.
+        written: Receives losses.
+        leaf: Whether none of the links that it moves has mass.
     """
     kind = structure.kind(joint)
     if kind == "free":
@@ -53,12 +53,12 @@ def joint_elements(
 
 
 def axis_of(joint: Joint) -> Vector:
-    """The axis as written; x where none is."""
+    """Return the axis as written; x by default."""
     return UNIT if joint.axis is None else joint.axis.xyz
 
 
 def locked_site(joint: Joint, written: Written) -> etree._Element:
-    """Make the site at a joint whose limits are equal, and report that its link is welded."""
+    """Create the site of a joint with equal limits, and report that its link is welded."""
     assert joint.limit is not None
     for what, text, severity in _bound_losses(joint, joint.limit, welded=True):
         place = joint.limit.place
@@ -67,7 +67,7 @@ def locked_site(joint: Joint, written: Written) -> etree._Element:
 
 
 def effort_of(joint: Joint) -> float | None:
-    """The bound of a joint's effort [N·m or N] where it has one above zero."""
+    """Return the effort limit [N·m or N] of a joint; None if it has none or zero."""
     effort = joint.limit.effort if joint.limit is not None else None
     return abs(effort) if effort else None
 
@@ -152,9 +152,9 @@ def _bound_losses(
 
 
 def _planar(joint: Joint, written: Written) -> list[etree._Element]:
-    """Two slides in the plane and a hinge about its normal.
+    """Build two slides in the plane and a hinge about its normal.
 
-    The slides point along x and y of the joint's frame turned the shortest way to the normal.
+    The slides are the x and y axes of the joint frame after the minimal rotation to the normal.
     """
     x, y, normal = plane(axis_of(joint))
     if joint.limit is not None:
@@ -176,7 +176,7 @@ def _planar(joint: Joint, written: Written) -> list[etree._Element]:
 
 
 def plane(axis: Vector) -> tuple[Vector, Vector, Vector]:
-    """Unit vectors x and y in the plane of a normal, and the normal: z turned the shortest way."""
+    """Return unit vectors x and y of a plane and its normal, by the minimal rotation from z."""
     length = norm(axis)
     a, b, c = (part / length for part in axis)
     if c < -1 + 1e-12:
@@ -196,7 +196,7 @@ def _set_dynamics(element: etree._Element, joint: Joint) -> None:
 
 
 def _set_spring(element: etree._Element, spring: tuple[float, float] | None) -> None:
-    """Gazebo's spring: stiffness [N·m/rad or N/m] and where it is at rest."""
+    """Set the spring from Gazebo: stiffness [N·m/rad or N/m] and reference position [rad or m]."""
     if spring is None:
         return
     stiffness, reference = spring

@@ -1,4 +1,4 @@
-"""The inertia that each joint moves at home, of which stable gains are a part."""
+"""The inertia that each joint moves at home, which bounds its gains."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ def joint_inertias(
     """Compute the diagonal of the joint-space mass matrix.
 
     Args:
-        structure: The tree.
-        masses: Mass properties of the links, as they are written.
-        positions: Of the joints by name [rad or m].
+        structure: The kinematic tree.
+        masses: Mass properties of the links, as exported.
+        positions: Joint positions by name [rad or m].
 
     Returns:
-        For each hinge [kg·m²] and slide [kg] the inertia that it moves while the others hold.
+        The inertia that each hinge [kg·m²] and slide [kg] moves while the others are held.
     """
     poses = link_poses(structure.robot, positions)
     names = [name for name in masses if name in poses]
@@ -51,7 +51,7 @@ def joint_inertias(
 
 
 def _links_below(structure: Structure) -> dict[str, list[str]]:
-    """For each link, itself and the links that move with it; a floating body moves by itself."""
+    """Return for each link itself and the links that move with it; floating bodies do not."""
     below: dict[str, list[str]] = {name: [name] for name in structure.group}
     for joint in reversed(structure.joints):
         if structure.kind(joint) != "free":

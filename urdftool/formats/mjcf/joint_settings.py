@@ -1,4 +1,4 @@
-"""What the user sets of joints: armature for all, and gains and losses of an actuator file."""
+"""User settings of joints: armature for all joints, and values of an actuator file."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from .structure import Structure, locked_at
 
 
 def joint_settings(structure: Structure, options: Options) -> dict[str, JointSettings]:
-    """Choose the settings of each hinge and slide that can move, by its name.
+    """Choose the settings of each movable hinge and slide, by joint name.
 
     Raises:
-        ConfigError: The file cannot be read, or has settings of a joint that does not move.
+        ConfigError: The file cannot be read, or has settings for a joint that does not move.
     """
     names = [
         joint.name
@@ -39,7 +39,7 @@ def joint_settings(structure: Structure, options: Options) -> dict[str, JointSet
 def apply_settings(
     structure: Structure, bodies: Bodies, settings: dict[str, JointSettings], written: Written
 ) -> dict[str, float]:
-    """Write settings to the joints, and report those that differ from the description.
+    """Write settings to the joints, and report changes of values of the description.
 
     Returns:
         The armature [kg·m² or kg] of each joint in the model.

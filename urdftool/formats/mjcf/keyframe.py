@@ -1,4 +1,4 @@
-"""The home position as a keyframe."""
+"""The home configuration as a keyframe."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .structure import Structure
 
 
 def keyframe_section(structure: Structure, home: Home, drives: list[Drive]) -> etree._Element:
-    """Make ``<keyframe>`` with the key ``home``, whose controls hold the joints where they are."""
+    """Build ``<keyframe>`` with the key ``home``, whose controls hold the joints in place."""
     section = etree.Element("keyframe")
     key = etree.SubElement(section, "key", name="home")
     qpos = _positions(structure, home)
@@ -32,7 +32,7 @@ def keyframe_section(structure: Structure, home: Home, drives: list[Drive]) -> e
 
 
 def _positions(structure: Structure, home: Home) -> list[float]:
-    """``qpos`` in MuJoCo's order: free bodies below others come after the root's tree."""
+    """Return ``qpos`` in MuJoCo's order: nested free bodies come after the root's tree."""
     first = _free(home.pose) if structure.free else []
     later: list[float] = []
     torn: set[str] = set()

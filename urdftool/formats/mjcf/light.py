@@ -1,4 +1,4 @@
-"""Lights that Gazebo puts on a link."""
+"""Lights of links in ``<gazebo>`` blocks."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TYPES = ("point", "directional", "spot")
 
 
 def put_lights(robot: Robot, bodies: Bodies, written: Written) -> None:
-    """Put the lights of each link into its body."""
+    """Insert the lights of each link into its body."""
     names = UniqueNames()
     for block in robot.gazebo:
         for light in block.element.all("light"):

@@ -1,4 +1,4 @@
-"""The mass properties of one link, as read and as MuJoCo is to read them."""
+"""The mass properties of one link, as read and as written for MuJoCo."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .digits import number_text, numbers_text
 from .frame import plain, quaternion_of
 
 POINT = 1e-15
-"""Inertia [kg·m²] below which a body of 1 kg is a point, and a lighter one in proportion."""
+"""Inertia [kg·m²] below which a body of 1 kg is a point mass; proportional for lighter bodies."""
 
 
 @dataclass(frozen=True)
@@ -31,9 +31,9 @@ class LinkInertia:
 
     Attributes:
         body: Mass, center of mass and tensor in the link's frame.
-        place: Where it is written.
-        origin: The inertial frame, while the tensor is the one that is written in it.
-        local: The tensor along the axes of that frame.
+        place: Location in the source.
+        origin: Inertial frame; None after the tensor was changed.
+        local: Tensor along the axes of the inertial frame; None after it was changed.
     """
 
     body: SpatialInertia
@@ -43,42 +43,42 @@ class LinkInertia:
 
     @property
     def mass(self) -> float:
-        """Mass [kg]."""
+        """Return the mass [kg]."""
         return self.body.mass
 
     @property
     def com(self) -> Vector:
-        """Center of mass [m]."""
+        """Return the center of mass [m]."""
         return self.body.com
 
     @property
     def tensor(self) -> SymmetricTensor:
-        """Inertia [kg·m²] about the center of mass, along the link's axes."""
+        """Return the inertia tensor [kg·m²] about the center of mass, along the link's axes."""
         return self.body.tensor
 
     @property
     def is_possible(self) -> bool:
-        """Whether a rigid body can have them."""
+        """Tell whether mass and tensor are physically consistent."""
         return tensors.is_possible(self.tensor) and (self.mass > 0 or not any(self.tensor))
 
     def is_heavy(self, least: float) -> bool:
-        """Whether mass and every moment are above a bound."""
+        """Tell whether mass and every principal moment exceed a bound."""
         return self.mass > least and principal_moments(self.tensor)[0] > least
 
     def changed(self, tensor: SymmetricTensor) -> LinkInertia:
-        """Return the same with another tensor."""
+        """Return a copy with another tensor."""
         return LinkInertia(replace(self.body, tensor=tensor), self.place)
 
 
 def inertia_of(link: Link) -> LinkInertia | None:
-    """What a link's ``<inertial>`` says; None where it says nothing, or a negative mass."""
+    """Read a link's ``<inertial>``; None if it is missing, empty, or has a negative mass."""
     inertial = link.inertial
     if inertial is None:
         return None
     mass = inertial.mass or 0.0
     local = written_tensor(inertial.inertia)
     if mass > 0 and max(map(abs, local)) < POINT * min(mass, 1.0):
-        local = ZERO_TENSOR  # what arithmetic left of zeros
+        local = ZERO_TENSOR  # rounding errors of a computed zero
     if mass < 0 or not (mass or any(local)):
         return None
     body = SpatialInertia(mass, ZERO, local).moved(pose_of(inertial.origin))
@@ -86,7 +86,7 @@ def inertia_of(link: Link) -> LinkInertia | None:
 
 
 def inertial_element(read: LinkInertia) -> etree._Element:
-    """``<inertial>``, with the numbers of the source wherever MuJoCo takes them."""
+    """Build ``<inertial>``, with the numbers of the source if MuJoCo accepts them."""
     element = etree.Element("inertial", pos=numbers_text(read.com), mass=number_text(read.mass))
     quaternion = quaternion_of(read.origin) if read.origin is not None else None
     if read.local is not None and _is_diagonal(read.local):

@@ -1,4 +1,4 @@
-"""Joints that close a loop: URDF is a tree, so Gazebo's ``<gazebo><joint>`` adds them, as SDF."""
+"""Loop-closing joints, which SDF ``<joint>`` elements in ``<gazebo>`` add to the tree of a URDF."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from .digits import numbers_text
 from .structure import WORLD, Structure
 
 KINDS = {"revolute": "connect", "continuous": "connect", "ball": "connect", "fixed": "weld"}
-"""What each type of SDF joint becomes; any other is said."""
+"""Equality constraint for each type of SDF joint; other types are reported as lost."""
 
 STIFF = {"solimp": "0.95 0.99 0.001", "solref": "0.005 1"}
-"""Softness of an equality, as MuJoCo Menagerie has it for coupled fingers."""
+"""Softness of an equality, as in MuJoCo Menagerie for coupled fingers."""
 
 ARM = 0.1
-"""Distance [m] along the axis of a second point, which keeps the axis of a loop in space."""
+"""Distance [m] of a second point along the axis, which constrains the axis of a spatial loop."""
 
 UNBOUNDED = 1e15
 
@@ -35,11 +35,11 @@ class Loop:
     """A joint that closes a loop.
 
     Attributes:
-        element: The ``<joint>``.
-        kind: The equality it becomes.
-        child: A link.
-        parent: Another link, or ``world``.
-        pose: Its pose in the child's frame.
+        element: The ``<joint>`` element.
+        kind: Tag of its equality constraint.
+        child: Name of the child link.
+        parent: Name of the parent link, or ``world``.
+        pose: Pose of the joint in the child's frame.
     """
 
     element: Element
@@ -50,12 +50,12 @@ class Loop:
 
     @property
     def name(self) -> str:
-        """The joint's name."""
+        """Return the joint's name."""
         return self.element.get("name") or ""
 
 
 def loops(structure: Structure) -> Iterator[Loop]:
-    """The joints that can be written."""
+    """Yield the loop-closing joints that can be exported."""
     for block in structure.robot.gazebo:
         for element in block.element.all("joint"):
             found = _read(structure, block, element)
@@ -64,7 +64,7 @@ def loops(structure: Structure) -> Iterator[Loop]:
 
 
 def loop_defects(robot: Robot) -> Iterator[Finding]:
-    """Poses and axes that are no numbers."""
+    """Yield poses and axes that are not finite numbers."""
     for block in robot.gazebo:
         for joint in block.element.all("joint"):
             axis = joint.child("axis")
@@ -84,7 +84,7 @@ def loop_defects(robot: Robot) -> Iterator[Finding]:
 
 
 def loop_equalities(structure: Structure, written: Written) -> Iterator[etree._Element]:
-    """``<connect>`` and ``<weld>`` for each joint, and what is lost of it."""
+    """Yield ``<connect>`` and ``<weld>`` for each loop-closing joint, and report losses."""
     names = UniqueNames()
     for block in structure.robot.gazebo:
         for element in block.element.all("joint"):
@@ -103,14 +103,14 @@ def loop_equalities(structure: Structure, written: Written) -> Iterator[etree._E
 
 
 def _read(structure: Structure, block: GazeboExtension, element: Element) -> Loop | str:
-    """A joint; in words why it cannot be written, otherwise."""
+    """Read a joint; return the reason as text if it cannot be exported."""
     if block.reference is not None:
         return "a joint that closes a loop belongs into a <gazebo> without reference"
     kind = KINDS.get(element.get("type") or "")
     if kind is None:
         return f"a loop can be closed by {', '.join(KINDS)}, not by '{element.get('type') or ''}'"
     child, parent = _text(element, "child"), _text(element, "parent")
-    # the model's own name may stand in front
+    # a scoped name starts with the name of the model
     child, parent = child.rpartition("::")[2], parent.rpartition("::")[2]
     known = structure.robot.link
     for end, name in (("child", child), ("parent", parent)):
@@ -161,7 +161,7 @@ def _equalities(structure: Structure, loop: Loop, names: UniqueNames) -> Iterato
 
 
 def _axis(structure: Structure, loop: Loop) -> Vector:
-    """The axis in the child's frame, of length 1."""
+    """Return the joint axis in the child's frame, of length 1."""
     axis = loop.element.child("axis")
     xyz = axis.child("xyz") if axis is not None else None
     x, y, z = numbers(xyz.text if xyz is not None else "0 0 1", 3) or (0.0, 0.0, 1.0)
@@ -174,7 +174,7 @@ def _axis(structure: Structure, loop: Loop) -> Vector:
 
 
 def _is_planar(structure: Structure, loop: Loop, axis: Vector) -> bool:
-    """Whether the other joints of the loop keep its axis already: all move in one plane."""
+    """Tell whether the other joints of the loop keep its axis already: all move in one plane."""
     axis = rotate(structure.pose_at_zero(loop.child).rotation, axis)
     paths = [_to_root(structure, link) for link in (loop.child, loop.parent)]
     for link in set(paths[0]) ^ set(paths[1]):

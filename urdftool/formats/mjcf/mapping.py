@@ -1,6 +1,6 @@
-"""What becomes of each thing in a URDF: the table of the documentation.
+"""Mapping of URDF elements to MJCF, for the documentation.
 
-Where the code has a table of its own, this one is made from it.
+Where the exporter has a table of its own, the rows are generated from it.
 """
 
 from __future__ import annotations
@@ -163,7 +163,7 @@ EXTENSIONS: tuple[Row, ...] = (
 
 
 def markdown() -> str:
-    """The tables, as they stand in the documentation."""
+    """Format the tables as Markdown for the documentation."""
     joints = [(f"`joint@type` {name}", EXACT, _JOINT_TEXT[kind]) for name, kind in KINDS.items()]
     sensors = [(f"sensor `{name}`", CLOSE, _sensors(name)) for name in AT_SITE]
     sensors.append((f"sensor {_names(CAMERAS)}", CLOSE, "`camera` with `fovy` and `resolution`"))

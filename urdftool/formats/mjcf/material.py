@@ -1,4 +1,4 @@
-"""How visuals look: named materials with a colour or a texture, and colours of their own."""
+"""Appearance of visuals: named materials with a color or a texture, and plain colors."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from .texture import png
 
 
 class Materials:
-    """The materials and textures of a robot, as far as they are used.
+    """The materials and textures that a robot uses.
 
     Attributes:
-        elements: ``<texture>`` and ``<material>`` elements in the order of use.
+        elements: ``<texture>`` and ``<material>`` elements in order of first use.
     """
 
     def __init__(self, robot: Robot, written: Written, mesh_dir: str) -> None:
-        """Index the definitions; of one name the first counts."""
+        """Index the definitions; the first definition of a name counts."""
         self._written = written
         self._folder = mesh_dir
         self._defined: dict[str, Material] = {}
@@ -45,16 +45,16 @@ class Materials:
 
     @property
     def has_textures(self) -> bool:
-        """Whether any image is used."""
+        """Tell whether any image is used."""
         return any(self._textures.values())
 
     def dress(
         self, geom: etree._Element, visual: Visual, link: str, piece: MeshPiece | None
     ) -> None:
-        """Give a geom its looks.
+        """Set the material or color of a geom.
 
-        What a mesh file says of its own parts comes first, as RViz has it; then the material of the
-        visual; then Gazebo's colour for the link.
+        Precedence as in RViz: color or image in the mesh file, then the material of the visual,
+        then Gazebo's color for the link.
         """
         if piece is not None and piece.texture is not None:
             name = self._of_mesh(piece.texture, piece.file, visual)
@@ -77,7 +77,7 @@ class Materials:
             geom.set("rgba", numbers_text(material.color))
 
     def _of_mesh(self, image: Image, mesh: str, visual: Visual) -> str | None:
-        """The material of a mesh file's own image; None where there is none to see."""
+        """Return the material for an image of a mesh file; None if the image is missing."""
         stem = Path(mesh).stem if isinstance(image, bytes) else image.stem
         if isinstance(image, Path) and not os.path.isfile(image):
             if image not in self._textures:
@@ -105,7 +105,7 @@ class Materials:
         return found
 
     def _image(self, material: Material) -> Path | None:
-        """The file of a material's texture, if it is there."""
+        """Return the path of a material's texture; None if it does not exist."""
         if not material.texture or self._robot.source is None:
             return None
         try:

@@ -1,4 +1,4 @@
-"""Which mesh assets a robot needs: one for each file, scale and role, each file converted once."""
+"""Mesh assets of a robot: one for each file, scale and role, each file converted once."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ from .options import Options
 ONE: Vector = (1.0, 1.0, 1.0)
 
 HULL = 1.05
-"""Hull over mesh volume above which it is said that MuJoCo collides the hull."""
+"""Ratio of hull to mesh volume above which a collision mesh is reported as not convex."""
 
 
 @dataclass(frozen=True)
 class MeshPiece:
-    """A mesh asset to be shown or collided with: its name, its looks, the file they are from."""
+    """A mesh asset for a geom: its name, color, image, and source file."""
 
     name: str
     rgba: Rgba | None
@@ -43,9 +43,9 @@ class Assets:
     """The mesh assets of a robot.
 
     Attributes:
-        pieces: What stands for the mesh of a shape, by the identity of its ``Mesh`` element.
-        elements: The ``<mesh>`` elements, collision meshes first, then visual ones.
-        sources: The mesh files that were read.
+        pieces: Mesh assets of a shape, by the ``id`` of its ``Mesh``.
+        elements: ``<mesh>`` elements, visual meshes first, then collision meshes.
+        sources: Mesh files that were read.
     """
 
     pieces: dict[int, list[MeshPiece]]
@@ -54,7 +54,7 @@ class Assets:
 
 
 def mesh_assets(robot: Robot, written: Written, options: Options) -> tuple[Assets, list[Finding]]:
-    """The mesh assets, with their files put into ``written``; and what is wrong with meshes."""
+    """Create the mesh assets, add their files to ``written``, and return the defects of meshes."""
     uses, wrong = _uses(robot)
     jobs = list(dict.fromkeys((path, collides) for path, collides, _ in uses))
     made: dict[tuple[Path, bool], Converted] = {}
@@ -124,7 +124,7 @@ def _unreadable(uses: list[_Use], job: tuple[Path, bool], message: str) -> Itera
     path, collides = job
     shape = next(shape for file, role, shape in uses if (file, role) == job)
     if collides and any((file, role) == (path, False) for file, role, _ in uses):
-        return  # said of the visual
+        return  # reported for the visual
     place = _mesh(shape).element.attribute_place("filename")
     link = shape.element.parent
     name = (link.get("name") or "") if link is not None else ""
@@ -134,7 +134,7 @@ def _unreadable(uses: list[_Use], job: tuple[Path, bool], message: str) -> Itera
 def _cut(
     cutter: Cutter, uses: list[_Use], made: dict[tuple[Path, bool], Converted], written: Written
 ) -> None:
-    """Put convex pieces in the place of the meshes that collide and are not convex."""
+    """Replace collision meshes that are not convex by their convex decomposition."""
     places = {path: _mesh(shape).element for path, collides, shape in uses if collides}
     wanted = [
         path
@@ -166,7 +166,7 @@ def _cut(
 def _report_notes(
     uses: list[_Use], made: dict[tuple[Path, bool], Converted], written: Written
 ) -> None:
-    """Report the notes of each conversion and each mesh that is not convex, once a file."""
+    """Report the notes of each conversion, and meshes that are not convex, once for each file."""
     reported: set[tuple[Path, MeshNote | None]] = set()
     for path, collides, shape in uses:
         result = made.get((path, collides))
@@ -200,7 +200,7 @@ def _report_notes(
 
 
 class _Files:
-    """Places for mesh files in the export: equal content is there once."""
+    """Paths of mesh files in the export; equal content is stored once."""
 
     def __init__(self, written: Written, mesh_dir: str) -> None:
         self._written = written
@@ -210,7 +210,7 @@ class _Files:
         self._seen: set[str] = set()
 
     def place(self, path: Path, piece: Piece, index: int | None, collides: bool) -> str:
-        """The name of a piece's file in the folder of meshes."""
+        """Return the name of a piece's file in the mesh folder, and add it to the export."""
         key = (path, piece.data)
         if key not in self._known:
             stem = file_name(path.stem)

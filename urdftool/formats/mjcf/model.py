@@ -1,4 +1,4 @@
-"""The file of the model: every section of it, in the order in which they are made."""
+"""Assembly of the model file from its sections."""
 
 from __future__ import annotations
 
@@ -44,17 +44,17 @@ def model_text(
     srdf: Srdf | None,
     written: Written,
 ) -> bytes:
-    """The model as XML.
+    """Build the model as XML.
 
     Args:
-        structure: The tree.
-        home: Where the robot starts.
-        name: The model's name.
-        options: The choices.
-        masses: What each link weighs.
+        structure: The kinematic tree.
+        home: Initial configuration.
+        name: Name of the model.
+        options: Options of the export.
+        masses: Mass properties of each link.
         assets: The meshes.
-        srdf: What an SRDF says, if there is one.
-        written: Takes textures, new names and what is lost.
+        srdf: The SRDF, if there is one.
+        written: Receives textures, new names and losses.
     """
     robot = structure.robot
     _rename_world(structure, written)
@@ -99,7 +99,7 @@ def model_text(
 
 
 def _summarize(structure: Structure, options: Options, actuators: int, written: Written) -> None:
-    """Say what moves the robot and what holds it, which one sees late in a model."""
+    """Summarize base and actuators, which are easily overlooked in a model."""
     held = "free" if structure.free else "fixed"
     written.summary.append(f"{held} base ({structure.reason})")
     written.summary.append("1 actuator" if actuators == 1 else f"{actuators} actuators")
@@ -133,12 +133,12 @@ def _put(sections: dict[str, etree._Element], *made: etree._Element | None) -> N
 
 
 def _option(structure: Structure) -> etree._Element:
-    """Make ``<option>``, with elliptic cones where a body is free.
+    """Build ``<option>``, with elliptic friction cones if a body is free.
 
-    Where a heavy base on the ground carries light links, Newton's method ends before the forces of
-    MuJoCo's pyramidal cones are found, and speeds run away: measured in MuJoCo 4.0 for 1 s on 13
-    free robots of example-robot-data, in three (TIAGo's) of them; in none with elliptic cones, in
-    no more time.
+    With pyramidal cones, Newton's method may stop before the forces converge if a heavy base on the
+    ground carries light links, and velocities diverge: measured in MuJoCo 4.0 for 1 s on 13 free
+    robots of example-robot-data, in three (TIAGo's) of them; in none with elliptic cones, at no
+    higher cost.
     """
     option = etree.Element("option", integrator="implicitfast")
     if structure.free or any(structure.kind(joint) == "free" for joint in structure.moving):
@@ -167,7 +167,7 @@ def _asset(assets: Assets, materials: Materials) -> etree._Element:
 
 
 def _custom(structure: Structure, name: str) -> etree._Element | None:
-    """What MuJoCo has no place for: velocity limits [rad/s or m/s], and a name that was changed."""
+    """Build ``<custom>`` for data without an MJCF element: velocity limits, a changed name."""
     section = etree.Element("custom")
     if structure.robot.name and structure.robot.name != name:
         etree.SubElement(section, "text", name="robot_name", data=structure.robot.name)

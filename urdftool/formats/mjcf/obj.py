@@ -1,4 +1,4 @@
-"""Triangles as a Wavefront OBJ file."""
+"""Writing of triangle meshes as Wavefront OBJ."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from ...geometry.mesh import Faces, Points
 
 
 def obj_bytes(vertices: Points, faces: Faces, uv: Points | None = None) -> bytes:
-    """One object with the vertices that are used, each once.
+    """Write one object with the used vertices, each once.
 
-    Nine digits carry the single precision that MuJoCo keeps.
+    Nine digits preserve the single precision that MuJoCo keeps.
 
     Args:
-        vertices: Points.
-        faces: Indices of them, shape (n, 3).
+        vertices: Points, shape (m, 3).
+        faces: Vertex indices, shape (n, 3).
         uv: Texture coordinates of each corner, shape (n, 3, 2).
     """
     used, corners = np.unique(faces, return_inverse=True)

@@ -1,4 +1,4 @@
-"""What one can choose of an MJCF export."""
+"""Options of an MJCF export."""
 
 from __future__ import annotations
 
@@ -16,35 +16,39 @@ Base = Literal["auto", "fixed", "free"]
 Exclude = Literal["touching", "adjacent", "none"]
 
 Overlap = Callable[[Robot, Mapping[str, float], str, str], float | None]
-"""Measures how deep the collision geometry of two links, as written, overlaps [m] in a pose."""
+"""Measures the penetration depth [m] of the authored collision geometry of two links in a pose.
+
+It returns None if neither link has a mesh, so that MuJoCo's own depth is exact.
+"""
 
 
 @dataclass(frozen=True)
 class Options:
-    """The choices of one export.
+    """Options of an MJCF export.
 
     Attributes:
-        actuators: Of what kind; ``auto`` is what transmissions and ros2_control say.
-        base: Whether the root is held; ``auto`` is what the description says, else held.
-        scene: Write also a scene with floor and light around the robot.
-        srdf: A MoveIt SRDF whose disabled collisions are taken over.
-        fix_inertia: What becomes of a tensor that no rigid body has.
-        force: Go past defects of the source where a robot is left.
+        actuators: Kind of actuators; ``auto`` uses transmissions, ros2_control and drive plugins.
+        base: Whether the root is fixed; ``auto`` uses the description, then what supports the
+            robot.
+        scene: Also write a scene with floor and light around the robot.
+        srdf: A MoveIt SRDF, for disabled collisions, group states and virtual joint.
+        fix_inertia: Repair method for physically inconsistent tensors.
+        force: Continue in spite of defects of the source if a robot remains.
         mesh_dir: Folder of the meshes, relative to the model.
-        file: Name of the model's file; empty for the robot's with ``scene.xml`` beside it.
-        cutter: Cuts meshes that collide and are not convex into pieces; None leaves them whole.
-        keep_locked_joints: Keep a joint with equal limits, held by an equality, where its link
-            would be welded.
-        pose: Positions of joints by name [rad, m] in the home position.
-        base_sensors: Add the velocity, gyro, accelerometer and orientation of a free base.
-        state: The group state of the SRDF that is the home position; empty for the likeliest.
-        actuator_config: A TOML file with gains, armature and losses of joints.
-        exclude: Pairs of links that never collide: ``adjacent`` are those that a joint joins,
-            ``touching`` also those that overlap at home, which MuJoCo is asked for.
-        fuse: Merge each link that is fixed to another into it, and keep its frame as a site.
-        overlap: Measures authored geometry, to tell an overlap of convex hulls; None does not
-            look for overlaps unless ``exclude`` asks for them.
-        armature: Rotor inertia [kg·m² or kg] added to every joint that the file says nothing of.
+        file: Name of the model file; empty for the robot's name, with ``scene.xml`` next to it.
+        cutter: Decomposes collision meshes that are not convex; None leaves them whole.
+        keep_locked_joints: Keep a joint with equal limits, held by an equality, instead of welding
+            its link.
+        pose: Joint positions by name [rad, m] at home.
+        base_sensors: Add velocity, gyro, accelerometer and orientation sensors of a free base.
+        state: SRDF group state for the home configuration; empty for the likeliest.
+        actuator_config: TOML file with gains, armature and damping of joints.
+        exclude: Pairs of links that never collide: ``adjacent`` for those that a joint connects,
+            ``touching`` also for those that overlap at home in MuJoCo.
+        fuse: Merge each rigidly attached link into its parent, and keep its frame as a site.
+        overlap: Measures authored geometry, to distinguish overlaps of convex hulls; None skips the
+            search for overlaps unless ``exclude`` requires it.
+        armature: Rotor inertia [kg·m² or kg] of every joint for which the file sets none.
     """
 
     actuators: Actuators = "auto"
@@ -68,5 +72,5 @@ class Options:
 
     @property
     def input_files(self) -> tuple[Path, ...]:
-        """Return the files that are read beside the robot."""
+        """Return the files that are read in addition to the robot."""
         return tuple(path for path in (self.srdf, self.actuator_config) if path is not None)

@@ -1,4 +1,4 @@
-"""A scene: the robot above a floor under a light."""
+"""A scene: the robot above a floor with a light."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .standing import Ground, ground_of
 from .structure import Structure
 
 FLUSH = 1e-3
-"""How far below the floor a robot that is held may reach with the floor still at z = 0 [m]."""
+"""Depth [m] to which a fixed robot may reach below a floor that stays at z = 0."""
 
 
 def scene_file(
@@ -29,24 +29,24 @@ def scene_file(
     text: bytes,
     written: Written,
 ) -> bytes:
-    """Make ``scene.xml``, which includes the model.
+    """Create ``scene.xml``, which includes the model.
 
-    The floor is at z = 0. Where a robot that is held reaches below it, at home or with every joint
-    at zero, the floor is at its lowest point, and that is reported.
+    The floor is at z = 0. If a fixed robot reaches below it, at home or with every joint at zero,
+    the floor is at its lowest point, which is reported.
 
     Args:
-        structure: The tree.
-        home: Where the robot starts.
-        boxes: The boxes of its shapes.
-        model: The name of the model.
-        text: The model, whose names the scene does not take.
-        written: The export; takes a floor that is not at zero.
+        structure: The kinematic tree.
+        home: Initial configuration.
+        boxes: Boxes of its shapes.
+        model: Name of the model.
+        text: The model as XML, whose names the scene avoids.
+        written: The export; receives a floor that is not at zero.
     """
     ground = ground_of(structure, boxes, home.positions, home.pose)
     low = 0.0 if structure.free else _lowest(structure, home, boxes, ground)
     center, extent = _around(ground, home)
     main = written.main
-    deep = etree.XMLParser(huge_tree=True)  # without it, 256 bodies in each other at most
+    deep = etree.XMLParser(huge_tree=True)  # libxml2 limits nesting to 256 levels by default
     names = UniqueNames(
         element.get("name", "") for element in etree.fromstring(text, deep).iter("*")
     )
@@ -93,7 +93,7 @@ def scene_file(
 
 
 def _lowest(structure: Structure, home: Home, boxes: ShapeBoxes, ground: Ground | None) -> float:
-    """The lowest point [m] of a robot that is held, at home and with every joint at zero."""
+    """Return the lowest point [m] of a fixed robot, at home and with every joint at zero."""
     if ground is None or not any(link.collisions for link in structure.robot.links):
         return 0.0
     start = ground_of(structure, boxes, structure.locked, home.start)
@@ -102,7 +102,7 @@ def _lowest(structure: Structure, home: Home, boxes: ShapeBoxes, ground: Ground 
 
 
 def _around(ground: Ground | None, home: Home) -> tuple[Vector, float]:
-    """The middle and the size [m] of what the scene shows."""
+    """Return the center and the size [m] of the view."""
     if ground is None:
         return home.pose.translation, 1.0
     low, high = ground.box

@@ -1,4 +1,4 @@
-"""Gazebo's and ros2_control's sensors: cameras in bodies, and sites that sensors look from."""
+"""Sensors of Gazebo and ros2_control: cameras in bodies, and sensors at sites."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from .frame import set_pose
 from .joint import SITE
 
 MAX_RAYS = 36
-"""Rays of a scanner up to which each becomes a rangefinder."""
+"""Maximum number of rays of a scanner that becomes rangefinders."""
 
 CAMERA_TURN = Pose(rotation_of_quaternion((0.5, 0.5, -0.5, -0.5)))
-"""Gazebo's cameras look along x with z up, MuJoCo's along -z with y up."""
+"""Rotation from Gazebo's camera (x forward, z up) to MuJoCo's (-z forward, y up)."""
 
-# type -> the sensors at its site, with what follows its name in theirs
+# type -> sensors at its site, with their name suffixes
 AT_SITE: dict[str, tuple[tuple[str, str], ...]] = {
     "imu": (("accelerometer", "_accelerometer"), ("gyro", "_gyro"), ("framequat", "_orientation")),
     "force_torque": (("force", "_force"), ("torque", "_torque")),
@@ -39,7 +39,7 @@ SCANNERS = ("ray", "gpu_ray", "lidar", "gpu_lidar", "sonar")
 
 
 def sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Element | None:
-    """``<sensor>``, or None where nothing is measured; sites and cameras go into the bodies."""
+    """Build ``<sensor>``, or return None if it is empty; add sites and cameras to the bodies."""
     section = etree.Element("sensor")
     there = (site.get("name", "") for body in bodies.values() for site in body.iterchildren("site"))
     sites, cameras, taken = UniqueNames(there), UniqueNames(), UniqueNames()
@@ -74,7 +74,7 @@ def sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Ele
 
 
 def _link_of(robot: Robot, reference: str | None) -> str | None:
-    """The link a sensor rides on; of a joint, its child."""
+    """Return the link of a sensor; for a joint reference, its child."""
     if reference is None:
         return None
     if reference in robot.link:
@@ -84,7 +84,7 @@ def _link_of(robot: Robot, reference: str | None) -> str | None:
 
 
 def _pose(element: Element) -> Pose:
-    """``<pose>`` of Gazebo: x y z [m] and roll pitch yaw [rad]."""
+    """Read Gazebo's ``<pose>``: x y z [m] and roll pitch yaw [rad]."""
     child = element.child("pose")
     values = numbers(child.text, 6) if child is not None else None
     if values is None:
@@ -102,7 +102,7 @@ def _site(name: str, pose: Pose, body: etree._Element, sites: UniqueNames) -> st
 
 
 def put_before_bodies(body: etree._Element, element: etree._Element) -> None:
-    """Put a site or camera before the bodies below."""
+    """Insert a site or camera before the child bodies."""
     first = body.find("body")
     body.insert(len(body) if first is None else body.index(first), element)
 
@@ -119,7 +119,7 @@ def _measure(
 
 
 def site_sensor(kind: str, name: str, site: str) -> etree._Element:
-    """Make a sensor at a site."""
+    """Create a sensor at a site."""
     element = etree.Element(kind, name=name)
     if kind.startswith("frame"):
         element.set("objtype", "site")
@@ -168,7 +168,7 @@ def _touch(
     taken: UniqueNames,
     written: Written,
 ) -> None:
-    """Contact forces on a link, added up inside a site that is as large as its first geom."""
+    """Add a touch sensor in a site that covers the first primitive collision geom of a link."""
     name = sensor.name or f"{link}_contact"
     geoms = [g for g in body.iterchildren("geom") if g.get("class") == "collision"]
     sized = [g for g in geoms if g.get("size")]
@@ -199,7 +199,7 @@ def _scanner(
     taken: UniqueNames,
     written: Written,
 ) -> None:
-    """One rangefinder a ray, along the z axis of a site."""
+    """Add one rangefinder for each ray, along the z axis of a site."""
     name = sensor.name or f"{link}_scan"
     scan = next((e for e in sensor.element.walk() if e.tag == "horizontal"), None)
     read: Callable[[str, float], float] = lambda tag, default: _value(scan, tag, default)  # noqa: E731
@@ -238,7 +238,7 @@ def _control_sensor(
     taken: UniqueNames,
     written: Written,
 ) -> None:
-    """A sensor of ros2_control, by the names of its state interfaces and its ``frame_id``."""
+    """Add a ros2_control sensor, by its state interfaces and its ``frame_id``."""
     names = {interface.name.partition(".")[0] for interface in component.state_interfaces}
     kinds = list(_control_kinds(names))
     frame = component.params.get("frame_id", "")

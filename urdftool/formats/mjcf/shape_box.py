@@ -1,4 +1,4 @@
-"""The box around a shape along the axes of the root, for its lowest point and its size."""
+"""Axis-aligned bounding boxes of shapes."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ from ...model.pose import Pose, pose_of
 from .geom import shape_size
 
 Box = tuple[Vector, Vector]
-"""The smallest and the largest corner [m]."""
+"""Minimum and maximum corner [m]."""
 
 
 class ShapeBoxes:
-    """Boxes around the shapes of a robot; a mesh file is read once."""
+    """Bounding boxes of the shapes of a robot; each mesh file is read once."""
 
     def __init__(self, robot: Robot) -> None:
-        """Take the robot; its meshes are read when they are asked for."""
+        """Initialize for a robot; meshes are read on demand."""
         self._robot = robot
         self._outlines: dict[str, ConvexPoints | None] = {}
 
     def box(self, shape: Visual | Collision, frame: Pose) -> Box | None:
-        """Compute the box around a shape.
+        """Compute the bounding box of a shape.
 
         Args:
             shape: A shape of a link.
-            frame: The pose of the link.
+            frame: Pose of the link.
 
         Returns:
-            The box along the axes of the frame's parent, exact but for meshes of over 50,000
-            points; None where the shape has no size or its mesh cannot be read.
+            The box along the axes of the frame's parent, exact except for meshes of more than
+            50,000 points; None if the shape has no size or its mesh cannot be read.
         """
         geometry = shape.geometry
         pose = frame @ pose_of(shape.origin)
@@ -64,7 +64,7 @@ class ShapeBoxes:
 
 
 def _reach(kind: str, size: tuple[float, ...], way: Vector) -> float:
-    """How far a shape of MuJoCo's type and half sizes [m] reaches along a unit vector [m]."""
+    """Compute the support function [m] of a primitive of MuJoCo's type and half sizes [m]."""
     x, y, z = way
     if kind == "box":
         return sum(abs(part) * half for part, half in zip(way, size, strict=True))

@@ -1,4 +1,4 @@
-"""MoveIt's SRDF: which pairs never collide, and how the robot stands in its world."""
+"""Reading of MoveIt's SRDF: disabled collisions, virtual joint and group states."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from ..written import Written
 
 @dataclass(frozen=True)
 class Srdf:
-    """What is used of an SRDF.
+    """The parts of an SRDF that the export uses.
 
     Attributes:
-        disabled: Pairs of links that do not collide, in the order of the file.
-        virtual_joint: Type of the joint to the world, if one is written.
-        path: The file.
-        states: Positions by joint [rad, m] of each group state; groups whose states have the same
-            name are one.
+        disabled: Pairs of links that do not collide, in file order.
+        virtual_joint: Type of the virtual joint, if there is one.
+        path: Path of the file.
+        states: Joint positions [rad, m] by group state; states of several groups with the same name
+            are merged.
     """
 
     disabled: list[tuple[str, str]]
@@ -33,10 +33,10 @@ class Srdf:
 
 
 def read_srdf(path: Path, robot: Robot, written: Written, packages: Packages | None) -> Srdf:
-    """An SRDF of a robot; pairs with links it does not have are said and left out.
+    """Read the SRDF of a robot; report and skip pairs with unknown links.
 
     Raises:
-        SourceError: It cannot be read.
+        SourceError: The file cannot be read.
         ModelError: Its root element is not ``<robot>``.
     """
     named = packages.named if packages is not None else {}

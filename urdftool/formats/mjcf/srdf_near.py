@@ -1,4 +1,4 @@
-"""Finds the SRDF of a robot, which is offered and never used without being asked for."""
+"""Search for the SRDF of a robot, which is suggested but not used unless the user passes it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..written import Written
 
 
 def offer_srdf(robot: Robot, written: Written) -> None:
-    """Report the SRDF files of a robot that lie beside it or in its MoveIt configuration."""
+    """Report the SRDF files of a robot next to it or in its MoveIt configuration."""
     found = srdf_files(robot)
     if found:
         names = " or ".join(shown_path(path) for path in found)
@@ -28,10 +28,10 @@ def offer_srdf(robot: Robot, written: Written) -> None:
 
 
 def srdf_files(robot: Robot) -> list[Path]:
-    """Find the SRDF files of a robot's name.
+    """Find the SRDF files whose robot has the same name.
 
-    They lie beside the description, or in ``config`` of a package ``…_moveit_config`` next to that
-    of the description or inside it.
+    The search covers the folder of the description, and ``config`` of a package ``…_moveit_config``
+    next to the package of the description or inside it.
     """
     if robot.source is None or robot.source.path == "-":
         return []

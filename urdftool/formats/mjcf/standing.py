@@ -1,4 +1,4 @@
-"""What a robot stands on at home, and whether its root is therefore free."""
+"""Support of the robot at home: which links carry it, and whether its root is therefore free."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from .shape_box import Box, ShapeBoxes
 from .structure import Structure
 
 LEVEL = 0.05
-"""How much higher than the lowest point a rigid body may end that stands there, of the size."""
+"""Height above the lowest point, relative to the size, up to which a rigid body is a support."""
 
 CLEARANCE = 0.01
-"""How far above the lowest point the root's rigid body ends where it does not stand, of the size.
+"""Height above the lowest point, relative to the size, up to which the root body is a support.
 
-Less than ``LEVEL``, so that a body close to the ground is not taken for one that stands on it.
+Less than ``LEVEL``, so that a root close to the ground does not count as a support.
 """
 
 UPRIGHT = 0.3
-"""The largest vertical part of the unit axis of a wheel."""
+"""Maximum vertical component of the unit axis of a wheel."""
 
 CENTERED = 0.2
-"""How far a wheel may be from its axis and from being round, of the height of its box."""
+"""Maximum offset of a wheel from its axis and deviation from round, relative to its box height."""
 
 ALIGNED = 0.95
-"""The part of the axis of a wheel along x or y of the root from which its box shows its length."""
+"""Minimum x or y component of a wheel's axis for which the box shows the width of the wheel."""
 
 FEET = frozenset(("leg", "foot", "feet", "toe", "ankle", "calf", "shank"))
 """Words in the names of the last links of legs."""
@@ -39,17 +39,17 @@ FEET = frozenset(("leg", "foot", "feet", "toe", "ankle", "calf", "shank"))
 LEGS = FEET | {"knee", "hip", "thigh", "wheel", "track"}
 HANDS = frozenset(("hand", "gripper", "finger", "thumb", "palm", "wrist", "arm", "forearm",
                    "upperarm", "tool"))  # fmt: skip
-"""Words in the names of links that no robot stands on, unless there is one of ``LEGS``."""
+"""Words in the names of links that do not support a robot, unless a word of ``LEGS`` occurs."""
 
 
 @dataclass(frozen=True)
 class Ground:
-    """What of a robot is near the ground, in the frame of its root.
+    """Geometry near the ground, in the frame of the root.
 
     Attributes:
-        box: The box around all that collides [m].
-        boxes: Boxes around what collides, by the topmost link of the rigid body.
-        feet: The link of each rigid body that reaches lowest.
+        box: Bounding box of the collision geometry [m].
+        boxes: Boxes of the shapes, by the topmost link of the rigid body.
+        feet: Lowest link of each rigid body, by its topmost link.
     """
 
     box: Box
@@ -58,20 +58,20 @@ class Ground:
 
     @property
     def low(self) -> float:
-        """The lowest point [m]."""
+        """Return the lowest point [m]."""
         return self.box[0][2]
 
     @property
     def size(self) -> float:
-        """The longest edge of the box [m]."""
+        """Return the longest edge of the box [m]."""
         return max(b - a for a, b in zip(*self.box, strict=True))
 
     def lowest(self, body: str) -> float:
-        """Return the lowest point of a rigid body [m]; infinite where nothing of it collides."""
+        """Return the lowest point of a rigid body [m]; infinity if it has no shapes."""
         return min((low[2] for low, _ in self.boxes.get(body, ())), default=math.inf)
 
     def near(self, level: float) -> list[str]:
-        """Return the rigid bodies that end within a part of the size above the lowest point."""
+        """Return the rigid bodies within ``level`` times the size above the lowest point."""
         return [body for body in self.boxes if self.lowest(body) <= self.low + level * self.size]
 
 
@@ -81,13 +81,13 @@ def ground_of(
     positions: Mapping[str, float],
     root: Pose | None = None,
 ) -> Ground | None:
-    """Measure what collides, or where nothing does, what is drawn; None where there is neither.
+    """Measure the collision geometry, or the visual geometry if there is none; None without both.
 
     Args:
-        structure: The tree.
-        boxes: The boxes of its shapes.
-        positions: Of the joints [rad, m].
-        root: The pose of the root; the identity if it is not given.
+        structure: The kinematic tree.
+        boxes: Boxes of its shapes.
+        positions: Joint positions [rad, m].
+        root: Pose of the root; the identity by default.
     """
     poses = link_poses(structure.robot, positions)
     collides = any(link.collisions for link in structure.robot.links)
@@ -110,17 +110,17 @@ def ground_of(
 def free_reason(
     structure: Structure, boxes: ShapeBoxes, positions: Mapping[str, float]
 ) -> str | None:
-    """Say on what a robot stands that is not held; None where it is held.
+    """Describe the support of a robot with a floating base; None for a fixed base.
 
-    It is free where it stands on a driven wheel or on two wheels; where only what moves against the
-    root reaches the ground: on two or more chains, below the center of mass, and not named as hands
-    are; and where two or more chains end in links that are named as feet or legs are. A robot
-    without collision geometry is held.
+    The base floats if the robot stands on a driven wheel or on two wheels; if only bodies that move
+    relative to the root reach the ground: on two or more chains, below the center of mass, and not
+    named like hands; or if two or more chains end in links named like feet or legs. A robot without
+    collision geometry has a fixed base.
 
     Args:
-        structure: The tree.
-        boxes: The boxes of its shapes.
-        positions: Of the joints at home [rad, m].
+        structure: The kinematic tree.
+        boxes: Boxes of its shapes.
+        positions: Joint positions at home [rad, m].
     """
     if not any(link.collisions for link in structure.robot.links):
         return None  # it would fall through the floor
@@ -164,7 +164,7 @@ def _on_feet(
 
 
 def _with_legs(structure: Structure) -> str | None:
-    """Say which legs a robot has by the names of links, in whatever pose they are."""
+    """Describe the legs of a robot, by the names of its links, independent of the pose."""
     inner = {structure.group[joint.parent] for joint in structure.moving}
     legs: dict[str, str] = {}
     for body, members in structure.members.items():
@@ -181,7 +181,7 @@ def _top(ground: Ground) -> float:
 def _is_wheel(
     structure: Structure, joint: Joint, positions: Mapping[str, float], ground: Ground
 ) -> bool:
-    """Whether a joint turns about a horizontal axis through the middle of something round."""
+    """Tell whether a joint rotates a round body about a horizontal axis through its center."""
     pose = link_poses(structure.robot, positions)[joint.child]
     x, y, z = rotate(pose.rotation, axis_of(joint))
     length = math.hypot(x, y, z)
@@ -195,7 +195,7 @@ def _is_wheel(
 
 
 def _chain(structure: Structure, body: str) -> list[str]:
-    """The rigid bodies from the first below the root's to a rigid body, by their topmost links."""
+    """Return the topmost links of the rigid bodies from the root (excluded) to a rigid body."""
     chain: list[str] = []
     while body != structure.root.name:
         chain.insert(0, body)
@@ -211,7 +211,7 @@ def _is_hand(chain: Iterable[str]) -> bool:
 
 
 def _words(name: str) -> list[str]:
-    """The words of a name: ``leftHand_2`` is left and hand."""
+    """Split a name into words: ``leftHand_2`` into left and hand."""
     return [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)]
 
 
@@ -221,7 +221,7 @@ def _is_above(
     low: Iterable[float],
     high: Iterable[float],
 ) -> bool:
-    """Whether the center of mass is above a box; a robot without mass is above every box."""
+    """Tell whether the center of mass is above a box; true for a robot without mass."""
     poses = link_poses(structure.robot, positions)
     masses = [
         (link.mass, (poses[link.name] @ pose_of(link.inertial.origin)).translation)
@@ -237,7 +237,7 @@ def _is_above(
 
 
 def _around(boxes: Iterable[Box]) -> Box:
-    """The box around boxes."""
+    """Return the bounding box of boxes."""
     lows, highs = zip(*boxes, strict=True)
     low, high = ([pick(axis) for axis in zip(*corners, strict=True)]
                  for pick, corners in ((min, lows), (max, highs)))  # fmt: skip

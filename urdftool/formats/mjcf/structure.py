@@ -1,4 +1,4 @@
-"""What hangs on what: kinds of joints, rigid groups of links, and what the root stands on."""
+"""The kinematic tree for MuJoCo: joint kinds, rigid groups of links, and the kind of base."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ...model.pose import Pose, norm, pose_of
 from ..common.lumping import LumpingPlan, plan_lumping
 
 WORLD = "world"
-"""The root link of this name is MuJoCo's world itself."""
+"""A root link of this name is MuJoCo's world."""
 
 KINDS = {
     "revolute": "hinge",
@@ -23,18 +23,18 @@ KINDS = {
     "ball": "ball",
     "fixed": "weld",
 }
-"""What each type of joint becomes; any other is welded."""
+"""MuJoCo's joint kind for each URDF joint type; other types are welded."""
 
 
 @dataclass(frozen=True, eq=False)
 class Structure:
-    """The tree as MuJoCo sees it.
+    """The kinematic tree as MuJoCo represents it.
 
     Attributes:
         robot: The robot, whose tree has one root.
         root: Its root link.
-        free: Whether the root moves freely.
-        reason: Why it does or does not, in words.
+        free: Whether the base floats.
+        reason: Why it does or does not, as text.
         keep_locked: Whether a joint with equal limits stays a joint, held by an equality.
     """
 
@@ -46,11 +46,11 @@ class Structure:
 
     @property
     def in_world(self) -> bool:
-        """Whether the root link is the world itself, and no body."""
+        """Tell whether the root link is the world instead of a body."""
         return self.root.name == WORLD
 
     def kind(self, joint: Joint) -> str:
-        """What a joint becomes: one of the values of ``KINDS``."""
+        """Return the kind of a joint: one of the values of ``KINDS``."""
         if joint.name in self.locked:
             return "weld"
         if joint.has_axis and joint.axis is not None and norm(joint.axis.xyz) < 1e-6:
@@ -59,25 +59,25 @@ class Structure:
 
     @cached_property
     def locked(self) -> dict[str, float]:
-        """The position [rad or m] of each joint that is welded because its limits are equal."""
+        """Return the position [rad or m] of each joint that is welded for its equal limits."""
         if self.keep_locked:
             return {}
         positions = ((joint.name, locked_at(joint)) for joint in self.robot.joints)
         return {name: position for name, position in positions if position is not None}
 
     def joint_pose(self, joint: Joint) -> Pose:
-        """Compute the pose of a joint's child in its parent: at the joint's lock, or at zero."""
+        """Compute the pose of a joint's child in its parent, at the locked position or at zero."""
         return pose_of(joint.origin) @ motion_of(joint, self.locked.get(joint.name, 0.0))
 
     @cached_property
     def joints(self) -> list[Joint]:
-        """Each link's joint to its parent, in the order of MuJoCo's bodies."""
+        """Return the joints to parents, in the order of MuJoCo's bodies."""
         tree = self.robot.tree
         return [joint for link in tree.order if (joint := tree.parent_joint(link)) is not None]
 
     @cached_property
     def moving(self) -> list[Joint]:
-        """The joints that MuJoCo has, in its order."""
+        """Return the joints that are not welded, in MuJoCo's order."""
         return [joint for joint in self.joints if self.kind(joint) != "weld"]
 
     @cached_property
@@ -89,17 +89,17 @@ class Structure:
 
     @property
     def group(self) -> dict[str, str]:
-        """Return for each link the topmost link of the rigid body it belongs to."""
+        """Return the topmost link of each link's rigid body."""
         return self._lumping.top
 
     @cached_property
     def members(self) -> dict[str, list[Link]]:
-        """Return the links of each rigid body, by its topmost link, which is the first."""
+        """Return the links of each rigid body, by its topmost link, which comes first."""
         bodies = self._lumping.members.items()
         return {top: [self.robot.link[name] for name in names] for top, names in bodies}
 
     def is_static(self, link: str) -> bool:
-        """Whether a link is held by the world."""
+        """Tell whether a link is rigidly attached to the world."""
         return not self.free and self.group[link] == self.root.name
 
     def pose_in_group(self, link: str) -> Pose:
@@ -115,12 +115,12 @@ class Structure:
         return self._poses[link]
 
     def body_name(self, link: str) -> str:
-        """The name of a link's body: MuJoCo keeps that of its world to itself."""
+        """Return the name of a link's body; MuJoCo reserves the name ``world``."""
         return f"{WORLD}_link" if link == WORLD and link != self.root.name else link
 
     @cached_property
     def depth(self) -> dict[str, int]:
-        """How many bodies each link is below the world."""
+        """Return the nesting level of each link's body below the world."""
         found = {self.root.name: 1}
         for joint in self.joints:
             found[joint.child] = found[joint.parent] + 1
@@ -128,9 +128,9 @@ class Structure:
 
 
 def bounds(joint: Joint) -> tuple[float, float] | None:
-    """Lower and upper limit [rad or m]; None for a joint without.
+    """Return lower and upper limit [rad or m]; None for an unlimited joint.
 
-    A limit that is not written counts as zero, as the specification has it.
+    A missing limit counts as zero, as the URDF specification defines.
     """
     if not joint.is_limited or joint.limit is None:
         return None
@@ -138,13 +138,13 @@ def bounds(joint: Joint) -> tuple[float, float] | None:
 
 
 def locked_at(joint: Joint) -> float | None:
-    """The position that equal limits leave to a joint; None if it can move."""
+    """Return the position of a joint with equal limits [rad or m]; None if it can move."""
     limits = bounds(joint)
     return limits[0] if limits is not None and limits[0] == limits[1] else None
 
 
 def structure_of(robot: Robot, *, keep_locked: bool = False) -> Structure:
-    """Make the structure of a robot with one root, which is held.
+    """Create the structure of a robot with one root, with a fixed base.
 
     Args:
         robot: The robot.

@@ -1,8 +1,8 @@
-"""Images as PNG, the one image format that every MuJoCo reads.
+"""Images as PNG, the image format that every MuJoCo version reads.
 
-MuJoCo refuses a PNG for an ancillary chunk of a wrong length, which libpng and Pillow ignore. So
-only those are kept that change what is seen: ``tRNS``, and ``sRGB``, from which MuJoCo takes the
-color space.
+MuJoCo rejects a PNG for an ancillary chunk of a wrong length, which libpng and Pillow ignore.
+Therefore only chunks that affect the appearance are kept: ``tRNS``, and ``sRGB``, from which MuJoCo
+reads the color space.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from ...storage import DiskCache, cache_folder, cache_key
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 COMPRESSION = 4
-"""zlib's level: 7 % larger than Pillow's 6 on 19 photographs of robots, in 70 % of its time."""
+"""zlib level: 7 % larger files than Pillow's 6 on 19 photographs of robots, in 70 % of the time."""
 
 _VERSION = 1
 
@@ -27,15 +27,15 @@ _COLOR_TYPES = (0, 2, 3, 4, 6)
 
 
 def png(image: Path | bytes) -> bytes | None:
-    """Return an image as a PNG without needless chunks, converted where it is another format.
+    """Return an image as a PNG without unneeded chunks; convert other formats.
 
-    A conversion is kept in the user's cache for the next export.
+    Conversions are cached in the user's cache folder.
 
     Returns:
-        The PNG; None for a file that is not an image.
+        The PNG; None if the file is not an image.
 
     Raises:
-        MissingDependency: It has to be converted, and Pillow is not installed.
+        MissingDependency: A conversion is needed, and Pillow is not installed.
     """
     try:
         data = image if isinstance(image, bytes) else image.read_bytes()
@@ -45,7 +45,7 @@ def png(image: Path | bytes) -> bytes | None:
 
 
 def _plain(data: bytes) -> bytes | None:
-    """Return a sound PNG without needless chunks; None for other data."""
+    """Return a valid PNG without unneeded chunks; None for other data."""
     if not data.startswith(SIGNATURE):
         return None
     chunks = list(_chunks(data))
@@ -79,7 +79,7 @@ def _plain(data: bytes) -> bytes | None:
 
 
 def _chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """Read the chunks of a PNG up to ``IEND``, or up to the first whose checksum is wrong."""
+    """Yield the chunks of a PNG up to ``IEND``, or up to the first with a wrong checksum."""
     start, kind = len(SIGNATURE), b""
     while kind != b"IEND":
         length = int.from_bytes(data[start : start + 4], "big")
@@ -98,7 +98,7 @@ def _chunk(kind: bytes, content: bytes) -> bytes:
 
 
 def _converted(data: bytes) -> bytes | None:
-    """Convert an image in any format that Pillow reads, or take it from the cache.
+    """Convert an image in any format that Pillow reads, or read the result from the cache.
 
     Raises:
         MissingDependency: Pillow is not installed.
@@ -130,9 +130,9 @@ def _png_bytes(data: bytes) -> bytes | None:
             target = BytesIO()
             see_through = "A" in picture.getbands() or "transparency" in picture.info
             plain = picture.convert("RGBA" if see_through else "RGB")
-            plain.info.clear()  # color profiles and the like would become chunks
+            plain.info.clear()  # color profiles and other metadata would become chunks
             plain.save(target, "PNG", compress_level=COMPRESSION)
-    # image readers meet damaged files with whatever their arithmetic raises
+    # Pillow raises arbitrary exceptions for damaged files
     except Exception:
         return None
     return _plain(target.getvalue())

@@ -1,7 +1,7 @@
-"""Proof that an export is the same robot: MuJoCo's model against the description, number by number.
+"""Comparison of an export with its description: MuJoCo's compiled model, number by number.
 
-The description's side is computed in ``mechanics``, which shares nothing with the exporter. What
-differs is allowed only where the export said so, of that very link or joint.
+The expected values are computed in ``mechanics``, which shares no code with the exporter. A
+difference is accepted only if the export reported a loss for the same link or joint.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ POSE, FORCE, MASS = 1e-9, 1e-8, 1e-12
 
 
 def verify_copy(robot: Robot, options: Options, written: Written) -> list[Check]:
-    """Compile and compare a copy of an export, before anything of the user's is touched."""
+    """Compile and compare a temporary copy of an export, before user files are replaced."""
     with copied(written) as folder:
         compile_all(written, folder)
         model, again = folder / written.main, write(robot, options)
@@ -63,7 +63,7 @@ def verify_copy(robot: Robot, options: Options, written: Written) -> list[Check]
 
 
 def _fused(robot: Robot, apart: Written, whole: Path, merged: Path) -> Check:
-    """Compare the model whose links are merged with that of all links."""
+    """Compare the model with merged links with the model of all links."""
     robot, _ = with_world(robot)
     mechanics = Mechanics(robot)
     plain, fused = (Compiled(path, mechanics.root, apart.renamed) for path in (whole, merged))
@@ -87,19 +87,19 @@ def verify(
     *,
     stepped: Path | None = None,
 ) -> list[Check]:
-    """Compare a written export with its robot.
+    """Compare an export with its robot.
 
     Args:
         robot: The robot.
-        written: What was exported.
-        model: Where the model lies, beside its meshes.
-        again: The same export made once more.
-        options: What it was exported with; the defaults if None.
-        stepped: The model that is stepped, where it is another one.
+        written: The export.
+        model: Path of the model, next to its meshes.
+        again: A second export with the same options.
+        options: Options of the export; None for the defaults.
+        stepped: Path of the model to step, if it is a different one.
 
     Raises:
         MissingDependency: MuJoCo is not installed.
-        OutputError: MuJoCo does not compile it.
+        OutputError: MuJoCo does not compile the model.
     """
     robot, _ = with_world(read_again(robot))
     declared = DeclaredLosses.from_findings(written.losses)
@@ -139,7 +139,7 @@ def verify(
 
 
 def _configurations(mechanics: Mechanics, compiled: Compiled) -> Iterator[dict[str, float]]:
-    """All joints at zero, then within their limits at random; welded ones always at theirs."""
+    """Yield joint positions: all zero, then random within limits; welded joints at their limits."""
     welded = _welded(mechanics, compiled)
     yield {joint.name: welded.get(joint.name, 0.0) for joint in mechanics.joints}
     random = np.random.default_rng(0)
@@ -156,7 +156,7 @@ def _configurations(mechanics: Mechanics, compiled: Compiled) -> Iterator[dict[s
 
 
 def _welded(mechanics: Mechanics, compiled: Compiled) -> dict[str, float]:
-    """The position [rad or m] of each joint that cannot move and that MuJoCo does not have."""
+    """Return the position [rad or m] of each locked joint that MuJoCo's model does not have."""
     return {
         joint.name: position
         for joint in mechanics.joints
@@ -166,7 +166,7 @@ def _welded(mechanics: Mechanics, compiled: Compiled) -> dict[str, float]:
 
 
 def _locked(joint: Joint) -> float | None:
-    """The only position that the limits of a joint allow [rad or m]; None if it can move."""
+    """Return the only position that the limits of a joint allow [rad or m]; None if it can move."""
     if joint.type not in ("revolute", "prismatic") or joint.limit is None:
         return None
     lower, upper = joint.limit.lower or 0.0, joint.limit.upper or 0.0
@@ -174,7 +174,7 @@ def _locked(joint: Joint) -> float | None:
 
 
 def _tree(robot: Robot, compiled: Compiled, declared: DeclaredLosses) -> Check:
-    """Joints by name: type, parent, child, and whom they follow."""
+    """Compare joints by name: type, parent, child, and mimic joint."""
     check = Check("tree", "joints, their types, parents and children, mimics", 0)
     kinds = {
         "revolute": 3,
@@ -224,14 +224,14 @@ def _tree(robot: Robot, compiled: Compiled, declared: DeclaredLosses) -> Check:
 
 
 def _unasked(robot: Robot, compiled: Compiled, check: Check) -> None:
-    """Find what couples bodies and is not in the description."""
+    """Report constraints between bodies that are not in the description."""
     model, kinds = compiled.model, compiled.mujoco.mjtEq
     follower = {joint.name for joint in robot.joints if joint.mimic is not None}
     ends = {frozenset(pair) for pair in loop_ends(robot, compiled)}
     for number in range(model.neq):
         kind = int(model.eq_type[number])
         one, other = int(model.eq_obj1id[number]), int(model.eq_obj2id[number])
-        if kind == int(kinds.mjEQ_JOINT):  # one without leader holds a joint: see the limits
+        if kind == int(kinds.mjEQ_JOINT):  # without a second joint it holds a joint, see _limits
             asked = other < 0 or compiled.name("JOINT", one) in follower
         else:
             asked = kind in (int(kinds.mjEQ_CONNECT), int(kinds.mjEQ_WELD))
@@ -285,7 +285,7 @@ def _dynamics(
     configurations: list[dict[str, float]],
     declared: DeclaredLosses,
 ) -> Iterator[Check]:
-    """Mass matrix and gravity over the joints, with the root held."""
+    """Compare mass matrix and gravity of the joints, with a fixed root."""
     inertia = Check("mass matrix", "over all joints, the root held", compiled.tensor_rounding)
     gravity = Check("gravity", "force at every joint that holds the robot", FORCE)
     welded = _welded(mechanics, compiled)
@@ -300,7 +300,7 @@ def _dynamics(
         found = compiled.mass_matrix([dofs[index] for index in present])
         scale = np.sqrt(np.maximum(np.diag(expected), 0.0))
         heaviest = float(np.diag(expected).max())
-        floor = 1e-6 * heaviest if heaviest > 0 else 1.0  # nothing to relate it to: as it is
+        floor = 1e-6 * heaviest if heaviest > 0 else 1.0  # no mass to relate the difference to
         difference = abs(found - expected) / np.maximum(np.outer(scale, scale), floor)
         inertia.compare(
             float(difference.max()),
@@ -338,7 +338,7 @@ def _centroid(
             )
             continue
         known = declared.any(*INERTIA, *TORN)
-        # the tolerances of the three are brought to that of the row
+        # scaled from its own tolerance to that of the row
         check.compare(abs(found_mass - mass) / mass * bound / MASS, "total mass", known=known)
         check.compare(
             float(abs(found_com - com).max()) * bound / POSE, "centre of mass", known=known
@@ -349,7 +349,7 @@ def _centroid(
 
 
 def _limits(mechanics: Mechanics, compiled: Compiled, declared: DeclaredLosses) -> Check:
-    """Bounds, damping and friction of each joint; a locked one is an equality."""
+    """Compare limits, damping and friction of each joint; a locked joint is an equality."""
     check = Check("limits", "lower, upper, effort, velocity, damping, friction", POSE)
     model = compiled.model
     for joint in mechanics.joints:
@@ -406,13 +406,13 @@ def _custom(compiled: Compiled, name: str) -> float:
 
 
 def _couplings(compiled: Compiled) -> Iterator[int]:
-    """The equalities of joints."""
+    """Yield the indices of the joint equalities."""
     kind = compiled.mujoco.mjtEq.mjEQ_JOINT
     yield from (n for n in range(compiled.model.neq) if compiled.model.eq_type[n] == kind)
 
 
 def _held(compiled: Compiled, joint: int) -> Iterator[float]:
-    """The position an equality holds a joint at."""
+    """Yield the position at which an equality holds a joint."""
     model = compiled.model
     for number in _couplings(compiled):
         active = bool(model.eq_active0[number])

@@ -1,4 +1,4 @@
-"""Which links can touch each other and the ground, and how they grip, in MuJoCo's model."""
+"""Comparison of contact: which links can collide with each other and the ground, and friction."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ SOFTNESS = (
     "condim", "priority", "solmix", "solref", "solimp", "margin", "gap", "fluid", "adhesion",
     "surfacevel",
 )  # fmt: skip
-"""Fields of a geom that an export leaves at MuJoCo's defaults."""
+"""Fields of a geom for which an export keeps MuJoCo's defaults."""
 
 DEEP = 1e-3
-"""Depth [m] at which two links overlap at home."""
+"""Penetration depth [m] above which two links overlap at home."""
 
 MANY = 12
-"""Pairs that are named one by one."""
+"""Maximum number of pairs reported individually."""
 
 
 def contact_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
-    """Compare which links can touch each other and a ground of MuJoCo's default class."""
+    """Compare which links can collide with each other and with a ground of default class."""
     check = Check("contact", "which links can touch each other and the ground", 0)
     model, flags = compiled.model, compiled.mujoco.mjtDisableBit
     for flag, what in ((flags.mjDSBL_CONTACT, "contact"), (flags.mjDSBL_CONSTRAINT, "constraint")):
@@ -64,7 +64,7 @@ def contact_check(source: Source, compiled: Compiled, declared: DeclaredLosses) 
 
 
 def _overlapping(source: Source, compiled: Compiled) -> set[frozenset[int]]:
-    """Find the bodies that overlap at home where nothing is excluded, if these are to be."""
+    """Find the bodies that overlap at home without exclusions, if the options exclude these."""
     if source.options.exclude != "touching":
         return set()
     mujoco, model = compiled.mujoco, copy(compiled.model)
@@ -82,7 +82,7 @@ def _overlapping(source: Source, compiled: Compiled) -> set[frozenset[int]]:
 
 
 def _count(link: Link, compiled: Compiled, check: Check, declared: DeclaredLosses) -> int:
-    """Compare how many geoms of a link touch; return how many do."""
+    """Compare the number of colliding geoms of a link; return the number in the model."""
     model, body = compiled.model, compiled.body(link.name)
     solid = [g for g in compiled.geoms(body) if model.geom_contype[g] or model.geom_conaffinity[g]]
     known = declared.of((*SHAPES, *CUT), *loss_names(link))
@@ -96,7 +96,7 @@ def _count(link: Link, compiled: Compiled, check: Check, declared: DeclaredLosse
 
 
 def _foreign(source: Source, compiled: Compiled, check: Check) -> None:
-    """Find geoms that touch on bodies that are no links."""
+    """Report colliding geoms on bodies that are not links."""
     model = compiled.model
     links = {compiled.body(link.name) for link in source.robot.links}
     for geom in range(model.ngeom):
@@ -108,11 +108,11 @@ def _foreign(source: Source, compiled: Compiled, check: Check) -> None:
 
 
 def _may_touch(source: Source, one: str, other: str) -> bool:
-    """Whether the description lets two links touch."""
+    """Tell whether the description lets two links collide."""
     pair = frozenset((source.rigid.get(one, one), source.rigid.get(other, other)))
     if len(pair) == 1:
         return False
-    if source.options.exclude == "none":  # but for what MuJoCo's own filter keeps apart
+    if source.options.exclude == "none":  # only MuJoCo's own parent filter applies
         return frozenset((one, other)) not in source.disabled and not (
             pair in source.joined and (source.is_free or source.root not in pair)
         )
@@ -122,7 +122,7 @@ def _may_touch(source: Source, one: str, other: str) -> bool:
 
 
 def _can_touch(compiled: Compiled, one: int, other: int, excluded: set[int]) -> bool:
-    """Whether MuJoCo lets the geoms of two bodies touch, by its documented filters."""
+    """Tell whether MuJoCo lets the geoms of two bodies collide, by its documented filters."""
     model = compiled.model
     welds = int(model.body_weldid[one]), int(model.body_weldid[other])
     if welds[0] == welds[1] or (min(one, other) << 16) + max(one, other) in excluded:
@@ -135,7 +135,7 @@ def _can_touch(compiled: Compiled, one: int, other: int, excluded: set[int]) -> 
 
 
 def surface_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
-    """Compare friction and softness of what touches."""
+    """Compare friction and softness of collision geoms."""
     check = Check("surface", "friction of every collision; MuJoCo's softness, margin, condim", 1e-9)
     plain = compiled.reference()
     model = compiled.model
@@ -150,10 +150,10 @@ def surface_check(source: Source, compiled: Compiled, declared: DeclaredLosses) 
             check.compare(off / max(1.0, grip[0]), f"friction of link '{link.name}'")
             for field in SOFTNESS:
                 array = getattr(model, f"geom_{field}", None)
-                if array is None:  # newer or older than this MuJoCo
+                if array is None:  # this version of MuJoCo does not have the field
                     continue
                 usual = getattr(plain, f"geom_{field}")[0]
-                if field == "priority":  # without it MuJoCo takes the larger friction of two
+                if field == "priority":  # without a priority MuJoCo uses the larger friction of two
                     usual = int(grip[0] < GRIP[0])
                 same = np.array_equal(array[geom], usual)
                 check.compare(0 if same else math.inf, f"{field} of link '{link.name}'")

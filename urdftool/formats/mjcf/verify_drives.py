@@ -1,4 +1,4 @@
-"""What drives each joint in MuJoCo's model: joint, gear, gain, bounds."""
+"""Comparison of actuators: joint, gear, gain, control and force range."""
 
 from __future__ import annotations
 
@@ -18,28 +18,28 @@ from .verify_source import Source, is_locked
 
 EXACT = 1e-9
 DAMPING = 1e-6
-"""How exactly MuJoCo's critical damping is that of the mass matrix."""
+"""Relative tolerance of MuJoCo's critical damping, computed from the mass matrix."""
 
 STIFFEST = 250.0
-"""How fast a position servo whose gain nobody chose may swing [rad/s]."""
+"""Maximum natural frequency of a position servo with an assumed gain [rad/s]."""
 
 THREE_DIGITS = 6e-3
-"""What rounding to three digits changes of a gain."""
+"""Relative change of a gain by rounding to three digits."""
 
 WORDS = ("position", "velocity", "effort")
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """An actuator that the description asks for.
+    """An actuator that the description or the options require.
 
     Attributes:
         kind: ``position``, ``velocity`` or ``motor``.
-        gear: Actuator force times this is the effort of the joint.
+        gear: Ratio of joint effort to actuator force.
         gain: Gain of the servo [N·m/rad, N·m·s/rad, N/m or N·s/m]; 1 for a motor.
-        bound: Range of the control; None for none.
+        bound: Control range; None if unlimited.
         damping: Velocity gain of a position servo; None for critical damping.
-        force: Range of its force; None for none.
+        force: Force range; None if unlimited.
         chosen: Whether the user chose the gain, which the inertia does not bound then.
     """
 
@@ -53,7 +53,7 @@ class Wanted:
 
 
 def actuator_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
-    """Compare what drives each joint with what the description and the options ask for."""
+    """Compare the actuators with those that the description and the options require."""
     check = Check("actuators", "joint, kind, gear, gain, range of control and force", EXACT)
     model = compiled.model
     wanted = dict(_wanted(source))
@@ -92,7 +92,7 @@ def _compare(number: int, joint: str, wanted: Wanted, compiled: Compiled, check:
         compiled.pose(_at_home(compiled))
         most = STIFFEST**2 * compiled.moved_by(joint)[0]
         compiled.pose({})
-        if wanted.gain > most > 0:  # written with three digits
+        if wanted.gain > most > 0:  # the export rounds a bounded gain to three digits
             is_near = abs(gain[0] / most - 1) < THREE_DIGITS
             wanted = replace(wanted, gain=float(gain[0]) if is_near else most)
     check.compare(_apart(gain[:3], [wanted.gain, 0, 0]), f"gain of {about}")
@@ -122,7 +122,7 @@ def _compare(number: int, joint: str, wanted: Wanted, compiled: Compiled, check:
 
 
 def _wanted(source: Source) -> Iterator[tuple[str, Wanted]]:
-    """What each joint is to be driven by, by its name."""
+    """Yield the required actuator of each joint, by joint name."""
     choice = source.options.actuators
     said = dict(_said(source)) if choice == "auto" else {}
     for joint in source.robot.joints:
@@ -146,7 +146,7 @@ def _wanted(source: Source) -> Iterator[tuple[str, Wanted]]:
 
 
 def _configured(wanted: Wanted, settings: JointSettings) -> Wanted:
-    """An actuator with the gains that the user set."""
+    """Return an actuator with the gains that the user set."""
     wanted = replace(wanted, force=settings.force_range)
     if wanted.kind == "position":
         chosen = settings.kp is not None
@@ -158,7 +158,7 @@ def _configured(wanted: Wanted, settings: JointSettings) -> Wanted:
 
 
 def _at_home(compiled: Compiled) -> dict[str, float]:
-    """The positions of hinges and slides in the key home, by joint."""
+    """Return the positions of hinges and slides in the key ``home``, by joint."""
     model, key = compiled.model, compiled.id("KEY", "home")
     return {
         compiled.name("JOINT", number): float(model.key_qpos[key][model.jnt_qposadr[number]])
@@ -168,7 +168,7 @@ def _at_home(compiled: Compiled) -> dict[str, float]:
 
 
 def _said(source: Source) -> Iterator[tuple[str, tuple[str, float]]]:
-    """Kind and gear by joint, as drive plugins say, then transmissions, then ros2_control."""
+    """Yield kind and gear by joint: from drive plugins, then transmissions, then ros2_control."""
     for plugin in source.drive_plugins:
         for element in plugin.walk():
             for name in element.text.replace(",", " ").split():
@@ -191,7 +191,7 @@ def _said(source: Source) -> Iterator[tuple[str, tuple[str, float]]]:
 
 
 def _turns(joint: Joint) -> bool:
-    """Whether a joint can turn as wheels do, and does not steer."""
+    """Tell whether a joint can rotate like a wheel, instead of steering."""
     limits = _limits(joint)
     return limits is None or not -7.0 < limits[0] < limits[1] < 7.0
 
@@ -220,7 +220,7 @@ def _limits(joint: Joint) -> tuple[float, float] | None:
 def _drive(
     joint: Joint, kind: str, gear: float, force: tuple[float, float] | None = None
 ) -> Wanted:
-    """The actuator of a kind: its gain by effort and velocity, its bounds those of the joint."""
+    """Create an actuator: gain from effort and velocity limits, range from joint limits."""
     effort = abs(joint.limit.effort or 0.0) if joint.limit else 0.0
     effort = max(map(abs, force)) if force is not None else effort
     velocity = abs(joint.limit.velocity or 0.0) if joint.limit else 0.0

@@ -1,4 +1,4 @@
-"""A model with merged links against the same one without: frames, masses, shapes, contacts."""
+"""Comparison of a model with merged links with the unmerged model."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ FRAME = 1e-9
 FAMILIES = ("jnt_", "dof_", "actuator_", "sensor_", "key_", "mat_", "tex_", "numeric_", "eq_sol",
             "eq_active", "eq_type", "cam_fovy", "cam_resolution", "cam_mode", "light_diffuse",
             "light_specular", "light_type", "light_cutoff", "light_active")  # fmt: skip
-"""Fields of MuJoCo's model that merging links leaves as they are."""
+"""Prefixes of the fields of MuJoCo's model that merging does not change."""
 
 COUNTED = ("id", "adr", "num", "invweight0", "length", "length0", "acc0", "M0", "lengthrange")
-"""Ends of fields that number bodies, or that MuJoCo derives."""
+"""Suffixes of fields that hold body indices, or that MuJoCo derives."""
 
 OF_GEOMS = (
     "contype", "conaffinity", "condim", "friction", "solref", "solimp", "margin", "gap",
@@ -33,13 +33,13 @@ def fuse_check(
     fused: Compiled,
     configurations: Sequence[Mapping[str, float]],
 ) -> Check:
-    """Compare a model whose links are merged with one in which each is a body.
+    """Compare a model with merged links with one in which each link is a body.
 
     Args:
-        links: The names of the links.
+        links: Names of the links.
         plain: The model with a body for each link.
         fused: The model whose merged links are sites.
-        configurations: Positions of the joints by name [rad or m].
+        configurations: Joint positions by name [rad or m].
     """
     check = Check(
         "fused",
@@ -85,13 +85,13 @@ def fuse_check(
 def compare_fields(
     plain: Compiled, fused: Compiled, check: Check, families: tuple[str, ...] = FAMILIES
 ) -> None:
-    """Compare joints, actuators, sensors, keys, looks and options field by field.
+    """Compare joints, actuators, sensors, keys, materials and options field by field.
 
     Args:
         plain: A model.
-        fused: Another of the same robot.
-        check: The row that notes what differs.
-        families: How the names of the fields of MuJoCo's model begin.
+        fused: Another model of the same robot.
+        check: Row that records the differences.
+        families: Prefixes of the compared fields of MuJoCo's model.
     """
     for name in dir(plain.model):
         if not name.startswith(families) or name.endswith(COUNTED):
@@ -118,7 +118,7 @@ def compare_fields(
 
 
 def _frame(compiled: Compiled, link: str) -> Array | None:
-    """The pose of a link in the root's frame: of its body, or of the site of its name."""
+    """Return the pose of a link in the root's frame, of its body or of the site of its name."""
     if compiled.body(link) >= 0:
         return compiled.frame(link)
     for name in (link, f"{link}_frame"):
@@ -129,7 +129,7 @@ def _frame(compiled: Compiled, link: str) -> Array | None:
 
 
 def _shapes(compiled: Compiled) -> Array:
-    """Kind, group, size, place, grip and look of every shape, a row each."""
+    """Return kind, group, size, pose, contact and appearance of every geom, one row each."""
     model = compiled.model
     rows = [
         [
@@ -148,7 +148,7 @@ def _shapes(compiled: Compiled) -> Array:
 
 
 def _unlike(one: Array, other: Array) -> float:
-    """How far the rows of two tables are apart, each from the one most like it."""
+    """Return the largest difference between the rows of two tables, matched to the nearest row."""
     if one.shape != other.shape:
         return math.inf
     left, worst = list(range(len(other))), 0.0
@@ -161,7 +161,7 @@ def _unlike(one: Array, other: Array) -> float:
 
 
 def _touching(compiled: Compiled) -> set[tuple[str, str]]:
-    """Pairs of shapes, by name, that can touch; MuJoCo's filters are applied by rigid body."""
+    """Return the pairs of geoms, by name, that rigid bodies and exclusions let collide."""
     model = compiled.model
     excluded = {int(signature) for signature in model.exclude_signature}
     solid = [

@@ -1,4 +1,4 @@
-"""Where the robot starts: the pose of its root, and the key ``home``."""
+"""Comparison of the initial state: the pose of the root, and the key ``home``."""
 
 from __future__ import annotations
 
@@ -18,15 +18,16 @@ from .verify_source import Source, is_locked
 
 EXACT = 1e-9
 GROUND = 1e-4
-"""How near to the floor the lowest point of a free robot has to be, relative to the robot's size;
-the box of a mesh of many points is not exact."""
+"""Tolerance of the height of a free robot's lowest point, relative to its size;
+the bounding box of a mesh with many points is not exact.
+"""
 
 STATES = ("home", "default", "ready", "stand", "standing", "initial", "neutral")
-"""Names of group states that are taken for the home position, in this order."""
+"""Names of group states, in order of preference for the home configuration."""
 
 
 def base_check(source: Source, compiled: Compiled) -> Check:
-    """Compare whether the root is held, and where it stands."""
+    """Compare whether the root is fixed, and its pose."""
     free = source.is_free
     what = f"root {'free, on the floor' if free else 'held'}, its pose; no other body"
     check = Check("base", what, EXACT)
@@ -52,7 +53,7 @@ def base_check(source: Source, compiled: Compiled) -> Check:
 
 
 def home_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
-    """Compare the key ``home``: limits, mimics, positions that are asked for, controls, floor."""
+    """Compare the key ``home``: limits, mimics, required positions, controls, floor."""
     check = Check("home", "limits, mimics, positions asked for, controls, floor", EXACT)
     model = compiled.model
     key = compiled.id("KEY", "home")
@@ -82,7 +83,7 @@ def home_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> 
             check.compare(abs(found - wanted), f"joint '{joint.name}' is at {found:g}", known=known)
     for index in range(model.nu):
         driven = compiled.name("JOINT", int(model.actuator_trnid[index][0]))
-        serves = float(model.actuator_biasprm[index][1]) != 0  # position is fed back
+        serves = float(model.actuator_biasprm[index][1]) != 0  # position feedback: a position servo
         wanted = positions.get(driven, 0.0) if serves else 0.0
         off = abs(float(model.key_ctrl[key][index]) - wanted)
         check.compare(off, f"control of joint '{driven}'")
@@ -95,7 +96,7 @@ def home_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> 
 
 
 def _compare_place(source: Source, compiled: Compiled, free: bool, what: str, check: Check) -> None:
-    """Compare the pose of the root; a free one stands on the floor."""
+    """Compare the pose of the root; a free root stands on the floor."""
     root = max(compiled.body(source.root), 0)
     place, rotation = _origin(source)
     found = np.array(compiled.data.xpos[root])
@@ -109,7 +110,7 @@ def _compare_place(source: Source, compiled: Compiled, free: bool, what: str, ch
 
 
 def _origin(source: Source) -> tuple[Array, Array]:
-    """Where the description puts the whole robot."""
+    """Return position and rotation of the whole robot in the description."""
     origin = source.robot.element.child("origin")
     place = (numbers(origin.get("xyz"), 3) if origin is not None else None) or (0.0, 0.0, 0.0)
     angles = (numbers(origin.get("rpy"), 3) if origin is not None else None) or (0.0, 0.0, 0.0)
@@ -120,9 +121,9 @@ def _origin(source: Source) -> tuple[Array, Array]:
 
 
 def lowest_point(compiled: Compiled) -> tuple[float, float]:
-    """Return the lowest point of what touches, and how high that is [m]; inf where nothing does.
+    """Return the lowest point of the collision geometry, and its height [m]; inf without geometry.
 
-    Where nothing touches, what is seen counts.
+    Without collision geometry, visual geometry is measured.
     """
     model, data = compiled.model, compiled.data
     touching = [g for g in range(model.ngeom) if model.geom_contype[g] or model.geom_conaffinity[g]]
@@ -138,7 +139,7 @@ def lowest_point(compiled: Compiled) -> tuple[float, float]:
 
 
 def _reaches(compiled: Compiled, geom: int, way: Array) -> tuple[float, float]:
-    """How far a geom reaches down and up, with the third row of its rotation."""
+    """Return the lower and upper extent of a geom [m], from the third row of its rotation."""
     model, kinds = compiled.model, compiled.mujoco.mjtGeom
     kind, size = int(model.geom_type[geom]), model.geom_size[geom]
     if kind == int(kinds.mjGEOM_MESH):
@@ -166,7 +167,7 @@ def _limits(joint: Joint) -> tuple[float, float]:
 
 
 def _allowed(source: Source, joint: Joint) -> tuple[float, float]:
-    """Where a joint may start so that those that follow it are within their limits, too."""
+    """Return the range of a joint for which its mimic joints are within their limits, too."""
     low, high = _limits(joint)
     for other in source.robot.joints:
         mimic, bounds = other.mimic, _limits(other)
@@ -180,7 +181,7 @@ def _allowed(source: Source, joint: Joint) -> tuple[float, float]:
 
 
 def _asked(source: Source) -> dict[str, float]:
-    """Positions that ros2_control, a group state of the SRDF, and the user ask for."""
+    """Return the positions that ros2_control, a group state of the SRDF, and the user require."""
     found: dict[str, float] = {}
     for control in source.robot.ros2_controls:
         for component in control.joints:
@@ -205,7 +206,7 @@ def _given(pose: Mapping[str, float]) -> dict[str, float]:
 
 
 def _state(source: Source) -> dict[str, float]:
-    """The positions of a group state: the one that is named, else the likeliest."""
+    """Return the positions of the group state that the options name, else of the likeliest."""
     root = source.srdf
     states: dict[str, list[Element]] = {}
     for element in root.all("group_state") if root is not None else ():

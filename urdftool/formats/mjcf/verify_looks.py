@@ -1,4 +1,4 @@
-"""Colors and images of what is seen, in MuJoCo's model and in the description."""
+"""Comparison of the colors and images of visual geometry."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ Image = Path | bytes
 
 WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
 GREY: Rgba = (0.5, 0.5, 0.5, 1.0)
-"""MuJoCo's color of a geom that says none."""
+"""MuJoCo's default color of a geom."""
 
 SINGLE = 1e-6
-"""Colors are kept in single precision."""
+"""Tolerance of colors, which MuJoCo stores in single precision."""
 
 VISUAL_GROUP = 2
 
 
 @dataclass(frozen=True)
 class Look:
-    """How one geom looks: its color, and its image if it has one."""
+    """Appearance of one geom: its color, and its image if it has one."""
 
     rgba: Rgba
     image: Image | None = None
@@ -48,7 +48,7 @@ class Look:
 def material_check(
     source: Source, meshes: SourceMeshes, compiled: Compiled, declared: DeclaredLosses
 ) -> Check:
-    """Compare the color and the image of every geom that is seen."""
+    """Compare the color and the image of every visual geom."""
     check = Check("materials", "color, image and gloss of all that is seen", SINGLE)
     model, pictures = compiled.model, Pictures(compiled)
     plain = compiled.reference()
@@ -80,7 +80,7 @@ def material_check(
 
 
 def _looks(source: Source, meshes: SourceMeshes, link: Link) -> Iterator[Look]:
-    """How each geom of a link's visuals is to look, in the order of the file."""
+    """Yield the expected appearance of each geom of a link's visuals, in file order."""
     for visual in link.visuals:
         if not has_size(meshes, visual):
             continue
@@ -103,7 +103,7 @@ def _looks(source: Source, meshes: SourceMeshes, link: Link) -> Iterator[Look]:
 
 
 def _own(source: Source, link: Link, visual: Visual) -> Look:
-    """How a visual looks by its material, or by Gazebo's where it has none."""
+    """Return the appearance of a visual by its material, or by Gazebo's if it has none."""
     material = _defined(source.robot, visual.material)
     if material is None:
         said = (source.value(link.name, "material") or "").split("/")[-1]
@@ -120,7 +120,7 @@ def _own(source: Source, link: Link, visual: Visual) -> Look:
 
 
 def _defined(robot: Robot, material: Material | None) -> Material | None:
-    """A material with a color or an image: itself, or the first of its name that has one."""
+    """Return a material with a color or an image: itself, or the first of its name that has one."""
     if material is None:
         return None
     named = [v.material for link in robot.links for v in link.visuals]
@@ -131,29 +131,29 @@ def _defined(robot: Robot, material: Material | None) -> Material | None:
 
 
 def _part_image(part: Part) -> Image | None:
-    """The image of a part of a mesh that has texture coordinates for all of it."""
+    """Return the image of a part of a mesh with complete texture coordinates."""
     if part.uv is None or not np.all(np.isfinite(part.uv)):
         return None
     return part.texture if part.texture is not None else part.image
 
 
 class Pictures:
-    """The images of a compiled model beside those of a description."""
+    """Comparison of the images of a compiled model with those of a description."""
 
     def __init__(self, compiled: Compiled) -> None:
-        """Take a model whose images are compared."""
+        """Initialize for a compiled model."""
         self._compiled = compiled
         self._read: dict[Image, Any] = {}
         kinds = compiled.mujoco.mjtTextureRole
         self._role = int(kinds.mjTEXROLE_RGB)
 
     def texture(self, material: int) -> int:
-        """Return the number of the image of a material; -1 for none."""
+        """Return the index of a material's image; -1 for none."""
         model = self._compiled.model
         return int(model.mat_texid[material][self._role]) if material >= 0 else -1
 
     def same(self, texture: int, image: Image) -> bool:
-        """Whether an image of the model has the pixels of one of the description."""
+        """Tell whether an image of the model has the same pixels as one of the description."""
         if image not in self._read:
             self._read[image] = self._pixels(image)
         expected = self._read[image]
@@ -161,7 +161,7 @@ class Pictures:
         return expected is not None and np.array_equal(found, expected)
 
     def _pixels(self, image: Image) -> Any:
-        """Red, green and blue of an image; by MuJoCo where it reads it, else by Pillow."""
+        """Return red, green and blue of an image, read by MuJoCo if possible, else by Pillow."""
         data = image if isinstance(image, bytes) else image.read_bytes()
         text = "<texture type='2d' name='a' file='a.png'/>"
         try:
@@ -174,13 +174,13 @@ class Pictures:
 
 
 def _by_pillow(data: bytes) -> Any:
-    """Red, green and blue of an image that is not a PNG; None where it cannot be read."""
+    """Return red, green and blue of an image that is not a PNG; None if it cannot be read."""
     try:
         from PIL import Image as Pillow
 
         with Pillow.open(BytesIO(data)) as picture:
             return np.array(picture.convert("RGBA"))[:, :, :3]
-    except Exception:  # readers of images meet damaged files with whatever they raise
+    except Exception:  # Pillow raises arbitrary exceptions for damaged files
         return None
 
 

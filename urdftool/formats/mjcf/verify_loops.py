@@ -1,4 +1,4 @@
-"""The joints with which Gazebo closes loops, in MuJoCo's model."""
+"""Comparison of loop-closing joints."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ HELD = {"revolute": "CONNECT", "continuous": "CONNECT", "ball": "CONNECT", "fixe
 
 
 def compare_loops(robot: Robot, compiled: Compiled, declared: DeclaredLosses, check: Check) -> None:
-    """Each joint of a ``<gazebo>`` without reference has its equality, at its place."""
+    """Compare each joint in a ``<gazebo>`` without reference with its equality constraint."""
     for block in robot.extensions.get(None, ()):
         for joint in block.element.all("joint"):
             held = _holds(joint, compiled)
@@ -29,7 +29,7 @@ def compare_loops(robot: Robot, compiled: Compiled, declared: DeclaredLosses, ch
 
 
 def loop_ends(robot: Robot, compiled: Compiled) -> Iterator[tuple[int, int]]:
-    """Yield the bodies that each joint of a loop joins."""
+    """Yield the bodies that each loop-closing joint connects."""
     for block in robot.extensions.get(None, ()):
         for joint in block.element.all("joint"):
             yield _body(joint, "child", compiled), _body(joint, "parent", compiled)

@@ -1,4 +1,4 @@
-"""The meshes of a description, each read once for a whole comparison."""
+"""Meshes of a description, each read once for a comparison."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ WHOLE: Vector = (1.0, 1.0, 1.0)
 
 
 class SourceMeshes:
-    """The meshes that a robot names."""
+    """Cache of the meshes of a robot."""
 
     def __init__(self, robot: Robot) -> None:
-        """Take the robot; a mesh is read when it is asked for."""
+        """Initialize for a robot; meshes are read on demand."""
         self._robot = robot
         self._read: dict[tuple[str, Vector], Mesh | None] = {}
 
     def read(self, filename: str, scale: Vector = WHOLE) -> Mesh | None:
-        """Return a mesh in its scale; None where it cannot be read."""
+        """Return a scaled mesh; None if it cannot be read."""
         if (filename, scale) not in self._read:
             self._read[filename, scale] = self._load(filename, scale)
         return self._read[filename, scale]

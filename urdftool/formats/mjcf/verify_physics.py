@@ -1,4 +1,4 @@
-"""What acts on the robot in MuJoCo's model: gravity, springs, options."""
+"""Comparison of gravity, springs, joint dynamics and physics options."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ STOPS = ("solref", "solimp", "margin", "actgravcomp", "stiffnesspoly", "springyi
 LOSSES = ("solref", "solimp", "dampingpoly")
 
 LEAF_ARMATURE = 1e-4
-"""Inertia [kg·m² or kg] that the joint of a last link without mass gets."""
+"""Armature [kg·m² or kg] of the joint of a massless leaf link."""
 
 
 def gravity_flag_check(source: Source, compiled: Compiled) -> Check:
-    """Compare on which links gravity acts."""
+    """Compare which links gravity acts on."""
     check = Check("gravity flags", "on which links gravity acts", EXACT)
     for link in source.robot.links:
         body = compiled.body(link.name)
@@ -39,7 +39,7 @@ def gravity_flag_check(source: Source, compiled: Compiled) -> Check:
 
 
 def joint_physics_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
-    """Compare springs, armature, stops, and the dynamics of joints of several coordinates."""
+    """Compare springs, armature, limit softness, and the dynamics of each degree of freedom."""
     check = Check("joint physics", "springs, armature, stiffness of limits, lower effort", EXACT)
     model, plain = compiled.model, compiled.reference()
     for joint in source.robot.joints:
@@ -68,7 +68,7 @@ def joint_physics_check(source: Source, compiled: Compiled, declared: DeclaredLo
 
 
 def _numbers(joint: Joint, compiled: Compiled) -> list[int]:
-    """The joints of MuJoCo that a joint became."""
+    """Return the indices of the MuJoCo joints of a joint."""
     names = [joint.name + end for end in ("_TX", "_TY", "_RZ")]
     names = names if joint.type == "planar" else [joint.name]
     return [number for name in names if (number := compiled.id("JOINT", name)) >= 0]
@@ -81,7 +81,7 @@ def _stiffness(source: Source, name: str) -> float:
 def _compare_dofs(
     source: Source, joint: Joint, number: int, light: bool, compiled: Compiled, check: Check
 ) -> None:
-    """Compare what acts along each coordinate of a joint."""
+    """Compare armature, damping and friction of each degree of freedom of a joint."""
     model, plain = compiled.model, compiled.reference()
     first = int(model.jnt_dofadr[number])
     count = {0: 6, 1: 3}.get(int(model.jnt_type[number]), 1)
@@ -108,7 +108,7 @@ def _compare_dofs(
 def _same_default(
     model: object, plain: object, field: str, number: int, text: str, check: Check
 ) -> None:
-    """Compare a field with MuJoCo's default, where this version of MuJoCo has it."""
+    """Compare a field with MuJoCo's default, if this version of MuJoCo has it."""
     array = getattr(model, field, None)
     if array is not None:
         same = np.array_equal(array[number], getattr(plain, field)[0])
@@ -116,7 +116,7 @@ def _same_default(
 
 
 def _is_weightless(source: Source, joint: Joint) -> bool:
-    """Whether nothing that a joint moves has mass."""
+    """Tell whether none of the links that a joint moves has mass."""
     below = [joint.child, *source.robot.tree.descendants(joint.child)]
     return sum(max(source.robot.link[name].mass, 0.0) for name in below) <= 1e-14
 
@@ -126,7 +126,7 @@ def _apart(found: float, expected: float) -> float:
 
 
 def option_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
-    """Compare gravity and the other options of the physics with what ``<mujoco>`` asks for."""
+    """Compare gravity and the other physics options with those that ``<mujoco>`` requires."""
     check = Check("options", "gravity, medium, solver, flags, as <mujoco> says", EXACT)
     written = dict(compiled.written_options)
     asked = compiled.options_of(_asked(source))
@@ -138,7 +138,7 @@ def option_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -
 
 
 def _asked(source: Source) -> str:
-    """``<option>`` with what the description asks for."""
+    """Return the ``<option>`` element that the description requires."""
     values = {"integrator": "implicitfast"}
     if source.is_free or any(joint.type == "floating" for joint in source.robot.joints):
         values["cone"] = "elliptic"

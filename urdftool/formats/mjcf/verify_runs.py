@@ -1,6 +1,6 @@
-"""Steps a compiled model at its home configuration and judges whether it holds still.
+"""Simulation of a compiled model at its home configuration, to check that it holds still.
 
-Only the file that was written is read here: nothing is shared with the code that wrote it.
+The module reads only the exported file and shares no code with the exporter.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ SECONDS = 2.0
 """Simulated time [s]."""
 
 BEYOND = 0.01
-"""How far a joint may be outside its limits [rad or m]."""
+"""Tolerance of joint limits [rad or m]."""
 
 DRIFT = 0.01
-"""How far a free base may move from where it settles [m]."""
+"""Maximum motion of a free base after it settles [m]."""
 
 SETTLED = 0.5
-"""Time [s] that a free base has to come to rest."""
+"""Time [s] for a free base to settle."""
 
 STOP = 1e6
 """Speed [rad/s or m/s] above which the simulation has diverged."""
@@ -39,15 +39,15 @@ STOP = 1e6
 
 @dataclass
 class Trial:
-    """One run of a model.
+    """One simulation of a model.
 
     Attributes:
         timestep: Physics time step [s].
-        warnings: MuJoCo's warnings, each with the time [s] at which it came first.
-        beyond: How far a joint went outside its limits [rad or m], by name, where too far.
-        drift: How far the base moved after it settled [m]; infinite where numbers ran away.
-        speed: The highest speed of a joint at the end [rad/s or m/s].
-        is_free: Whether a base moves freely, and stands on a floor.
+        warnings: Time [s] of the first occurrence of each of MuJoCo's warnings.
+        beyond: Largest excess over joint limits [rad or m], by joint name, above the tolerance.
+        drift: Motion of the base after it settled [m]; infinite if the simulation diverged.
+        speed: Highest joint speed at the end [rad/s or m/s].
+        is_free: Whether a base is free and stands on a floor.
     """
 
     timestep: float
@@ -58,16 +58,16 @@ class Trial:
     is_free: bool = False
 
     def faults(self) -> list[str]:
-        """List what is wrong, in words; empty for a model that runs."""
+        """List all faults as text; empty for a model that runs."""
         return [*self.instabilities(), *self.excesses(), *self.drifts()]
 
     def drifts(self) -> Iterator[str]:
-        """Say how far a free base moves, if it is too far."""
+        """Describe the drift of a free base, if it is too large."""
         if math.isfinite(self.drift) and self.drift > DRIFT:
             yield f"the base drifts by {self.drift:.2g} m (at {self.timestep * 1000:g} ms)"
 
     def instabilities(self) -> list[str]:
-        """List warnings and numbers that ran away."""
+        """List warnings and divergence."""
         at = f"at {self.timestep * 1000:g} ms"
         found = [
             f"MuJoCo warns after {time:.3g} s: {text} ({at})"
@@ -87,11 +87,11 @@ class Trial:
 
 
 def runs_check(path: Path, declared: DeclaredLosses, *, excluded: bool) -> Check:
-    """Step a model at each time step.
+    """Simulate a model at each time step.
 
     Args:
         path: The MJCF file.
-        declared: The losses that were reported.
+        declared: The reported losses.
         excluded: Whether links that overlap at home are excluded from contact.
 
     Returns:
@@ -107,7 +107,7 @@ def runs_check(path: Path, declared: DeclaredLosses, *, excluded: bool) -> Check
         check.compare(0.0 if trial.faults() else trial.drift, "")
         for fault in trial.instabilities():
             check.compare(math.inf, fault, known=known)
-        # whether a free robot stands, and what its weight does to its knees, is not the export's
+        # the export does not determine whether a free robot stands or sags
         for fault in trial.excesses():
             check.compare(math.inf, fault, known=known or trial.is_free)
         for fault in trial.drifts():
@@ -116,9 +116,10 @@ def runs_check(path: Path, declared: DeclaredLosses, *, excluded: bool) -> Check
 
 
 def run_at_home(path: Path, timestep: float, seconds: float = SECONDS) -> Trial:
-    """Step a model from its key ``home``, or from zero within its limits, held by its actuators.
+    """Simulate a model from its key ``home``, held by its actuators.
 
-    A free base gets a floor under the lowest point that collides, where the file has no plane.
+    Without the key, the start is zero within the limits. A free base gets a floor under the lowest
+    collision geometry if the file has no plane.
 
     Args:
         path: The MJCF file.
@@ -161,7 +162,7 @@ def run_at_home(path: Path, timestep: float, seconds: float = SECONDS) -> Trial:
 
 
 def home_positions(mujoco: Any, model: Any) -> Array:
-    """Read the configuration of the key ``home``; without one, zero within the limits."""
+    """Read the configuration of the key ``home``; without one, return zero within the limits."""
     key = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_KEY, "home")
     if key >= 0:
         return np.array(model.key_qpos[key])
@@ -181,7 +182,7 @@ def home_positions(mujoco: Any, model: Any) -> Array:
 
 
 def _start(mujoco: Any, model: Any, data: Any) -> None:
-    """Put the state to home, and the servos' targets with it."""
+    """Set the state to home, and the targets of the servos."""
     key = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_KEY, "home")
     if key >= 0:
         mujoco.mj_resetDataKeyframe(model, data, key)
@@ -203,7 +204,7 @@ def _free_bodies(mujoco: Any, model: Any) -> Array:
 
 
 def _held_joints(mujoco: Any, model: Any) -> list[tuple[int, float, float]]:
-    """List the joints with limits that a servo holds, directly or by a mimic; and the limits."""
+    """List the joints that a servo holds, directly or by a mimic, with their limits."""
     driven = {
         int(model.actuator_trnid[number][0])
         for number in range(model.nu)
@@ -224,7 +225,7 @@ def _held_joints(mujoco: Any, model: Any) -> list[tuple[int, float, float]]:
 
 
 def _on_floor(mujoco: Any, path: Path) -> Any:
-    """Compile a file; one with a free body and without a plane gets a floor under it."""
+    """Compile a file; add a floor if it has a free body and no plane."""
     model = mujoco.MjModel.from_xml_path(str(path))
     if (model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE).any():
         return model
@@ -242,7 +243,7 @@ def _on_floor(mujoco: Any, path: Path) -> Any:
 
 
 def lowest_point(mujoco: Any, model: Any, data: Any) -> float:
-    """Find the height [m] of the lowest point of the geoms that collide, in the world."""
+    """Compute the height [m] of the lowest point of the collision geoms, in the world."""
     lows = list(_low_points(mujoco, model, data))
     return min(lows, default=0.0)
 

@@ -1,4 +1,4 @@
-"""The scene around a model: the same robot, and a floor below it."""
+"""Comparison of a scene with its model: the same robot, and a floor below it."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ from .verify_home import lowest_point
 from .verify_source import Source
 
 FLOOR = 1e-4
-"""How near to its height the floor has to be, relative to the size of the robot."""
+"""Tolerance of the floor's height, relative to the size of the robot."""
 
 ROUNDED = 1.01e-4
-"""What the height [m] of a floor is rounded by."""
+"""Rounding of the floor's height [m]."""
 
 FLUSH = 1e-3
-"""How far below z = 0 [m] a robot that is held may reach with the floor still there."""
+"""Depth [m] to which a fixed robot may reach below a floor at z = 0."""
 
 ROBOT = ("jnt_", "dof_", "actuator_", "sensor_", "key_", "eq_sol", "eq_active", "eq_type",
          "body_mass", "body_inertia", "body_pos", "body_quat", "body_ipos", "body_iquat",
          "body_gravcomp")  # fmt: skip
-"""Fields of MuJoCo's model that a scene leaves as they are."""
+"""Prefixes of the fields of MuJoCo's model that a scene does not change."""
 
 
 def scene_check(source: Source, compiled: Compiled, path: Path) -> Check:
     """Compare a scene with the model it includes.
 
     Args:
-        source: What the description asks for.
+        source: The expected values from the description.
         compiled: The model.
         path: The file of the scene.
 
@@ -68,7 +68,7 @@ def scene_check(source: Source, compiled: Compiled, path: Path) -> Check:
 
 
 def _floor_height(source: Source, compiled: Compiled) -> tuple[float, float]:
-    """Where the floor has to be, and how high the robot is [m]."""
+    """Return the expected height of the floor, and the height of the robot [m]."""
     compiled.pose({})
     low, size = lowest_point(compiled)
     key = compiled.id("KEY", "home")

@@ -1,4 +1,4 @@
-"""What measures, looks and shines in MuJoCo's model: on which link, where, how."""
+"""Comparison of sensors, cameras and lights: link, pose, type and view."""
 
 from __future__ import annotations
 
@@ -39,25 +39,25 @@ INTERFACES = {
     "angular_velocity": "GYRO",
     "orientation": "FRAMEQUAT",
 }
-"""State interfaces of ros2_control, by what stands before the dot."""
+"""MuJoCo sensor of each ros2_control state interface, by the text before the dot."""
 
 BASE = ("FRAMELINVEL", "GYRO", "ACCELEROMETER", "FRAMEQUAT")
 """Sensors of a free base."""
 
 LOOK = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-"""Axes of MuJoCo's camera in Gazebo's: it looks along -z with y up, Gazebo's along x with z up."""
+"""Axes of MuJoCo's camera (-z forward, y up) in Gazebo's (x forward, z up)."""
 
 
 @dataclass
 class Measured:
-    """A sensor that the description asks for.
+    """A sensor that the description requires.
 
     Attributes:
-        name: How its name begins in MuJoCo.
-        kind: MuJoCo's type of sensor.
-        link: The link that it is on.
-        pose: Its pose in the link's frame, 4 × 4.
-        whole: Whether all axes count; a ray has but one.
+        name: Prefix of its name in MuJoCo.
+        kind: MuJoCo's sensor type.
+        link: Link that carries the sensor.
+        pose: Pose in the link's frame, 4 × 4.
+        whole: Whether all axes count; for a ray only its direction does.
     """
 
     name: str
@@ -77,11 +77,11 @@ def sensor_check(
     """Compare sensors, cameras and lights: link, pose, type and view.
 
     Args:
-        source: What the description asks for.
-        mechanics: Where its links are.
+        source: The expected values from the description.
+        mechanics: Kinematics of the description.
         compiled: The model.
-        positions: Of the joints [rad or m], at which places are compared.
-        declared: What the export announced.
+        positions: Joint positions [rad or m] at which poses are compared.
+        declared: The reported losses.
     """
     what = "sensors, cameras, lights: link, pose, type, view"
     check = Check("sensors", what, EXACT)
@@ -109,7 +109,7 @@ def sensor_check(
 
 
 def _wanted(source: Source) -> Iterator[Measured]:
-    """The sensors of Gazebo, then those of ros2_control."""
+    """Yield the sensors of Gazebo, then those of ros2_control."""
     robot = source.robot
     for element, link in sensors_of(robot):
         kind = (element.get("type") or "").strip()
@@ -130,7 +130,7 @@ def _wanted(source: Source) -> Iterator[Measured]:
 
 
 def _of_base(source: Source, others: list[Measured]) -> Iterator[Measured]:
-    """The sensors of a free base that the options ask for, and that it does not have."""
+    """Yield the base sensors that the options require and that the base does not have."""
     if not source.options.base_sensors:
         return
     base = source.root if source.is_free else ""
@@ -143,7 +143,7 @@ def _of_base(source: Source, others: list[Measured]) -> Iterator[Measured]:
 
 
 def sensors_of(robot: Robot) -> Iterator[tuple[Element, str]]:
-    """Yield each ``<sensor>`` of Gazebo with the link it is on; of a joint, its child."""
+    """Yield each Gazebo ``<sensor>`` with its link; for a joint reference, the child link."""
     for block in robot.gazebo:
         name = block.element.get("reference") or ""
         joint = robot.joint.get(name)
@@ -154,7 +154,7 @@ def sensors_of(robot: Robot) -> Iterator[tuple[Element, str]]:
 
 
 def _rays(element: Element, name: str, link: str, pose: Array) -> Iterator[Measured]:
-    """A ray for each sample: z of its site points where x of the scanner, turned, does."""
+    """Yield one ray for each sample: z of its site is the rotated x axis of the scanner."""
     scan = next((e for e in element.walk() if e.tag == "horizontal"), None)
 
     def read(tag: str) -> float:
@@ -180,7 +180,7 @@ def _middle(robot: Robot, link: str) -> Array:
 
 
 def _find(wanted: Measured, place: Array, left: list[int], compiled: Compiled) -> int | None:
-    """The sensor of a type and name that is nearest to a place."""
+    """Return the sensor of a type and name prefix that is nearest to a pose."""
     kind = int(getattr(compiled.mujoco.mjtSensor, f"mjSENS_{wanted.kind}"))
     alike = [n for n in left if int(compiled.model.sensor_type[n]) == kind]
     named = [n for n in alike if compiled.name("SENSOR", n).startswith(wanted.name)]
@@ -188,7 +188,7 @@ def _find(wanted: Measured, place: Array, left: list[int], compiled: Compiled) -
 
 
 def _off(number: int, wanted: Measured, place: Array, compiled: Compiled) -> float:
-    """How far the site of a sensor is from a pose in the root's frame."""
+    """Return the difference between the pose of a sensor's site and a pose in the root's frame."""
     model = compiled.model
     site = int(model.sensor_objid[number])
     if int(model.sensor_objtype[number]) != int(compiled.mujoco.mjtObj.mjOBJ_SITE):

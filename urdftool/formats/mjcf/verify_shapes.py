@@ -1,4 +1,4 @@
-"""What touches and what is seen, in MuJoCo's model and in the description: kinds and boxes."""
+"""Comparison of collision and visual geometry: kinds, bounding boxes, surfaces."""
 
 from __future__ import annotations
 
@@ -30,11 +30,12 @@ from .verify_meshes import SourceMeshes
 
 SIMPLE, MESH = 1e-9, 1e-6
 SINGLE = 2.0**-23
-"""What MuJoCo's numbers of a mesh's points are rounded by, relative to its size."""
+"""Rounding error of MuJoCo's mesh vertices, relative to the size."""
 
 SURFACE = 0.05
-"""How far areas may be apart, relatively: a polygon that is bent or not convex
-may be cut into triangles in two ways."""
+"""Relative tolerance of surface areas: there are two triangulations
+of a polygon that is not planar or not convex.
+"""
 
 Bounds = tuple[Array, Array]
 
@@ -47,7 +48,7 @@ def collision_check(
     configurations: list[dict[str, float]],
     declared: DeclaredLosses,
 ) -> Check:
-    """Each collision's box in the root's frame, at zero and at one other configuration."""
+    """Compare each collision's box in the root's frame, at zero and at one other configuration."""
     check = Check("collision", "number, kind, box and surface of every shape", MESH)
     for positions in configurations[:2]:
         frames = mechanics.frames(positions)
@@ -64,7 +65,7 @@ def collision_check(
                 if expected is None:
                     continue
                 simple = not isinstance(shape.geometry, Mesh)
-                factor = MESH / SIMPLE if simple else _rounded(expected)  # to that of the row
+                factor = MESH / SIMPLE if simple else _rounded(expected)  # for the row's tolerance
                 difference = _apart(expected, _geom_bounds(compiled, geom)) * factor
                 check.compare(difference, f"a collision of link '{link.name}'", known=known)
                 apart = _surface_apart(meshes, [shape], compiled, [geom], frames[link.name])
@@ -84,7 +85,7 @@ def visual_check(
     configurations: list[dict[str, float]],
     declared: DeclaredLosses,
 ) -> Check:
-    """Compare the box of all that is seen of a link."""
+    """Compare the bounding box and surface of all visuals of a link."""
     check = Check("visual", "box and surface of what is seen of every link", MESH)
     frames = mechanics.frames(configurations[0])
     compiled.pose(configurations[0])
@@ -106,7 +107,7 @@ def visual_check(
 
 
 def link_geoms(compiled: Compiled, link: Link, group: int) -> Iterator[int]:
-    """Yield the geoms of a link in a group, in the order of the file."""
+    """Yield the geoms of a link in a group, in file order."""
     body = compiled.body(link.name)
     for geom in compiled.geoms(body):
         if compiled.model.geom_group[geom] == group:
@@ -114,7 +115,7 @@ def link_geoms(compiled: Compiled, link: Link, group: int) -> Iterator[int]:
 
 
 def has_size(meshes: SourceMeshes, shape: Visual | Collision) -> bool:
-    """Whether a shape has a size, and a mesh that can be read."""
+    """Tell whether a shape has a size, and a mesh that can be read."""
     return _bounds(meshes, shape, np.eye(4)) is not None
 
 
@@ -123,7 +124,7 @@ def _apart(one: Bounds, other: Bounds) -> float:
 
 
 def _rounded(box: Bounds) -> float:
-    """What a difference counts of a mesh that is too large for single precision; else 1."""
+    """Return the weight of a difference for meshes too large for single precision; else 1."""
     return min(1.0, MESH / (SINGLE * float(np.max(box[1] - box[0])) or MESH))
 
 
@@ -132,7 +133,7 @@ def _union(boxes: list[Bounds]) -> Bounds:
 
 
 def _bounds(meshes: SourceMeshes, shape: Visual | Collision, frame: Array) -> Bounds | None:
-    """The box of a shape of the description; None where it has no size or cannot be read."""
+    """Compute the box of a shape of the description; None if it has no size or cannot be read."""
     pose = frame @ origin_matrix(shape.origin)
     geometry = shape.geometry
     if isinstance(geometry, Mesh):
@@ -155,9 +156,9 @@ def _surface_apart(
     geoms: Sequence[int],
     frame: Array,
 ) -> float:
-    """How far the area and its center of all meshes are apart, in the tolerance of the row.
+    """Compute the difference of area and area centroid of all meshes, for the row's tolerance.
 
-    Two meshes in one box are told apart so. Triangles count, wherever they are cut.
+    This distinguishes meshes with the same bounding box, independent of the triangulation.
     """
     expected, found = np.zeros(4), np.zeros(4)
     for shape in shapes:
@@ -185,7 +186,7 @@ def _surface_apart(
 
 
 def _area_moments(points: Array, faces: Faces) -> Array:
-    """Area [m²] of triangles, and its first moment [m³]."""
+    """Compute the area [m²] of triangles, and its first moment [m³]."""
     a, b, c = (points[faces[:, k]] for k in range(3))
     areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
     middles = (a + b + c) / 3
@@ -193,7 +194,7 @@ def _area_moments(points: Array, faces: Faces) -> Array:
 
 
 def _kind(shape: Visual | Collision) -> str:
-    """MuJoCo's name for the kind of a shape; a capsule without length is a sphere."""
+    """Return MuJoCo's name for the kind of a shape; a capsule without length is a sphere."""
     geometry = shape.geometry
     if isinstance(geometry, Capsule) and geometry.length == 0:
         return "sphere"
@@ -206,7 +207,7 @@ def _kind_of(compiled: Compiled, geom: int) -> str:
 
 
 def _half(geometry: Geometry, turn: Array) -> Array | None:
-    """Half the edges of the box around a simple shape, along the axes it is turned into."""
+    """Compute half the edges of the box around a rotated primitive; None without a size."""
     if isinstance(geometry, Box):
         return abs(turn) @ np.array(geometry.size) / 2 if min(geometry.size) > 0 else None
     if isinstance(geometry, UnknownShape):
@@ -229,7 +230,7 @@ def _round_half(capsule: bool, radius: float, half: float, turn: Array) -> Array
 
 
 def _geom_bounds(compiled: Compiled, geom: int) -> Bounds:
-    """The box of a geom in the root's frame."""
+    """Compute the box of a geom in the root's frame."""
     model, frame = compiled.model, compiled.geom_frame(geom)
     kind = _kind_of(compiled, geom)
     size, turn, middle = model.geom_size[geom], frame[:3, :3], frame[:3, 3]
@@ -251,7 +252,7 @@ def _geom_bounds(compiled: Compiled, geom: int) -> Bounds:
 
 
 def loss_names(link: Link) -> set[str]:
-    """List the names under which a loss may be of a link: its own, its materials', its meshes'."""
+    """Return the names by which losses refer to a link: its own, its materials', its meshes'."""
     names = {link.name}
     names |= {visual.material.name for visual in link.visuals if visual.material is not None}
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]

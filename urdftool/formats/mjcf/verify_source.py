@@ -1,7 +1,7 @@
-"""Read from a description what MuJoCo's model has to have beside its tree and its masses.
+"""Expected values from a description, in addition to its tree and masses, for the comparison.
 
-Nothing here is shared with the exporter. Values of ``<gazebo>`` are read from the elements, and
-rigid bodies are found from the joints.
+The module shares no code with the exporter. It reads ``<gazebo>`` values from the elements, and
+derives rigid bodies from the joints.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ DIRECTED = ("revolute", "continuous", "prismatic", "planar")
 DRIVE = re.compile(
     "diff_?drive|skid_?steer|ackermann|tricycle|planar_?move|mecanum|hoverboard", re.IGNORECASE
 )
-"""Names of plugins that move a robot over the ground."""
+"""Names of plugins that drive a robot over the ground."""
 
 
 @dataclass(frozen=True)
 class Source:
-    """What a description and the options of its export ask for.
+    """The values that a description and the options of its export require.
 
     Attributes:
         robot: The robot, with one root.
-        options: The options of the export.
-        stands: Whether the export said that the root is free for what the robot stands on.
+        options: Options of the export.
+        stands: Whether the export reported a free root because of what supports the robot.
     """
 
     robot: Robot
@@ -46,11 +46,11 @@ class Source:
 
     @property
     def root(self) -> str:
-        """The name of the root link."""
+        """Return the name of the root link."""
         return self.robot.tree.roots[0].name
 
     def value(self, name: str, *tags: str) -> str | None:
-        """What ``<gazebo>`` says last of a link or joint under one of some tags."""
+        """Return the last ``<gazebo>`` value for a link or joint under one of some tags."""
         found = None
         for block in self.robot.gazebo:
             if block.element.get("reference") == name:
@@ -60,17 +60,17 @@ class Source:
         return found
 
     def number(self, name: str, *tags: str) -> float | None:
-        """The number that ``<gazebo>`` says last of a link or joint; None where it is not one."""
+        """Return the last ``<gazebo>`` number for a link or joint; None if it is not a number."""
         return number(self.value(name, *tags))
 
     def whole(self, tag: str) -> Iterator[Element]:
-        """The elements of a tag in blocks of ``<gazebo>`` without reference."""
+        """Yield the elements of a tag in ``<gazebo>`` blocks without reference."""
         for block in self.robot.gazebo:
             if not block.element.get("reference"):
                 yield from block.element.all(tag)
 
     def moves(self, joint: Joint) -> bool:
-        """Whether a joint leaves its child any motion in MuJoCo's model."""
+        """Tell whether a joint can move in MuJoCo's model."""
         axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
         if joint.type in DIRECTED and math.hypot(*axis) < 1e-6:
             return False
@@ -80,7 +80,7 @@ class Source:
 
     @cached_property
     def rigid(self) -> dict[str, str]:
-        """For each link the topmost link of the rigid body that it is a part of."""
+        """Return the topmost link of each link's rigid body."""
         found: dict[str, str] = {self.root: self.root}
         for name in self.robot.tree.order:
             joint = self.robot.tree.parent_joint(name)
@@ -90,7 +90,7 @@ class Source:
 
     @cached_property
     def joined(self) -> set[frozenset[str]]:
-        """Pairs of rigid bodies with a joint between them; a floating one joins nothing."""
+        """Return pairs of rigid bodies connected by a joint, other than floating joints."""
         return {
             frozenset((self.rigid[joint.parent], self.rigid[joint.child]))
             for joint in self.robot.joints
@@ -99,7 +99,7 @@ class Source:
 
     @cached_property
     def separated(self) -> set[frozenset[str]]:
-        """Pairs of links that must not touch: of closed loops, and those that an SRDF disables."""
+        """Return pairs of links that must not collide: of closed loops, and disabled by an SRDF."""
         pairs = set()
         for joint in self.whole("joint"):
             ends = [joint.child(end) for end in ("parent", "child")]
@@ -108,7 +108,7 @@ class Source:
 
     @cached_property
     def disabled(self) -> set[frozenset[str]]:
-        """Pairs of links that an SRDF disables."""
+        """Return pairs of links that an SRDF disables."""
         return {
             frozenset((element.get("link1") or "", element.get("link2") or ""))
             for element in (self.srdf.all("disable_collisions") if self.srdf else ())
@@ -116,7 +116,7 @@ class Source:
 
     @cached_property
     def settings(self) -> dict[str, JointSettings]:
-        """What the user sets of each hinge and slide that can move."""
+        """Return the user's settings of each movable hinge and slide."""
         names = [
             joint.name
             for joint in self.robot.joints
@@ -130,7 +130,7 @@ class Source:
 
     @cached_property
     def srdf(self) -> Element | None:
-        """The root element of the SRDF, if there is one."""
+        """Return the root element of the SRDF, if there is one."""
         if self.options.srdf is None:
             return None
         packages = self.robot.source.packages if self.robot.source is not None else None
@@ -142,7 +142,7 @@ class Source:
 
     @property
     def is_free(self) -> bool:
-        """Whether the root moves freely: as asked for, or by what the description says."""
+        """Tell whether the root is free: by the options, or by the description."""
         if self.root == "world" or self.options.base != "auto":
             return self.root != "world" and self.options.base == "free"
         for element in self.whole("static"):
@@ -155,7 +155,7 @@ class Source:
 
     @property
     def drive_plugins(self) -> Iterator[Element]:
-        """The plugins that move the robot over the ground."""
+        """Yield the plugins that drive the robot over the ground."""
         for block in self.robot.gazebo:
             for element in block.element.walk():
                 words = f"{element.get('filename') or ''} {element.get('name') or ''}"
@@ -164,14 +164,14 @@ class Source:
 
 
 def is_locked(joint: Joint) -> bool:
-    """Whether the limits of a joint leave it one position."""
+    """Tell whether the limits of a joint allow a single position."""
     if joint.type not in ("revolute", "prismatic") or joint.limit is None:
         return False
     return (joint.limit.lower or 0.0) == (joint.limit.upper or 0.0)
 
 
 def read_pose(element: Element) -> Array:
-    """The ``<pose>`` of an element of Gazebo as a 4 × 4 matrix [m, rad]."""
+    """Read the ``<pose>`` of a Gazebo element as a 4 × 4 matrix [m]."""
     child = element.child("pose")
     six = numbers(child.text, 6) if child is not None else None
     pose = np.eye(4)

@@ -1,4 +1,4 @@
-"""A robot as MJCF: every section, the meshes, and what was lost."""
+"""Export of a robot to MJCF: model, meshes, scene and losses."""
 
 from __future__ import annotations
 
@@ -30,24 +30,24 @@ from .structure import Structure, structure_of
 _NOISE = re.compile(r"(?:[\s_.-]+(?:urdf|xacro|sldasm|v\d+(?:[._]\d+)*))+\s*$", re.IGNORECASE)
 
 MAX_DEPTH = 490
-"""Bodies in each other that MuJoCo reads: its XML reader stops at 500 elements."""
+"""Maximum nesting of bodies: MuJoCo's XML reader stops at 500 elements."""
 
 
 def write(robot: Robot, options: Options | None = None) -> Written:
-    """The MJCF of a robot.
+    """Convert a robot to MJCF.
 
     Args:
         robot: The robot.
-        options: The choices; without them those of the command line's defaults.
+        options: Options of the export; None for the defaults of the command line.
 
     Returns:
         The model, its meshes and its scene, with every loss.
 
     Raises:
-        Refused: The robot has defects that forbid it; all are in the error.
+        Refused: The robot has defects that prevent the export; the error lists all of them.
         SourceError: The SRDF cannot be read.
-        ConfigError: The SRDF has no group state of the name.
-        ModelError: The robot has no joint of the pose.
+        ConfigError: The SRDF has no such group state, or the actuator file is invalid.
+        ModelError: The robot has no such joint, or it mimics another.
     """
     options = options or Options()
     robot, world = taken_world(robot)
@@ -93,9 +93,9 @@ def write(robot: Robot, options: Options | None = None) -> Written:
 
 
 def model_name(robot: Robot) -> str:
-    """The name of the model and its file: the robot's, or that of the description.
+    """Return the name of the model and its file: the robot's, or that of the description's file.
 
-    Blanks, and words of a version or a file at its end, are not taken over.
+    Blanks, and suffixes for a version or file type, are removed.
     """
     name = _NOISE.sub("", robot.name)
     if not name and robot.source is not None:
@@ -105,7 +105,7 @@ def model_name(robot: Robot) -> str:
 
 
 def _too_deep(structure: Structure) -> list[Finding]:
-    """Links below so many others that MuJoCo's XML reader gives up."""
+    """Find the first link that is nested too deeply for MuJoCo's XML reader."""
     for link, depth in structure.depth.items():
         if depth > MAX_DEPTH:
             text = f"link '{link}' is below {depth} others; MuJoCo reads at most {MAX_DEPTH}"

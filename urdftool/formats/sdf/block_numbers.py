@@ -1,4 +1,4 @@
-"""Values in what a ``<gazebo>`` block holds of SDF: poses, numbers and flags that are none."""
+"""Validation of poses, numbers and flags in SDF elements of a ``<gazebo>`` block."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ FLAGS = frozenset(
 """Elements that hold true or false, or 1 or 0."""
 
 COLORS = frozenset(("ambient", "diffuse", "specular", "emissive"))
-"""Elements in a material or light that hold a colour, with or without its opacity."""
+"""Elements in a material or light that hold a color, with or without alpha."""
 
 WORDS = {
     ("force_torque", "frame"): ("parent", "child", "sensor"),
     ("force_torque", "measure_direction"): ("parent_to_child", "child_to_parent"),
 }
-"""Elements, with what they are in, that hold one of a few words."""
+"""Allowed words of elements, by parent tag and tag."""
 
 _NUMBERS = {"sensor": SENSOR_NUMBERS, "collision": SHAPE_NUMBERS, "visual": SHAPE_NUMBERS}
 
 
 def wanted(element: Element) -> str:
-    """What an element should hold and does not; empty where it is right, or nothing is known."""
+    """Describe the required value of an element; return "" if it is valid or not known."""
     text = element.text.strip()
     if element.children:
         return ""
@@ -61,7 +61,7 @@ def wanted(element: Element) -> str:
 
 
 def _inside(element: Element) -> str:
-    """The sensor, collision or visual that an element is in, by its tag."""
+    """Return the tag of the enclosing sensor, collision or visual; empty for none."""
     above = element.parent
     while above is not None and above.tag != "plugin":
         if above.tag in _NUMBERS:

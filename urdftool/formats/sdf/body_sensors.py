@@ -1,4 +1,4 @@
-"""Plugins of Gazebo Classic that sense a link or joint they name: for gz, a ``<sensor>`` each."""
+"""Gazebo Classic plugins that measure a link or joint: for gz, each becomes a ``<sensor>``."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from .xml import Node, add, at
 
 
 class BodySensor(NamedTuple):
-    """A plugin that is a sensor.
+    """A plugin that acts as a sensor.
 
     Attributes:
-        type: The type of the sensor.
-        names: Parameters that name the link or joint.
-        noises: For each parameter with a standard deviation, what of the sensor it is of.
-        offsets: For each parameter with a constant error, what of the sensor it is of.
+        type: SDF sensor type.
+        names: Parameters that hold the name of the link or joint.
+        noises: Elements of the sensor to which each standard deviation parameter applies.
+        offsets: Elements of the sensor to which each constant error parameter applies.
     """
 
     type: str
@@ -55,7 +55,7 @@ BODY_SENSORS = {
     "hector_gazebo_ros_magnetic": BodySensor("magnetometer"),
     "gazebo_ros_ft_sensor": BodySensor("force_torque", ("jointName", "joint_name")),
 }
-"""By the name of the library; in a ``<sensor>`` they are settings of it, outside they are one."""
+"""By library name; inside a ``<sensor>`` they configure it, outside they define one."""
 
 _CARRIED = frozenset(
     ("bodyName", "body_name", "jointName", "joint_name", "updateRate", "update_rate", "topicName",
@@ -65,12 +65,12 @@ _CARRIED = frozenset(
 
 
 def is_body_sensor(t: Translation, element: Element) -> bool:
-    """Whether a plugin outside of a sensor becomes one: for gz, where its link or joint stands."""
+    """Tell whether a plugin outside of a sensor becomes one: for gz, if its part exists."""
     return not t.options.classic and _place(t, element) is not None
 
 
 def body_sensors(model: Node, t: Translation) -> None:
-    """The sensors that plugins of the model, its links and its joints are."""
+    """Add the sensors for plugins of the model, its links and its joints."""
     known = {None, "", *t.robot.link, *t.robot.joint}
     for block in t.robot.gazebo:
         for element in block.element.all("plugin") if block.reference in known else ():
@@ -79,7 +79,7 @@ def body_sensors(model: Node, t: Translation) -> None:
 
 
 def _place(t: Translation, element: Element) -> Link | Joint | None:
-    """The link or joint a plugin senses: the one it names, else the one its block refers to."""
+    """Return the link or joint that a plugin measures: by its parameters, else by its block."""
     kind = BODY_SENSORS.get(library(element))
     if kind is None:
         return None
@@ -100,7 +100,7 @@ def _sensor(model: Node, t: Translation, element: Element) -> None:
     else:
         tag, name = "joint", t.names.joint(part.name)
     node = next((e for e in model.findall(tag) if e.get("name") == name), None)
-    if node is None:  # a joint that is none in SDF
+    if node is None:  # a joint that SDF does not have, such as a floating one
         t.report_loss(
             "plugin",
             f"plugin '{library(element)}' senses '{part.name}', which is no {tag} in "
@@ -142,7 +142,7 @@ def _pose(made: Node, element: Element) -> None:
 
 
 def _noise(made: Node, places: tuple[str, ...], word: str, text: str) -> None:
-    """Set one number of the noise at each place; of three numbers, each at its own."""
+    """Set a noise parameter at each place; a vector of three sets one component per axis."""
     single = number(text)
     values = numbers(text, 3) if single is None else (single, single, single)
     if values is None or not any(values):

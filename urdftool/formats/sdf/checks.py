@@ -1,4 +1,4 @@
-"""The checks of an export to SDF: it is compared where it was written."""
+"""Checks of an export to SDF, which is compared after it is written."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ NOT_COMPARED = (
     "model.config and names.json",
     "comments",
 )
-"""What a file of an export holds and no row compares."""
+"""Parts of an export that the verification does not compare."""
 
 
 def check_unwritten(
     robot: Robot, options: Options, written: Written, *, verify: bool
 ) -> list[Check]:
-    """Check nothing: Gazebo's reader is asked about the output."""
+    """Return no checks: Gazebo's reader needs the files on disk."""
     return []
 
 
@@ -33,9 +33,9 @@ def check_output(
 
     Args:
         robot: The source.
-        options: The options it was written with.
+        options: Options of the export.
         written: The export.
-        output: The file or the folder it was written to; None writes a temporary one.
+        output: Path of the written file or folder; None writes a temporary copy.
     """
     from .verify.compare import verify
 

@@ -1,4 +1,4 @@
-"""``<collision>``, with the contact values of its link."""
+"""Conversion of collisions to ``<collision>``, with the contact values of the link."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .xml import Node, add, at
 
 
 def collision(node: Node, t: Translation, link: Link, part: Collision, name: str) -> None:
-    """A collision; a capsule is three shapes where SDF has none."""
+    """Add a collision; before SDF 1.8 a capsule becomes three shapes."""
     if not writable(t, link, part):
         return
     if isinstance(part.geometry, Capsule) and not t.options.since("1.8"):

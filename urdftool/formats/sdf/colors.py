@@ -1,4 +1,4 @@
-"""The named materials of Gazebo Classic as colours: gz has no scripts to look them up in."""
+"""Colors of the named materials of Gazebo Classic, whose scripts gz does not support."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ Rgb = tuple[float, float, float]
 
 
 class Color(NamedTuple):
-    """A material: red, green and blue of each kind of light, and how opaque it is."""
+    """A material: red, green and blue of each kind of light, and alpha."""
 
     ambient: Rgb
     diffuse: Rgb
@@ -102,7 +102,7 @@ COLORS: dict[str, Color] = {
     "Gazebo/Lanes_4": _PAVED,
     "Gazebo/Lanes_6": _PAVED,
 }
-"""By name; those from ``PioneerBody`` on have a picture too, which is lost."""
+"""By name; those from ``PioneerBody`` on also have an image, which is lost."""
 
 PICTURED = frozenset(list(COLORS)[list(COLORS).index("Gazebo/PioneerBody") :])
-"""Materials with a picture."""
+"""Names of the materials with an image."""

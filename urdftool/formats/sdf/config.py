@@ -1,4 +1,4 @@
-"""``model.config``: the name of a model and where it is, for Gazebo's list of models."""
+"""Writing of ``model.config``, the entry of a model in Gazebo's model database."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from .xml import add, document
 
 
 def config(name: str, options: Options) -> bytes:
-    """The file.
+    """Write the file.
 
     Args:
-        name: The name of the model.
-        options: The choices of the export.
+        name: Name of the model.
+        options: Options of the export.
     """
     root = etree.Element("model")
     add(root, "name", name)

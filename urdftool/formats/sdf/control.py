@@ -1,4 +1,4 @@
-"""What drives the robot: transmissions and ros2_control, of which SDF knows nothing."""
+"""Transmissions and ros2_control, which SDF cannot express."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ HARDWARE = {
     "gz": ("gz_ros2_control/GazeboSimSystem", "ign_ros2_control/IgnitionSystem"),
     "gazebo-classic": ("gazebo_ros2_control/GazeboSystem",),
 }
-"""The hardware plugins that work in each target."""
+"""Hardware plugins that work in each target."""
 
 
 def control(model: Node, t: Translation) -> None:
-    """Keep transmissions as comments, and say what becomes of each."""
+    """Keep transmissions and ros2_control as comments, and report them."""
     for transmission in t.robot.transmissions:
         comment(model, _spoken(transmission))
         joints = ", ".join(f"'{joint.name}'" for joint in transmission.joints) or "no joint"

@@ -1,4 +1,4 @@
-"""What ``<gazebo reference="…">`` says of a link or a joint, found by what it refers to."""
+"""Contents of ``<gazebo reference="…">`` blocks, by the link or joint that they refer to."""
 
 from __future__ import annotations
 
@@ -23,13 +23,14 @@ from .translation import Translation
 from .xml import Node, add, at, copied, merge
 
 ELSEWHERE = frozenset(("sensor", "visual", "collision", "material"))
-"""Elements of a link's block that are not copied into the link as they are."""
+"""Elements of a link's block that other modules handle."""
 
 
 def block_elements(robot: Robot, part: Link | Joint) -> Iterator[Element]:
-    """The elements in the blocks of a link or joint, in the order of the file.
+    """Yield the elements in the blocks of a link or joint, in file order.
 
-    Where a link and a joint have one name, each gets what is of its kind, the link what is of both.
+    If a link and a joint share a name, each gets the elements of its kind, and the link those of
+    both kinds.
     """
     shared = part.name in robot.link and part.name in robot.joint
     for block in robot.extensions.get(part.name, []):
@@ -45,7 +46,7 @@ def _is_of_joint(element: Element) -> bool:
 
 
 def values(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> dict[str, str]:
-    """The tags of a table that are set for a link or joint; the last of one name holds."""
+    """Return the values of a table's tags for a link or joint; the last of each tag counts."""
     found: dict[str, str] = {}
     for element in block_elements(t.robot, part):
         if element.tag in table:
@@ -56,7 +57,7 @@ def values(t: Translation, part: Link | Joint, table: dict[str, Keyword]) -> dic
 
 
 def merged(node: Node, t: Translation, link: Link, tag: str) -> None:
-    """Put the ``<visual>`` or ``<collision>`` of a link's blocks into one of its own."""
+    """Merge the ``<visual>`` or ``<collision>`` elements of a link's blocks into a node."""
     for element in block_elements(t.robot, link):
         if element.tag == tag:
             made = copied(node, element)
@@ -66,7 +67,7 @@ def merged(node: Node, t: Translation, link: Link, tag: str) -> None:
 
 
 def link_extensions(node: Node, t: Translation, link: Link) -> None:
-    """All that is said of a link but its shapes, materials and sensors."""
+    """Convert the settings of a link, except shapes, materials and sensors."""
     _note_repeated(t, link, {**COLLISION_KEYWORDS, **LINK_KEYWORDS})
     _note_untouchable(t, link)
     own = t.plan.stays(link.name)
@@ -113,7 +114,7 @@ def _set_flag(node: Node, tag: str, text: str) -> None:
 
 
 def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
-    """All that is said of a joint but its sensors."""
+    """Convert the settings of a joint, except sensors."""
     _note_repeated(t, joint, JOINT_KEYWORDS)
     for tag, text in values(t, joint, JOINT_KEYWORDS).items():
         path, also = JOINT_KEYWORDS[tag].path, JOINT_KEYWORDS[tag].also
@@ -131,7 +132,7 @@ def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
                 plugin(node, t, element)
         elif tag not in JOINT_KEYWORDS and tag not in (*LUMPING_KEYWORDS, *IGNORED, "sensor"):
             if joint.name in t.robot.link:
-                continue  # of the link of that name
+                continue  # it belongs to the link of the same name
             if tag in COLLISION_KEYWORDS or tag in LINK_KEYWORDS or tag in ELSEWHERE:
                 text = f"<{tag}> is said of joint '{joint.name}', and is of links; it is left out"
                 t.report_loss("extension", text, element, joint)
@@ -140,7 +141,7 @@ def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
 
 
 def note_dissolved_joint(t: Translation, joint: Joint) -> None:
-    """Say what of a joint's block is lost with the joint."""
+    """Report the settings that are lost with a dissolved joint."""
     lost = [e for e in block_elements(t.robot, joint) if e.tag not in (*LUMPING_KEYWORDS, *IGNORED)]
     if lost and joint.name not in t.robot.link:
         tags = ", ".join(dict.fromkeys(f"<{e.tag}>" for e in lost))
@@ -184,7 +185,7 @@ def _note_repeated(t: Translation, part: Link | Joint, table: dict[str, Keyword]
 
 
 def _note_untouchable(t: Translation, link: Link) -> None:
-    """Say that contact values of a link without collisions do nothing."""
+    """Report contact values of a link without collisions, which have no effect."""
     given = values(t, link, COLLISION_KEYWORDS)
     given.pop("laserRetro", None)
     if given and not link.collisions:

@@ -1,6 +1,6 @@
-"""``<frame>``: the names of dissolved links and joints, where they were.
+"""Frames with the names of dissolved links and joints, at their poses.
 
-A frame comes after what it is attached to: readers exist that place it wrongly otherwise.
+A frame comes after the element it is attached to, as some readers misplace it otherwise.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ MODEL_FRAME = "__model__"
 
 
 def frames(model: Node, t: Translation) -> None:
-    """The frames of a model, parents first."""
+    """Add the frames of a model, parents first."""
     for name in t.plan.in_model:
         joint = t.robot.tree.parent_joint(name)
         link = t.robot.link[name]
@@ -42,13 +42,13 @@ def _link_frame(model: Node, t: Translation, link: Link, joint: Joint | None) ->
         else:
             frame.set("attached_to", names.joint(joint.name))
         return
-    # The top of a body that another of its links carries: the model's own root, or below a joint.
+    # the topmost link of a body that another of its links owns: the model's root, or below a joint
     frame.set("attached_to", names.link(plan.owner[link.name]))
     place(frame, t, joint)
 
 
 def place(node: Node, t: Translation, joint: Joint | None) -> None:
-    """The pose of a link, or of the frame it became, that hangs on a joint or is the root."""
+    """Set the pose of a link, or of the frame that replaces it, at its joint or the root."""
     is_frame = node.tag == "frame"
     if joint is None:
         if is_frame:
@@ -57,7 +57,7 @@ def place(node: Node, t: Translation, joint: Joint | None) -> None:
     if not t.options.since("1.7"):
         set_pose(node, t.plan.in_model[joint.child])
         return
-    if joint.type == "floating":  # no joint says it: the link itself is where the joint would be
+    if joint.type == "floating":  # SDF has no joint here, so the link has the pose of the joint
         parent = above(t, joint)
         set_origin(node, joint.origin, parent, t.options.since("1.9"))
         return
@@ -65,7 +65,7 @@ def place(node: Node, t: Translation, joint: Joint | None) -> None:
 
 
 def above(t: Translation, joint: Joint) -> str:
-    """The frame that a joint's origin is in."""
+    """Return the frame in which a joint's origin is expressed."""
     if t.plan.anchored and joint.parent == "world":
         return MODEL_FRAME
     return t.names.link(joint.parent)

@@ -1,8 +1,8 @@
-"""glTF in Gazebo, which keeps the axes of the file: what turns Y up to Z goes into the pose.
+"""Correction of glTF meshes for Gazebo, which keeps the axes of the file (Y up).
 
-Of a point ``p`` of the file a reader that turns shows ``R S T p``, with ``T`` the turn, ``S`` the
-scale and ``R`` the pose. Gazebo, which does not, shows the same as ``(R T) S' p``, where
-``S' = Tᵀ S T`` has the factors of Y and Z exchanged.
+A reader that converts axes maps a point ``p`` of the file to ``R S T p``, with the conversion
+``T``, the scale ``S`` and the pose ``R``. Gazebo does not convert the axes; the equivalent is
+``(R T) S' p``, where ``S' = Tᵀ S T`` has the scales of Y and Z exchanged.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ TURN = Pose(((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)))
 
 
 def in_file_axes(t: Translation, link: Link, shape: S) -> S:
-    """A shape as it is written for a reader that keeps the axes of a glTF file; others as is."""
+    """Return a shape for a reader that keeps the axes of a glTF file; others unchanged."""
     mesh = shape.geometry
     source = t.robot.source
     if not isinstance(mesh, Mesh) or not is_gltf(shape) or source is None or source.gltf_up != "y":

@@ -1,4 +1,4 @@
-"""The noise of an inertial sensor as it was written before SDF 1.5, in the words of today."""
+"""Conversion of IMU noise from the format before SDF 1.5."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ _NUMBERS = ("mean", "stddev", "bias_mean", "bias_stddev")
 
 
 def imu_noise(made: Node, sensor: Element) -> None:
-    """Say of each axis what ``imu/noise`` said of all three.
+    """Write the values of ``imu/noise`` for each axis.
 
     Args:
-        made: The sensor that is written.
+        made: The exported sensor.
         sensor: The sensor in the source.
     """
     imu = sensor.child("imu")
@@ -37,6 +37,6 @@ def imu_noise(made: Node, sensor: Element) -> None:
 
 
 def is_old_noise(element: Element) -> bool:
-    """Whether an element is the noise that :func:`imu_noise` translates."""
+    """Tell whether an element is noise that :func:`imu_noise` converts."""
     parent = element.parent
     return element.tag == "noise" and parent is not None and parent.tag == "imu"

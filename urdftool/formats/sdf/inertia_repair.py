@@ -1,4 +1,4 @@
-"""The repair of an inertia that is physically inconsistent."""
+"""Repair of physically inconsistent inertia tensors."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ CLEAR = 1e-6
 
 
 def repair_inertia(t: Translation, name: str) -> tuple[SymmetricTensor, str]:
-    """Choose the tensor that is written for a body.
+    """Repair the inertia tensor of a body.
 
     Args:
         t: The export.
-        name: The link that has the whole body's mass.
+        name: The link that owns the body.
 
     Returns:
-        The tensor about the center of mass, along the axes of the link [kg·m²], and how it was
-        made, for a message.
+        The tensor about the center of mass, along the axes of the link [kg·m²], and a description
+        of the method for a message.
     """
     members = t.plan.members[name]
 

@@ -1,4 +1,4 @@
-"""``<inertial>``: always written, for a link without one weighs a kilogram in SDF."""
+"""Writing of ``<inertial>`` for every link, as SDF's default mass is 1 kg."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ _MARGIN = 1e-12
 _EPSILON = 2e-15
 
 WEIGHTLESS = 1e-12
-"""The mass [kg] of a moving link that has none; its radius of gyration is a millimetre."""
+"""Mass [kg] of a moving link without mass; its radius of gyration is one millimeter."""
 
 
 def inertial(node: Node, t: Translation, link: Link) -> None:
-    """The inertial of a link and of those it owns."""
+    """Add the combined inertial of a link and of the links it owns."""
     mass = t.plan.mass[link.name]
     _note_dissolved(t, link)
     if mass.mass <= 0:
@@ -70,7 +70,7 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
 
 
 def _is_safe(tensor: SymmetricTensor) -> bool:
-    """Whether a reader finds it possible, however it computes the principal moments."""
+    """Tell whether readers accept a tensor, with a margin for rounding of the principal moments."""
     short = consistency(tensor).excess
     products = tensor[1], tensor[2], tensor[4]
     return short < -_MARGIN or (not any(products) and short <= _EPSILON)
@@ -83,7 +83,7 @@ def _tensor(node: Node, tensor: SymmetricTensor) -> None:
 
 
 def _weightless(node: Node, t: Translation, link: Link, tensor: SymmetricTensor) -> None:
-    """A body without mass that must be a link, since it moves or the model has no other."""
+    """Add the inertial of a massless link that moves or is the only link."""
     node = add(node, "inertial")
     add(node, "mass", number_text(WEIGHTLESS))
     tiny = WEIGHTLESS * 1e-6
@@ -103,7 +103,7 @@ def _weightless(node: Node, t: Translation, link: Link, tensor: SymmetricTensor)
 
 
 def _note_dissolved(t: Translation, link: Link) -> None:
-    """Say of each member that keeps only its frame why it does, unless all are lumped."""
+    """Report why each member keeps only its frame, unless all links are lumped."""
     if t.options.lump:
         return
     for name in t.plan.members[link.name]:

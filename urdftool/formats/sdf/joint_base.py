@@ -1,4 +1,4 @@
-"""What every joint of SDF begins with, and its axis as a direction."""
+"""Common parts of SDF joints: parent, child, pose and axis direction."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .xml import Node, add
 
 
 def start(model: Node, t: Translation, part: Joint, name: str, kind: str) -> Node:
-    """A joint with its parent, child and pose."""
+    """Add a joint with its parent, child and pose."""
     node = add(model, "joint", name=name, type=kind)
     anchored = t.plan.anchored and part.parent == "world"
     parent = "world" if anchored else t.names.link(t.plan.owner[part.parent])
@@ -19,13 +19,13 @@ def start(model: Node, t: Translation, part: Joint, name: str, kind: str) -> Nod
     add(node, "child", t.names.link(t.plan.owner[part.child]))
     if t.options.since("1.7"):
         set_origin(node, part.origin, above(t, part), t.options.since("1.9"))
-    else:  # in the frame of the child link
+    else:  # SDF 1.6 expresses the pose in the frame of the child link
         set_pose(node, t.plan.in_owner.get(part.child, IDENTITY))
     return node
 
 
 def axis_of(part: Joint) -> Vector:
-    """The axis as written; of unit length where it is not."""
+    """Return the axis, scaled to unit length unless it is so within 1e-12."""
     xyz = part.axis.xyz if part.axis is not None else (1.0, 0.0, 0.0)
     length = norm(xyz)
     if abs(length - 1.0) <= 1e-12 or length == 0.0:

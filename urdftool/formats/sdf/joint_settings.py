@@ -1,4 +1,4 @@
-"""What an actuator file sets of joints, as far as SDF has a place for it."""
+"""Joint settings of an actuator file, as far as SDF can express them."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ _OF_CONTROLLERS = ("kp", "kd", "armature", "type")
 
 
 def joint_settings(robot: Robot, options: Options, written: Written) -> dict[str, JointSettings]:
-    """Choose the settings of each joint that can move, by its name.
+    """Choose the settings of each movable joint, by name.
 
-    Gains and the kind of an actuator belong to a controller in Gazebo, and SDF has no armature:
-    what the file says of them is reported. An effort limit of SDF holds in both directions.
+    In Gazebo, gains and the kind of actuator belong to a controller, and SDF has no armature: such
+    settings are reported as lost. An effort limit of SDF applies in both directions.
 
     Raises:
-        ConfigError: The file cannot be read, or has settings of a joint that does not move.
+        ConfigError: The file cannot be read, or has settings for a joint that does not move.
     """
     if options.actuator_config is None:
         return {}

@@ -1,4 +1,4 @@
-"""``<joint>``: its pose in the parent is URDF's origin, its axis is in its own frame."""
+"""Conversion of joints: the origin is in the parent's frame, the axis in the joint's frame."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ SDF_TYPES = {
     "fixed": "fixed",
     **dict.fromkeys(sorted(BALL_TYPES), "ball"),
 }
-"""URDF's types of joints and SDF's; ``floating`` is no joint there, ``planar`` is three."""
+"""SDF type of each URDF joint type; ``floating`` is dropped, ``planar`` becomes three joints."""
 
 
 def joint(model: Node, t: Translation, part: Joint) -> None:
-    """A joint, unless it became a frame or is none in SDF."""
+    """Add a joint, unless it became a frame or SDF has no such joint."""
     if part.name in t.plan.dissolved:
         note_dissolved_joint(t, part)
         return
@@ -106,7 +106,7 @@ def _bounds(node: Node, t: Translation, part: Joint) -> None:
 
 
 def _most(node: Node, t: Translation, part: Joint) -> None:
-    """Effort and velocity: in SDF a negative number is no bound, in URDF it is one by its size."""
+    """Set effort and velocity limits; SDF ignores negative ones, URDF uses the absolute value."""
     limit = part.limit
     chosen = t.settings.get(part.name, JointSettings()).force_range
     if chosen is not None:
@@ -158,7 +158,7 @@ def _mimic(axis: Node, t: Translation, part: Joint) -> None:
 
 
 def _note_unspoken(node: Node, t: Translation, part: Joint) -> None:
-    """What SDF has no place for stays as a comment."""
+    """Keep safety controller and calibration as comments, and report them."""
     for what, said in (("safety", part.safety_controller), ("calibration", part.calibration)):
         if said is None:
             continue

@@ -1,6 +1,6 @@
-"""The tags of ``<gazebo reference="…">``: what each holds, and where SDF has it.
+"""Tags in ``<gazebo reference="…">`` blocks: their type of value, and the SDF element they set.
 
-One table for each kind of thing that a block refers to. The page of the mapping is made from them.
+One table for each kind of reference; the page of the mapping is generated from them.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ class Keyword(NamedTuple):
     """A tag.
 
     Attributes:
-        holds: ``number``, ``count``, ``vector`` (3 numbers) or ``flag``.
-        path: Where SDF has it, below the element it belongs to.
-        note: What else there is to know, for the page.
-        also: A second place, which older readers look at.
+        holds: Type of value: ``number``, ``count``, ``vector`` (3 numbers) or ``flag``.
+        path: Path of the SDF element, below the element of the link or joint.
+        note: Additional note for the page of the mapping.
+        also: A second path, which older readers use.
     """
 
     holds: str
@@ -37,19 +37,19 @@ COLLISION_KEYWORDS = {
         "number", "laser_retro", "for gz in each visual too, where its lidar looks"
     ),
 }
-"""Tags of a link that go into each of its collisions, whatever their names."""
+"""Tags of a link that apply to each of its collisions."""
 
 LINK_KEYWORDS = {
     "selfCollide": Keyword("flag", "self_collide"),
     "turnGravityOff": Keyword("flag", "gravity", "negated"),
     "dampingFactor": Keyword("number", "velocity_decay", "both linear and angular"),
 }
-"""Tags of a link that go into the link."""
+"""Tags of a link that apply to the link."""
 
 LINK_ELEMENTS = frozenset(
     ("gravity", "self_collide", "velocity_decay", "enable_wind", "kinematic", "must_be_base_link")
 )
-"""Elements of an SDF link that a block may hold as they are; there is one of each."""
+"""Elements of an SDF link that a block may hold unchanged; each occurs once."""
 
 JOINT_KEYWORDS = {
     "stopCfm": Keyword("number", "physics/ode/limit/cfm"),
@@ -71,7 +71,7 @@ JOINT_KEYWORDS = {
 """Tags of a joint."""
 
 LUMPING_KEYWORDS = ("preserveFixedJoint", "disableFixedJointLumping")
-"""Tags of a fixed joint that keep it; it stays fixed, also by the second."""
+"""Tags of a fixed joint that prevent its lumping; the joint stays fixed, also with the second."""
 
 IGNORED = ("canonicalBody",)
-"""Tags that Gazebo ignores too."""
+"""Tags that Gazebo ignores, too."""

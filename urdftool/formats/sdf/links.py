@@ -1,4 +1,4 @@
-"""``<link>``, with all that the links it owns had."""
+"""Conversion of links to ``<link>``, with the content of the links that they own."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .xml import Node, add
 
 
 def link(model: Node, t: Translation, part: Link) -> None:
-    """A link that stays."""
+    """Add a link that stays a body."""
     node = add(model, "link", name=t.names.link(part.name))
     place(node, t, t.robot.tree.parent_joint(part.name))
     inertial(node, t, part)

@@ -1,4 +1,4 @@
-"""The names of what an export to SDF may lose or change, and what each means."""
+"""Codes of the losses of an export to SDF, with their meaning."""
 
 from __future__ import annotations
 
@@ -38,4 +38,4 @@ LOSSES = {
     "transmission": "a transmission stays as a comment",
     "world": "what the root link `world` has is left out; it is the world itself",
 }
-"""By the name after ``lossy-``. With ``--force`` each defect passed is one too, by its own name."""
+"""By the code after ``lossy-``. Defects skipped with ``--force`` keep their own code."""

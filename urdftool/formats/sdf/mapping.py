@@ -1,4 +1,4 @@
-"""The page of the mapping, from the tables that the export goes by."""
+"""The page of the mapping, generated from the tables of the exporter."""
 
 from __future__ import annotations
 
@@ -49,11 +49,11 @@ ELEMENTS = (
     ("ros2_control", "a comment", "its plugin reads robot_description"),
     ("gazebo without reference", "model", "static, plugins, and what is SDF already"),
 )
-"""URDF's elements, what they are in SDF, and what else there is to say."""
+"""URDF elements, their SDF counterparts, and notes."""
 
 
 def mapping() -> str:
-    """The tables of the page."""
+    """Format the tables of the page as Markdown."""
     return "\n\n".join(_sections())
 
 

@@ -1,4 +1,4 @@
-"""``<material>``: what Gazebo is told to show, else the colour or texture of URDF as it is."""
+"""Conversion of materials: Gazebo's material if there is one, else URDF's color or texture."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SCRIPTS = "file://media/materials/scripts/gazebo.material"
 
 
 def material(node: Node, t: Translation, link: Link, part: Visual) -> None:
-    """The material of a visual."""
+    """Add the material of a visual."""
     said = [e for e in block_elements(t.robot, link) if e.tag == "material"]
     if said and _from_gazebo(node, t, link, part, said[-1]):
         return
@@ -44,7 +44,7 @@ def material(node: Node, t: Translation, link: Link, part: Visual) -> None:
 
 
 def resolved(robot: Robot, own: Material | None) -> Material | None:
-    """The material that a visual's names: its own if it says a colour, else the first so named."""
+    """Return the material of a visual: its own if it has a color or texture, else by name."""
     if own is None or own.color is not None or own.texture is not None:
         return own
     for other in (*robot.materials, *(v.material for link in robot.links for v in link.visuals)):
@@ -73,7 +73,7 @@ def _texture(made: Node, t: Translation, link: Link, own: Material, filename: st
 
 
 def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Element) -> bool:
-    """The material of a ``<gazebo>`` block; False where it says none that the target knows."""
+    """Add the material of a ``<gazebo>`` block; return False if the target does not know it."""
     if said.children:
         made = add(node, "material")
         for child in said.children:
@@ -88,7 +88,7 @@ def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Ele
         add(script, "name", name)
         return True
     color = COLORS.get(name)
-    first = link.visuals[0] is part  # one word for a link, not one for each visual
+    first = link.visuals[0] is part  # report once for each link
     if color is None:
         if first:
             text = f"material '{name}' of link '{link.name}' is a script, which gz cannot run"
@@ -115,5 +115,5 @@ def _colored(node: Node, color: Color) -> None:
 
 
 def _transparency(node: Node, alpha: float) -> None:
-    """What is missing to opaque, without the digits that a subtraction in binary leaves behind."""
+    """Set the complement of alpha, in decimal to avoid binary rounding digits."""
     add(node, "transparency", number_text(float(Decimal(1) - Decimal(repr(alpha)))))

@@ -1,4 +1,4 @@
-"""Meshes and textures: found, named in the model, and copied with the files that they name."""
+"""Meshes and textures: search, URIs in the model, and copies with their companion files."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from .scripts import SCRIPTS, TEXTURES, material_name, picture_names, plain, scr
 
 @dataclass
 class MeshFiles:
-    """The files of a robot.
+    """The mesh and texture files of a robot.
 
     Attributes:
-        options: The choices of the export.
-        found: The file of each URI; None for one that is missing or refused.
-        refused: Of each URI that is there and no mesh or image: why.
-        places: Where each file goes, relative to the model.
-        pictures: Names of the textures that a script of Ogre shows.
-        robot: The name of the model.
+        options: Options of the export.
+        found: File of each URI; None if it is missing or refused.
+        refused: Reason for each existing file that is not a mesh or image, by URI.
+        places: Path of each file in the export, relative to the model.
+        pictures: File names of the textures that an Ogre script uses.
+        robot: Name of the model.
     """
 
     options: Options
@@ -38,19 +38,19 @@ class MeshFiles:
     pictures: dict[Path, str] = field(default_factory=dict)
 
     def known(self, mesh: Mesh) -> bool:
-        """Whether the file of a mesh is there."""
+        """Tell whether the file of a mesh exists."""
         return self.found.get(mesh.filename) is not None
 
     def uri(self, mesh: Mesh) -> str:
-        """How the model names a mesh."""
+        """Return the URI of a mesh in the model."""
         return self._named(mesh.filename) or mesh.filename
 
     def texture(self, filename: str) -> str | None:
-        """How a model for gz names a texture; None where it is missing."""
+        """Return the URI of a texture in a model for gz; None if it is missing."""
         return self._named(filename)
 
     def script(self, filename: str) -> tuple[str, list[str]] | None:
-        """The material with a texture, and the folders it needs; None without a script."""
+        """Return the Ogre material of a texture, and the folders it needs; None for none."""
         picture = self.pictures.get(self.found.get(filename) or Path())
         if picture is None:
             return None
@@ -74,7 +74,7 @@ class MeshFiles:
 
     @property
     def files(self) -> dict[str, bytes | Path]:
-        """What is copied, by its place."""
+        """Return the files to copy, by their path in the export."""
         if self.options.uri_style in ("package", "file"):
             return {}
         files: dict[str, bytes | Path] = {place: path for path, place in self.places.items()}
@@ -83,14 +83,14 @@ class MeshFiles:
 
     @property
     def scripts(self) -> dict[str, bytes]:
-        """The script of the materials with a picture, by its place."""
+        """Return the Ogre script of the materials with a texture, by its path in the export."""
         if not self.pictures:
             return {}
         return {f"{SCRIPTS}/{plain(self.robot)}.material": script(self.robot, self.pictures)}
 
 
 def find_meshes(robot: Robot, options: Options) -> MeshFiles:
-    """Look for every mesh and texture, and give each a place of its own."""
+    """Find every mesh and texture, and assign each a unique path in the export."""
     names = [s.geometry.filename for _, s in robot.shapes if isinstance(s.geometry, Mesh)]
     textures = [m.texture for m in robot.materials if m.texture]
     for link in robot.links:
@@ -111,13 +111,13 @@ def find_meshes(robot: Robot, options: Options) -> MeshFiles:
 
 
 def _there(meshes: MeshFiles, names: list[str]) -> list[Path]:
-    """The files of URIs, each once, without those that are missing."""
+    """Return the files of URIs, each once, without missing files."""
     found = (meshes.found[name] for name in names)
     return list(dict.fromkeys(path for path in found if path is not None))
 
 
 def _refusal(path: Path, *, mesh: bool) -> str:
-    """Why a file is not what it is named as; empty where it is."""
+    """Explain why a file is not a mesh or image; return "" if it is."""
     if mesh:
         return explain_invalid_mesh(path)
     return "" if is_image(path) else "it is no image"
@@ -133,7 +133,7 @@ def _package_uri(filename: str, path: Path) -> str:
 
 
 def _give_places(meshes: MeshFiles, wanted: list[Path]) -> None:
-    """Keep the folders of a package below ``meshes/``, so that files still find each other."""
+    """Assign paths that keep the folders of a package, so that relative references stay valid."""
     homes = {path: package_path(path) for path in wanted}
     several = len({package for package, _ in homes.values()}) > 1
     taken: set[str] = set()
@@ -156,7 +156,7 @@ def _free(place: str, taken: set[str]) -> str:
 
 
 def _add_companions(meshes: MeshFiles, path: Path, place: str) -> None:
-    """Add the textures and material files that a mesh names, where they lie to it as before."""
+    """Add the textures and material files of a mesh at the same relative paths."""
     if meshes.options.uri_style in ("package", "file"):
         return
     for other, name in find_companions(path):

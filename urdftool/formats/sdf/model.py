@@ -1,4 +1,4 @@
-"""``<model>``: links, joints, frames, and what is said of the robot as a whole."""
+"""Conversion of the robot to ``<model>``: links, joints, frames and model-wide settings."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from .xml import Node, add, copied
 
 
 def model(parent: Node, t: Translation) -> Node:
-    """The robot."""
+    """Add the model of the robot."""
     node = add(parent, "model", name=model_name(t.robot))
     _whole(node, t)
     _note_world(t)
@@ -44,7 +44,7 @@ def model(parent: Node, t: Translation) -> Node:
 
 
 def _name_canonical(node: Node, t: Translation) -> None:
-    """The link that the model's frame is fixed to is the first, unless another is named."""
+    """Name the canonical link, unless it is the first, which is SDF's default."""
     if t.plan.anchored or not t.options.since("1.7"):
         return
     root = next(iter(t.plan.in_model), None)
@@ -60,7 +60,7 @@ def _blocks(t: Translation) -> list[GazeboExtension]:
 
 
 def _whole(node: Node, t: Translation) -> None:
-    """What holds for the model: whether it is static, and where it is."""
+    """Set whether the model is static, and its pose."""
     for block in _blocks(t):
         for element in block.element.all("static"):
             text = value_of(element)
@@ -75,7 +75,7 @@ def _whole(node: Node, t: Translation) -> None:
 
 
 def _parts(node: Node, t: Translation) -> None:
-    """Plugins, and elements of SDF that are there as they are."""
+    """Add plugins, and SDF elements that are copied unchanged."""
     for block in _blocks(t):
         for element in block.element.children:
             if element.tag == "plugin":
@@ -94,7 +94,7 @@ def _parts(node: Node, t: Translation) -> None:
 
 
 def _closing_joint(node: Node, t: Translation, element: Element) -> None:
-    """A joint of SDF in a block, which closes a loop: its links by the names they have now."""
+    """Add a loop-closing SDF joint of a block, with the exported names of its links."""
     if why := _why_not(t, _ends(element)):
         text = f"<joint> '{element.get('name')}' of a <gazebo> block is left out: {why}"
         t.report_loss("reference", text, element)
@@ -120,7 +120,7 @@ def _closing_joint(node: Node, t: Translation, element: Element) -> None:
 
 
 def _why_not(t: Translation, ends: Sequence[tuple[str, str]]) -> str:
-    """Why a joint cannot be, whose ends are these; empty where it can."""
+    """Explain why a joint with these ends cannot be exported; return "" if it can."""
     for end, name in ends:
         if not _can_join(t, end, name):
             return f"its {end} '{name}' is no link"

@@ -1,6 +1,6 @@
-"""Names as SDF allows them: links, joints and frames of a model share one room.
+"""Names that SDF allows: links, joints and frames of a model share one namespace.
 
-A joint keeps its name where a link has the same; the link becomes ``NAME_link``.
+If a joint and a link share a name, the joint keeps it and the link becomes ``NAME_link``.
 """
 
 from __future__ import annotations
@@ -15,25 +15,25 @@ from ..common.naming import first_free, numbered
 
 @dataclass
 class Names:
-    """New names by kind and old name; a name that is not in it is as it was."""
+    """New names by kind and old name; names that are not listed are unchanged."""
 
     renamed: dict[tuple[str, str], str] = field(default_factory=dict)
 
     def link(self, name: str) -> str:
-        """The name of a link, or of the frame it became."""
+        """Return the exported name of a link, or of the frame that replaces it."""
         return self.renamed.get(("link", name), name)
 
     def joint(self, name: str) -> str:
-        """The name of a joint, or of the frame it became."""
+        """Return the exported name of a joint, or of the frame that replaces it."""
         return self.renamed.get(("joint", name), name)
 
 
 def make_names(robot: Robot, *, anchored: bool) -> Names:
-    """Rename what SDF forbids and what would clash.
+    """Rename invalid and duplicate names.
 
     Args:
         robot: The robot.
-        anchored: Whether its root link is the world, whose name stays.
+        anchored: Whether its root link is the world, whose name is kept.
     """
     names = Names()
     links = [link.name for link in robot.links]
@@ -56,7 +56,7 @@ def make_names(robot: Robot, *, anchored: bool) -> Names:
 
 
 def allowed(name: str) -> str:
-    """A name without what SDF reserves: ``::`` parts scopes, ``__x__`` and blanks are no names."""
+    """Return a name without what SDF reserves: ``::`` separators, ``__x__`` and blank names."""
     name = name.replace("::", "_") if name.strip() else ""
     if name.startswith("__") and name.endswith("__"):
         name = name.strip("_") or "unnamed"
@@ -69,6 +69,6 @@ def _variants(name: str, kind: str) -> Iterator[str]:
 
 
 def model_name(robot: Robot) -> str:
-    """The name of the model."""
+    """Return the name of the model."""
     name = allowed(robot.name.strip()) or "robot"
     return "world_model" if name == "world" else name

@@ -1,4 +1,4 @@
-"""What one can choose about an export to SDF."""
+"""Options of an export to SDF."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ VERSIONS: dict[str, tuple[str, ...]] = {
     "gz": ("1.9", "1.10", "1.11", "1.12"),
     "gazebo-classic": ("1.6", "1.7"),
 }
-"""The versions of SDF that each target reads, oldest first."""
+"""SDF versions that each target reads, oldest first."""
 
 DEFAULT_VERSION = {"gz": "1.11", "gazebo-classic": "1.7"}
 
@@ -25,13 +25,13 @@ RELEASES = {
     "1.11": "Gazebo Harmonic",
     "1.12": "Gazebo Ionic and Jetty",
 }
-"""What reads each version, the oldest that does."""
+"""Oldest Gazebo release that reads each version."""
 
 MODEL = "model.sdf"
 
 
 def folder_and_file(output: str | Path) -> tuple[str, str]:
-    """The name of the folder an output goes to, and that of the file where it is one file."""
+    """Return the name of an output's folder, and of its file; no file name for a folder."""
     path = Path(os.path.abspath(output))
     single = format_named("sdf").has_suffix(path)
     return (path.parent if single else path).name, path.name if single else ""
@@ -39,21 +39,21 @@ def folder_and_file(output: str | Path) -> tuple[str, str]:
 
 @dataclass(frozen=True)
 class Options:
-    """The choices.
+    """Options of an export to SDF.
 
     Attributes:
         target: ``gz`` or ``gazebo-classic``.
-        version: The version of SDF; the target's default if empty.
-        fixed_joints: ``keep`` or ``lump``; the target's default if empty.
-        uri: How meshes are named: ``relative``, ``model``, ``package`` or ``file``; the usual of
-            the target if empty.
-        world: Whether a world is written around the robot.
-        force: Whether to go on past defects of the source.
-        folder: The name of the folder it goes to, which is the model's in ``model://`` URIs.
-        file: The name of the file, where it is one file; empty for a folder.
-        mesh_dir: Where meshes go, relative to the output.
-        fix_inertia: What becomes of a tensor that no rigid body has.
-        actuator_config: A TOML file with damping, friction and force range of joints.
+        version: SDF version; empty for the target's default.
+        fixed_joints: ``keep`` or ``lump``; empty for the target's default.
+        uri: Style of mesh URIs: ``relative``, ``model``, ``package`` or ``file``; empty for the
+            target's default.
+        world: Whether to write a world around the robot.
+        force: Whether to continue in spite of defects of the source.
+        folder: Name of the output folder, which is the model's in ``model://`` URIs.
+        file: Name of the output file; empty for a folder.
+        mesh_dir: Folder of the meshes, relative to the output.
+        fix_inertia: Repair method for physically inconsistent tensors.
+        actuator_config: TOML file with damping, friction and force range of joints.
     """
 
     target: str = "gz"
@@ -70,22 +70,22 @@ class Options:
 
     @property
     def classic(self) -> bool:
-        """Whether it is for Gazebo Classic."""
+        """Tell whether the target is Gazebo Classic."""
         return self.target == "gazebo-classic"
 
     @property
     def sdf_version(self) -> str:
-        """The version that is written."""
+        """Return the exported SDF version."""
         return self.version or DEFAULT_VERSION[self.target]
 
     @property
     def lump(self) -> bool:
-        """Whether what fixed joints join becomes one link."""
+        """Tell whether links that fixed joints connect become one link."""
         return (self.fixed_joints or ("lump" if self.classic else "keep")) == "lump"
 
     @property
     def uri_style(self) -> str:
-        """How meshes are named; Classic finds relative paths only beside a world file."""
+        """Return the style of mesh URIs; Classic resolves relative paths only for world files."""
         if self.uri:
             return self.uri
         if not self.classic:
@@ -94,11 +94,11 @@ class Options:
 
     @property
     def input_files(self) -> tuple[Path, ...]:
-        """Return the files that are read beside the robot."""
+        """Return the files that are read in addition to the robot."""
         return () if self.actuator_config is None else (self.actuator_config,)
 
     def since(self, version: str) -> bool:
-        """Whether the version written is this one or newer."""
+        """Tell whether the exported version is this one or newer."""
         return _parts(self.sdf_version) >= _parts(version)
 
 

@@ -1,4 +1,4 @@
-"""``python -m urdftool.formats.sdf.page PAGE``: put the mapping into its page."""
+"""``python -m urdftool.formats.sdf.page PAGE``: update the mapping in its page."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ BEGIN, END = "<!-- mapping: begin -->", "<!-- mapping: end -->"
 
 
 def with_mapping(page: str) -> str:
-    """A page with the mapping between its marks as it is now."""
+    """Return a page with the current mapping between its marks."""
     head, _, rest = page.partition(BEGIN)
     _, _, tail = rest.partition(END)
     return f"{head}{BEGIN}\n\n{mapping()}\n\n{END}{tail}"

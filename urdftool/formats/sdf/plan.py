@@ -1,9 +1,9 @@
-"""Which links stay links, and which become frames of another.
+"""Decision which links stay links, and which become frames of another link.
 
-Links that fixed joints join are one rigid body. A fixed joint is *dissolved* where its two links
-become one SDF link: all of them when lumping, else only where a link cannot stand alone, because it
-has no mass or an inertia that no body has. The one that stays is the *owner* of the others; what is
-seen, touched and sensed of them moves to it, and their names stay as frames.
+Links that fixed joints connect form one rigid body. A fixed joint is *dissolved* if its two links
+become one SDF link: every fixed joint when lumping, otherwise only if a link cannot stand alone,
+because it has no mass or an inconsistent inertia. The link that stays is the *owner* of the others;
+their shapes and sensors move to it, and their names become frames.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from ..common.gazebo_blocks import is_true
 from ..common.lumping import LumpingPlan, plan_lumping
 
 EXACT = 1e-9
-"""How far moments may miss the triangle inequality, relative to the largest, and be written."""
+"""Relative violation of the triangle inequality up to which moments are written unchanged."""
 
 ROUNDING = 0.01
-"""How far moments may miss it by the rounding of written numbers; they are corrected."""
+"""Relative violation that rounding of written numbers explains; the moments are corrected."""
 
 WORLD = "world"
 
@@ -32,15 +32,15 @@ class Plan:
     """The bodies of a robot.
 
     Attributes:
-        owner: For each link the link that it becomes a part of; itself, if it stays.
-        members: The links of each owner, in the order of the tree.
+        owner: Owner of each link; the link itself if it stays.
+        members: Links of each owner, in the order of the tree.
         dissolved: Names of fixed joints that become frames.
-        kept: Names of fixed joints that stay because something is said of them.
-        in_owner: The pose of each link in its owner's frame.
-        in_model: The pose of each link in the model's frame, all joints at zero.
-        mass: The mass of each owner and its members, in its frame.
-        alone: Owners whose mass is just their own.
-        anchored: Whether the root is ``world`` itself, so that it is no link.
+        kept: Names of fixed joints that stay because a sensor or setting requires it.
+        in_owner: Pose of each link in its owner's frame.
+        in_model: Pose of each link in the model's frame, with all joints at zero.
+        mass: Combined mass properties of each owner and its members, in the owner's frame.
+        alone: Owners whose mass properties are only their own.
+        anchored: Whether the root is ``world``, which SDF does not represent as a link.
     """
 
     owner: dict[str, str] = field(default_factory=dict)
@@ -54,7 +54,7 @@ class Plan:
     anchored: bool = False
 
     def stays(self, link: str) -> bool:
-        """Whether a link is a link of the model."""
+        """Tell whether a link stays a link of the model."""
         return self.owner.get(link) == link
 
 
@@ -63,7 +63,7 @@ def make_plan(robot: Robot, *, lump: bool) -> Plan:
 
     Args:
         robot: A robot that is a tree, or several.
-        lump: Dissolve every fixed joint that nothing is said of.
+        lump: Dissolve every fixed joint that no sensor or setting keeps.
     """
     plan = Plan(anchored=any(root.name == WORLD for root in robot.tree.roots))
     links = [name for name in robot.tree.order if not (plan.anchored and name == WORLD)]
@@ -86,7 +86,7 @@ def _group(robot: Robot, plan: Plan) -> LumpingPlan:
 
 
 def _loose_joints(robot: Robot, plan: Plan) -> dict[str, Joint]:
-    """The fixed joints that may be dissolved, by their child."""
+    """Return the fixed joints that may be dissolved, by their child."""
     loose = {}
     for joint in robot.joints:
         if not joint.is_fixed or (plan.anchored and joint.parent == WORLD):
@@ -115,19 +115,19 @@ def _said_to_stay(robot: Robot, joint: Joint) -> bool:
 
 
 def excess_of(mass: SpatialInertia) -> float:
-    """Return how far a body's tensor is from consistent; moments that are noise count little."""
+    """Return the inconsistency of a body's tensor, relative to a size that discounts noise."""
     return consistency(mass.tensor, least_size=noise_of(mass.mass)).excess
 
 
 def _stands(mass: SpatialInertia) -> bool:
-    """Whether a link of this mass can be a link of its own."""
+    """Tell whether a link with these mass properties can be a link of its own."""
     return mass.mass > 0 and excess_of(mass) <= EXACT
 
 
 def _dissolve_groups(
     robot: Robot, plan: Plan, loose: dict[str, Joint], masses: dict[str, SpatialInertia]
 ) -> None:
-    """Dissolve more fixed joints around each group that cannot stand, until it can."""
+    """Dissolve more fixed joints around each invalid group until its mass properties are valid."""
     links, poses = list(plan.in_model), plan.in_model
     group = _group(robot, plan).top
 
@@ -153,7 +153,7 @@ def _dissolve_groups(
 
 
 def _place(robot: Robot, plan: Plan, lump: bool) -> None:
-    """Choose the owner of each group, and compute where each link is in its owner."""
+    """Choose the owner of each group, and compute the pose of each link in its owner."""
     groups = _group(robot, plan)
     for top, members in groups.members.items():
         owner = next((n for n in members if robot.link[n].mass > 0), top) if not lump else top
@@ -175,5 +175,5 @@ def _weigh(plan: Plan, masses: dict[str, SpatialInertia]) -> None:
 
 
 def links_of(plan: Plan, robot: Robot) -> list[Link]:
-    """The links that stay, parents first."""
+    """Return the links that stay, parents first."""
     return [robot.link[name] for name in plan.in_model if plan.stays(name)]

@@ -1,4 +1,4 @@
-"""A planar joint, of which SDF has none: two prismatic joints and a revolute one."""
+"""Conversion of planar joints, which SDF lacks, to two prismatic joints and a revolute one."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from .xml import Node, add
 
 
 def planar(model: Node, t: Translation, part: Joint) -> None:
-    """Three joints in a row, with two links of next to no mass between them.
+    """Add three joints in series, with two almost massless links between them.
 
-    ``NAME_x`` and ``NAME_y`` slide along the plane, ``NAME`` turns about the axis, its normal.
+    ``NAME_x`` and ``NAME_y`` slide in the plane, ``NAME`` rotates about the normal.
     """
     name = t.names.joint(part.name)
     t.report_loss(
@@ -30,7 +30,7 @@ def planar(model: Node, t: Translation, part: Joint) -> None:
     for suffix, direction in (("_x", first), ("_y", second)):
         node = start(model, t, part, name + suffix, "prismatic")
         if not t.options.since("1.7"):
-            for pose in node.findall("pose"):  # it is that of the last link in its owner
+            for pose in node.findall("pose"):  # the pose applies to the last link only
                 node.remove(pose)
         link = f"{name}{suffix}_link"
         _between(model, t, part, link, name + suffix)
@@ -43,7 +43,7 @@ def planar(model: Node, t: Translation, part: Joint) -> None:
 
 
 def in_plane(normal: Vector) -> tuple[Vector, Vector]:
-    """Two directions of a plane, so that they and its normal are right-handed: x and y for z."""
+    """Return two axes in a plane that form a right-handed system with its normal: x and y for z."""
     helper = (1.0, 0.0, 0.0) if abs(normal[0]) < 0.9 * norm(normal) else (0.0, 1.0, 0.0)
     second = cross(normal, helper)
     length = norm(second)
@@ -52,7 +52,7 @@ def in_plane(normal: Vector) -> tuple[Vector, Vector]:
 
 
 def _connect(node: Node, parent: str | None, child: str) -> None:
-    """Put a link between: as the parent, as the child, or both."""
+    """Replace the parent or child of a joint by a link in between."""
     for tag, name in (("parent", parent), ("child", child)):
         found = node.find(tag)
         if name and found is not None:

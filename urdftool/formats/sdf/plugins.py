@@ -1,4 +1,4 @@
-"""``<plugin>``: those of Gazebo Classic become systems of gz where there is one."""
+"""Conversion of ``<plugin>``: plugins of Gazebo Classic become gz systems where one exists."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _NAMES_LINK = frozenset(
 
 
 def plugin(node: Node, t: Translation, element: Element) -> None:
-    """A plugin of a model, link, joint or sensor."""
+    """Add a plugin of a model, link, joint or sensor."""
     name = library(element)
     if not name:
         comment(node, spoken(element))
@@ -58,7 +58,7 @@ def plugin(node: Node, t: Translation, element: Element) -> None:
 
 
 def system_name(t: Translation, word: str, name: str) -> dict[str, str]:
-    """File and class of a system, by the names of the release that reads the version written."""
+    """Return file and class of a system, as named in the release of the exported version."""
     if t.options.since("1.10"):
         return {"filename": f"gz-sim-{word}-system", "name": f"gz::sim::systems::{name}"}
     return {
@@ -68,7 +68,7 @@ def system_name(t: Translation, word: str, name: str) -> dict[str, str]:
 
 
 def _kept(node: Node, t: Translation, element: Element) -> None:
-    """Copy a plugin; what it calls by name is called so still."""
+    """Copy a plugin, with the exported names of the links and joints in its parameters."""
     made = copied(node, element)
     if not made.get("name"):
         made.set("name", library(element))
@@ -85,7 +85,7 @@ def _kept(node: Node, t: Translation, element: Element) -> None:
 
 
 def _offset(made: Node, t: Translation) -> None:
-    """Let the offsets of a plugin be from the link that its body became a part of."""
+    """Convert the offsets of a plugin to the owner of its link."""
     body = made.find("bodyName")
     name = (body.text or "").strip() if body is not None else ""
     if not t.options.classic or name not in t.plan.owner or t.plan.stays(name):
@@ -114,7 +114,7 @@ def _system(node: Node, t: Translation, element: Element, system: System) -> Non
 
 
 def _control(node: Node, t: Translation, element: Element) -> None:
-    """The plugin of ros_control and gazebo_ros2_control."""
+    """Convert the plugin of ros_control or gazebo_ros2_control."""
     names = {
         "filename": "gz_ros2_control-system",
         "name": "gz_ros2_control::GazeboSimROS2ControlPlugin",
@@ -139,7 +139,7 @@ def _control(node: Node, t: Translation, element: Element) -> None:
 
 
 def _mimic(node: Node, t: Translation, element: Element) -> None:
-    """A plugin that made a joint follow another; SDF can say that itself."""
+    """Convert a mimic joint plugin, which is not needed if SDF has the ``<mimic>``."""
     follower = element.child("mimicJoint")
     name = follower.text.strip() if follower is not None else ""
     joint = t.robot.joint.get(name)

@@ -1,4 +1,4 @@
-"""Poses as SDF writes them: ``x y z roll pitch yaw``, with URDF's angles."""
+"""Poses in SDF notation: ``x y z roll pitch yaw`` [m, rad], with the same angles as URDF."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from .xml import Node, add
 def set_origin(
     node: Node, origin: Origin | None, relative_to: str = "", exact: bool = True
 ) -> None:
-    """Give an element the pose of an ``<origin>``, number by number.
+    """Set the pose of an element to an ``<origin>``, with its numbers unchanged.
 
     Args:
         node: The element.
         origin: The origin; None is the identity.
-        relative_to: The frame it is in; the element's own parent if empty.
+        relative_to: Frame of the pose; empty for the element's default.
         exact: Whether quaternions can be written (from SDF 1.9 on).
     """
     if origin is None or (origin.quaternion is None and not any((*origin.xyz, *origin.rpy))):
@@ -36,7 +36,7 @@ def set_origin(
 
 
 def set_pose(node: Node, pose: Pose, relative_to: str = "") -> None:
-    """Give an element a pose that was computed; the identity in its parent is not written."""
+    """Set the pose of an element; without ``relative_to`` the identity is not written."""
     numbers = (*pose.translation, *rpy_of_rotation(pose.rotation))
     if any(numbers) or relative_to:
         frame = {"relative_to": relative_to} if relative_to else {}

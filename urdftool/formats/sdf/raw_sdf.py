@@ -1,4 +1,4 @@
-"""Elements of SDF that a block holds as they are: lights, projectors, emitters, batteries."""
+"""Copying of SDF elements in ``<gazebo>`` blocks: lights, projectors, emitters, batteries."""
 
 from __future__ import annotations
 
@@ -17,33 +17,33 @@ from .xml import Node, add, comment, copied, spoken
 PLACED = frozenset(
     ("light", "projector", "sensor", "audio_source", "particle_emitter", "collision", "visual")
 )
-"""Elements of a link that have a pose in it."""
+"""Elements with a pose in their link."""
 
 NAMED = frozenset(("frame", "link", "joint", "model", "gripper", "particle_emitter", "battery"))
-"""Elements that no reader takes without a name."""
+"""Elements that require a name."""
 
 OWN_FRAMES = frozenset(("frame", "link", "model", "joint"))
-"""Elements of a model that have a frame of their name."""
+"""Elements of a model that define a frame."""
 
 BEFORE_SDF = frozenset(
     ("body", "controller", "geom", "interface", "joint", "model", "physics", "rendering", "sensor")
 )
-"""Prefixes of Gazebo's own XML before there was SDF, which nothing reads any more."""
+"""Prefixes of Gazebo's XML format before SDF, which current readers ignore."""
 
 
 def copy_raw_element(
     node: Node, t: Translation, element: Element, about: Link | Joint | None = None
 ) -> Node | None:
-    """Copy an element of a block, if SDF has it; what SDF has not becomes a comment.
+    """Copy an element of a block if SDF defines it, otherwise keep it as a comment.
 
     Args:
-        node: The link, joint or model that it goes into.
+        node: Target link, joint or model.
         t: The export.
         element: The element.
-        about: The link or joint that the block refers to.
+        about: Link or joint that the block refers to.
 
     Returns:
-        The copy; None where it is not SDF.
+        The copy; None if the element is not valid SDF.
     """
     if not _is_known(str(node.tag), element):
         _keep_as_comment(node, t, element, about)
@@ -66,14 +66,14 @@ def copy_raw_element(
 
 
 def _name_once(node: Node, made: Node) -> None:
-    """Give an element another name where a sibling has it."""
+    """Rename an element if a sibling has the same name."""
     name = made.get("name") or made.tag
     taken = {other.get("name") for other in node if other is not made}
     made.set("name", free_name(name, taken))
 
 
 def _is_known(parent: str, element: Element) -> bool:
-    """Whether SDF has an element in another; a prefix marks what is meant for some program."""
+    """Tell whether SDF defines an element in a parent; prefixed elements are program-specific."""
     prefix, colon, _ = element.tag.partition(":")
     if colon:
         return prefix not in BEFORE_SDF
@@ -84,13 +84,13 @@ def _is_known(parent: str, element: Element) -> bool:
 def remove_invalid(
     made: Node, t: Translation, element: Element, about: Link | Joint | None
 ) -> None:
-    """Take out what is not SDF, or not a value that it could have.
+    """Remove children that are not SDF elements or have invalid values.
 
     Args:
         made: The copy of an element.
         t: The export.
-        element: The element it was copied from.
-        about: The link or joint that its block refers to.
+        element: The source element.
+        about: Link or joint that its block refers to.
     """
     if element.tag == "plugin":
         return
@@ -113,7 +113,7 @@ def remove_invalid(
 def _keep_as_comment(
     node: Node, t: Translation, element: Element, about: Link | Joint | None
 ) -> None:
-    """Keep what is not SDF as a comment, the last child, and say so."""
+    """Append an unknown element as a comment, and report it."""
     comment(node, spoken(element))
     what = f"<{element.tag}>"
     t.report_loss(
@@ -125,7 +125,7 @@ def _keep_as_comment(
 
 
 def move_to_owner(made: Node, t: Translation, link: Link) -> None:
-    """Let the pose of something in a link mean the same in the link's owner."""
+    """Convert the pose of an element of a link to the link's owner."""
     rename_frames(made, t, link)
     pose = made.find("pose")
     if t.plan.stays(link.name) or (pose is not None and pose.get("relative_to")):
@@ -150,7 +150,7 @@ def move_to_owner(made: Node, t: Translation, link: Link) -> None:
 
 
 def rename_frames(node: Node, t: Translation, part: Link | Joint) -> None:
-    """Rewrite references to frames whose names changed, and leave out those to no frame."""
+    """Update references to renamed frames, and remove those to missing frames."""
     for pose in node.iter("pose"):
         frame = pose.get("relative_to")
         if frame is None:
@@ -166,7 +166,7 @@ def rename_frames(node: Node, t: Translation, part: Link | Joint) -> None:
 
 
 def is_frame(t: Translation, name: str) -> bool:
-    """Whether there is a link, joint or frame of a name; what is in another model is believed."""
+    """Tell whether a link, joint or frame exists; scoped names are accepted unchecked."""
     if name in t.robot.link or name in t.robot.joint or name in ("", "__model__") or "::" in name:
         return True
     blocks = (block.element for block in t.robot.gazebo if not block.reference)

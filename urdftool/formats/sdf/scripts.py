@@ -1,4 +1,4 @@
-"""Textures for Gazebo Classic: scripts of Ogre, in the folders where Gazebo's models have them."""
+"""Ogre material scripts for textures in Gazebo Classic, in the folders where it expects them."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ TEXTURES = "materials/textures"
 
 
 def picture_names(robot: str, pictures: list[Path]) -> dict[Path, str]:
-    """A file name for each picture; Ogre has one room for the pictures of all models.
+    """Choose a file name for each texture; Ogre shares one namespace among all models.
 
     Args:
-        robot: The name of the model, with which every name begins.
-        pictures: The files.
+        robot: Name of the model, the prefix of every name.
+        pictures: Paths of the textures.
     """
     names: dict[Path, str] = {}
     for path in pictures:
@@ -29,21 +29,21 @@ def picture_names(robot: str, pictures: list[Path]) -> dict[Path, str]:
 
 
 def plain(name: str) -> str:
-    """A name without what would need quotes in a script."""
+    """Replace characters that require quotes in a script."""
     return re.sub(r"[^\w.-]", "_", name)
 
 
 def material_name(robot: str, picture: str) -> str:
-    """The name of the material with a picture."""
+    """Return the name of the material of a texture."""
     return f"{plain(robot)}/{picture.rpartition('.')[0]}"
 
 
 def script(robot: str, pictures: Mapping[Path, str]) -> bytes:
-    """The script with a white material for each picture; a visual says its own colours.
+    """Create the script with a white material for each texture; visuals set their own colors.
 
     Args:
-        robot: The name of the model.
-        pictures: Names of the files in the folder of textures.
+        robot: Name of the model.
+        pictures: File names in the texture folder, by path.
     """
     parts = [
         f"material {material_name(robot, name)}\n"

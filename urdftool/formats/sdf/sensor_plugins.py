@@ -1,4 +1,4 @@
-"""Plugins of Gazebo Classic that publish what a sensor sees: in gz the sensor does so itself."""
+"""Gazebo Classic plugins that publish sensor data, which gz sensors do themselves."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .xml import Node, add
 
 
 def sensor_plugin(made: Node, t: Translation, part: Link | Joint, element: Element) -> bool:
-    """Turn a sensor's plugin into settings of the sensor.
+    """Convert a sensor's plugin to settings of the sensor.
 
     Returns:
         Whether it is such a plugin.
@@ -52,7 +52,7 @@ def _once(made: Node, tag: str, text: str) -> None:
 def _name_frame(
     made: Node, t: Translation, part: Link | Joint, element: Element, frame: str
 ) -> None:
-    """Say in which frame a sensor's messages are, where the version has a word for it."""
+    """Set the frame of a sensor's messages, if the SDF version supports it."""
     if not frame or made.find("gz_frame_id") is not None:
         return
     camera = made.find("camera")
@@ -73,7 +73,7 @@ def _name_frame(
 
 
 def _topic(element: Element, settings: dict[str, str]) -> str:
-    """The topic a plugin publishes on, by its name or by a remapping."""
+    """Return the topic that a plugin publishes, from its parameters or a remapping."""
     ros = element.child("ros")
     namespace = settings.get("robotNamespace", "")
     topic = ""

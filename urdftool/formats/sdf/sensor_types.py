@@ -1,4 +1,4 @@
-"""Types of sensors, in Gazebo Classic and in gz, and the system a world needs for each."""
+"""Sensor types of Gazebo Classic and gz, and the gz system that each requires."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from typing import NamedTuple
 
 
 class SensorType(NamedTuple):
-    """What a type becomes.
+    """Conversion of a sensor type.
 
     Attributes:
-        type: The type there; empty where there is none.
+        type: Type in the target; empty if the target has none.
         renamed: New tags of the element that holds its settings.
-        note: What else changes.
+        note: Other changes.
     """
 
     type: str
@@ -33,7 +33,7 @@ TO_GZ = {
     "wireless_receiver": SensorType(""),
     "wireless_transmitter": SensorType(""),
 }
-"""Types that gz has under another name, or not at all."""
+"""Types with another name in gz, or without a counterpart."""
 
 TO_CLASSIC = {
     "gpu_lidar": SensorType("gpu_ray", (("lidar", "ray"),)),
@@ -50,7 +50,7 @@ TO_CLASSIC = {
     "segmentation_camera": SensorType(""),
     "thermal_camera": SensorType(""),
 }
-"""Types that Gazebo Classic has under another name, or not at all."""
+"""Types with another name in Gazebo Classic, or without a counterpart."""
 
 RENDERED = ("sensors", "Sensors")
 
@@ -71,9 +71,9 @@ SYSTEMS = {
     "magnetometer": ("magnetometer", "Magnetometer"),
     "navsat": ("navsat", "NavSat"),
 }  # fmt: skip
-"""The system of gz that runs each type of sensor: the word in its library's name, and its class."""
+"""The gz system for each sensor type: the word in its library's name, and its class."""
 
 KNOWN = frozenset(
     (*TO_GZ, *TO_CLASSIC, *SYSTEMS, "rgbd", "thermal", "segmentation", "wideangle_camera")
 )
-"""Types that some Gazebo has; a reader refuses a file with another."""
+"""Types that a Gazebo version supports; readers reject files with other types."""

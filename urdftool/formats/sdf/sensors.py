@@ -1,4 +1,4 @@
-"""``<sensor>``: types by the names of the target, poses that stay true, plugins translated."""
+"""Conversion of ``<sensor>``: types of the target, poses in the owner, plugins."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _LUMP = "_fixed_joint_lump__"
 
 
 def sensors(node: Node, t: Translation, link: Link) -> None:
-    """The sensors of a link, in the link that it is in now."""
+    """Add the sensors of a link to its owner."""
     for element in block_elements(t.robot, link):
         if element.tag == "sensor":
             if (element.get("type") or "").strip() == "force_torque":
@@ -36,7 +36,7 @@ def sensors(node: Node, t: Translation, link: Link) -> None:
 
 
 def joint_sensors(node: Node, t: Translation, joint: Joint) -> None:
-    """The sensors of a joint."""
+    """Add the sensors of a joint."""
     for element in block_elements(t.robot, joint):
         if element.tag == "sensor":
             for made in _made(node, t, joint, element):
@@ -44,7 +44,7 @@ def joint_sensors(node: Node, t: Translation, joint: Joint) -> None:
 
 
 def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> list[Node]:
-    """A sensor of the source in the words of the target; several of a multicamera."""
+    """Convert a sensor to the types of the target; a multicamera becomes several sensors."""
     kind = (element.get("type") or "").strip()
     if kind not in KNOWN:
         text = f"sensor '{element.get('name')}' is of no type that Gazebo has; it is left out"
@@ -52,7 +52,7 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
         return []
     types = TO_CLASSIC if t.options.classic else TO_GZ
     made = copy_raw_element(node, t, element, about=None)
-    assert made is not None  # a link and a joint may have sensors
+    assert made is not None  # SDF allows sensors in links and joints
     imu_noise(made, element)
     _name_once(node, t, part, made, element)
     other = types.get(kind)
@@ -82,7 +82,7 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
 def _name_once(
     node: Node, t: Translation, part: Link | Joint, made: Node, element: Element
 ) -> None:
-    """Give a sensor another name where one of its link has it already."""
+    """Rename a sensor if another of its link has the same name, and report it."""
     name = made.get("name") or f"{part.name}_sensor"
     taken = {other.get("name") for other in node if other is not made}
     new = free_name(name, taken)
@@ -101,7 +101,7 @@ def _plugins(made: Node, t: Translation, part: Link | Joint, element: Element) -
 
 
 def _split(node: Node, made: Node) -> list[Node]:
-    """One sensor for each camera of a multicamera."""
+    """Split a multicamera into one sensor for each camera."""
     cameras = made.findall("camera")
     node.remove(made)
     result = []
@@ -117,7 +117,7 @@ def _split(node: Node, made: Node) -> list[Node]:
 
 
 def _contacts(made: Node, t: Translation, part: Link | Joint, element: Element) -> None:
-    """Let a contact sensor name collisions as they are called here."""
+    """Update the collision names in a contact sensor, and report unknown ones."""
     if not isinstance(part, Link):
         return
     members = [t.robot.link[name] for name in t.plan.members[t.plan.owner[part.name]]]

@@ -1,4 +1,4 @@
-"""Names of visuals and collisions, which in SDF are unique in a link, both kinds together."""
+"""Names of visuals and collisions, which SDF requires to be unique in a link."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from .names import allowed
 
 
 def shape_names(members: list[Link]) -> dict[int, str]:
-    """The name of each visual and collision by identity: its own, or made of the link's.
+    """Choose the name of each visual and collision, by ``id`` of the shape.
 
-    Those are LINK_visual, LINK_visual_1 and so on. Where a visual has the name of a collision, it
-    is NAME_visual; sensors watch collisions by name, and nothing does so with visuals.
+    Shapes without a name become LINK_visual, LINK_visual_1 and so on. A visual with the name of a
+    collision becomes NAME_visual, as sensors refer to collisions by name.
     """
     names: dict[int, str] = {}
     used: set[str] = set()

@@ -1,4 +1,4 @@
-"""``<geometry>``, and where a shape is."""
+"""Conversion of ``<geometry>`` and poses of shapes."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ from .xml import Node, add
 
 
 def set_place(node: Node, t: Translation, link: Link, origin: Origin | None) -> None:
-    """The pose of something in a link, which may have become a frame of its owner.
+    """Set the pose of an element of a link, which may have become a frame of its owner.
 
-    With frames the numbers of the source stay as they are. Gazebo Classic does not look at frames
-    here, so they are composed for it.
+    The numbers of the source are kept, relative to that frame. Gazebo Classic ignores frames here,
+    so for it the poses are composed.
     """
     if t.plan.stays(link.name):
         set_origin(node, origin, exact=t.options.since("1.9"))
@@ -40,7 +40,7 @@ def set_place(node: Node, t: Translation, link: Link, origin: Origin | None) -> 
 
 
 def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
-    """Whether a shape can be written; what cannot is said."""
+    """Tell whether a shape can be exported; report it if not."""
     geometry = shape.geometry
     if geometry is None or isinstance(geometry, UnknownShape) or not has_extent(geometry):
         if geometry is None:
@@ -72,7 +72,7 @@ def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
 
 
 def _check_format(t: Translation, link: Link, mesh: Mesh) -> None:
-    """Say which mesh the target cannot read; it is written all the same."""
+    """Report a mesh that the target cannot read; it is exported nevertheless."""
     known = READ_BY[t.options.target]
     name = mesh.filename.rpartition("/")[2]
     if name.rpartition(".")[2].lower() not in known:
@@ -87,7 +87,7 @@ def _check_format(t: Translation, link: Link, mesh: Mesh) -> None:
 
 
 def has_extent(geometry: Geometry) -> bool:
-    """Whether no dimension of a shape is zero or less, and no factor of a mesh is zero."""
+    """Tell whether all dimensions of a shape are positive, and no scale factor is zero."""
     if isinstance(geometry, Box):
         return all(size > 0 for size in geometry.size)
     if isinstance(geometry, Cylinder | Capsule):
@@ -100,7 +100,7 @@ def has_extent(geometry: Geometry) -> bool:
 
 
 def geometry(node: Node, t: Translation, shape: Geometry) -> None:
-    """The geometry of a visual or collision."""
+    """Add the geometry of a visual or collision."""
     holder = add(node, "geometry")
     if isinstance(shape, Mesh):
         mesh = add(holder, "mesh")

@@ -1,4 +1,4 @@
-"""What every part of an export looks at: the robot, the decisions, and where losses go."""
+"""Shared state of an export: the robot, the decisions, and the record of losses."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Translation:
         severity: Severity = Severity.WARNING,
         hint: str = "",
     ) -> None:
-        """Report what SDF does not carry, and of which link or joint."""
+        """Report robot data that SDF does not carry, with its link or joint."""
         kind = "" if about is None else "link" if isinstance(about, Link) else "joint"
         name = "" if about is None else about.name
         self.written.report_loss(
@@ -48,5 +48,5 @@ class Translation:
     def report_note(
         self, what: str, message: str, at: Part | Element, about: Link | Joint | None = None
     ) -> None:
-        """Report a difference after which the robot behaves the same."""
+        """Report a change that does not affect the robot's behavior."""
         self.report_loss(what, message, at, about, severity=Severity.INFO)

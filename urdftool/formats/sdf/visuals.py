@@ -1,4 +1,4 @@
-"""``<visual>``, with its colour or texture."""
+"""Conversion of visuals to ``<visual>``, with color or texture."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .xml import Node, add
 
 
 def visual(node: Node, t: Translation, link: Link, part: Visual, name: str) -> None:
-    """A visual."""
+    """Add a visual; before SDF 1.8 a capsule becomes a cylinder of its full length."""
     if not writable(t, link, part):
         return
     part = in_file_axes(t, link, part)

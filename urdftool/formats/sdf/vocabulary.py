@@ -1,6 +1,6 @@
-"""The elements of SDF that a ``<gazebo>`` block may hold: what is allowed in each.
+"""SDF elements that a ``<gazebo>`` block may hold, with their children.
 
-Readers pass over an element that is not here; strict ones refuse the file.
+Readers ignore unknown elements; strict ones reject the file.
 """
 
 from __future__ import annotations
@@ -129,7 +129,7 @@ _CHILDREN = {
 }
 
 ELEMENTS = {tag: frozenset(children.split()) for tag, children in _CHILDREN.items()}
-"""What may stand in each element; of an element that is not a key nothing is known."""
+"""Allowed children of each element; other elements are not checked."""
 
 DE_FACTO = frozenset(("gz_frame_id", "ignition_frame_id"))
-"""Elements that no version of SDF defines and Gazebo reads."""
+"""Elements that no SDF version defines but Gazebo reads."""

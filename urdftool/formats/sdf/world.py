@@ -1,4 +1,4 @@
-"""A world to look at the robot in: ground, sun, and the systems that its sensors need."""
+"""A world for the robot: ground, sun, and the systems that its sensors need."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ ALWAYS = (
 
 
 def world(parent: Node, t: Translation, robot: Node) -> None:
-    """A world around the robot.
+    """Add a world around the robot.
 
     Args:
         parent: The root element.
         t: The export.
-        robot: The model, which moves into the world.
+        robot: The model, which is moved into the world.
     """
     node = add(parent, "world", name="default")
     if t.options.classic:
@@ -34,7 +34,7 @@ def world(parent: Node, t: Translation, robot: Node) -> None:
 
 
 def needed(robot: Node) -> list[tuple[str, str]]:
-    """The systems that the sensors of a model need, in the order of the table."""
+    """Return the systems that the sensors of a model need, in the order of the table."""
     types = {sensor.get("type") for sensor in robot.iter("sensor")}
     return list(dict.fromkeys(system for kind, system in SYSTEMS.items() if kind in types))
 

@@ -1,4 +1,4 @@
-"""A robot as SDF: the files, and what of it could not be carried."""
+"""Export of a robot to SDF: files and losses."""
 
 from __future__ import annotations
 
@@ -35,14 +35,15 @@ NAMES_FILE = "names.json"
 
 
 def write(robot: Robot, options: Options | None = None) -> Written:
-    """Turn a robot into SDF.
+    """Convert a robot to SDF.
 
     Args:
         robot: The robot.
-        options: The choices; those of gz if None.
+        options: Options of the export; None for the defaults of gz.
 
     Raises:
-        Refused: Its defects forbid it; the message has a place, and the findings are with it.
+        Refused: The robot has defects that prevent the export; the error lists them.
+        ConfigError: The actuator file is invalid.
     """
     options = options or Options()
     left = drop_invalid_parts(robot)
@@ -89,13 +90,13 @@ def _files(t: Translation, root: Node, node: Node) -> None:
         name = NAMES_FILE if not options.file else f"{options.file.rpartition('.')[0]}.{NAMES_FILE}"
         files[name] = _sidecar(t)
     for name, content in t.meshes.files.items():
-        files.setdefault(name, content)  # no mesh takes the place of the model
+        files.setdefault(name, content)  # a mesh must not replace the model
     for name, text in t.meshes.scripts.items():
         files[name] = b"// " + mark(text, source)
 
 
 def _sidecar(t: Translation) -> bytes:
-    """What is called otherwise, for those who look for a link or joint by its name."""
+    """Create ``names.json``, which maps original names to exported names."""
     kinds: dict[str, dict[str, str]] = {"link": {}, "joint": {}}
     for (kind, old), new in t.written.renamed.items():
         kinds[kind][old] = new

@@ -1,4 +1,4 @@
-"""XML as it is written: elements made one by one, indented, the same bytes every time."""
+"""Creation of XML elements, serialized deterministically."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Node = etree._Element
 
 
 def add(parent: Node, tag: str, text: str | None = None, **attributes: str) -> Node:
-    """A new last child, with its text and attributes."""
+    """Append a child element with text and attributes."""
     node = etree.SubElement(parent, tag, attributes)
     if text is not None:
         node.text = text
@@ -18,14 +18,14 @@ def add(parent: Node, tag: str, text: str | None = None, **attributes: str) -> N
 
 
 def comment(parent: Node, text: str) -> None:
-    """A comment as the last child; two hyphens, which XML does not allow in one, are parted."""
+    """Append a comment; XML does not allow two consecutive hyphens in it."""
     while "--" in text:
         text = text.replace("--", "- -")
     parent.append(etree.Comment(f" {text.rstrip('-')} "))
 
 
 def at(parent: Node, path: str) -> Node:
-    """The element at a path of tags such as ``surface/friction/ode``, made where it is missing."""
+    """Return the element at a path such as ``surface/friction/ode``; create missing ones."""
     for tag in path.split("/"):
         found = parent.find(tag)
         parent = add(parent, tag) if found is None else found
@@ -33,12 +33,12 @@ def at(parent: Node, path: str) -> Node:
 
 
 def copied(parent: Node, element: Element, tag: str | None = None) -> Node:
-    """An element of the source, with all below it, as the last child.
+    """Append a copy of a source element with all its children.
 
     Args:
-        parent: What it goes into.
-        element: The element of the source.
-        tag: A new name for it.
+        parent: Target element.
+        element: Element of the source.
+        tag: New tag; None keeps the tag.
     """
     node = etree.SubElement(parent, tag or _name(element, element.tag), nsmap=_prefixes(element))
     for name, value in element.attributes.items():
@@ -53,7 +53,7 @@ def copied(parent: Node, element: Element, tag: str | None = None) -> Node:
 
 
 def spoken(element: Element) -> str:
-    """An element in one line, for a comment."""
+    """Format an element as one line for a comment."""
     words = [element.tag, *(f'{name}="{value}"' for name, value in element.attributes.items())]
     words += element.text.split()
     inner = "; ".join(spoken(child) for child in element.children)
@@ -61,7 +61,7 @@ def spoken(element: Element) -> str:
 
 
 def merge(target: Node, source: Node) -> None:
-    """Put what is in one element into another; a leaf that both have is the source's."""
+    """Merge the children of an element into another; for common leaves the source counts."""
     for child in source:
         same = target.find(child.tag) if isinstance(child.tag, str) else None
         if same is None or (len(child) and not len(same) and child.get("name")):
@@ -74,14 +74,14 @@ def merge(target: Node, source: Node) -> None:
 
 
 def document(root: Node) -> bytes:
-    """The file of a root element."""
+    """Serialize a root element."""
     etree.indent(root, "  ")
     text: bytes = etree.tostring(root, encoding="UTF-8")
     return b'<?xml version="1.0"?>\n' + text + b"\n"
 
 
 def _name(element: Element, name: str) -> str:
-    """A name with a prefix in the notation of lxml."""
+    """Convert a prefixed name to the notation of lxml."""
     prefix, colon, local = name.partition(":")
     if not colon:
         return name
@@ -93,7 +93,7 @@ def _namespace(element: Element | None, prefix: str) -> str:
         if f"xmlns:{prefix}" in element.attributes:
             return element.attributes[f"xmlns:{prefix}"]
         element = element.parent
-    return f"urn:{prefix}"  # readers of robot files know prefixes, and rarely declare them
+    return f"urn:{prefix}"  # robot files rarely declare their prefixes
 
 
 def _prefixes(element: Element) -> dict[str, str] | None:

@@ -1,5 +1,5 @@
-"""URDF, and xacro that expands to it: the format that descriptions are written in.
+"""URDF and xacro, the source format.
 
-It is read by ``source`` and ``model``, which keep the place of every byte; what edits a description
-works on these.
+The reader is in ``source`` and ``model``, which keep byte positions for code that edits
+descriptions.
 """

@@ -1,5 +1,6 @@
-"""Is what was written the same robot? Read back and computed anew, with nothing of the exporter.
+"""Comparison of an export with its source, without code of the exporter.
 
-``source`` and ``reader`` make a ``Mechanism`` of the robot and of the written file, ``dynamics``
-has the algebra for both, ``compare`` the checks, ``loader`` asks Gazebo's own reader.
+``source`` and ``reader`` create a ``Mechanism`` from the robot and from the exported file,
+``dynamics`` computes kinematics and dynamics of both, ``compare`` runs the checks, and ``loader``
+runs Gazebo's own reader.
 """

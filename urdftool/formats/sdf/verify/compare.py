@@ -1,4 +1,4 @@
-"""The written robot against the source, check by check."""
+"""Comparison of the exported robot with the source, check by check."""
 
 from __future__ import annotations
 
@@ -33,15 +33,16 @@ from .world import compare_world
 CONFIGURATIONS = 20
 FRAMES, MASSES, WEIGHTS, LIMITS, TOTALS = 1e-9, 1e-8, 1e-8, 1e-9, 1e-8
 FLOOR = 1e-6
-"""What a joint with next to nothing on it may be off by, relative to the heaviest; where nothing
-weighs anything, differences are what they are: kg·m², kg, N·m or N."""
+"""Lower bound of a joint's inertia for relative differences, as a fraction of the largest;
+for a massless robot, differences are absolute: kg·m², kg, N·m or N.
+"""
 RAISED = 4e-12
-"""What moments may be raised by, relative to the largest, so that readers find them possible."""
+"""Relative increase of moments that the exporter may apply for readers to accept a tensor."""
 
 
 @dataclass
 class Pair:
-    """The source, what was written, and how names go from one to the other."""
+    """The source, the exported robot, and the mapping of names."""
 
     robot: Robot
     source: Mechanism
@@ -52,17 +53,17 @@ class Pair:
     where: Frames
 
     def link(self, name: str) -> str:
-        """The name of a link, or its frame, in what was written."""
+        """Return the exported name of a link, or of its frame."""
         return self.renamed.get(("link", name), name)
 
     def joint(self, name: str) -> str:
-        """The name of a joint in what was written."""
+        """Return the exported name of a joint."""
         return self.renamed.get(("joint", name), name)
 
     def place(self, name: str) -> tuple[str, Array] | None:
-        """Return the body that has a link, and the link's pose in it; None for no such link.
+        """Return the body that holds a link, and the link's pose in it; None for no such link.
 
-        A file without frames has only the bodies: the nearest one above over fixed joints has it.
+        In a file without frames, this is the nearest body above over fixed joints.
         """
         inside = np.eye(4)
         while name in self.robot.link:
@@ -77,13 +78,13 @@ class Pair:
 
 
 def verify(robot: Robot, written: Written, options: Options, output: str | Path) -> list[Check]:
-    """Read a written robot back and compare it.
+    """Read an export back and compare it with its source.
 
     Args:
         robot: The source.
-        written: What was written of it.
-        options: The choices it was written with.
-        output: Where it was written: the file or the folder.
+        written: The export.
+        options: Options of the export.
+        output: Path of the exported file or folder.
     """
     place = Path(output) if options.file else Path(output) / written.main
     anew = read_again(robot)
@@ -100,7 +101,7 @@ def verify(robot: Robot, written: Written, options: Options, output: str | Path)
 
 
 def pair_of(robot: Robot, written: Written, place: Path, options: Options | None = None) -> Pair:
-    """Both robots as mechanisms."""
+    """Convert both robots to mechanisms."""
 
     def find(uri: str) -> Path:
         return robot.source.resolve(uri) if robot.source is not None else Path(uri)
@@ -114,7 +115,7 @@ def pair_of(robot: Robot, written: Written, place: Path, options: Options | None
 
 
 def compare(pair: Pair) -> list[Check]:
-    """All checks that need no other program."""
+    """Run all checks that need no external program."""
     checks = [_tree(pair), *_motion(pair), _limits(pair)]
     configurations = list(_configurations(pair.source, 1))
     checks.append(compare_shapes(pair, "collisions", configurations))
@@ -127,7 +128,7 @@ def compare(pair: Pair) -> list[Check]:
 
 
 def _configurations(source: Mechanism, count: int) -> list[dict[str, float]]:
-    """All zeros, and some at random within the limits, or half a turn or a metre."""
+    """Return joint positions: all zero, then random within limits, or within π rad or 1 m."""
     random = np.random.default_rng(0)
     result: list[dict[str, float]] = [{}]
     for _ in range(count):
@@ -165,7 +166,7 @@ def _tree(pair: Pair) -> Check:
 
 
 def _tree_difference(pair: Pair, joint: Hinge, other: Hinge | None) -> tuple[str, str]:
-    """Compare a joint with its counterpart: which aspect differs, and how; empty if none does."""
+    """Return the aspect in which a joint differs, and a description; empty texts if equal."""
     if other is None:
         return "joint", "is missing"
     if joint.kind != other.kind:
@@ -182,7 +183,7 @@ def _tree_difference(pair: Pair, joint: Hinge, other: Hinge | None) -> tuple[str
 
 
 def _body_of(pair: Pair, link: str) -> str:
-    """The body that has a link; without frames, the nearest one above it over fixed joints."""
+    """Return the body that holds a link; without frames, the nearest above over fixed joints."""
     while pair.link(link) not in pair.made.frames:
         joint = pair.robot.tree.parent_joint(link)
         if joint is None or not joint.is_fixed:
@@ -215,7 +216,7 @@ def _motion(pair: Pair) -> list[Check]:
 
 
 def _base(pair: Pair, there: dict[str, Array]) -> Array:
-    """What brings the written robot's root to the identity, where the source has it."""
+    """Return the transform of the exported robot's root to the identity, as in the source."""
     base = base_of(pair.robot)
     if base is None:
         return np.eye(4)
@@ -267,7 +268,7 @@ def _compare_totals(
     if one[0] == 0.0:
         return
     size = max(float(np.abs(one[2]).max()), 1e-30)
-    # Mass is held to 1e-12 and the centre to 1e-9 m: both are put on the scale of the tolerance.
+    # tolerances: mass 1e-12, center of mass 1e-9 m; scaled to that of the row
     parts = {
         "mass": abs(one[0] - two[0]) / one[0] * 1e4,
         "centre": float(np.abs(one[1] - two[1]).max()) * 10,

@@ -1,4 +1,4 @@
-"""Where bodies are, and what it takes to move them: the algebra of rigid bodies."""
+"""Rigid body kinematics and dynamics of a mechanism."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ GRAVITY = np.array([0.0, 0.0, -9.81])
 
 
 def poses(robot: Mechanism, q: Mapping[str, float], order: Sequence[Hinge]) -> dict[str, Array]:
-    """The pose of each body in the model's frame.
+    """Compute the pose of each body in the model's frame.
 
     Args:
-        robot: The robot; its free bodies stand where their frames say.
-        q: Positions of the joints by name [rad or m]; 0 for the others.
+        robot: The robot; its free bodies have the poses of their frames.
+        q: Joint positions by name [rad or m]; 0 by default.
         order: The joints, parents before children.
     """
     placed = {"world": np.eye(4)}
@@ -46,13 +46,13 @@ def _motion(joint: Hinge, position: float) -> Array:
 def mass_matrix(
     robot: Mechanism, placed: Mapping[str, Array], order: Sequence[Hinge], names: Sequence[str]
 ) -> tuple[Array, Array]:
-    """The mass matrix over some joints, base fixed, and the generalised weight.
+    """Compute the mass matrix of some joints with a fixed base, and the gravity forces [N·m or N].
 
     Args:
         robot: The robot.
         placed: Poses of its bodies.
         order: Its joints, parents before children.
-        names: The joints that count, in the order of rows and columns.
+        names: Selected joints, in the order of rows and columns.
     """
     index = {name: place for place, name in enumerate(names)}
     above: dict[str, list[tuple[int, Array, Array, bool]]] = {}
@@ -87,7 +87,7 @@ def mass_matrix(
 
 
 def centroidal(robot: Mechanism, placed: Mapping[str, Array]) -> tuple[float, Array, Array]:
-    """Total mass, the common centre, and the inertia of all about it, in the model's frame."""
+    """Compute total mass, center of mass, and inertia about it, in the model's frame."""
     total = float(sum(body.mass for body in robot.bodies.values()))
     if total == 0.0:
         return 0.0, np.zeros(3), np.zeros((3, 3))

@@ -1,4 +1,4 @@
-"""What was announced, and which differences each announcement accounts for."""
+"""Reported losses, sorted by the differences that they explain."""
 
 from __future__ import annotations
 
@@ -24,25 +24,25 @@ BLOCKS = frozenset(
         "lossy-bad-extension-number",
     )
 )
-"""What is in a block of ``<gazebo>`` is left out or changed."""
+"""Contents of a ``<gazebo>`` block were dropped or changed."""
 
 MIMIC = MOTION | {"lossy-mimic"}
 
 
 @dataclass
 class Excuses:
-    """Names of links and joints by what is said of them.
+    """Names of links and joints with reported losses, by the difference that is accepted.
 
     Attributes:
-        heavy: Joints above a link whose mass is not as written.
-        massy: Whether any mass is not as written, or Gazebo is told of more bodies.
-        motion: Joints that move otherwise.
-        frames: Links whose frame is gone, or hangs below a joint that moves otherwise.
-        limits: Joints with other limits.
-        mimic: Joints that follow otherwise.
-        shapes: Links with other shapes.
-        colors: Links with other colours.
-        declared: Every loss that changes how the robot behaves.
+        heavy: Joints above a link whose mass was changed.
+        massy: Whether any mass was changed, or ``<gazebo>`` adds bodies.
+        motion: Joints with a changed motion.
+        frames: Links whose frame was dropped, or is below a joint with a changed motion.
+        limits: Joints with changed limits.
+        mimic: Joints with a changed mimic.
+        shapes: Links with changed shapes.
+        colors: Links with changed colors.
+        declared: Every loss that changes the robot's behavior.
     """
 
     heavy: set[str] = field(default_factory=set)
@@ -57,14 +57,14 @@ class Excuses:
 
 
 def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
-    """Sort announcements by what they account for."""
+    """Sort losses by the differences that they explain."""
     blocks = (block.element for block in robot.gazebo if not block.reference)
     more = any(block.child(tag) for block in blocks for tag in ("link", "model", "include"))
     made = Excuses(massy=more)
     declared: set[tuple[str, str]] = set()
     for loss in losses:
         rule, name = loss.rule, loss.name
-        if loss.severity > Severity.INFO:  # with a note the robot behaves the same
+        if loss.severity > Severity.INFO:  # losses of severity info do not change the behavior
             declared.add((rule, name))
             if rule in BLOCKS and not name:
                 declared |= {(rule, block) for block in _blocks_at(robot, loss)}
@@ -95,7 +95,7 @@ def excuses_of(losses: list[Finding], robot: Robot) -> Excuses:
 
 
 def _blocks_at(robot: Robot, loss: Finding) -> Iterator[str]:
-    """What the block of ``<gazebo>`` refers to in which something was lost."""
+    """Yield the reference of the ``<gazebo>`` block in which a loss occurred."""
     for block in robot.gazebo:
         element, place = block.element, loss.place
         same = element.place.path == place.path
@@ -104,7 +104,7 @@ def _blocks_at(robot: Robot, loss: Finding) -> Iterator[str]:
 
 
 def _carried(robot: Robot, name: str) -> bool:
-    """Whether what a joint holds is moved by joints above, which a free link does not follow."""
+    """Tell whether joints above move the parent of a joint, which a free link does not follow."""
     joint = robot.joint.get(name)
     return joint is not None and any(not j.is_fixed for j in _above(robot, joint.parent))
 

@@ -1,4 +1,4 @@
-"""Elements of SDF and of ``<gazebo>`` blocks as facts: paths with values that can be compared."""
+"""Elements of SDF and of ``<gazebo>`` blocks as facts: paths with comparable values."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ WORDS = {"true": "1", "yes": "1", "false": "0", "no": "0"}
 
 
 def value_of(text: str | None) -> Value:
-    """Return numbers as numbers, true and false as 1 and 0, and any other text as it is."""
+    """Return numbers as a tuple, true and false as 1 and 0, and other text unchanged."""
     stripped = (text or "").strip()
     words = WORDS.get(stripped.lower(), stripped).split()
     try:
@@ -29,13 +29,13 @@ def value_of(text: str | None) -> Value:
 
 
 def facts_of(element: ET.Element | Element, *, without: Iterable[str] = ()) -> Facts:
-    """Return what an element holds: the values of its leaves and attributes by path.
+    """Return the values of an element's leaves and attributes by path.
 
-    Elements that hold nothing say nothing.
+    Elements without content have no facts.
 
     Args:
-        element: An element of either side.
-        without: Tags of children that are left out.
+        element: An element of the export or the source.
+        without: Tags of children to skip.
     """
     facts: Facts = {}
     _collect(facts, element, "", frozenset(without))
@@ -60,12 +60,12 @@ def _collect(
 
 
 def _plain(tag: str) -> str:
-    """A tag or attribute without its namespace."""
+    """Remove the namespace of a tag or attribute."""
     return re.sub(r"^(\{.*\}|\w+:)", "", tag)
 
 
 def _put(facts: Facts, path: str, value: Value) -> None:
-    """Set a value; a second one at a path gets a number."""
+    """Set a value; later values at the same path get a number."""
     if path in facts:
         number = 2
         while f"{path}[{number}]" in facts:
@@ -75,7 +75,7 @@ def _put(facts: Facts, path: str, value: Value) -> None:
 
 
 def differences(found: Mapping[str, Value], expected: Mapping[str, Value]) -> list[str]:
-    """Return in words what differs between facts."""
+    """Describe the differences between facts."""
     texts = []
     for path in expected.keys() | found.keys():
         one, other = found.get(path), expected.get(path)
@@ -89,7 +89,7 @@ def differences(found: Mapping[str, Value], expected: Mapping[str, Value]) -> li
 
 
 def same(one: Value, other: Value) -> bool:
-    """Whether two values are equal; numbers up to rounding."""
+    """Tell whether two values are equal; numbers up to rounding."""
     if isinstance(one, str) or isinstance(other, str):
         return one == other
     if len(one) != len(other):
@@ -98,7 +98,7 @@ def same(one: Value, other: Value) -> bool:
 
 
 def said(value: Value | None) -> str:
-    """Return a value as text."""
+    """Format a value."""
     if isinstance(value, tuple):
         return " ".join(f"{part:.9g}" for part in value)
     return f"'{value}'"
@@ -112,6 +112,6 @@ def compare_facts(
     *,
     known: bool = False,
 ) -> None:
-    """Note each difference of a thing in a row."""
+    """Record each difference between facts in a row."""
     for text in differences(found, expected):
         (check.announced if known else check.differing).append(f"{about}: {text}")

@@ -1,4 +1,4 @@
-"""How the robot is held and placed, and what its links and joints have beside their numbers."""
+"""Comparison of base, pose, link flags and joint physics."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ NUMBERS = frozenset(
     ("axis/xyz", "axis/limit/lower", "axis/limit/upper", "axis/limit/effort",
      "axis/limit/velocity", "axis/dynamics/damping", "axis/dynamics/friction")
 )  # fmt: skip
-"""What of a joint other rows compare."""
+"""Properties of a joint that other rows compare."""
 
 FLAGS = frozenset(
     ("static", "allow_auto_disable", "enable_wind", "self_collide", "placement_frame")
 )
-"""What a model is told of itself."""
+"""Flags of a model."""
 
 
 def compare_base(pair: Pair) -> Check:
-    """Compare whether the robot is static, where it is, and what holds it."""
+    """Compare whether the robot is static, its pose, and its fixed joints."""
     check = Check("base", "static, pose of the model, joints to the world, kinematic links", EXACT)
     model = pair.where.model
     expected: Facts = {}
@@ -56,7 +56,7 @@ def compare_base(pair: Pair) -> Check:
 
 
 def _place(pair: Pair) -> Array:
-    """The pose of the model: as a block says, else as the robot's own origin does."""
+    """Return the pose of the model: from a block, else from the robot's origin."""
     pose = np.eye(4)
     origin = pair.robot.element.child("origin")
     if origin is not None:
@@ -70,7 +70,7 @@ def _place(pair: Pair) -> Array:
 
 
 def _compare_held(pair: Pair, check: Check) -> None:
-    """Compare which links fixed joints join, to each other and to the world."""
+    """Compare which links fixed joints connect, to each other and to the world."""
     group = {name: name for name in ("world", *pair.made.bodies)}
 
     def top(name: str) -> str:
@@ -116,7 +116,7 @@ def compare_flags(pair: Pair) -> Check:
 
 
 def compare_joint_physics(pair: Pair) -> Check:
-    """Compare springs, stops and all else that a joint has beside its numbers."""
+    """Compare springs, stops and other joint properties that no other row compares."""
     check = Check("joint physics", "springs, stiffness of limits, stops, feedback", EXACT)
     elements = {e.get("name"): e for e in pair.where.model.findall("joint")}
     for joint in pair.robot.joints:

@@ -1,4 +1,4 @@
-"""Gazebo's own reader, where it is installed: does it take the file without a word?"""
+"""Check by Gazebo's own reader, if installed, that the file loads without messages."""
 
 from __future__ import annotations
 
@@ -21,9 +21,10 @@ _IGNORED = ("Library error", "backtrace")
 
 
 def loads(robot: Robot, options: Options, place: Path) -> Check | None:
-    """Ask ``gz sdf -k`` or ``ign sdf -k``; None where there is neither, or only one too old.
+    """Run ``gz sdf -k`` or ``ign sdf -k``; return None if neither is installed or recent enough.
 
-    A reader that is older than the version written is asked about the same robot in its own.
+    For a reader older than the exported version, the robot is exported again in a version that it
+    reads.
     """
     for tool in _TOOLS:
         if shutil.which(tool) is None:
@@ -44,7 +45,7 @@ def loads(robot: Robot, options: Options, place: Path) -> Check | None:
 
 
 def _ask(tool: str, place: Path) -> str | None:
-    """What the tool says, or None where it has no ``sdf``."""
+    """Return the output of the tool; None if it has no command ``sdf``."""
     try:
         done = subprocess.run(
             [tool, "sdf", "-k", str(place)],

@@ -1,4 +1,4 @@
-"""Bodies, joints, frames and shapes, as numbers."""
+"""Numeric representation of bodies, joints, frames and shapes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Array = npt.NDArray[np.float64]
 
 @dataclass
 class Body:
-    """A rigid body: mass [kg], centre [m] and inertia about it [kg·m²], in the body's frame."""
+    """A rigid body: mass [kg], center of mass [m] and inertia about it [kg·m²], in its frame."""
 
     name: str
     mass: float = 0.0
@@ -26,10 +26,10 @@ class Hinge:
     """A joint between two bodies.
 
     Attributes:
-        name: Its name.
-        kind: ``revolute``, ``prismatic``, ``fixed``, ``free`` or ``ball``.
-        parent: The body above.
-        child: The body below.
+        name: Name of the joint.
+        kind: ``revolute``, ``prismatic``, ``planar``, ``fixed``, ``free`` or ``ball``.
+        parent: Parent body.
+        child: Child body.
         before: Pose of the joint's frame in the parent body.
         after: Pose of the joint's frame in the child body.
         axis: Unit axis in the joint's frame.
@@ -49,16 +49,16 @@ class Hinge:
 
     @property
     def moves(self) -> bool:
-        """Whether it has a coordinate."""
+        """Tell whether the joint has one degree of freedom."""
         return self.kind in ("revolute", "prismatic")
 
 
 @dataclass
 class Shape:
-    """A visual or collision: on which body, where, what, in which colour, with which picture.
+    """A visual or collision: link, body, pose in the body, geometry, color and texture.
 
     Attributes:
-        part: What it was read from: an element of the file, or a part of the robot.
+        part: Source of the shape: an element of the file, or a part of the robot.
     """
 
     link: str
@@ -75,11 +75,11 @@ class Mechanism:
     """A robot.
 
     Attributes:
-        bodies: By name, ``world`` not among them.
-        joints: Parents before children.
-        frames: For each name a body and a pose in it; the body ``world`` is the model's frame.
-        collisions: What touches.
-        visuals: What is seen.
+        bodies: Bodies by name, without ``world``.
+        joints: Joints between the bodies.
+        frames: Body and pose in it, by frame name; the body ``world`` is the model's frame.
+        collisions: Collision geometry.
+        visuals: Visual geometry.
     """
 
     bodies: dict[str, Body] = field(default_factory=dict)
@@ -89,7 +89,7 @@ class Mechanism:
     visuals: list[Shape] = field(default_factory=list)
 
     def in_order(self) -> list[Hinge]:
-        """Joints, parents before children; each body hangs on the first that has it as a child."""
+        """Return the joints, parents before children; the first joint of each child body counts."""
         by_parent: dict[str, list[Hinge]] = {}
         hung: set[str] = set()
         for joint in self.joints:
@@ -106,7 +106,7 @@ class Mechanism:
 
 
 def turned(rpy: Any) -> Array:
-    """The rotation of fixed-axis angles about x, then y, then z [rad]."""
+    """Compute the rotation matrix of fixed-axis angles about x, then y, then z [rad]."""
     (sr, sp, sy), (cr, cp, cy) = np.sin(rpy), np.cos(rpy)
     about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
     about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
@@ -116,7 +116,7 @@ def turned(rpy: Any) -> Array:
 
 
 def by_quaternion(x: float, y: float, z: float, w: float) -> Array:
-    """The rotation of a quaternion of any length: v + 2 w q × v + 2 q × (q × v)."""
+    """Compute the rotation matrix of a quaternion of any length: v + 2 w q × v + 2 q × (q × v)."""
     x, y, z, w = np.array([x, y, z, w]) / np.linalg.norm([x, y, z, w])
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     rotation: Array = np.eye(3) + 2 * w * cross + 2 * cross @ cross
@@ -124,7 +124,7 @@ def by_quaternion(x: float, y: float, z: float, w: float) -> Array:
 
 
 def matrix(rotation: Array, translation: Any) -> Array:
-    """The 4 × 4 matrix of a rotation and a translation."""
+    """Return the 4 × 4 matrix of a rotation and a translation."""
     pose = np.eye(4)
     pose[:3, :3] = rotation
     pose[:3, 3] = translation
@@ -132,7 +132,7 @@ def matrix(rotation: Array, translation: Any) -> Array:
 
 
 def inverse(pose: Array) -> Array:
-    """The inverse of a pose."""
+    """Return the inverse of a pose."""
     back = np.eye(4)
     back[:3, :3] = pose[:3, :3].T
     back[:3, 3] = -pose[:3, :3].T @ pose[:3, 3]

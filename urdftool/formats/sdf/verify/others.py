@@ -1,4 +1,4 @@
-"""What else a file holds: lights, projectors, batteries, nested models, joints of loops."""
+"""Comparison of other elements: lights, projectors, batteries, nested models, loop joints."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ OTHER_ROWS = frozenset(
      "allow_auto_disable", "placement_frame", *OF_COLLISIONS, *OF_JOINTS, *OF_LINKS, *LUMPING,
      *NOWHERE)
 )  # fmt: skip
-"""Tags that are compared by another row, or have no place in SDF."""
+"""Tags that other rows compare, or that SDF does not have."""
 
 
 def compare_others(pair: Pair) -> Check:
-    """Compare what is copied from blocks as it is."""
+    """Compare the elements of blocks that are copied unchanged."""
     check = Check("other elements", "lights, projectors, batteries, and what else is copied", EXACT)
     left = list(_written(pair))
     for owner, name, element in _expected(pair):
@@ -77,7 +77,7 @@ def _written(pair: Pair) -> Iterator[tuple[str, Any]]:
 
 
 def _expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
-    """What is copied, with what it is of in the file and in the description."""
+    """Yield the copied elements, with their owner in the file and name in the description."""
     for element in elements_of_whole(pair.robot):
         if element.tag not in OTHER_ROWS:
             yield "", "", element
@@ -127,7 +127,7 @@ def _compare_pose(
 
 
 def _compare_loops(pair: Pair, check: Check) -> None:
-    """Compare joints of blocks, which close loops."""
+    """Compare the loop-closing joints of blocks."""
     elements = {e.get("name", ""): e for e in pair.where.model.findall("joint")}
     own = {pair.joint(joint.name) for joint in pair.robot.joints}
     for block in elements_of_whole(pair.robot):

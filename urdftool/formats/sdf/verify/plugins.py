@@ -1,4 +1,4 @@
-"""Plugins of the file against those of the description: library, class, parameters."""
+"""Comparison of plugins: library, class and parameters."""
 
 from __future__ import annotations
 
@@ -33,19 +33,19 @@ CONTROL = frozenset(
     ("parameters", "ros", "controller_manager_name", "robot_param", "robot_param_node",
      "hold_joints")
 )  # fmt: skip
-"""Parameters that gz_ros2_control takes over."""
+"""Parameters that gz_ros2_control supports."""
 
 
 @dataclass
 class Expected:
-    """A plugin that the description asks for.
+    """A plugin that the description requires.
 
     Attributes:
-        owner: The link, joint, sensor or model it is of; empty for the model.
-        library: The file it is to be loaded from.
-        name: Its class or name; empty where any will do.
+        owner: Link, joint or sensor that contains it; empty for the model.
+        library: Library file.
+        name: Class or name; empty if any is accepted.
         facts: Its parameters.
-        offset: Where it is in the link it names, where fixed joints made that a part of another.
+        offset: Pose in the owner, for a plugin of a link that was lumped into another.
     """
 
     owner: str
@@ -69,7 +69,7 @@ def compare_plugins(pair: Pair) -> Check:
         owner, element = alike[0]
         left.remove(alike[0])
         if owner != wanted.owner:
-            # of sensors of one name in one link all but one get another
+            # sensors with the same name in one link are renamed
             renamed = pair.excuses.declared.any("lossy-name")
             known = renamed and owner.startswith(f"{wanted.owner}_")
             check.compare(np.inf, f"{about} is in '{owner}'", known=known)
@@ -95,7 +95,7 @@ def _unlike(one: tuple[str, Any], wanted: Expected) -> tuple[bool, bool, int]:
 
 
 def _written(pair: Pair) -> Iterator[tuple[str, Any]]:
-    """The plugins of the file with the name of what they are in."""
+    """Yield the plugins of the file, with the name of their parent element."""
     model = pair.where.model
     for element in model.findall("plugin"):
         yield "", element
@@ -134,7 +134,7 @@ def _expected(pair: Pair) -> Iterator[Expected]:
 
 
 def _one(pair: Pair, element: Element, owner: str, *, inside: bool = False) -> Iterator[Expected]:
-    """What a plugin becomes."""
+    """Yield the expected plugins for a plugin of the description."""
     name = library(element)
     if not name:
         return
@@ -159,7 +159,7 @@ def _one(pair: Pair, element: Element, owner: str, *, inside: bool = False) -> I
 
 
 def _moved(pair: Pair, wanted: Expected, element: Element) -> Expected:
-    """Take the offset of a plugin from a link that became a part of another, in Classic."""
+    """Set the offset of a plugin whose link was lumped into another, in Classic."""
     child = element.child("bodyName")
     link = child.text.strip() if child is not None else ""
     held = pair.place(link)
@@ -170,7 +170,7 @@ def _moved(pair: Pair, wanted: Expected, element: Element) -> Expected:
 
 
 def _offset(facts: Facts) -> Array:
-    """Take the pose out of the facts of a plugin."""
+    """Remove the pose from the parameters of a plugin, and return it."""
     six: list[float] = []
     for word in ("xyzOffset", "rpyOffset"):
         value = facts.pop(word, (0.0, 0.0, 0.0))
@@ -185,7 +185,7 @@ def _is_mimic(pair: Pair, element: Element) -> bool:
 
 
 def _control(pair: Pair, element: Element, owner: str) -> Expected:
-    """The plugin of ros2_control for gz."""
+    """Return the expected ros2_control plugin for gz."""
     new = pair.options.since("1.10")
     facts: Facts = {}
     for child in element.children:
@@ -206,7 +206,7 @@ def _control(pair: Pair, element: Element, owner: str) -> Expected:
 
 
 def _system(pair: Pair, element: Element, owner: str, system: System) -> Expected:
-    """The system of gz that takes the place of a plugin of Gazebo Classic."""
+    """Return the expected gz system for a plugin of Gazebo Classic."""
     said: list[tuple[str, str]] = []
     facts: Facts = {}
     for child in element.children:
@@ -251,7 +251,7 @@ def _system(pair: Pair, element: Element, owner: str, system: System) -> Expecte
 
 
 def _renamed(pair: Pair, facts: Facts) -> Facts:
-    """Facts whose links and joints are called as in the file."""
+    """Return parameters with the exported names of links and joints."""
     made: Facts = {}
     for path, value in facts.items():
         tag = path.rpartition("/")[2].partition("[")[0]

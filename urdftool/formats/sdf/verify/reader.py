@@ -1,4 +1,4 @@
-"""A file of SDF as a mechanism: frames resolved, poses numbers, no more than what is compared."""
+"""Reader of an SDF file as a mechanism, limited to what is compared."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ Find = Callable[[str], Path]
 
 
 class Frames:
-    """The frames of a model, by name: each with its pose in the model's frame."""
+    """Poses of the frames of a model, by name, in the model's frame."""
 
     def __init__(self, model: ET.Element, old: bool) -> None:
-        """Take the model; ``old`` is SDF before 1.7, where poses have frames of their own."""
+        """Initialize for a model; ``old`` is SDF before 1.7, with its pose semantics."""
         self.old = old
         self.model = model
         self.elements = {e.get("name", ""): e for e in model if e.tag in ("link", "joint", "frame")}
         self.known: dict[str, Array] = {"__model__": np.eye(4), "": np.eye(4), "world": np.eye(4)}
 
     def pose(self, name: str, depth: int = 0) -> Array:
-        """The pose of a link, joint or frame in the model's frame."""
+        """Return the pose of a link, joint or frame in the model's frame."""
         if name not in self.known:
             if depth > 1000:
                 raise ValueError(f"the pose of '{name}' goes round in a circle")
@@ -38,13 +38,13 @@ class Frames:
         return self.known[name]
 
     def _default(self, element: ET.Element) -> str:
-        """What a pose is relative to where it does not say."""
+        """Return the default frame of an element's pose."""
         if element.tag == "frame":
             return element.get("attached_to", "")
         return _text(element, "child") if element.tag == "joint" else ""
 
     def body(self, name: str, depth: int = 0) -> str:
-        """The link that a frame is fixed to; ``world`` for the model's own."""
+        """Return the link that a frame is attached to; ``world`` for the model's own."""
         if name in ("", "__model__", "world"):
             return "world"
         element = self.elements[name]
@@ -55,14 +55,14 @@ class Frames:
         return self.body(element.get("attached_to", ""), depth + 1)
 
     def local(self, link: str, element: ET.Element) -> Array:
-        """The pose of something in a link, in the link's frame."""
+        """Return the pose of an element of a link in the link's frame."""
         base = _relative_to(element)
         pose = read_pose(element)
         return inverse(self.pose(link)) @ self.pose(base) @ pose if base else pose
 
 
 def open_model(path: Path) -> Frames:
-    """Read the first model of a file, with its frames."""
+    """Read the first model of a file other than the ground, with its frames."""
     root = ET.parse(path).getroot()
     models = [*root.findall("model"), *root.findall("world/model")]
     model = next(m for m in models if m.get("name") != "ground_plane")
@@ -73,14 +73,14 @@ def read_sdf(path: Path, find: Find) -> Mechanism:
     """Read the first model of a file as a mechanism.
 
     Args:
-        path: The file.
-        find: Finds the file of a ``package://`` URI.
+        path: Path of the file.
+        find: Resolves ``package://`` URIs.
     """
     return read_model(open_model(path), path, find)
 
 
 def read_model(frames: Frames, path: Path, find: Find) -> Mechanism:
-    """Make a mechanism of a model; see :func:`read_sdf`."""
+    """Convert a model to a mechanism; see :func:`read_sdf`."""
     model = frames.model
     made = Mechanism()
     for link in model.findall("link"):
@@ -101,7 +101,7 @@ def read_model(frames: Frames, path: Path, find: Find) -> Mechanism:
 
 
 def read_pose(element: ET.Element) -> Array:
-    """The ``<pose>`` of an element; the identity where there is none."""
+    """Read the ``<pose>`` of an element; the identity by default."""
     pose = element.find("pose")
     numbers = [float(word) for word in (pose.text or "").split()] if pose is not None else []
     if pose is None or not numbers:
@@ -128,7 +128,7 @@ def _number(element: ET.Element | None, path: str, default: float) -> float:
 def _body(link: ET.Element) -> Body:
     inertial = link.find("inertial")
     if inertial is None:
-        return Body(link.get("name", ""), 1.0, np.zeros(3), np.eye(3))  # what SDF makes of none
+        return Body(link.get("name", ""), 1.0, np.zeros(3), np.eye(3))  # SDF's default inertial
     frame = read_pose(inertial)
     t = {
         k: _number(inertial, f"inertia/{k}", 0.0)
@@ -209,7 +209,7 @@ def _shape(frames: Frames, link: str, part: ET.Element, path: Path, find: Find) 
 
 
 def _picture(part: ET.Element, path: Path, find: Find) -> str | None:
-    """The digest of a visual's texture, by the map of its material or by a script of Ogre."""
+    """Return the digest of a visual's texture, from its albedo map or an Ogre script."""
     uri = _text(part, "material/pbr/metal/albedo_map")
     if uri:
         return digest(_file(uri, path, find))

@@ -1,4 +1,4 @@
-"""What ``<gazebo>`` blocks say of links, joints and the robot, read anew from the description."""
+"""Contents of ``<gazebo>`` blocks for links, joints and the robot, read from the description."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ OF_COLLISIONS = {
     "maxContacts": "max_contacts",
     "laserRetro": "laser_retro",
 }
-"""Where SDF has the tags of a link that are of each of its collisions."""
+"""SDF paths of a link's tags that apply to each of its collisions."""
 
 OF_LINKS = {
     "selfCollide": ("self_collide",),
@@ -31,7 +31,7 @@ OF_LINKS = {
     "kinematic": ("kinematic",),
     "must_be_base_link": ("must_be_base_link",),
 }
-"""Where SDF has the tags of a link that are of the link."""
+"""SDF paths of a link's tags that apply to the link."""
 
 OF_JOINTS = {
     "stopCfm": ("physics/ode/limit/cfm",),
@@ -43,7 +43,7 @@ OF_JOINTS = {
     "springStiffness": ("axis/dynamics/spring_stiffness",),
     "springReference": ("axis/dynamics/spring_reference",),
 }
-"""Where SDF has the tags of a joint."""
+"""SDF paths of a joint's tags."""
 
 LUMPING = frozenset(("preserveFixedJoint", "disableFixedJointLumping"))
 NOWHERE = frozenset(("canonicalBody",))
@@ -52,7 +52,7 @@ NOWHERE = frozenset(("canonicalBody",))
 def elements_of(robot: Robot, part: Link | Joint) -> Iterator[Element]:
     """Yield the elements in the blocks of a link or joint.
 
-    Of a link and a joint of one name each gets what is of its kind.
+    If a link and a joint share a name, each gets the elements of its kind.
     """
     shared = part.name in robot.link and part.name in robot.joint
     for block in robot.gazebo:
@@ -67,19 +67,19 @@ def elements_of(robot: Robot, part: Link | Joint) -> Iterator[Element]:
 
 
 def elements_of_whole(robot: Robot) -> Iterator[Element]:
-    """Yield the elements in blocks that refer to nothing."""
+    """Yield the elements in blocks without reference."""
     for block in robot.gazebo:
         if not block.element.get("reference"):
             yield from block.element.children
 
 
 def text_of(element: Element) -> str:
-    """Return what a tag is set to, as an attribute or as text."""
+    """Return the value of an element, from its attribute ``value`` or its text."""
     return (element.get("value") or element.text).strip()
 
 
 def surface_said(robot: Robot, link: Link) -> Facts:
-    """Return what each collision of a link has beside its shape."""
+    """Return the properties of each collision of a link, other than its shape."""
     facts: Facts = {}
     for element in elements_of(robot, link):
         if element.tag in OF_COLLISIONS:
@@ -91,7 +91,7 @@ def surface_said(robot: Robot, link: Link) -> Facts:
 
 
 def flags_said(robot: Robot, link: Link) -> Facts:
-    """Return what a link has beside its parts."""
+    """Return the flags of a link."""
     facts: Facts = {}
     plain: Facts = {}
     for element in elements_of(robot, link):
@@ -108,7 +108,7 @@ def flags_said(robot: Robot, link: Link) -> Facts:
 
 
 def joint_physics_said(robot: Robot, joint: Joint) -> Facts:
-    """Return what a joint has beside its axis and limits."""
+    """Return the properties of a joint, other than its own axis and limits."""
     facts: Facts = {}
     for element in elements_of(robot, joint):
         for path in OF_JOINTS.get(element.tag, ()):

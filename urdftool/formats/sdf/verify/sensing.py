@@ -1,4 +1,4 @@
-"""Plugins of Gazebo Classic that sense a link or joint they name, as the sensors that gz has."""
+"""Expected gz sensors for Gazebo Classic plugins that measure a link or joint."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ SENSING = {
     "hector_gazebo_ros_magnetic": "magnetometer",
     "gazebo_ros_ft_sensor": "force_torque",
 }
-"""Types of sensors by the library of the plugin."""
+"""Sensor type by plugin library."""
 
 NOISES = {
     ("gazebo_ros_imu", "gaussianNoise"): (TURNING, MOVING),
@@ -46,11 +46,11 @@ OFFSETS = {
     ("hector_gazebo_ros_imu", "rateOffset"): (TURNING,),
     ("hector_gazebo_ros_imu", "accelOffset"): (MOVING,),
 }
-"""What parameters with a deviation or a constant error are of."""
+"""Elements to which each constant error parameter applies."""
 
 
 def sensed_part(pair: Pair, plugin: Element) -> Link | Joint | None:
-    """Return the link or joint that a plugin outside of a sensor senses; None for none."""
+    """Return the link or joint that a plugin outside of a sensor measures; None for none."""
     kind = SENSING.get(library(plugin))
     if kind is None or pair.options.classic:
         return None
@@ -80,7 +80,7 @@ def sensing_plugins(pair: Pair) -> Iterator[tuple[Element, Link | Joint]]:
 
 
 def offset_of(plugin: Element) -> Array:
-    """Return where a plugin senses in the frame of its link."""
+    """Return the pose of a plugin's sensor in the frame of its link."""
     six: list[float] = []
     for word in ("xyz", "rpy"):
         child = plugin.child(f"{word}Offset") or plugin.child(f"{word}_offset")
@@ -90,7 +90,7 @@ def offset_of(plugin: Element) -> Array:
 
 
 def noise_of(plugin: Element) -> Facts:
-    """Return the noise of a sensor that a plugin becomes."""
+    """Return the noise of the sensor that a plugin becomes."""
     facts: Facts = {}
     for table, word in ((NOISES, "stddev"), (OFFSETS, "mean")):
         for (name, tag), groups in table.items():

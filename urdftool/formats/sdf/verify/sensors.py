@@ -1,4 +1,4 @@
-"""Sensors of the file against those of the description: link, pose, type, rate, parameters."""
+"""Comparison of sensors: link, pose, type, rate and parameters."""
 
 from __future__ import annotations
 
@@ -42,14 +42,14 @@ RESTING = ("lossy-sensor", "unknown-sensor-type", *sorted(BLOCKS))
 
 @dataclass
 class Expected:
-    """A sensor that the description asks for.
+    """A sensor that the description requires.
 
     Attributes:
-        part: The link or joint it is on.
-        name: Its name.
-        pose: Its pose in the frame of the link, or the joint.
+        part: Link or joint that carries it.
+        name: Name of the sensor.
+        pose: Pose in the frame of the link or joint.
         facts: Its parameters.
-        partial: Whether it may have more parameters than these.
+        partial: Whether additional parameters are accepted.
     """
 
     part: Link | Joint
@@ -105,7 +105,7 @@ def compare_sensors(pair: Pair) -> Check:
 
 
 def _written(pair: Pair) -> Iterator[tuple[str, Any]]:
-    """The sensors of the file, each with its link or joint."""
+    """Yield the sensors of the file, with the name of their link or joint."""
     for kind in ("link", "joint"):
         for node in pair.where.model.findall(kind):
             for element in node.findall("sensor"):
@@ -113,7 +113,7 @@ def _written(pair: Pair) -> Iterator[tuple[str, Any]]:
 
 
 def _find(pair: Pair, sensor: Expected, left: list[tuple[str, Any]]) -> tuple[str, Any] | None:
-    """The sensor of a name, if it can be where it belongs."""
+    """Return the sensor of a name, preferably at its expected parent."""
     part = sensor.part
     if isinstance(part, Link):
         held = pair.place(part.name)
@@ -132,7 +132,7 @@ def _facts(element: tuple[str, Any]) -> Facts:
 
 
 def _drop_collisions(found: Facts, expected: Facts) -> None:
-    """Leave out names of collisions that are called otherwise in the file."""
+    """Accept collision names that the exporter shortened."""
     for path in [p for p in expected if p.startswith("contact/collision")]:
         one, other = found.get(path), expected[path]
         if isinstance(one, str) and isinstance(other, str) and one in other:
@@ -140,7 +140,7 @@ def _drop_collisions(found: Facts, expected: Facts) -> None:
 
 
 def expected_sensors(pair: Pair) -> Iterator[Expected]:
-    """Yield the sensors that the description asks for."""
+    """Yield the sensors that the description requires."""
     parts: list[Link | Joint] = [*pair.robot.links, *pair.robot.joints]
     for part in parts:
         if isinstance(part, Joint) and not _is_joint(pair, part):
@@ -156,7 +156,7 @@ def expected_sensors(pair: Pair) -> Iterator[Expected]:
 
 
 def _of_plugin(pair: Pair, plugin: Element, part: Link | Joint) -> Expected:
-    """The sensor that a plugin outside of one becomes in gz."""
+    """Return the gz sensor that a plugin outside of a sensor becomes."""
     facts: Facts = {"type": SENSING[library(plugin)], "always_on": (1.0,), **noise_of(plugin)}
     _take_over(pair, plugin, facts)
     return Expected(part, plugin.get("name") or library(plugin), offset_of(plugin), facts)
@@ -210,7 +210,7 @@ def pose_of_element(pair: Pair, part: Link | Joint, element: Element) -> Array:
 
 
 def _translate_noise(element: Element, facts: Facts) -> None:
-    """Noise of an inertial sensor as it was written before SDF 1.5, axis by axis."""
+    """Convert IMU noise from the format before SDF 1.5, axis by axis."""
     imu = element.child("imu")
     noise = imu.child("noise") if imu is not None else None
     if noise is None:
@@ -232,7 +232,7 @@ def _translate_noise(element: Element, facts: Facts) -> None:
 
 
 def _take_over(pair: Pair, plugin: Element, facts: Facts) -> None:
-    """What a sensor of gz takes over from a plugin of Gazebo Classic in it."""
+    """Add the settings that a gz sensor takes from its Gazebo Classic plugin."""
     known = SENSOR_PLUGINS.get(library(plugin))
     if known is None:
         return
@@ -255,7 +255,7 @@ def _take_over(pair: Pair, plugin: Element, facts: Facts) -> None:
 
 
 def topic_of(plugin: Element, said: dict[str, str]) -> str:
-    """Return the topic that a plugin publishes on; empty where it does not say one."""
+    """Return the topic that a plugin publishes; empty if it sets none."""
     ros = plugin.child("ros")
     space = said.get("robotNamespace", "")
     topic = ""

@@ -1,4 +1,4 @@
-"""Visuals and collisions: the same shapes at the same places, whichever link has them now."""
+"""Comparison of visuals and collisions by geometry and pose, independent of their link."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SIZES = 1e-9
 
 
 def compare_shapes(pair: Pair, kind: str, configurations: Sequence[Mapping[str, float]]) -> Check:
-    """Compare all visuals or collisions by what they are and where they are in the root's frame."""
+    """Compare all visuals or collisions by geometry and pose in the root's frame."""
     source: list[Shape] = getattr(pair.source, kind)
     check = Check(kind, f"{len(source)} shapes, sizes, meshes, places", PLACES)
     made: list[Shape] = getattr(pair.made, kind)
@@ -47,7 +47,7 @@ def compare_shapes(pair: Pair, kind: str, configurations: Sequence[Mapping[str, 
 
 
 def compare_colors(pair: Pair) -> Check:
-    """Compare the colour and the texture of each visual that URDF gives one."""
+    """Compare the color and texture of each visual with a URDF material."""
     colored = sum(s.rgba is not None or s.picture is not None for s in pair.source.visuals)
     check = Check("colours", f"{colored} visuals, textures", COLORS)
     here = _places(pair, pair.source, pair.source.visuals, [{}], renamed=False)
@@ -72,7 +72,7 @@ def compare_colors(pair: Pair) -> Check:
 
 
 def matched(pair: Pair, kind: str) -> list[tuple[Shape, Shape]]:
-    """Return each visual or collision with the one in the file that is nearest to it."""
+    """Return each visual or collision with the nearest one in the file."""
     source: list[Shape] = getattr(pair.source, kind)
     made: list[Shape] = getattr(pair.made, kind)
     here = _places(pair, pair.source, source, [{}], renamed=False)
@@ -94,7 +94,7 @@ def _places(
     *,
     renamed: bool,
 ) -> list[Array]:
-    """The pose of each shape in the root's frame, in every configuration, in one array."""
+    """Return the poses of each shape in the root's frame, for all configurations."""
     order = robot.in_order()
     rows: list[list[Array]] = [[] for _ in shapes]
     for q in configurations:
@@ -121,7 +121,7 @@ def _nearest(
     alike = [i for i in left if _alike(shape, others[i])]
 
     def distance(i: int) -> tuple[float, bool]:
-        """How far it is; of several at one place, one of the same colour."""
+        """Return the distance, and whether the color differs, which breaks ties."""
         return max(float(np.abs(places[i] - place).max()), PLACES), others[i].rgba != shape.rgba
 
     return min(alike, key=distance, default=None)

@@ -1,4 +1,4 @@
-"""The robot as URDF describes it, as a mechanism with one body for each link."""
+"""Conversion of a URDF robot to a mechanism with one body for each link."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ KINDS = {
 
 
 def mechanism_of(robot: Robot, actuator_config: Path | None = None) -> Mechanism:
-    """The mechanism of a robot of trees; a root named ``world`` is the world.
+    """Convert a robot of one or several trees; a root named ``world`` is the world.
 
     Args:
         robot: The robot.
-        actuator_config: A file that sets damping, friction and force range of joints.
+        actuator_config: File that sets damping, friction and force range of joints.
     """
     made = Mechanism()
     anchored = base_of(robot) is None
@@ -67,7 +67,7 @@ def mechanism_of(robot: Robot, actuator_config: Path | None = None) -> Mechanism
 
 
 def _set(limits: dict[str, float], settings: JointSettings | None) -> None:
-    """Put what a user sets in the place of what the description says."""
+    """Replace values of the description by those of the user."""
     if settings is None:
         return
     if settings.damping is not None:
@@ -79,13 +79,13 @@ def _set(limits: dict[str, float], settings: JointSettings | None) -> None:
 
 
 def base_of(robot: Robot) -> str | None:
-    """The link at the model's origin, the first root; None where a root is the world."""
+    """Return the link at the model's origin, the first root; None if a root is the world."""
     names = [root.name for root in robot.tree.roots]
     return names[0] if names and "world" not in names else None
 
 
 def pose(origin: Origin | None) -> Array:
-    """The pose that an ``<origin>`` describes."""
+    """Return the 4 × 4 pose of an ``<origin>``."""
     if origin is None:
         return np.eye(4)
     if origin.quaternion is not None:
@@ -108,7 +108,7 @@ def _body(link: Link) -> Body:
 
 def _hinge(joint: Joint) -> Hinge:
     axis = np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
-    axis /= np.abs(axis).max() or 1.0  # so that the squares neither vanish nor overflow
+    axis /= np.abs(axis).max() or 1.0  # avoids underflow and overflow of the squares
     length = np.linalg.norm(axis)
     mimic = joint.mimic and (joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
     return Hinge(
@@ -125,7 +125,7 @@ def _hinge(joint: Joint) -> Hinge:
 
 
 def _limits(joint: Joint) -> dict[str, float]:
-    """Bounds as readers of URDF take them: 0 for one that is not written, none without a limit."""
+    """Return limits as URDF readers do: 0 for a missing bound, infinite without ``<limit>``."""
     limit, dynamics = joint.limit, joint.dynamics
     bounds = dict.fromkeys(("lower", "upper", "effort", "velocity"), np.inf)
     bounds["lower"] = -np.inf
@@ -177,7 +177,7 @@ def _digest_of(robot: Robot, filename: str) -> str:
 
 
 def digest(path: Path) -> str:
-    """A digest of a file, or ``missing``."""
+    """Return a digest of a file, or ``missing``."""
     try:
         return sha256(path.read_bytes()).hexdigest()
     except OSError:
@@ -185,13 +185,13 @@ def digest(path: Path) -> str:
 
 
 def _told(robot: Robot, link: Link) -> bool:
-    """Whether Gazebo is told how a link looks."""
+    """Tell whether ``<gazebo>`` sets the appearance of a link."""
     blocks = (block.element for block in robot.extensions.get(link.name, []))
     return any(element.child(tag) for element in blocks for tag in ("material", "visual"))
 
 
 def _looks(robot: Robot, own: Material) -> tuple[tuple[float, ...] | None, str | None]:
-    """The colour and the picture of a material: its own, else those of the first so named."""
+    """Return the color and texture of a material: its own, else of the first so named."""
     every = [own, *robot.materials, *(v.material for k in robot.links for v in k.visuals)]
     for one in every:
         if one is not None and one.name == own.name and (one.color or one.texture):

@@ -1,4 +1,4 @@
-"""What collisions and visuals have beside their shapes: who touches, how it grips, how it looks."""
+"""Comparison of collision masks, contact surfaces and visual materials."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ MASKS = (
     "surface/contact/collide_without_contact_bitmask",
 )
 IMAGES = ("material/pbr/metal/albedo_map", "material/script/name", "material/script/uri")
-"""Paths of files, which the row of the colors compares by what is in them."""
+"""Paths of files, which the row of colors compares by content."""
 
 
 def compare_contact(pair: Pair) -> Check:
-    """Compare masks of collisions, and which links touch their own robot."""
+    """Compare collision masks and self-collision flags."""
     check = Check("contact", "masks of collisions, self_collide of links and model", 0.0)
     for source, made in matched(pair, "collisions"):
         link = pair.robot.link[source.link]
@@ -49,7 +49,7 @@ def compare_contact(pair: Pair) -> Check:
 
 
 def compare_surface(pair: Pair) -> Check:
-    """Compare friction, stiffness and all else that a collision has."""
+    """Compare friction, stiffness and other contact properties of collisions."""
     what = "friction, stiffness, damping, bounce, number of contacts"
     check = Check("surface", what, EXACT)
     for source, made in matched(pair, "collisions"):
@@ -63,7 +63,7 @@ def compare_surface(pair: Pair) -> Check:
 
 
 def compare_looks(pair: Pair) -> Check:
-    """Compare the light that visuals give back, their transparency, and all else they have."""
+    """Compare material colors, transparency and other properties of visuals."""
     check = Check("looks", "ambient, diffuse, specular, emissive, transparency", EXACT)
     for source, made in matched(pair, "visuals"):
         link = pair.robot.link[source.link]
@@ -78,7 +78,7 @@ def compare_looks(pair: Pair) -> Check:
 
 
 def own_links(pair: Pair) -> Iterator[tuple[Link, ET.Element]]:
-    """Yield the links that are links of the file still, with their elements."""
+    """Yield the links that are still links in the file, with their elements."""
     elements = {e.get("name"): e for e in pair.where.model.findall("link")}
     for link in pair.robot.links:
         element = elements.get(pair.link(link.name))
@@ -91,7 +91,7 @@ def _collision_facts(made: Shape) -> Facts:
 
 
 def _look(pair: Pair, link: Link, shape: Shape) -> Facts:
-    """What a visual has beside its shape."""
+    """Return the expected properties of a visual, other than its shape."""
     facts: Facts = {}
     blocks = [e for e in elements_of(pair.robot, link) if e.tag == "material"]
     facts.update(_material(pair, blocks[-1:], shape))
@@ -104,7 +104,7 @@ def _look(pair: Pair, link: Link, shape: Shape) -> Facts:
 
 
 def _material(pair: Pair, blocks: list[Element], shape: Shape) -> Facts:
-    """The material that Gazebo is told, else that of URDF."""
+    """Return the material from ``<gazebo>``, else from URDF."""
     visual = shape.part
     assert isinstance(visual, Visual)
     for block in blocks:
@@ -139,7 +139,7 @@ def _material(pair: Pair, blocks: list[Element], shape: Shape) -> Facts:
 
 
 def _defined(pair: Pair, own: Material | None) -> Material | None:
-    """The first material of a name that has a color or an image."""
+    """Return the first material of a name with a color or an image."""
     if own is None:
         return None
     named = [v.material for link in pair.robot.links for v in link.visuals]

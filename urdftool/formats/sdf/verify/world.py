@@ -1,4 +1,4 @@
-"""The world around the robot: the same robot, ground, gravity, and the systems of its sensors."""
+"""Comparison of the world: model, ground, gravity, and the systems of the sensors."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ if TYPE_CHECKING:
 
 GROUND = "ground_plane"
 RENDERING = ("camera", "lidar")
-"""Parts of the types of sensors that one system of gz renders."""
+"""Parts of the names of sensor types that the rendering system runs."""
 
 WORDS = {
     "air_pressure": "air-pressure", "air_speed": "air-speed", "altimeter": "altimeter",
     "contact": "contact", "dvl": "dvl", "force_torque": "forcetorque", "imu": "imu",
     "logical_camera": "logical-camera", "magnetometer": "magnetometer", "navsat": "navsat",
 }  # fmt: skip
-"""Words in the libraries of the systems that run other sensors."""
+"""Words in the library names of the systems that run other sensors."""
 
 
 def compare_world(pair: Pair, place: Path) -> Check:
-    """Compare a world with the model.
+    """Compare the model in a world, and the world itself.
 
     Args:
         pair: The robot and the model.
-        place: The file of the model.
+        place: Path of the model's file.
     """
     check = Check("world", "the same model, gravity, ground, systems of its sensors", EXACT)
     path = place if pair.options.file else place.parent / "world.sdf"
