@@ -1,13 +1,13 @@
-"""The robot as a graph: what is drawn, and the languages it is drawn in.
+"""The robot as a graph, and its output formats.
 
-One module an idea, each imported on its own (this package loads nothing by itself):
+Modules, each imported on its own (the package itself imports nothing):
 
-- ``figure``: ``Node``, ``Edge`` and ``Figure``, what is drawn;
-- ``walk``: links and joints in the order they are drawn, also where they are no tree;
-- ``faults``: what keeps a robot from being a tree;
-- ``ros``, ``detailed``: a robot to a figure, in the two styles;
-- ``marks``: the findings of lint, on the nodes they concern;
+- ``figure``: ``Node``, ``Edge`` and ``Figure``, the drawn graph;
+- ``walk``: links and joints in drawing order, also if they are not a tree;
+- ``faults``: defects that keep a robot from being a tree;
+- ``ros``, ``detailed``: conversion of a robot to a figure, in two styles;
+- ``marks``: lint findings at the nodes they concern;
 - ``fold``: rigid bodies as one node;
-- ``dot``, ``mermaid``: a figure to text;
-- ``draw``: DOT text to PDF, SVG and PNG.
+- ``dot``, ``mermaid``: conversion of a figure to text;
+- ``draw``: rendering of DOT text as PDF, SVG and PNG.
 """

@@ -1,4 +1,4 @@
-"""Sensors, plugins and controllers, hung on the link or joint that has them."""
+"""Nodes for sensors, plugins and controllers, attached to their link or joint."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from .words import visible
 def add_attached(
     figure: Figure, robot: Robot, links: dict[str, str], joints: dict[str, str]
 ) -> None:
-    """Hang them on.
+    """Add sensors, plugins and controllers, attached to their link or joint.
 
-    What concerns the whole robot hangs on its root, or on its first link where it has none.
+    Those of the whole robot are attached to its root, or to its first link if there is no root.
 
     Args:
-        figure: Where they are added.
+        figure: Figure to extend.
         robot: The robot.
-        links: Keys of nodes by the name of their link.
-        joints: Keys of nodes by the name of their joint.
+        links: Node keys by link name.
+        joints: Node keys by joint name.
     """
     tops = [*robot.tree.roots, *robot.links]
     top = links.get(tops[0].name) if tops else None
@@ -82,7 +82,7 @@ def _hang_control(
     node.lines.append(f"ros2_control {visible(control.type) or 'hardware'}")
     if control.plugin:
         node.lines.append(visible(control.plugin))
-    # where one joint is driven, its hardware hangs on it; else it would be a knot of lines
+    # hardware of a single joint is attached to it; for several joints the edges would cross
     driven = [joints[joint.name] for joint in control.joints if joint.name in joints]
     holder = driven[0] if len(set(driven)) == 1 and len(control.joints) == 1 else top
     figure.add(node)

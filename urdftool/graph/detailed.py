@@ -1,4 +1,4 @@
-"""The detailed figure: what a joint does, what a link weighs and is made of, what hangs on it."""
+"""The detailed figure: joint properties, mass and geometry of links, attached parts."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _MOST_SHAPES = 4
 
 
 def detailed_figure(robot: Robot) -> Figure:
-    """The figure of a robot."""
+    """Create the detailed figure of a robot."""
     figure = Figure(robot.name, "detailed")
     found = walk(robot)
     transmissions = _transmissions(robot)

@@ -1,7 +1,7 @@
-"""A figure as DOT, the language of Graphviz.
+"""Conversion of a figure to DOT, the language of Graphviz.
 
-Names are data: each stands in quotes with what means something to Graphviz escaped, or in an
-HTML-like label with what means something to XML escaped.
+Names are untrusted data: each is quoted and escaped for Graphviz, or escaped for XML in an
+HTML-like label.
 """
 
 from __future__ import annotations
@@ -31,28 +31,28 @@ _MOST_MEMBERS = 8
 
 
 def to_dot(figure: Figure, folder: str | None = None) -> str:
-    """The text of a figure.
+    """Convert a figure to DOT text.
 
     Args:
-        figure: The figure; of style ``ros``, the text is that of ``urdf_to_graphiz``, and further
-            attributes are there only for what is wrong, and for tooltips and links.
-        folder: The folder of the picture, which links to the source start from; None for neither
-            tooltips nor links.
+        figure: The figure; in style ``ros``, the text is that of ``urdf_to_graphiz``, with
+            additional attributes only for faults, findings, tooltips and links.
+        folder: Folder of the output file, from which links to the source are relative; None for
+            neither tooltips nor links.
     """
     lines = _ros(figure, folder) if figure.style == "ros" else _detailed(figure, folder)
     return "".join(f"{line}\n" for line in lines)
 
 
 def quoted(text: str) -> str:
-    """A text as Graphviz shows it, in quotes: nothing in it is an escape or an entity."""
+    """Quote a text so that Graphviz shows it literally, without escapes or entities."""
     text = visible(text).replace("\\", "\\\\").replace('"', '\\"')
     return f'"{_ENTITY.sub("&amp;", text)}"'
 
 
 def _several(lines: list[str]) -> str:
-    """Lines of a label or tooltip, in one pair of quotes.
+    """Join the lines of a label or tooltip in one pair of quotes.
 
-    Graphviz now and then breaks on an empty line among others, so there is none.
+    Empty lines are dropped, as Graphviz sometimes fails on them.
     """
     return '"' + "\\n".join(quoted(line)[1:-1] for line in lines if line) + '"'
 
@@ -106,7 +106,7 @@ def _detailed(figure: Figure, folder: str | None) -> Iterator[str]:
 
 
 def _caption(figure: Figure) -> Iterator[str]:
-    """What is wrong and concerns no node, below the picture."""
+    """Yield a caption with the findings that concern no node."""
     if figure.findings:
         said = list(dict.fromkeys(f"{f.severity.label}: {f.rule}" for f in figure.findings))
         color = COLORS[max(finding.severity for finding in figure.findings)]
@@ -121,7 +121,7 @@ def _members(node: Node) -> list[str]:
 
 
 def _html(node: Node) -> str:
-    """Name in bold, small lines below, and what is wrong in its colour."""
+    """Format a node as an HTML-like label: name in bold, small lines, faults and findings."""
     name = _data(shown(node.name))
     rows = [f"<B>{name}</B>" if name.strip() else "<I>no name</I>"]
     small = [_data(shown(line)) for line in (*_members(node), *node.lines)]
@@ -138,7 +138,7 @@ def _html(node: Node) -> str:
 
 
 def _data(text: str) -> str:
-    """A text in an HTML-like label, where Graphviz takes a backslash for an escape, too."""
+    """Escape a text for an HTML-like label, where Graphviz also interprets backslashes."""
     for plain, written in (("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ("\\", "\\\\")):
         text = text.replace(plain, written)
     return text
@@ -168,10 +168,10 @@ def _edge(edge: Edge) -> str:
 
 
 def _links(node: Node, folder: str | None) -> dict[str, str]:
-    """A tooltip with everything that is wrong, and a link to where the node is written."""
+    """Return a tooltip with all faults and findings, and a link to the source of the node."""
     if folder is None:
         return {}
-    from urllib.parse import quote  # half as long to import as all else that a .gv needs
+    from urllib.parse import quote  # half as slow as all other imports
 
     place = node.place
     lines = [f"{node.kind} {node.name}", *node.lines, *node.faults]

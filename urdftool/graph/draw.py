@@ -1,7 +1,7 @@
-"""DOT text to a picture, by the Graphviz that the wheel of pygraphviz carries.
+"""Rendering of DOT text by Graphviz, from the wheel of pygraphviz.
 
-Graphviz is C that prints to standard error, cannot be stopped, and may crash on a graph: it works
-in an isolated process.
+Graphviz prints to standard error, cannot be interrupted, and may crash on a graph, so it runs in an
+isolated process.
 """
 
 from __future__ import annotations
@@ -19,22 +19,22 @@ class DrawError(UrdftoolError):
 
 
 def draw(text: str, format: str) -> bytes:
-    """A picture of a graph.
+    """Render a graph.
 
     Args:
         text: The graph in DOT.
         format: One of ``FORMATS``.
 
     Raises:
-        DrawError: It takes longer than ``MAX_SECONDS``, or Graphviz breaks on it.
-        MissingDependency: pygraphviz is not installed, or not for this machine.
+        DrawError: Rendering takes longer than ``MAX_SECONDS``, or Graphviz crashes.
+        MissingDependency: pygraphviz is not installed, or not available for this machine.
     """
     with Artist() as artist:
         return artist.draw(text, format)
 
 
 class Artist:
-    """Draws one graph in an isolated process, which loads Graphviz while the graph is made."""
+    """Renderer of one graph in an isolated process, which loads Graphviz in advance."""
 
     def __init__(self) -> None:
         """Start the process."""
@@ -48,7 +48,7 @@ class Artist:
         self._process.__exit__()
 
     def draw(self, text: str, format: str) -> bytes:
-        """Draw a graph, once; as :func:`draw`."""
+        """Render a graph, once; see :func:`draw`."""
         try:
             data: bytes = self._process.call(
                 __name__, "render", text, format, time_limit=MAX_SECONDS
@@ -68,7 +68,7 @@ class Artist:
 
 
 def render(text: str, format: str) -> bytes:
-    """Draw a graph in this process; as :func:`draw`."""
+    """Render a graph in this process; see :func:`draw`."""
     try:
         from pygraphviz import AGraph
     except ModuleNotFoundError:
@@ -89,6 +89,6 @@ def render(text: str, format: str) -> bytes:
 
 
 def _labelled(text: str) -> str:
-    """The text with what the ``dot`` command says first: a node is labelled with its name."""
+    """Add the default of the ``dot`` command: nodes are labeled with their names."""
     head, brace, rest = text.partition("{\n")
     return f'{head}{brace}node [label="\\N"];\n{rest}'

@@ -1,4 +1,4 @@
-"""What is drawn: nodes, edges, and what is wrong with them."""
+"""Data of a drawn graph: nodes, edges, and their faults and findings."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from ..source.location import Place
 
 @dataclass(slots=True)
 class Node:
-    """A link, a joint, or something that hangs on one.
+    """A link, a joint, or a part attached to one.
 
     Attributes:
-        key: Tells it from every other node of the figure.
+        key: Unique key in the figure.
         kind: ``link``, ``joint``, ``sensor``, ``plugin``, ``controller``, or ``missing`` for a link
-            that is named and not there.
-        name: Its name in the description.
-        lines: What a detailed figure says of it, a line each.
-        facts: The same as data, in metres, radians and kilograms.
-        elements: The XML it stands for: its own element first.
+            that is referred to but does not exist.
+        name: Name in the description.
+        lines: Lines of text in a detailed figure.
+        facts: The same information as data, in meters, radians and kilograms.
+        elements: XML elements that the node represents, its own element first.
         members: Names of the links that were folded into this one.
-        faults: What keeps the robot from being a tree here, in a few words each.
-        findings: What lint finds here.
+        faults: Short descriptions of the defects of the tree at this node.
+        findings: Lint findings at this node.
     """
 
     key: str
@@ -40,18 +40,18 @@ class Node:
 
     @property
     def place(self) -> Place | None:
-        """Where it is written; None for what is not."""
+        """Return the location in the source; None without an element."""
         return self.elements[0].place if self.elements else None
 
     @property
     def severity(self) -> Severity | None:
-        """The worst of what is wrong here; a fault of the tree is an error."""
+        """Return the highest severity at this node; a fault of the tree is an error."""
         if self.faults:
             return Severity.ERROR
         return max((finding.severity for finding in self.findings), default=None)
 
     def marks(self) -> Iterator[tuple[str, Severity]]:
-        """What is wrong here, in a few words each, the worst first."""
+        """Yield short texts of faults and findings with their severity, the highest first."""
         yield from ((fault, Severity.ERROR) for fault in self.faults)
         counts: dict[tuple[Severity, str], int] = {}
         for finding in self.findings:
@@ -63,15 +63,15 @@ class Node:
 
 @dataclass(slots=True)
 class Edge:
-    """A line from one node to another.
+    """An edge between two nodes.
 
     Attributes:
-        tail: Key of the node it starts at.
-        head: Key of the node it points to.
-        kind: ``joint`` within the tree, ``mimic`` from the joint that is followed, ``holds`` to
-            what hangs on a link or joint.
-        xyz: Place of the joint in the parent's frame [m], as text; empty where it is not said.
-        rpy: How it is turned there [rad], as text.
+        tail: Key of the start node.
+        head: Key of the end node.
+        kind: ``joint`` within the tree, ``mimic`` from the leading joint, ``holds`` to a part
+            attached to a link or joint.
+        xyz: Position of the joint in the parent's frame [m], as text; may be empty.
+        rpy: Rotation of the joint in the parent's frame [rad], as text; may be empty.
     """
 
     tail: str
@@ -83,14 +83,14 @@ class Edge:
 
 @dataclass(slots=True)
 class Figure:
-    """A robot as it is drawn.
+    """A drawn robot.
 
     Attributes:
-        name: The robot's name.
+        name: Name of the robot.
         style: ``ros`` or ``detailed``.
-        nodes: By key, in the order they are drawn.
-        edges: In the order they are drawn.
-        findings: What lint finds that concerns no node.
+        nodes: Nodes by key, in drawing order.
+        edges: Edges in drawing order.
+        findings: Lint findings that concern no node.
     """
 
     name: str
@@ -100,7 +100,7 @@ class Figure:
     findings: list[Finding] = field(default_factory=list)
 
     def add(self, node: Node) -> Node:
-        """Take a node, under a key that no other has."""
+        """Add a node; change its key if it is taken."""
         wanted, count = node.key, 1
         while node.key in self.nodes:
             count += 1
@@ -109,5 +109,5 @@ class Figure:
         return node
 
     def of_kind(self, *kinds: str) -> Iterator[Node]:
-        """The nodes of some kinds."""
+        """Return the nodes of some kinds."""
         return (node for node in self.nodes.values() if node.kind in kinds)

@@ -1,4 +1,4 @@
-"""Rigid bodies as one node: links that fixed joints join are folded into the topmost."""
+"""Folding of rigid bodies: links that fixed joints connect become one node."""
 
 from __future__ import annotations
 
@@ -7,11 +7,9 @@ from .words import number
 
 
 def fold_fixed(figure: Figure) -> Figure:
-    """A figure with its fixed joints folded.
+    """Fold the fixed joints of a figure.
 
-    What was wrong with them stays on the node they fold to.
-
-    A fixed joint that has part in a fault of the tree is left as it is.
+    Findings move to the node of the rigid body. Fixed joints at a fault of the tree are not folded.
     """
     above = {edge.head: edge.tail for edge in figure.edges if edge.kind == "joint"}
     below = {edge.tail: edge.head for edge in figure.edges if edge.kind == "joint"}
@@ -42,7 +40,7 @@ def _top(into: dict[str, str], key: str) -> str:
 
 
 def _take(body: Node, node: Node) -> None:
-    """Let a body have what a node had that is folded into it."""
+    """Move the data of a folded node to the node of its rigid body."""
     body.findings += node.findings
     body.elements += node.elements
     if node.kind == "joint":

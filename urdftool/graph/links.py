@@ -1,4 +1,4 @@
-"""The two nodes that a joint is drawn between, also where a link of it is not there."""
+"""End nodes of a joint, also for links that do not exist."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from .figure import Figure, Node
 
 
 def ends(figure: Figure, joint: Joint, keys: dict[str, str]) -> tuple[str, str]:
-    """Keys of the parent's and the child's node.
+    """Return the keys of the parent's and the child's node.
 
-    A link that is named and not there gets a node of its own, and each missing name another.
+    A node is added for each link that does not exist, and for each missing name.
 
     Args:
-        figure: Where such a node is added.
+        figure: Figure to extend.
         joint: The joint.
-        keys: Keys of nodes by the name of their link; missing links are added to it.
+        keys: Node keys by link name; missing links are added to it.
     """
     found = []
     for name, element in (

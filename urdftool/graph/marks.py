@@ -1,4 +1,4 @@
-"""What is wrong, on the nodes it concerns."""
+"""Faults and lint findings at the nodes they concern."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from .figure import Figure, Node
 
 
 def mark_faults(figure: Figure, faults: Iterable[Fault]) -> None:
-    """Write what keeps the robot from being a tree on its nodes."""
-    # a link that is not said has its joint's element, and the fault is the joint's
+    """Add the defects of the tree to their nodes."""
+    # a link without a name shares its joint's element, and the fault belongs to the joint
     nodes = sorted(figure.nodes.values(), key=lambda node: node.kind != "missing")
     by_element = {id(element): node for node in nodes for element in node.elements[:1]}
     for fault in faults:
@@ -24,10 +24,10 @@ def mark_faults(figure: Figure, faults: Iterable[Fault]) -> None:
 
 
 def mark_findings(figure: Figure, findings: Iterable[Finding]) -> None:
-    """Hang findings on the nodes they concern; on the figure where there is none.
+    """Add findings to the nodes they concern, or to the figure if they concern none.
 
-    A finding belongs to the link or joint that it names, else to the node whose XML it stands in.
-    Of one that has several instances, each marks the node it made.
+    A finding belongs to the link or joint that it names, else to the node whose XML contains it. A
+    finding with several macro instances marks the node of each instance.
     """
     named: dict[tuple[str, str], list[Node]] = {}
     for node in figure.nodes.values():
@@ -49,7 +49,7 @@ def mark_findings(figure: Figure, findings: Iterable[Finding]) -> None:
 
 
 class _Owners:
-    """Which node the bytes of a file belong to, for each way they were expanded."""
+    """Index of the node to which the bytes of a file belong, for each macro expansion."""
 
     def __init__(self, figure: Figure) -> None:
         self._starts: dict[tuple[str, tuple[Call, ...]], list[tuple[int, Node]]] = {}
@@ -62,7 +62,7 @@ class _Owners:
             starts.sort(key=itemgetter(0))
 
     def at(self, place: Place, calls: tuple[Call, ...]) -> Node | None:
-        """The node whose XML has a tag that goes over a place."""
+        """Return the node whose XML has a tag at a place."""
         starts = self._starts.get((place.file.path, calls), [])
         index = bisect_right(starts, place.start, key=itemgetter(0)) - 1
         if index < 0:

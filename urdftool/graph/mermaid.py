@@ -1,4 +1,4 @@
-"""A figure as Mermaid, which GitHub and GitLab draw in a README or a pull request."""
+"""Conversion of a figure to Mermaid, which GitHub and GitLab render in Markdown."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ _LOOKS = {
 
 
 def to_mermaid(figure: Figure) -> str:
-    """The text of a figure, as a flowchart."""
+    """Convert a figure to a Mermaid flowchart."""
     return "".join(f"{line}\n" for line in _lines(figure))
 
 
 def too_large(figure: Figure, text: str) -> str:
-    """Why a page would not draw it as Mermaid is set up by default; empty if it would."""
+    """Explain which default limit of Mermaid a figure exceeds; return "" if none."""
     if len(figure.edges) > MAX_EDGES:
         return f"{len(figure.edges)} edges, and Mermaid draws {MAX_EDGES} unless maxEdges is set"
     if len(text) > MAX_CHARACTERS:
@@ -45,9 +45,9 @@ def too_large(figure: Figure, text: str) -> str:
 
 
 def label(text: str) -> str:
-    """A text as Mermaid shows it: all that may mean something to it or to HTML is a code."""
+    """Escape a text for Mermaid: special characters of Mermaid and HTML become character codes."""
     coded = "".join(c if c.isalnum() or c in _PLAIN else f"#{ord(c)};" for c in shown(text))
-    return coded.replace("#92;n", "#92;#8288;n")  # it takes the two for a line end, coded or not
+    return coded.replace("#92;n", "#92;#8288;n")  # an encoded \n is a line break, too
 
 
 def _lines(figure: Figure) -> Iterator[str]:

@@ -1,7 +1,7 @@
-"""The figure that ROS's ``urdf_to_graphiz`` draws, and the same text.
+"""The figure of ROS's ``urdf_to_graphiz``, with identical text.
 
-A box a link, an ellipse a joint, and on the edge to the joint where it is. A link's joints come in
-the order of their names, which is the one that urdfdom keeps them in.
+Links are boxes, joints ellipses, and the edge to a joint shows its origin. The joints of a link are
+sorted by name, the order in which urdfdom stores them.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .walk import by_name, walk
 
 
 def ros_figure(robot: Robot) -> Figure:
-    """The figure of a robot."""
+    """Create the figure of a robot in the style of ROS."""
     figure = Figure(robot.name, "ros")
     found = walk(robot, by_name)
     keys: dict[str, str] = {}
@@ -25,7 +25,7 @@ def ros_figure(robot: Robot) -> Figure:
             Node(link.name, "link", link.name, elements=[link.element])
         ).key
     joints = {joint.name for joint in found.joints}
-    clash = joints & keys.keys()  # urdfdom's graph has one node for both, and so has this text
+    clash = joints & keys.keys()  # urdfdom's graph has one node for both
     for joint in found.joints:
         if joint.name in clash:
             clash.discard(joint.name)
@@ -47,14 +47,14 @@ def _edges(figure: Figure, robot: Robot, joint: Joint, node: Node, keys: dict[st
 
 
 def _six(values: Vector) -> str:
-    """Six digits each, as C++ streams print them."""
+    """Format numbers with six digits, as C++ streams do."""
     return " ".join(f"{value:g}" for value in values)
 
 
 def _rpy(origin: Origin | None, version: str | None) -> Vector:
-    """Roll, pitch and yaw [rad] as urdfdom gives them back from the quaternion it keeps.
+    """Compute roll, pitch and yaw [rad] as urdfdom does from its stored quaternion.
 
-    Its quaternions are taken from ``quat_xyzw`` since URDF 1.1 only.
+    urdfdom reads ``quat_xyzw`` only since URDF 1.1.
     """
     if origin is None:
         x = y = z = 0.0

@@ -1,4 +1,4 @@
-"""Links and joints in the order they are drawn, also where they are no tree."""
+"""Traversal of links and joints in drawing order, also if they are not a tree."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from ..model.elements import Joint, Link, Robot
 
 
 class Walk(NamedTuple):
-    """Every link once, and every joint once: parents before their children."""
+    """Every link and every joint once, parents before their children."""
 
     links: list[Link]
     joints: list[Joint]
 
 
 def walk(robot: Robot, order: Callable[[Sequence[Joint]], Sequence[Joint]] = list) -> Walk:
-    """Go down from each root; then through what hangs on none, a loop once.
+    """Traverse each tree from its root, then detached links; visit a loop once.
 
     Args:
         robot: The robot.
-        order: The order in which a link's joints are gone down.
+        order: Sorts the child joints of a link.
     """
     tree = robot.tree
     seen: set[str] = set()
@@ -42,5 +42,5 @@ def walk(robot: Robot, order: Callable[[Sequence[Joint]], Sequence[Joint]] = lis
 
 
 def by_name(joints: Sequence[Joint]) -> Sequence[Joint]:
-    """Joints in the order of their names' bytes."""
+    """Sort joints by the bytes of their names."""
     return sorted(joints, key=lambda joint: joint.name.encode("utf-8", "surrogatepass"))
