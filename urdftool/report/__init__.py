@@ -1,1 +1,1 @@
-"""Findings and numbers, said aloud."""
+"""Formatting of findings and results as text, JSON and other formats."""

@@ -1,4 +1,4 @@
-"""Collision geometries said aloud: a table and JSON."""
+"""Results of collision mesh simplification as a table and JSON."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ _HEAD = (
 
 @dataclass(frozen=True, eq=False)
 class Row:
-    """A mesh of a link, or a mesh alone, with what became of it.
+    """The result for a mesh of a link, or for a single mesh file.
 
     Attributes:
-        name: The link, or the mesh file.
-        mesh: The mesh file.
-        scale: Factors it was scaled by.
-        result: What was computed.
-        max_error: What its error is judged by.
-        files: Names of its pieces' files; empty for a primitive.
-        source: ``"visual"`` or ``"collision"``; empty for a mesh alone.
-        wanted: The method that was asked for.
+        name: Name of the link, or of the mesh file.
+        mesh: Path of the mesh file.
+        scale: Scale factors.
+        result: Result of the simplification.
+        max_error: Error limit, relative to the size of the mesh.
+        files: File names of its pieces; empty for a primitive.
+        source: ``"visual"`` or ``"collision"``; empty for a single mesh file.
+        wanted: The requested method.
     """
 
     name: str
@@ -52,11 +52,11 @@ class Row:
 
     @property
     def within(self) -> bool:
-        """Whether the error is as small as it was asked for."""
+        """Tell whether the error is within the limit."""
         return self.result.error <= self.max_error
 
     def as_dict(self) -> dict[str, Any]:
-        """The JSON form."""
+        """Return the JSON form."""
         result = self.result
         found: dict[str, Any] = {"link": self.name, "source": self.source} if self.source else {}
         return {
@@ -76,7 +76,7 @@ class Row:
         }
 
     def timings(self) -> dict[str, Any]:
-        """What differs from run to run: the seconds it took, and whether the cache had it."""
+        """Return the values that differ between runs: elapsed seconds, and use of the cache."""
         return {"seconds": round(self.result.seconds, 3), "cached": self.result.cached}
 
 
@@ -85,10 +85,10 @@ class Report:
     """All rows of a robot or of a mesh.
 
     Attributes:
-        path: The file that was simplified.
-        output: What was written; empty where nothing was.
-        rows: A row for each mesh.
-        left: Links left as they are.
+        path: Path of the input.
+        output: Path of the output; empty if nothing was written.
+        rows: One row for each mesh.
+        left: Names of the unchanged links.
     """
 
     path: str
@@ -97,7 +97,7 @@ class Report:
     left: Sequence[str] = field(default_factory=list)
 
     def as_dict(self, *, timings: bool = False) -> dict[str, Any]:
-        """Return the JSON form; with seconds and use of the cache, which differ from run to run."""
+        """Return the JSON form; ``timings`` adds values that differ between runs."""
         return {
             "input": self.path,
             "output": self.output,
@@ -107,7 +107,7 @@ class Report:
 
 
 def rows_of(written: Written, results: Mapping[Task, Result]) -> list[Row]:
-    """A row for each mesh of a robot."""
+    """Return a row for each mesh of a robot."""
     return [
         Row(
             item.link.name,
@@ -126,13 +126,13 @@ def rows_of(written: Written, results: Mapping[Task, Result]) -> list[Row]:
 
 
 def as_json(reports: Sequence[Report], *, timings: bool = False) -> str:
-    """Write all of it as one object; ``timings`` as in :meth:`Report.as_dict`."""
+    """Format all reports as one object; ``timings`` as in :meth:`Report.as_dict`."""
     found = [report.as_dict(timings=timings) for report in reports]
     return json.dumps({"version": 1, "results": found}, indent=2) + "\n"
 
 
 def table(rows: Sequence[Row]) -> str:
-    """What was there and what is, a line a mesh."""
+    """Format the sizes before and after, and the errors, one line for each mesh."""
     if not rows:
         return ""
     lines: list[Sequence[str]] = [("", *_HEAD)]
@@ -141,13 +141,13 @@ def table(rows: Sequence[Row]) -> str:
 
 
 def millimetres(length: float) -> str:
-    """A length [m] in millimetres, three digits of it or all before the point."""
+    """Format a length [m] in millimeters, with three digits or all digits before the point."""
     found = length * 1000
     return f"{found:.3g}" if found < 999.5 else f"{found:.0f}"
 
 
 def remarks(rows: Iterable[Row]) -> Iterable[str]:
-    """What should be known beside the table: parts that miss the error, and what was met."""
+    """Yield a line with advice for each mesh whose error exceeds the limit."""
     for row in rows:
         if not row.within:
             yield (
@@ -157,7 +157,7 @@ def remarks(rows: Iterable[Row]) -> Iterable[str]:
 
 
 def _advice(row: Row) -> str:
-    """What helps where the error is missed."""
+    """Return options that may reduce the error."""
     if row.result.method == "simplify":
         return "try more --max-triangles"
     if row.wanted == "coacd":
@@ -171,14 +171,14 @@ def _advice(row: Row) -> str:
 
 
 def notes(rows: Iterable[Row]) -> Iterable[str]:
-    """What was found of the meshes and mended, and methods that failed."""
+    """Yield the notes on repaired meshes and failed methods."""
     for row in rows:
         for note in row.result.notes:
             yield f"{_label(row)}: {note}"
 
 
 def failures(rows: Iterable[Row]) -> Iterable[str]:
-    """Notes of failures and of what was done instead, and of what engines touch instead."""
+    """Yield the notes on failures, substitutes, and convex hulls that engines use."""
     for row in rows:
         for note in row.result.notes:
             if note.startswith(("CoACD", "One convex", "The mesh is flat", "Engines that")):
@@ -186,7 +186,7 @@ def failures(rows: Iterable[Row]) -> Iterable[str]:
 
 
 def summary(report: Report) -> str:
-    """One line."""
+    """Summarize a report in one line."""
     rows = report.rows
     pieces = sum(len(row.result.pieces) for row in rows)
     missed = sum(not row.within for row in rows)

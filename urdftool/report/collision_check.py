@@ -1,4 +1,4 @@
-"""What a check of a robot's collisions found, as a table and JSON."""
+"""Results of a check of collision geometry, as a table and JSON."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from .tables import render_table
 
 
 def is_good(item: Checked, limit: float) -> bool:
-    """Whether a link's collision is there, and near enough to its visual."""
+    """Tell whether a link has collision geometry within the error limit of its visual."""
     return item.measures is not None and item.measures["error"] <= limit
 
 
 def as_dict(path: str, found: Sequence[Checked], limit: float) -> dict[str, Any]:
-    """A robot's part of the JSON form."""
+    """Return the JSON form for one robot."""
     return {
         "input": path,
         "max_error": limit,
@@ -35,7 +35,7 @@ def as_dict(path: str, found: Sequence[Checked], limit: float) -> dict[str, Any]
 
 
 def table(found: Sequence[Checked], limit: float) -> str:
-    """A line a link."""
+    """Format the results, one line for each link."""
     if not found:
         return ""
     lines: list[Sequence[str]] = [
@@ -63,7 +63,7 @@ def table(found: Sequence[Checked], limit: float) -> str:
 
 
 def remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
-    """What is wrong, a line a link."""
+    """Yield a line for each problem of a link."""
     for item in found:
         if item.trouble:
             yield f"link '{item.link}': {item.trouble}"

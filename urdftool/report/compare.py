@@ -1,4 +1,4 @@
-"""What changed between two robots, as text, Markdown and JSON (``docs/schemas/diff.json``)."""
+"""Differences between two robots, as text, Markdown and JSON (``docs/schemas/diff.json``)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _COLORS = {"added": "green", "removed": "red"}
 
 
 def text(changes: Iterable[Change], *, colors: bool = False) -> str:
-    """Each part that changed with what changed of it."""
+    """Format each changed part with its changes."""
     paint = Painter(colors)
     lines = []
     for title, group in _by_part(changes):
@@ -44,7 +44,7 @@ def _is_presence(change: Change) -> bool:
 
 
 def markdown(names: tuple[str, str], changes: Sequence[Change]) -> str:
-    """A table for a pull request."""
+    """Format the changes as a Markdown table for a pull request."""
     lines = [f"**{_cell(summary(names, changes))}**"]
     if changes:
         lines += ["", "| part | what | before | after | |", "|---|---|---|---|---|"]
@@ -58,13 +58,13 @@ def markdown(names: tuple[str, str], changes: Sequence[Change]) -> str:
 
 
 def _cell(text: str) -> str:
-    """A text in a table of Markdown: nothing in it is markup."""
+    """Escape a text for a Markdown table."""
     marked = "".join(f"\\{c}" if c in "\\`*_{}[]<>#|~!@" else c for c in clean(text))
     return marked.replace("&", "&amp;")
 
 
 def to_json(names: tuple[str, str], changes: Sequence[Change], tolerance: float) -> str:
-    """One object; lengths in metres, angles in radians, masses in kilograms."""
+    """Format the changes as one object; lengths [m], angles [rad], masses [kg]."""
     said = {
         "version": 1,
         "before": names[0],
@@ -87,7 +87,7 @@ def _record(change: Change) -> dict[str, Any]:
 
 
 def summary(names: tuple[str, str], changes: Sequence[Change]) -> str:
-    """How much changed, in one line."""
+    """Summarize the number of changes in one line."""
     pair = f"{clean(names[0])} → {clean(names[1])}"
     if not changes:
         return f"{pair}: the same robot"
@@ -109,7 +109,7 @@ def _values(change: Change) -> tuple[str, str]:
 
 
 def _value(value: Any) -> str:
-    """A value for people; empty for none."""
+    """Format a value; empty for None."""
     if value is None:
         return ""
     if isinstance(value, float):
@@ -122,7 +122,7 @@ def _value(value: Any) -> str:
 
 
 def _facts(facts: dict[str, Any]) -> str:
-    """A pose, a shape or what is worth saying of a part."""
+    """Format a pose, a shape, or the properties of a part."""
     if "rpy" in facts:
         turned = any(abs(angle) > 1e-12 for angle in facts["rpy"])
         rpy = " ".join(f"{math.degrees(angle):.4g}°" for angle in facts["rpy"])

@@ -1,8 +1,8 @@
-"""Numbers of things, in words."""
+"""Counts with nouns."""
 
 from __future__ import annotations
 
 
 def counted(count: int, one: str, many: str = "") -> str:
-    """``1 file``, ``2 files``; ``many`` is for words that do not just take an s."""
+    """Format a count, such as ``1 file`` or ``2 files``; ``many`` is an irregular plural."""
     return f"{count} {one if count == 1 else many or one + 's'}"

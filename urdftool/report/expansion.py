@@ -1,4 +1,4 @@
-"""What there is to say of an expansion: files, arguments, warnings, a make rule, a source map."""
+"""Reports about an expansion: files, arguments, warnings, a make rule, a source map."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
 
 def files_read(expansion: Expansion) -> list[str]:
-    """The files that were read, the description first."""
+    """Return the files that were read, the description first."""
     return list(dict.fromkeys([expansion.file.path, *expansion.files, *expansion.dependencies]))
 
 
 def warnings(expansion: Expansion, given: Mapping[str, str]) -> list[str]:
-    """A line for each warning: xacro's own, and arguments that nothing declares."""
+    """Return a line for each warning: xacro's own, and undeclared arguments."""
     lines = []
     for warned in dict.fromkeys(expansion.warnings):
         where = str(warned.place) if warned.place else expansion.file.path
@@ -31,12 +31,12 @@ def warnings(expansion: Expansion, given: Mapping[str, str]) -> list[str]:
 def unknown_arguments(
     path: str, given: Mapping[str, str], expansion: Expansion | None
 ) -> list[str]:
-    """A line for each argument that nothing declares.
+    """Return a line for each undeclared argument.
 
     Args:
-        path: Of the description.
-        given: Values for its arguments.
-        expansion: What xacro did; None for plain URDF, which has no arguments.
+        path: Path of the description.
+        given: Values of the arguments.
+        expansion: Result of xacro; None for plain URDF, which has no arguments.
     """
     lines = []
     known = {} if expansion is None else expansion.arguments
@@ -56,14 +56,14 @@ def _sources(expansion: Expansion) -> str:
 
 
 def argument_list(expansion: Expansion) -> str:
-    """``name:=default`` lines, in the order they are declared."""
+    """Format the arguments as ``name:=default`` lines, in order of declaration."""
     return "".join(f"{a.name}:={a.default}\n" for a in expansion.arguments.values())
 
 
 def make_rule(target: str, files: Iterable[str]) -> str:
-    """A rule that makes a target depend on files, with an empty rule for each of them.
+    """Format a make rule by which a target depends on files, with an empty rule for each file.
 
-    The empty rules keep make going when an include has been removed.
+    With the empty rules, make continues after an include was removed.
     """
     escaped = [_escape(name) for name in files]
     rules = "".join(f"\n{name}:\n" for name in escaped[1:])
@@ -77,9 +77,9 @@ def _escape(path: str) -> str:
 
 
 def stale(expansion: Expansion, committed: str) -> str:
-    """How a committed URDF differs from the expansion, as a unified diff; empty if it does not.
+    """Return a unified diff from a committed URDF to the expansion; empty if they are equal.
 
-    Comments and layout do not count.
+    Comments and layout are ignored.
     """
     from difflib import unified_diff
 
@@ -92,7 +92,7 @@ def stale(expansion: Expansion, committed: str) -> str:
 
 
 def _lines(element: Element, indent: str = "") -> list[str]:
-    """An element as lines that are equal where the XML is."""
+    """Format an element as lines that are equal for equal XML."""
     attributes = "".join(
         f' {name}="{value}"'
         for name, value in sorted(element.attributes.items())
@@ -110,7 +110,7 @@ def _lines(element: Element, indent: str = "") -> list[str]:
 
 
 def source_map(expansion: Expansion) -> str:
-    """Where each element came from, as JSON: its XPath, file, line, column and calls."""
+    """Return the origin of each element as JSON: XPath, file, line, column and calls."""
     elements: list[dict[str, Any]] = []
     _map(expansion.document().root, "", {}, elements)
     table = {"version": 1, "source": expansion.file.path, "elements": elements}
@@ -135,7 +135,7 @@ def _map(
 
 
 def call_record(call: Call) -> dict[str, Any]:
-    """A macro call or include as JSON has it; an include has no macro."""
+    """Return the JSON form of a macro call or include; an include has no macro."""
     record: dict[str, Any] = {"path": call.file.path, "line": call.line, "column": call.column}
     record["macro"] = call.macro or None
     if call.arguments:

@@ -1,4 +1,4 @@
-"""What an export says: its losses and comparisons as lines, and all of it as JSON."""
+"""Reports of an export: losses and comparisons as lines and JSON."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ def to_json(
     checks: Sequence[Check],
     not_compared: Sequence[str] = (),
 ) -> str:
-    """The report of an export as one object.
+    """Format the report of an export as one object.
 
     Args:
-        output: Where it was written; None where nothing was.
-        files: The files of it.
-        findings: Losses, or the defects that forbade it.
-        checks: The comparisons of a verification; none where it was not asked for.
-        not_compared: What the verification does not compare.
+        output: Path of the output; None if nothing was written.
+        files: Exported files.
+        findings: Losses, or the defects that prevented the export.
+        checks: Results of the verification; empty if it was not requested.
+        not_compared: Parts that the verification does not compare.
     """
     report = {
         "version": 1,
@@ -41,7 +41,7 @@ def to_json(
 
 
 def check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> str:
-    """Write comparisons as a table, with what differs below, and what is not compared."""
+    """Format comparisons as a table, followed by the differences and the parts not compared."""
     rows = [("check", "compared", "worst", "tolerance", "verdict")]
     lines = []
     for check in checks:
@@ -58,6 +58,6 @@ def check_table(checks: Sequence[Check], not_compared: Sequence[str] = ()) -> st
 
 
 def _some(items: Sequence[str], shown: int = 3) -> str:
-    """Name the first of several known differences; the JSON form has them all."""
+    """List the first known differences; the JSON form has all of them."""
     more = f" and {len(items) - shown} more" if len(items) > shown else ""
     return ", ".join(items[:shown]) + more

@@ -1,4 +1,4 @@
-"""What changed in a file, as ``--diff`` shows it."""
+"""Changes of a file, as ``--diff`` shows them."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ NO_FILE = "/dev/null"
 
 
 def file_diff(path: str, before: bytes | None, after: bytes) -> str:
-    """A unified diff of a text, a line of a binary file.
+    """Return a unified diff of a text file, or one line for a binary file.
 
     Args:
-        path: What the file is called.
-        before: What was in it; None where it was not there.
-        after: What is in it now.
+        path: Name of the file in the diff.
+        before: Previous content; None if the file did not exist.
+        after: New content.
     """
     if b"\0" in after or b"\0" in (before or b""):
         was = "new" if before is None else f"{len(before)} bytes →"

@@ -1,4 +1,4 @@
-"""Findings as text for people: ``full`` with the source, ``concise`` in one line each."""
+"""Findings as text: ``full`` with the source, ``concise`` with one line for each."""
 
 from __future__ import annotations
 
@@ -21,31 +21,31 @@ _LONGEST_LINE = 160
 
 
 class Painter:
-    """Styles text, or leaves it alone."""
+    """Styles text if colors are enabled."""
 
     def __init__(self, colors: bool) -> None:
-        """Choose."""
+        """Enable or disable colors."""
         self.colors = colors
 
     def __call__(self, text: str, color: str | None = None, *, bold: bool = False) -> str:
-        """The text in a colour."""
+        """Return the text in a color."""
         return click.style(text, fg=color, bold=bold) if self.colors else text
 
 
 def concise(findings: Iterable[Finding], *, colors: bool = False) -> Iterator[str]:
-    """``FILE:LINE:COLUMN: severity: message [rule]``, a line each."""
+    """Yield ``FILE:LINE:COLUMN: severity: message [rule]`` for each finding."""
     paint = Painter(colors)
     for finding in findings:
         yield _headline(finding, paint)
 
 
 def full(findings: Iterable[Finding], *, colors: bool = False, whole: bool = True) -> Iterator[str]:
-    """The headline, the source, what each reader does, the calls it came through, a hint.
+    """Yield headline, source, effects in readers, macro calls and hint of each finding.
 
     Args:
         findings: The findings.
-        colors: Whether text is coloured.
-        whole: Whether all members of a group are listed, or some and the number of the others.
+        colors: Whether to color the text.
+        whole: Whether to list all members of a group, or only some and the number of the others.
     """
     paint = Painter(colors)
     for finding in findings:
@@ -65,7 +65,7 @@ def _headline(finding: Finding, paint: Painter) -> str:
 
 
 def _source(finding: Finding, paint: Painter) -> Iterator[str]:
-    """The lines the finding is about, with the bytes underlined."""
+    """Yield the source lines of a finding, with the marked bytes underlined."""
     place = finding.place
     first, column = place.file.position(place.start)
     last, end_column = place.end_position
@@ -88,7 +88,7 @@ def _source(finding: Finding, paint: Painter) -> Iterator[str]:
 
 
 def _excerpt(text: str, begin: int, end: int) -> tuple[str, int, int]:
-    """As much of a very long line as is wanted to see what is marked in it."""
+    """Shorten a long line to an excerpt around the marked columns; return it and the columns."""
     if len(text) <= _LONGEST_LINE:
         return text, begin, end
     start = max(0, min(begin - 20, len(text) - _LONGEST_LINE))
@@ -123,7 +123,7 @@ def _remarks(finding: Finding, paint: Painter, whole: bool) -> Iterator[str]:
 
 
 def statistics(outcome: Outcome) -> Iterator[str]:
-    """How many findings each rule has, the most first; for groups with the number of places."""
+    """Yield the number of findings of each rule, the most first; for groups also of places."""
     counts: Counter[tuple[str, Severity]] = Counter()
     places: Counter[tuple[str, Severity]] = Counter()
     for finding in outcome.findings:
@@ -140,11 +140,11 @@ def statistics(outcome: Outcome) -> Iterator[str]:
 
 
 NOT_CHECKED = "not-checked"
-"""What formats with names of rules call a file whose robot was not checked."""
+"""Rule name, in formats that require one, for a file whose robot was not checked."""
 
 
 def severity_counts(findings: Iterable[Finding]) -> str:
-    """``2 errors, 1 warning, 3 info``, without those that there are none of."""
+    """Format the counts, such as ``2 errors, 1 warning, 3 info``; zero counts are omitted."""
     counts = dict.fromkeys(reversed(Severity), 0)
     for finding in findings:
         counts[finding.severity] += 1
@@ -156,7 +156,7 @@ def severity_counts(findings: Iterable[Finding]) -> str:
 
 
 def summary(outcome: Outcome) -> str:
-    """One line: how many of each severity, in how many files, for which targets."""
+    """Summarize a run in one line: counts by severity, files and targets."""
     checked = [report for report in outcome.reports if report.checked]
     files = len(checked)
     targets = {name for report in checked for name in report.targets}

@@ -1,4 +1,4 @@
-"""The formats of ``urdftool lint``, by name."""
+"""Output formats of ``urdftool lint``, by name."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ def as_text(
     statistics: bool = False,
     whole: bool = True,
 ) -> str:
-    """What there is to say of a run.
+    """Format a run.
 
     Args:
         outcome: The run.
         style: ``full``, ``concise``, ``json``, ``sarif``, ``github``, ``junit`` or ``html``.
-        colors: Whether text is coloured.
-        fail_on: From which severity on a finding fails the run.
+        colors: Whether to color the text.
+        fail_on: Lowest severity that fails the run.
         statistics: Count findings by rule instead.
-        whole: Whether ``full`` and ``concise`` have every finding, or at most a screen of each
+        whole: Whether ``full`` and ``concise`` list every finding, or at most a screen for each
             family of rules.
     """
     if statistics:
@@ -36,7 +36,7 @@ def as_text(
         text = _joined(screen(outcome.findings, style, colors=colors, whole=whole))
     else:
         text = _in_style(outcome, style, fail_on)
-    return text.encode("utf-8", "backslashreplace").decode()  # names of files may be any bytes
+    return text.encode("utf-8", "backslashreplace").decode()  # file names may contain any bytes
 
 
 def _in_style(outcome: Outcome, style: str, fail_on: Severity) -> str:

@@ -1,4 +1,4 @@
-"""Findings as workflow commands, which GitHub Actions shows beside the changed lines."""
+"""Findings as workflow commands, which GitHub Actions shows next to the changed lines."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO
 
 
 def github(outcome: Outcome) -> Iterator[str]:
-    """``::error file=…,line=…,title=RULE::message``, a line each."""
+    """Yield ``::error file=…,line=…,title=RULE::message`` for each finding."""
     for report in outcome.reports:
         if report.error is not None:
             where = f"file={_property(report.path)},title={NOT_CHECKED}"
@@ -23,7 +23,7 @@ def github(outcome: Outcome) -> Iterator[str]:
         end_line, end_column = finding.place.end_position
         properties: dict[str, object] = {"file": finding.place.path, "line": line}
         properties["endLine"] = end_line
-        if line == end_line:  # columns of a span over several lines are refused
+        if line == end_line:  # GitHub rejects columns of a span over several lines
             properties |= {"col": column, "endColumn": end_column}
         properties["title"] = finding.rule
         said = ",".join(f"{key}={_property(str(value))}" for key, value in properties.items())

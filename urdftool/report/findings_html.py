@@ -1,4 +1,4 @@
-"""Findings as one page that needs nothing else: no network, no other files."""
+"""Findings as a self-contained HTML page, without network access or other files."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _LONGEST_LINE = 400
 
 
 def to_html(outcome: Outcome) -> str:
-    """A run as a page: findings by file, which severity and rule filter."""
+    """Format a run as a page: findings by file, with filters by severity and rule."""
     by_file: dict[str, list[Finding]] = {}
     for finding in by_weight(outcome.findings):
         by_file.setdefault(finding.place.path, []).append(finding)
@@ -38,7 +38,7 @@ def _text(text: str) -> str:
 
 
 def _filters(outcome: Outcome) -> str:
-    """A box for each severity, and the rules with how often they fired."""
+    """Return a check box for each severity, and a list of the rules with their counts."""
     levels = Counter(finding.severity for finding in outcome.findings)
     rules = Counter(finding.rule for finding in outcome.findings)
     boxes = [
@@ -64,7 +64,7 @@ def _file(path: str, findings: list[Finding]) -> str:
 
 
 def _unreadable(report: Report) -> str:
-    """A file that could not be read, which has no finding."""
+    """Format a file that could not be read, which has no finding."""
     text = _text(report.not_checked)
     return (
         f"<section>\n<h2>{_text(report.path)}</h2>\n"
@@ -87,7 +87,7 @@ def _finding(finding: Finding) -> str:
 
 
 def _rows(finding: Finding) -> Iterator[tuple[str, str]]:
-    """What readers do, the hint, the calls it came through, the other instances."""
+    """Yield effects in readers, hint, macro calls and other instances of a finding."""
     for remark in remarks(finding):
         label, _, text = remark.partition(": ")
         yield label, text
@@ -100,7 +100,7 @@ def _rows(finding: Finding) -> Iterator[tuple[str, str]]:
 
 
 def _source(finding: Finding) -> str:
-    """The lines it is about, with the bytes marked."""
+    """Format the source lines of a finding, with the marked bytes highlighted."""
     place = finding.place
     if not place.file.data:
         return ""

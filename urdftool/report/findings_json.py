@@ -12,7 +12,7 @@ from .json_text import json_text
 
 
 def to_json(outcome: Outcome) -> str:
-    """A run as one object."""
+    """Format a run as one object."""
     reports, findings = outcome.reports, outcome.findings
     counts = {severity: sum(f.severity is severity for f in findings) for severity in Severity}
     table: dict[str, Any] = {
@@ -43,7 +43,7 @@ def to_json(outcome: Outcome) -> str:
 
 
 def finding_record(finding: Finding) -> dict[str, Any]:
-    """One finding."""
+    """Return the JSON form of a finding."""
     line, column = finding.place.file.position(finding.place.start)
     end_line, end_column = finding.place.end_position
     record: dict[str, Any] = {
@@ -78,7 +78,7 @@ def finding_record(finding: Finding) -> dict[str, Any]:
 
 
 def _member(member: Finding) -> dict[str, Any]:
-    """One finding of a group: what it says by itself, and where."""
+    """Return the JSON form of a member of a group: its own message and location."""
     line, column = member.place.file.position(member.place.start)
     return {
         "message": member.message,
@@ -91,7 +91,7 @@ def _member(member: Finding) -> dict[str, Any]:
 
 
 def fix_record(fix: Fix | None) -> dict[str, Any] | None:
-    """What mends a finding: lines and columns as they are before any of it is done."""
+    """Return the JSON form of a fix; lines and columns refer to the file before any edit."""
     if fix is None:
         return None
     edits = []

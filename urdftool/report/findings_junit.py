@@ -1,4 +1,4 @@
-"""Findings as JUnit XML, which colcon and most servers read: a suite a file, a case a rule."""
+"""Findings as JUnit XML, for colcon and CI servers: a suite for each file, a case for each rule."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from .findings_words import call_lines, clean, member_lines, remarks, sentence
 
 
 def to_junit(outcome: Outcome, fail_on: Severity) -> str:
-    """A run; findings below a severity are told in cases that pass.
+    """Format a run; findings below a severity are output of cases that pass.
 
     Args:
         outcome: The run.
-        fail_on: From which severity on a finding is a failure.
+        fail_on: Lowest severity that counts as a failure.
     """
     by_file: dict[str, dict[str, list[Finding]]] = {r.path: {} for r in outcome.reports}
     for finding in outcome.findings:
@@ -54,7 +54,7 @@ def _case(suite: Element, path: str, name: str) -> Element:
 
 
 def _told(case: Element, findings: Iterable[Finding], fail_on: Severity) -> None:
-    """The findings of one rule in a file: a failure, or output of a case that passes."""
+    """Add the findings of one rule in a file: a failure, or output of a case that passes."""
     findings = list(findings)
     worst = max(finding.severity for finding in findings)
     text = "\n".join(line for finding in findings for line in _lines(finding))
@@ -74,7 +74,7 @@ def _lines(finding: Finding) -> Iterable[str]:
 
 
 def _unchecked(suite: Element, report: Report) -> None:
-    """A file that was skipped or not checked, and rules that broke on it."""
+    """Add cases for a skipped or unchecked file, and for skipped or failed rules."""
     if report.skipped:
         SubElement(_case(suite, report.path, "lint"), "skipped", message=clean(report.skipped))
     if report.not_checked:

@@ -1,4 +1,4 @@
-"""Findings as SARIF 2.1.0, which code scanning services and editors read."""
+"""Findings as SARIF 2.1.0, for code scanning services and editors."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: 
 
 
 def to_sarif(outcome: Outcome) -> str:
-    """A run, with what comments excuse and what the baseline has as suppressed results."""
+    """Format a run; findings ignored by comments or in the baseline are suppressed results."""
     excused = [(finding, _in_source(reason)) for finding, reason in outcome.ignored]
     excused += [(finding, {"kind": "external"}) for finding in outcome.known]
     found: list[tuple[Finding, list[dict[str, Any]]]] = [
@@ -54,7 +54,7 @@ def to_sarif(outcome: Outcome) -> str:
 
 
 def _rule(name: str) -> dict[str, Any]:
-    """A rule with its page as help."""
+    """Return the record of a rule, with its page as help."""
     record: dict[str, Any] = {"id": name}
     if name == NOT_CHECKED:
         fact = {"text": "A file could not be read, so nothing of it was checked."}
@@ -78,7 +78,7 @@ def _rule(name: str) -> dict[str, Any]:
 
 
 def _unreadable(report: Report, index: int) -> dict[str, Any]:
-    """A file that could not be read, which has no finding."""
+    """Return the result for a file that could not be read, which has no finding."""
     return {
         "ruleId": NOT_CHECKED,
         "ruleIndex": index,
@@ -106,7 +106,7 @@ def _result(finding: Finding, index: int, seen: Counter[tuple[str, str]]) -> dic
             "primaryLocationLineHash": f"{known_by}:{seen[finding.place.path, known_by]}"
         },
     }
-    if finding.fix is not None and not finding.fix.rewrites:  # SARIF only has replacements
+    if finding.fix is not None and not finding.fix.rewrites:  # SARIF fixes can only replace text
         record["fixes"] = [_fix(finding.fix)]
     related = [
         {**location, "id": number} for number, location in enumerate(_related(finding), start=1)
@@ -115,7 +115,7 @@ def _result(finding: Finding, index: int, seen: Counter[tuple[str, str]]) -> dic
 
 
 def _fix(fix: Fix) -> dict[str, Any]:
-    """What mends it, by file; whether it is safe stands in its properties."""
+    """Return the record of a fix, by file, with its applicability as a property."""
     by_path: dict[str, list[dict[str, Any]]] = {}
     for place, data in fix.replacements:
         by_path.setdefault(place.path, []).append(
@@ -135,7 +135,7 @@ def _fix(fix: Fix) -> dict[str, Any]:
 
 
 def _related(finding: Finding) -> Iterator[dict[str, Any]]:
-    """The macro calls and includes it came through, then those of its other instances."""
+    """Yield the locations of macro calls and includes, then of other instances and consequences."""
     for call in finding.place.calls:
         yield _call(call, f"from {call_words(call)}")
     for member in finding.members[1:]:
@@ -173,7 +173,7 @@ def _place(place: Place) -> dict[str, Any]:
 
 
 def uri(path: str) -> str:
-    """A path as a URI: relative as it is, absolute with ``file://``."""
+    """Return a path as a URI: relative paths unchanged, absolute ones with ``file://``."""
     quoted = quote(os.fsencode(path.replace(os.sep, "/")))
     return f"file://{quoted}" if os.path.isabs(path) else quoted
 
@@ -184,7 +184,7 @@ def _in_source(reason: str) -> dict[str, Any]:
 
 
 def _invocation(outcome: Outcome) -> dict[str, Any]:
-    """Whether all files were read and no rule broke, and what kept them."""
+    """Return whether all files were read and no rule failed, with notifications."""
     notes = []
     for report in outcome.reports:
         where = {"physicalLocation": _file(report.path)}

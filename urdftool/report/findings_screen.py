@@ -1,4 +1,4 @@
-"""Findings for people: what matters first, and no more of a family of rules than a screen."""
+"""Findings for terminals: the most severe first, at most a screen for each family of rules."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from .counted import counted
 from .findings import concise, full, severity_counts
 
 SCREEN = 25
-"""Lines that one family of rules gets, unless all is asked for."""
+"""Maximum number of lines for one family of rules, unless all are requested."""
 
 MANY = 8
-"""Findings above which a terminal gets one line for each, and the summary names rules."""
+"""Findings above which a terminal shows one line for each, and the summary lists rules."""
 
 _RULES = 3
 
 
 def by_weight(findings: Iterable[Finding]) -> list[Finding]:
-    """Findings by file, then by severity, errors first; those of one rule are together."""
+    """Sort findings by file, then by severity, errors first; those of one rule stay together."""
     findings = list(findings)
     first: dict[tuple[str, Severity, str], int] = {}
     for finding in findings:
@@ -40,14 +40,14 @@ def by_weight(findings: Iterable[Finding]) -> list[Finding]:
 def screen(
     findings: Iterable[Finding], style: str, *, colors: bool = False, whole: bool = False
 ) -> Iterator[str]:
-    """Findings in the order of their weight.
+    """Yield the lines of findings, sorted by severity.
 
     Args:
         findings: The findings of a run.
         style: ``full`` or ``concise``.
-        colors: Whether text is coloured.
+        colors: Whether to color the text.
         whole: Whether to show all of them; otherwise a family that needs more lines than a screen
-            has gets one line for each finding, errors first, and the number of those left out.
+            gets one line for each finding, errors first, and the number of omitted findings.
     """
     shown = by_weight(findings)
     if style == "full":
@@ -77,11 +77,11 @@ def screen(
 
 
 def _fit(numbers: Sequence[int], blocks: list[list[str]]) -> Sequence[int]:
-    """Shorten the blocks of a family until they fit; gives those that are left out.
+    """Shorten the blocks of a family until they fit; return the omitted ones.
 
     Args:
-        numbers: The blocks of the family, the weightiest first.
-        blocks: All blocks; the first line of each is its headline.
+        numbers: Indices of the family's blocks, the most severe first.
+        blocks: All blocks, modified in place; the first line of each is its headline.
     """
     if sum(len(blocks[number]) for number in numbers) <= SCREEN:
         return ()
@@ -99,7 +99,7 @@ def _fit(numbers: Sequence[int], blocks: list[list[str]]) -> Sequence[int]:
 
 
 def _joined(blocks: Iterable[Sequence[str]]) -> Iterator[str]:
-    """Blocks one below the other, with a blank line around those of several lines."""
+    """Join blocks, with a blank line around those of several lines."""
     headlines = False
     for block in blocks:
         if len(block) > 1 and headlines:
@@ -112,7 +112,7 @@ def _joined(blocks: Iterable[Sequence[str]]) -> Iterator[str]:
 
 
 def advice(findings: Sequence[Finding]) -> Iterator[str]:
-    """The rules with the most findings, and how to fix or silence each; for many findings only."""
+    """Yield the rules with the most findings and their remedies; nothing for few findings."""
     if len(findings) <= MANY:
         return
     options = Counter(finding.fix.option for finding in findings if finding.fix is not None)
@@ -127,7 +127,7 @@ def advice(findings: Sequence[Finding]) -> Iterator[str]:
             break
         if options:
             fixes = [f.fix.option for f in findings if f.rule == rule and f.fix is not None]
-        else:  # nobody has asked for fixes
+        else:  # fixes were not computed
             fixes = [FIXES[rule].option] if rule in FIXES else []
         fix = f"{min(fixes, key=len)}, or " if fixes else ""
         yield f"  {count:>4}  {rule:<{width}}  {fix}--ignore {rule}"

@@ -1,4 +1,4 @@
-"""The words every report of findings shares."""
+"""Texts that all reports of findings share."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ _LONGEST_CALL = 90
 
 
 def clean(text: str) -> str:
-    """Text from a file, fit for a terminal: control characters are written out."""
+    """Escape control characters in text from a file, for output to a terminal."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def sentence(finding: Finding) -> str:
-    """The message, with the number of instances, the variants, and what it prevented."""
+    """Return the message, with the number of instances, the variants, and what it prevented."""
     several = finding.expansions > 1 and not finding.members
     times = f" (in {finding.expansions} expansions)" if several else ""
     only = f" (only with {clean('; '.join(finding.variants))})" if finding.variants else ""
@@ -32,7 +32,7 @@ def sentence(finding: Finding) -> str:
 
 
 def remarks(finding: Finding) -> Iterator[str]:
-    """What each reader does with it, and what would mend it, a line each."""
+    """Yield a line for each reader's behavior, the hint, the fix and each consequence."""
     for reader, effect in finding.effects.items():
         yield f"{reader}: {effect}"
     if finding.hint:
@@ -44,9 +44,9 @@ def remarks(finding: Finding) -> Iterator[str]:
 
 
 def member_lines(finding: Finding) -> Iterator[str]:
-    """``FILE:LINE:COLUMN: MESSAGE`` for each member of a group but the first.
+    """Yield ``FILE:LINE:COLUMN: MESSAGE`` for each member of a group but the first.
 
-    Where the sentence of the group says what each message says, the name of the member is enough.
+    If the sentence of the group covers the messages, only the name of the member follows.
     """
     for member in finding.members[1:]:
         text = clean(member.message)
@@ -56,19 +56,19 @@ def member_lines(finding: Finding) -> Iterator[str]:
 
 
 def call_words(call: Call) -> str:
-    """``macro 'name' argument=value``, or ``include``."""
+    """Format a call as ``macro 'name' argument=value``, or ``include``."""
     what = clean(call.what)
     return what if len(what) < _LONGEST_CALL else what[: _LONGEST_CALL - 3] + "…"
 
 
 def call_lines(calls: Iterable[Call]) -> Iterator[str]:
-    """``FILE:LINE:COLUMN: macro 'name' argument=value`` for each call, innermost first."""
+    """Yield ``FILE:LINE:COLUMN: macro 'name' argument=value`` for each call, innermost first."""
     for call in calls:
         yield f"{clean(call.file.path)}:{call.line}:{call.column}: {call_words(call)}"
 
 
 def skipped_rules(outcome: Outcome) -> list[str]:
-    """Name the rules that require a library that is not installed: a sentence for each library."""
+    """List the rules that require a library that is not installed: a sentence for each library."""
     rules: dict[str, list[str]] = {}
     for rule, library in outcome.skipped_rules.items():
         rules.setdefault(library, []).append(rule)

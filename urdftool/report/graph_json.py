@@ -14,7 +14,7 @@ from .json_text import json_text
 
 
 def to_json(robot: Robot, figure: Figure, faults: Iterable[Fault]) -> str:
-    """Nodes, edges, and what keeps the robot from being a tree, as one object."""
+    """Format nodes, edges, and defects of the tree as one object."""
     graph = {
         "version": 1,
         "name": robot.name,

@@ -1,4 +1,4 @@
-"""A figure as a tree at the terminal, by rich."""
+"""A figure as a tree for the terminal, by rich."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ _DEEPEST = 40
 
 
 def tree_text(robot: Robot, figure: Figure, *, colors: bool = False, width: int = 80) -> str:
-    """Each root with what hangs on it, a line a joint and its link.
+    """Format each root with its subtree, one line for each joint and its link.
 
     Args:
         robot: The robot.
         figure: The robot as a detailed figure.
-        colors: Whether there are any.
-        width: Columns of the terminal; longer lines run on into the next.
+        colors: Whether to color the text.
+        width: Columns of the terminal; longer lines wrap.
     """
     stream = io.StringIO()
     console = text_console(stream, colors=colors, width=max(width, 40) if colors else WIDEST)
@@ -40,7 +40,7 @@ def tree_text(robot: Robot, figure: Figure, *, colors: bool = False, width: int 
 
 
 def _trees(figure: Figure) -> Iterator[Tree]:
-    """A tree for each root; a branch too deep to be shown goes on in a tree of its own."""
+    """Yield a tree for each root; a branch that is too deep continues in a separate tree."""
     below, child_of = _below(figure)
     hanging = {key for keys in below.values() for key in keys} | set(child_of.values())
     starts = [*(key for key in figure.nodes if key not in hanging), *figure.nodes]
@@ -76,7 +76,7 @@ def _trees(figure: Figure) -> Iterator[Tree]:
 
 
 def _below(figure: Figure) -> tuple[dict[str, list[str]], dict[str, str]]:
-    """What hangs on each node, and apart from that the child link of each joint."""
+    """Return the nodes attached to each node, and separately the child link of each joint."""
     below: dict[str, list[str]] = {}
     child_of: dict[str, str] = {}
     for edge in figure.edges:

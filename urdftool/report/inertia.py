@@ -1,4 +1,4 @@
-"""Mass properties said aloud: URDF, SDF, MJCF, JSON and a table."""
+"""Mass properties as URDF, SDF, MJCF, JSON and a table."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..mechanics.tensor import COMPONENTS, SymmetricTensor, components_of, princ
 
 
 def urdf(properties: SpatialInertia) -> str:
-    """``<inertial>`` of a URDF link, its axes those of the link."""
+    """Format the ``<inertial>`` of a URDF link, along the link's axes."""
     six = components_of(properties.tensor)
     return (
         "<inertial>\n"
@@ -24,7 +24,7 @@ def urdf(properties: SpatialInertia) -> str:
 
 
 def sdf(properties: SpatialInertia) -> str:
-    """``<inertial>`` of an SDF link."""
+    """Format the ``<inertial>`` of an SDF link."""
     six = components_of(properties.tensor)
     rows = "".join(f"    <{name}>{number_text(six[name])}</{name}>\n" for name in COMPONENTS)
     return (
@@ -37,7 +37,7 @@ def sdf(properties: SpatialInertia) -> str:
 
 
 def mjcf(properties: SpatialInertia) -> str:
-    """``<inertial>`` of an MJCF body; MuJoCo's order puts the diagonal first."""
+    """Format the ``<inertial>`` of an MJCF body; ``fullinertia`` has the diagonal first."""
     six = components_of(properties.tensor)
     diagonal = [six[name] for name in ("ixx", "iyy", "izz")]
     products = [six[name] for name in ("ixy", "ixz", "iyz")]
@@ -52,12 +52,12 @@ def mjcf(properties: SpatialInertia) -> str:
 
 
 def as_json(properties: SpatialInertia, facts: Mapping[str, Any]) -> str:
-    """One object: mass, com and inertia, the same about the origin, principal moments, facts."""
+    """Format mass properties, derived values and additional facts as one object."""
     return json.dumps({"version": 1, **numbers(properties), **facts}, indent=2) + "\n"
 
 
 def numbers(properties: SpatialInertia) -> dict[str, Any]:
-    """The JSON form of mass properties, with what follows from them."""
+    """Return the JSON form of mass properties, with derived values."""
     moments, axes = principal_axes(properties.tensor)
     return {
         **properties.as_dict(),
@@ -68,7 +68,7 @@ def numbers(properties: SpatialInertia) -> dict[str, Any]:
 
 
 def table(title: str, properties: SpatialInertia, facts: Mapping[str, str]) -> str:
-    """What there is to know, a line each, to six digits."""
+    """Format all values, one line each, with six digits."""
     found = numbers(properties)
     rows = {
         "mass": f"{found['mass']:.6g} kg",
@@ -90,7 +90,7 @@ def table(title: str, properties: SpatialInertia, facts: Mapping[str, str]) -> s
 
 
 def summary(what: str, properties: SpatialInertia) -> str:
-    """Mass and moments in one line, to six digits."""
+    """Format mass and moments in one line, with six digits."""
     six = components_of(properties.tensor)
     moments = ", ".join(f"{name} {six[name]:.6g}" for name in ("ixx", "iyy", "izz"))
     return f"{what}: {properties.mass:.6g} kg; {moments} kg m² about the centre of mass"

@@ -1,4 +1,4 @@
-"""What was written into a robot's source, and what was not."""
+"""Inertials that were written to a robot's source, and those that were not."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .tables import render_table
 
 
 def text(filling: Filling) -> str:
-    """A row for each link that was written."""
+    """Format a row for each written link."""
     rows: list[tuple[str, ...]] = [("link", "mass [kg]", "ixx", "iyy", "izz", "from")]
     for wanted in filling.written:
         six = components_of(wanted.result.tensor)
@@ -35,7 +35,7 @@ def text(filling: Filling) -> str:
 
 
 def remarks(filling: Filling) -> Iterator[str]:
-    """What was not written and why, and what to change where."""
+    """Yield the links that were not written, with reasons and advice for manual edits."""
     for refusal in filling.left:
         yield f"{refusal.place}: link '{clean(refusal.link)}' is left as it is: {refusal.reason}"
     for refusal in filling.refused:
@@ -45,7 +45,7 @@ def remarks(filling: Filling) -> Iterator[str]:
 
 
 def summary(filling: Filling, files: Sequence[str]) -> str:
-    """Counts, and the files that changed."""
+    """Summarize the counts and the changed files."""
     count = len(filling.written)
     parts = [f"{counted(count, 'link')} written"]
     if filling.unchanged:
@@ -59,7 +59,7 @@ def summary(filling: Filling, files: Sequence[str]) -> str:
 
 
 def as_json(filling: Filling, robot: Robot) -> str:
-    """One object: written, unchanged, left, refused."""
+    """Format written, unchanged, skipped and refused links as one object."""
     assert robot.source is not None
     found = {
         "version": 1,

@@ -1,4 +1,4 @@
-"""Rigid bodies and the whole robot: a table and JSON."""
+"""Mass properties of rigid bodies and the whole robot: a table and JSON."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _HEADS = ("body", "links", "mass [kg]", "com x", "y", "z [m]", *COMPONENTS[:5], 
 
 
 def table(lumped: Lumped) -> str:
-    """A row for each rigid body in the frame of its first link, and one for the whole."""
+    """Format a row for each rigid body in the frame of its first link, and one for the whole."""
     rows: list[tuple[str, ...]] = [_HEADS]
     rows += [
         (clean(body.link), str(len(body.members)), *_cells(body.properties))
@@ -37,7 +37,7 @@ def _cells(properties: SpatialInertia | None) -> tuple[str, ...]:
 
 
 def as_json(lumped: Lumped, robot: Robot) -> str:
-    """One object: the bodies, the whole, the joint positions."""
+    """Format the bodies, the whole and the joint positions as one object."""
     assert robot.source is not None
     found = {
         "version": 1,
@@ -59,5 +59,5 @@ def _dict(properties: SpatialInertia | None) -> dict[str, Any] | None:
         return None
     try:
         return numbers(round_properties(properties))
-    except ValueError:  # what is written cannot be, which the notes say
+    except ValueError:  # inconsistent mass properties, which the notes report
         return numbers(properties)

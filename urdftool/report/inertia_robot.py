@@ -1,4 +1,4 @@
-"""The links of a robot: what is written of their inertia and what the geometry implies."""
+"""Written and implied mass properties of the links of a robot."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _LONGEST_NAME = 40
 
 
 def table(reviews: Sequence[LinkReview], *, colors: bool = False) -> str:
-    """A row for each link, to four digits."""
+    """Format a row for each link, with four digits."""
     rows: list[Sequence[Cell]] = [(*HEADS, ""), (*UNITS, "")]
     rows += [(*_cells(item), (_verdict(item), _COLORS.get(item.status))) for item in reviews]
     return render_table(rows, left=(0, 7, 8), colors=colors)
@@ -85,7 +85,7 @@ def _verdict(item: LinkReview) -> str:
 
 
 def remarks(reviews: Sequence[LinkReview], *, colors: bool = False) -> Iterator[str]:
-    """What the table has no room for: faults with their proposals, and what cannot be read."""
+    """Yield faults with proposals, notes, and geometry that cannot be read."""
     paint = Painter(colors)
     said: dict[tuple[str, str], list[str]] = {}
     for item in reviews:
@@ -144,7 +144,7 @@ def _short(properties: SpatialInertia) -> str:
 
 
 def summary(reviews: Sequence[LinkReview]) -> str:
-    """Counts, and the mass of the whole, in one line."""
+    """Summarize the counts and the total mass in one line."""
     counts = {
         label: sum(item.status == status for item in reviews)
         for status, label in (
@@ -167,7 +167,7 @@ def summary(reviews: Sequence[LinkReview]) -> str:
 
 
 def as_dict(reviews: Sequence[LinkReview], name: str, path: str) -> dict[str, Any]:
-    """The JSON form of a review."""
+    """Return the JSON form of a review."""
     return {
         "version": 1,
         "robot": name,
@@ -186,12 +186,12 @@ def as_dict(reviews: Sequence[LinkReview], name: str, path: str) -> dict[str, An
 
 
 def as_json(found: dict[str, Any]) -> str:
-    """A JSON form as text."""
+    """Format the JSON form as text."""
     return json_text(found, 1) + "\n"
 
 
 def place_dict(place: Place) -> dict[str, Any]:
-    """Where something is written."""
+    """Return the JSON form of a location."""
     return {"path": place.path, "line": place.line, "column": place.column}
 
 
@@ -207,7 +207,7 @@ def _proposal(proposal: Proposal | None) -> dict[str, Any] | None:
 
 
 def _implied(item: LinkReview) -> dict[str, Any] | None:
-    """The numbers of what the geometry implies, where they are numbers."""
+    """Return the mass properties that the geometry implies; None if they are not finite."""
     if item.implied is None or not all(map(math.isfinite, item.implied.tensor)):
         return None
     return numbers(_tidied(item.implied))

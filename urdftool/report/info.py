@@ -1,4 +1,4 @@
-"""A robot in one table, and as JSON; the schema is ``docs/schemas/info.json``."""
+"""Properties of a robot in one table, and as JSON; the schema is ``docs/schemas/info.json``."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _MOST = 6
 
 
 def table(robot: Robot, counts: Counts, measured: Measured, *, colors: bool = False) -> str:
-    """A line for each thing that there is to say."""
+    """Format the properties, one line each."""
     paint = Painter(colors)
     rows = list(_rows(robot, counts, measured))
     width = max(len(label) for label, _ in rows)
@@ -98,7 +98,7 @@ def _short(folder: str) -> str:
 
 
 def to_json(robot: Robot, counts: Counts, measured: Measured) -> str:
-    """The same as one object, with each mesh; lengths in metres, masses in kilograms."""
+    """Format the properties and each mesh as one object; lengths [m], masses [kg]."""
     bounds = measured.bounds
     said: dict[str, Any] = {"version": 1, "name": robot.name}
     said["path"] = robot.source.path if robot.source is not None else None

@@ -9,10 +9,10 @@ _SPECIAL = re.compile("[^ -~\n]")
 
 
 def json_text(value: object, indent: int | None = None) -> str:
-    """Write a value as JSON in which every control character is escaped.
+    """Format a value as JSON in which every control character is escaped.
 
-    JSON itself escapes those below U+0020 alone; a terminal obeys those of U+0080 to U+009F and
-    those that turn the direction of text too.
+    JSON itself escapes only those below U+0020; terminals also interpret U+0080 to U+009F and
+    characters that change the direction of text.
     """
     text = json.dumps(value, indent=indent, ensure_ascii=False)
     return _SPECIAL.sub(_escaped, text)

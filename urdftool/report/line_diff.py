@@ -1,9 +1,9 @@
-"""Unified diffs that show what changed: lines that are unique hold both texts together.
+"""Unified diffs that align both texts at their unique lines.
 
-``difflib`` takes lines that are frequent in a long text for noise, and in a robot nearly every line
-is frequent: a changed number then shows as half of the file gone and written anew. Here both texts
-are aligned at their unique lines first (patience diff, by Bram Cohen), and between them as
-``difflib`` does it without that.
+``difflib`` treats lines that are frequent in a long text as noise, and in a robot description most
+lines are frequent: a changed number then appears as half of the file removed and added. Here both
+texts are first aligned at their unique lines (patience diff, by Bram Cohen), and between them by
+``difflib`` without that heuristic.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ Opcode = tuple[str, int, int, int, int]
 def unified_lines(
     old: Sequence[str], new: Sequence[str], before: str, after: str, *, around: int = 3
 ) -> Iterator[str]:
-    """The lines of a unified diff, its heads with and the rest without a line's end of their own.
+    """Yield the lines of a unified diff; only the headers have added line ends.
 
     Args:
-        old: Lines as they were.
-        new: Lines as they are.
-        before: What the old ones are called.
-        after: What the new ones are called.
-        around: How many lines are shown around a change.
+        old: Previous lines.
+        new: New lines.
+        before: Name of the previous version.
+        after: Name of the new version.
+        around: Number of context lines around a change.
     """
     matcher: SequenceMatcher[str] = SequenceMatcher(None, [], [])
     matcher.opcodes = _opcodes(old, new)  # type: ignore[attr-defined]
@@ -45,13 +45,13 @@ def unified_lines(
 
 
 def _range(start: int, stop: int) -> str:
-    """Lines as a diff names them: from one on, and without a count where it is one."""
+    """Format a line range of a diff: numbers start at one, a count of one is omitted."""
     length = stop - start
     return f"{start + 1}" if length == 1 else f"{start + (length > 0)},{length}"
 
 
 def _opcodes(old: Sequence[str], new: Sequence[str]) -> list[Opcode]:
-    """What becomes of the old lines, as ``SequenceMatcher.get_opcodes`` says it."""
+    """Return the edit operations, in the form of ``SequenceMatcher.get_opcodes``."""
     result: list[Opcode] = []
     i = k = 0
     for start, other in [*_matches(old, new, 0, len(old), 0, len(new)), (len(old), len(new))]:
@@ -70,7 +70,7 @@ def _opcodes(old: Sequence[str], new: Sequence[str]) -> list[Opcode]:
 def _matches(
     old: Sequence[str], new: Sequence[str], i: int, j: int, k: int, m: int
 ) -> list[tuple[int, int]]:
-    """Pairs of equal lines between two places in both, in order."""
+    """Return pairs of equal lines in two ranges, in order."""
     found: list[tuple[int, int]] = []
     while i < j and k < m and old[i] == new[k]:
         found.append((i, k))
@@ -97,7 +97,7 @@ def _matches(
 def _anchors(
     old: Sequence[str], new: Sequence[str], i: int, j: int, k: int, m: int
 ) -> list[tuple[int, int]]:
-    """The most lines that are there once on either side and follow each other on both."""
+    """Return the longest sequence of lines that are unique on either side and in the same order."""
     here, there = Counter(old[i:j]), Counter(new[k:m])
     place = {line: number for number, line in enumerate(new[k:m], k) if there[line] == 1}
     pairs = [
@@ -105,7 +105,7 @@ def _anchors(
         for number, line in enumerate(old[i:j], i)
         if here[line] == 1 and line in place
     ]
-    ends: list[int] = []  # the smallest end of an increasing run of each length
+    ends: list[int] = []  # smallest end of an increasing run of each length
     last: list[int] = []
     before: list[int] = []
     for index, (_, other) in enumerate(pairs):

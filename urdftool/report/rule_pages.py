@@ -1,4 +1,4 @@
-"""A rule's page, from its docstring and what its decorator says."""
+"""Page of a rule, from its docstring and its decorator."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..rules.table import FIXES
 
 
 def rule_list() -> str:
-    """A line a rule: family, name, severity, what it says."""
+    """Format a line for each rule: family, name, severity and fact."""
     width = max(map(len, FAMILY_OF))
     lines = []
     family = ""
@@ -29,7 +29,7 @@ def rule_list() -> str:
 
 
 def page(name: str) -> str:
-    """A rule's page as plain text.
+    """Format a rule's page as plain text.
 
     Raises:
         ConfigError: There is no such rule.
@@ -50,12 +50,12 @@ def page(name: str) -> str:
 
 
 def plain(text: str) -> str:
-    """Remove the marks of code from a docstring."""
+    """Remove code markup from a docstring."""
     return text.replace("``", "")
 
 
 def facts(rule: Rule) -> list[tuple[str, str]]:
-    """Severity, targets and thresholds, in words."""
+    """Return severity, targets and thresholds as labeled texts."""
     severity = rule.severity.label
     for target, raised in rule.raised.items():
         severity += f"; {raised.label} for {target}"

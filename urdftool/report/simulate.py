@@ -1,4 +1,4 @@
-"""A verdict in words, and as JSON; the schema is ``docs/schemas/simulate.json``."""
+"""A verdict as text, and as JSON; the schema is ``docs/schemas/simulate.json``."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _MOST = 6
 
 
 def text(robot: Robot, verdicts: Sequence[Verdict], *, colors: bool = False) -> str:
-    """What happened, in a table, and what went wrong, a paragraph each."""
+    """Format the results as a table, followed by a paragraph for each fault."""
     paint = Painter(colors)
     lines: list[str] = []
     if len(verdicts) == 1:
@@ -50,7 +50,7 @@ def _headline(robot: Robot, verdict: Verdict, paint: Painter) -> str:
 
 
 def outcome(verdict: Verdict) -> str:
-    """What became of a robot: one that came to rest upright stands, whatever else is wrong."""
+    """Describe the result: a robot that settles upright stands, in spite of other faults."""
     if verdict.stands:
         return "stands"
     return "does not stand" if verdict.fell else "stands, but not as it should"
@@ -71,7 +71,7 @@ def _rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
     else:
         yield "at rest", f"after {rest.settled:.2f} s"
     if not bodies.fixed_base and math.isfinite(rest.drop):
-        went = "sank" if rest.drop > -5e-5 else "rose"  # less is said as 0.0 mm
+        went = "sank" if rest.drop > -5e-5 else "rose"  # smaller values print as 0.0 mm
         yield (
             "root",
             f"{went} {1000 * abs(rest.drop):.1f} mm, moved {1000 * rest.drift:.1f} mm, "
@@ -127,10 +127,10 @@ def _several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -> Itera
 
 
 def comparison_text(comparison: EngineComparison, *, colors: bool = False) -> str:
-    """Write the values in which two engines differ as a table, and the possible causes.
+    """Format the values in which two engines differ as a table, with the possible causes.
 
     Args:
-        comparison: Of two engines.
+        comparison: Comparison of two engines.
         colors: Whether to color it.
     """
     paint = Painter(colors)
@@ -158,13 +158,13 @@ def to_json(
     timings: bool = False,
     comparison: EngineComparison | None = None,
 ) -> str:
-    """Write everything, with the time series, as JSON; meters, radians, kilograms, seconds.
+    """Format all results with the time series as JSON; meters, radians, kilograms, seconds.
 
     Args:
         robot: The robot.
         verdicts: One for each trial.
-        timings: Whether to add the wall-clock time of each trial, which differs from run to run.
-        comparison: Of two engines, if there are two.
+        timings: Whether to add the wall-clock time of each trial, which differs between runs.
+        comparison: Comparison of two engines, if there are two.
     """
     said: dict[str, Any] = {
         "version": 1,
@@ -224,7 +224,7 @@ def _fault(fault: Fault) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """A value with null for what is no finite number."""
+    """Replace numbers that are not finite by None."""
     if isinstance(value, (list, tuple)):
         return [_plain(part) for part in value]
     if isinstance(value, float) and not math.isfinite(value):

@@ -1,4 +1,4 @@
-"""Many robots in one table, as JSON, or as JUnit XML with a case a robot."""
+"""Results for many robots as a table, JSON, or JUnit XML with a case for each robot."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 
 def table(rows: Sequence[Row], *, colors: bool = False, skipped: bool = False) -> str:
-    """A line a robot: whether it stands, when it came to rest, and what went wrong.
+    """Format a line for each robot: whether it stands, when it settled, and its faults.
 
     Args:
-        rows: What became of each.
-        colors: Whether words are coloured.
-        skipped: Whether those that were passed over have a line, too.
+        rows: Result of each robot.
+        colors: Whether to color the text.
+        skipped: Whether to list skipped robots, too.
     """
     lines: list[Sequence[Cell]] = []
     for row in rows:
@@ -33,7 +33,7 @@ def table(rows: Sequence[Row], *, colors: bool = False, skipped: bool = False) -
 
 
 def summary(rows: Sequence[Row]) -> str:
-    """How many of each there are."""
+    """Summarize the number of robots with each result."""
     counts = {
         "stand": sum(row.stands is True for row in rows),
         "stand with model errors": sum(row.stands is False and not row.fell for row in rows),
@@ -73,7 +73,7 @@ def _what(row: Row) -> str:
 
 
 def to_json(rows: Sequence[Row], *, timings: bool = False) -> str:
-    """Write everything but time series as JSON; with the wall-clock time of each robot if asked."""
+    """Format the results without time series as JSON; ``timings`` adds the wall-clock times."""
     said = {"version": 1, "stands": all(row.stands for row in rows if not row.skipped),
             "robots": [_row(row, timings) for row in rows]}  # fmt: skip
     return json_text(said, 1) + "\n"
@@ -103,7 +103,7 @@ def _row(row: Row, timings: bool) -> dict[str, Any]:
 
 
 def to_junit(rows: Sequence[Row]) -> str:
-    """A suite with a case for each robot; remarks are the output of its case."""
+    """Format a suite with a case for each robot; remarks are the output of its case."""
     root = Element("testsuites", name="urdftool simulate")
     suite = SubElement(root, "testsuite", name="urdftool simulate")
     for row in rows:

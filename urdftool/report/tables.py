@@ -1,4 +1,4 @@
-"""Tables of text, by rich; the only module that makes columns."""
+"""Alignment of text tables, by rich; the only module that formats columns."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ Cell = str | tuple[str, str | None]
 """A text, or a text and its color."""
 
 WIDEST = 100_000
-"""Columns of a text of which nothing is wrapped."""
+"""Columns of a console that does not wrap lines."""
 
 
 def text_console(stream: io.StringIO, *, colors: bool, width: int = WIDEST) -> Console:
-    """Return a console of rich that writes plain text, or text with the 8 colors of terminals."""
+    """Create a rich console that writes plain text, or text with the 8 terminal colors."""
     return Console(
         file=stream,
         force_terminal=colors,
@@ -44,10 +44,10 @@ def render_table(
     """Align rows in columns that are as wide as their cells.
 
     Args:
-        rows: All of the same length; the heads are a row like others.
-        left: The columns that are aligned to the left; others are aligned to the right.
+        rows: Rows of equal length, including the header row.
+        left: Columns aligned to the left; others are aligned to the right.
         rule: Draw a line below the first row.
-        colors: Whether cells have their colors.
+        colors: Whether to color the cells.
     """
     if not rows:
         return ""
