@@ -62,7 +62,9 @@ def every_unknown_type(robot: Robot) -> Iterator[Problem]:
     """Report each type that URDF does not have, also in capitals or unexpanded."""
     for joint in robot.joints:
         if joint.type not in JOINT_TYPES:
-            yield _unknown_type(joint, frozenset())
+            problem = _unknown_type(joint, frozenset())
+            problem.data = {"is_ball": joint.type in BALL_TYPES}
+            yield problem
 
 
 def _unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
@@ -81,7 +83,7 @@ def _unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
         message,
         at=joint.element.attribute_place("type"),
         severity=INFO if loads else None,
-        data={"is_ball": kind in BALL_TYPES, **({"write": word} if word else {})},
+        data={"write": word} if word else None,
     )
 
 

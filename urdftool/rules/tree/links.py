@@ -88,7 +88,9 @@ def every_second_link(robot: Robot) -> Iterator[Problem]:
     for link in robot.links:
         first = robot.link[link.name]
         if first is not link:
-            yield _second(link, first)
+            problem = _second(link, first)
+            problem.data = {"has_name": bool(link.name)}
+            yield problem
 
 
 def _second(part: Link | Joint, first: Link | Joint) -> Problem:
@@ -98,7 +100,6 @@ def _second(part: Link | Joint, first: Link | Joint) -> Problem:
         part,
         f"a second {kind} is called '{part.name}'; the first is at line {first.place.line}",
         at=part.element.attribute_place("name") if named else None,
-        data={"has_name": bool(part.name)},
     )
 
 
@@ -128,7 +129,9 @@ def every_second_joint(robot: Robot) -> Iterator[Problem]:
     for joint in robot.joints:
         first = robot.joint[joint.name]
         if first is not joint:
-            yield _second(joint, first)
+            problem = _second(joint, first)
+            problem.data = {"has_name": bool(joint.name)}
+            yield problem
 
 
 @duplicate_joint_name.fix(UNSAFE)
