@@ -308,6 +308,8 @@ def plain_error(error: UrdftoolError) -> UrdftoolError:
         calls=error.calls,
         notes=error.notes,
         rule=error.rule,
+        case=error.case,
+        data=error.data,
     )
 
 
