@@ -80,3 +80,52 @@ def test_an_effect_of_another_case_rejects_nothing(write):
     alone = effects(path, "placeholder-inertia")
     assert "gz" in alone
     assert "gz" in effects(path, "placeholder-inertia", "zero-mass")
+
+
+BOX = '<link name="c"><{0}><geometry><mesh filename="{1}"/></geometry></{0}></link>'
+
+
+@pytest.mark.parametrize(
+    ("shape", "mesh", "rejecting"),
+    [
+        ("visual", "a.glb", {"pybullet"}),
+        ("visual", "a.stl", set()),
+        ("collision", "a.glb", {"pybullet", "mujoco", "drake"}),
+        ("collision", "a.gltf", {"pybullet", "mujoco"}),
+        ("collision", "a.STL", {"drake"}),
+        ("collision", "a.dae", {"drake", "mujoco"}),
+        ("collision", "a.obj", set()),
+    ],
+)
+def test_a_format_of_meshes_rejects_whatever_rules_run(write, shape, mesh, rejecting):
+    links = LINK.format("a", 0.01), LINK.format("b", 1), BOX.format(shape, mesh)
+    fixed = JOINT.format("k", "a", "c", "").replace("revolute", "fixed")
+    path = write("r.urdf", robot(*links, JOINT.format("j", "a", "b", LIMIT), fixed))
+    found = effects(path, "placeholder-inertia")
+    assert {"mujoco", "drake", "pinocchio"} - found == rejecting - {"pybullet"}
+
+
+def test_pybullet_takes_nothing_of_a_robot_with_a_gltf_visual(write):
+    limit = LIMIT.replace('velocity="1"', 'velocity="1000"')
+    links = LINK.format("a", 0.01), LINK.format("b", 0.01)
+    for mesh, rejected in (("a.obj", False), ("a.glb", True)):
+        visual = BOX.format("visual", mesh)
+        fixed = JOINT.format("k", "a", "c", "").replace("revolute", "fixed")
+        path = write("r.urdf", robot(*links, visual, JOINT.format("j", "a", "b", limit), fixed))
+        assert ("pybullet" not in effects(path, "implausible-velocity")) == rejected
+
+
+@pytest.mark.parametrize(("least", "rejected"), [("0", True), ("9e-15", True), ("2e-14", False)])
+def test_mujoco_rejects_a_thin_part_whatever_it_is_fixed_to(write, least, rejected):
+    thin = LINK.format("c", 0.01).replace('izz="0.01"', f'izz="{least}"')
+    fixed = JOINT.format("k", "b", "c", "").replace("revolute", "fixed")
+    links = LINK.format("a", 0.01), LINK.format("b", 1), thin
+    path = write("r.urdf", robot(*links, JOINT.format("j", "a", "b", LIMIT), fixed))
+    assert ("mujoco" not in effects(path, "placeholder-inertia")) == rejected
+
+
+def test_six_zeros_of_a_part_reject_nothing(write):
+    links = LINK.format("a", 0.01), LINK.format("b", 1), LINK.format("c", 0)
+    fixed = JOINT.format("k", "b", "c", "").replace("revolute", "fixed")
+    path = write("r.urdf", robot(*links, JOINT.format("j", "a", "b", LIMIT), fixed))
+    assert "mujoco" in effects(path, "placeholder-inertia")

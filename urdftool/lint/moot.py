@@ -9,13 +9,18 @@ from pathlib import Path
 
 from .. import rules
 from ..finding import Finding
-from ..model.elements import Robot
+from ..model.elements import Collision, Mesh, Robot
+from ..model.mesh_formats import ending_of, rejecting_readers
 from ..rules.gazebo.kept import kept_links
 from ..rules.inertia.presence import has_bare_moved_body
+from ..rules.inertia.tensors import has_inertia_that_mujoco_rejects
 from ..rules.rule import GAZEBO
 
 _THROUGH_URDFDOM = ("pinocchio", "KDL", "robot_state_publisher", "rviz", "moveit", "check_urdf")
 """Readers based on urdfdom, which fail where it rejects a robot."""
+
+_OF_FORMAT = ("unsupported-mesh-format", "dae-as-collision")
+"""Rules that report what a format of meshes does."""
 
 _IRREGULAR = {"have": "has", "do": "does", "are": "is", "go": "goes"}
 
@@ -34,6 +39,7 @@ class Rejections:
         self._by_reader: dict[str, set[str]] = {}
         if robot is not None:
             self._add_massless(robot)
+            self._add_meshes(robot)
 
     def _add_massless(self, robot: Robot) -> None:
         """Add rejections that are reported by rules which are off for some targets."""
@@ -42,6 +48,20 @@ class Rejections:
                 self._by_reader[reader] = {"massless-root-body"}
         if has_bare_moved_body(robot):
             self._by_reader["mujoco"] = {"massless-moving-body"}
+        if has_inertia_that_mujoco_rejects(robot):
+            self._by_reader.setdefault("mujoco", set()).add("singular-inertia")
+
+    def _add_meshes(self, robot: Robot) -> None:
+        """Take what rejects the robot for the format of its meshes, which targets do not ask for."""
+        formats = {
+            (ending_of(shape.geometry.filename), isinstance(shape, Collision))
+            for link in robot.links
+            for shape in (*link.visuals, *link.collisions)
+            if isinstance(shape.geometry, Mesh)
+        }
+        for ending, collides in formats:
+            for reader in rejecting_readers(ending, collides):
+                self._by_reader.setdefault(reader, set()).update(_OF_FORMAT)
 
     def add(self, rule: str, keys: Iterable[str]) -> None:
         """Add the rejections among the effects of a finding.

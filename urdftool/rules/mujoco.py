@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..model.elements import Mesh, Robot
-from ..model.mesh_formats import READ_BY
+from ..model.mesh_formats import READ_BY, ending_of
 
 
 def keeps_visuals(robot: Robot) -> bool:
@@ -18,7 +18,7 @@ def keeps_visuals(robot: Robot) -> bool:
 def reads_collisions(robot: Robot) -> bool:
     """Return whether MuJoCo has a decoder for every collision mesh, by the names of the files."""
     return all(
-        shape.geometry.filename.rpartition(".")[2].lower() in READ_BY["mujoco"]
+        ending_of(shape.geometry.filename) in READ_BY["mujoco"]
         for link in robot.links
         for shape in link.collisions
         if isinstance(shape.geometry, Mesh)

@@ -24,6 +24,7 @@ from .tensors import (
     SIX,
     is_positive,
     is_rejected_by_gazebo,
+    is_rejected_by_mujoco,
     is_zero,
     rounding_of,
     tensors,
@@ -198,14 +199,17 @@ def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
     of_motion=True,
     group="robot",
 )
-def zero_inertia(robot: Robot, *, part: float = 0.25) -> Iterator[Problem]:
+def zero_inertia(
+    robot: Robot, targets: frozenset[str], *, part: float = 0.25
+) -> Iterator[Problem]:
     """A rigid body has a mass and no inertia: all six numbers are 0.
 
     That is a point, and the slightest torque about it turns it infinitely fast. What counts is the
     body: a point mass that is fixed to a link with an inertia is added to it, which does no harm,
     and one that is fixed to the world never turns. A link that makes up at least ``part`` of the
     mass of such a body is a remark, as its body then turns too easily. What is below the mass times
-    (10 µm)² is rounding, and counts as 0.
+    (10 µm)² is rounding, and counts as 0. MuJoCo reads every link before it merges them: six zeros
+    count as no inertia then, and it rejects a moment that is not 0 and below 1e-14 kg·m².
     """
     zero = [found for found in tensors(robot) if is_zero(found[2], found[0].mass)]
     if not zero:
@@ -219,15 +223,18 @@ def zero_inertia(robot: Robot, *, part: float = 0.25) -> Iterator[Problem]:
         nothing = "as good as zero" if any(six) else "zero"
         joint = robot.tree.parent_joint(links[0].name)
         in_gazebo = "noise" if is_rejected_by_gazebo(robot, link) else "accepted"
+        moves = not is_part and joint is not None and not joint.is_fixed
+        rejected = is_rejected_by_mujoco(six) or (moves and not any(six))
+        mild = INFO if is_part else WARNING
         yield Problem(
             link,
             f"inertia of link '{link.name}' is {nothing}, though it weighs {link.mass:g} kg"
             f"{solid_text(link) or _computed(link)}",
             at=inertial.inertia,
-            severity=INFO if is_part else None,
+            severity=None if rejected and "mujoco" in targets else mild,
             effects=[
                 f"gz, gazebo-classic ({in_gazebo})",
-                *["mujoco"] * (not is_part and joint is not None and not joint.is_fixed),
+                *["mujoco"] * rejected,
                 *["pinocchio"] * (not is_part),
             ],
         )
@@ -237,23 +244,28 @@ def _computed(link: Link) -> str:
     return "; urdftool inertia robot computes it" if link.visuals or link.collisions else ""
 
 
+_SINGULAR = {
+    "gz, gazebo-classic, pinocchio, drake": "accept it",
+    "pybullet": "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, keeps the zero",
+    "mujoco": "rejects the file: inertia must have positive eigenvalues",
+}
+
+
 @rule(
     WARNING,
-    effects={
-        "gz, gazebo-classic, pinocchio, drake": "accept it",
-        "pybullet": (
-            "takes its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, keeps the zero"
-        ),
-        "mujoco": "rejects the file: inertia must have positive eigenvalues",
-    },
+    raised={"mujoco": ERROR},
+    effects=_SINGULAR,
     group="robot",
 )
-def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Problem]:
+def singular_inertia(
+    robot: Robot, targets: frozenset[str], *, smallest: float = 1e-9
+) -> Iterator[Problem]:
     """A rigid body's inertia tensor is zero about one axis.
 
     Only an infinitely thin rod is like that. About this axis the slightest torque accelerates the
-    body beyond all bounds. A thin part that is fixed to a link with an inertia is not reported, nor
-    one that is fixed to the world.
+    body beyond all bounds. A thin part that is fixed to a link with an inertia does no harm, nor
+    does one that is fixed to the world, and neither is reported, except for MuJoCo: it rejects the
+    file for any link with a moment below 1e-14 kg·m².
     """
     whole: dict[str, list[Link]] | None = None
     for link, inertial, six in tensors(robot):
@@ -264,20 +276,28 @@ def singular_inertia(robot: Robot, *, smallest: float = 1e-9) -> Iterator[Proble
             continue
         if whole is None:
             whole = {one.name: links for links in bodies(robot).values() for one in links}
-        links = whole.get(link.name, [link])
-        if len(links) > 1:
-            least, _, most = principal_moments(body_inertia(robot, links).tensor)
-            if least > smallest * most:
-                continue
-        if is_fixed_to_world(robot, link):
+        harmless = _is_fixed_to_more(robot, whole.get(link.name, [link]), smallest)
+        harmless = harmless or is_fixed_to_world(robot, link)
+        rejected = is_rejected_by_mujoco(six)
+        if harmless and not (rejected and "mujoco" in targets):
             continue
         yield Problem(
             link,
             f"inertia of link '{link.name}' is zero about one axis ({_shown(moments)})"
             f"{solid_text(link)}",
             at=inertial.inertia,
+            severity=None if rejected else WARNING,
+            effects=[key for key in _SINGULAR if key != "mujoco" or rejected],
             data={"moments": list(moments)},
         )
+
+
+def _is_fixed_to_more(robot: Robot, links: list[Link], smallest: float) -> bool:
+    """Tell whether the body of several links has an inertia about every axis."""
+    if len(links) == 1:
+        return False
+    least, _, most = principal_moments(body_inertia(robot, links).tensor)
+    return least > smallest * most
 
 
 @zero_inertia.fix(UNSAFE)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from decimal import Decimal, InvalidOperation
 
-from ...mechanics.tensor import COMPONENTS, SymmetricTensor, consistency, noise_of
+from ...mechanics.tensor import COMPONENTS, SymmetricTensor, consistency, noise_of, principal_moments
 from ...model.elements import Inertia, Inertial, Link, Robot
 from ...model.read import number
 from .bodies import bodies, body_inertia
@@ -56,6 +56,31 @@ def is_accepted(six: SymmetricTensor) -> bool:
     """Whether Gazebo and MuJoCo accept a tensor: positive, and no moment above the others' sum."""
     found = consistency(six)
     return found.negativity < -EXACT and found.excess <= EXACT
+
+
+_LEAST_IN_MUJOCO = 1e-14
+"""Moment [kg·m²] below which MuJoCo 4.0 rejects a link, whatever it is fixed to."""
+
+
+def is_rejected_by_mujoco(six: SymmetricTensor) -> bool:
+    """Tell whether MuJoCo rejects the file for a principal moment of a link.
+
+    It reads every link before it merges what is fixed together, the root too. Six zeros count as
+    no inertia at this point.
+
+    Args:
+        six: The six numbers [kg·m²].
+    """
+    return any(six) and principal_moments(six)[0] < _LEAST_IN_MUJOCO
+
+
+def has_inertia_that_mujoco_rejects(robot: Robot) -> bool:
+    """Tell whether a link, with mass or without, has an inertia that is zero about an axis."""
+    return any(
+        is_rejected_by_mujoco(link.inertial.inertia.six)
+        for link in robot.links
+        if link.inertial is not None and link.inertial.inertia is not None
+    )
 
 
 def is_rejected_by_gazebo(robot: Robot, link: Link) -> bool:

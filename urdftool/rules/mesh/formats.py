@@ -10,7 +10,7 @@ from pathlib import Path
 from ...finding import FileRewrite
 from ...geometry.stl_header import StlHeader, read_stl_header
 from ...model.elements import Robot
-from ...model.mesh_formats import READ_BY
+from ...model.mesh_formats import READ_BY, ending_of, is_odd, rejecting_readers
 from ...source.description import Description
 from ...workspace import Workspace, memoized
 from ..file_rewrites import BINARY, HEADED
@@ -35,19 +35,17 @@ def _first_uses(robot: Robot, description: Description) -> Iterator[MeshUse]:
             yield use
 
 
-def _ending(use: MeshUse) -> str:
-    return use.uri.rpartition("/")[2].rpartition(".")[2].lower() if "." in use.uri else ""
-
-
-_OF_PLY = ("mujoco, pybullet, drake (collision in PLY)", "pinocchio (collision in PLY)")
+_OF_FORMAT = {
+    "mujoco (collision)": "rejects the file: no decoder found",
+    "pybullet (not read)": "rejects the file: invalid mesh filename extension",
+    "drake (collision)": "rejects the file: it makes a convex hull of OBJ, VTK and glTF alone",
+    "pinocchio (collision in PLY)": "reads what assimp reads, PLY too",
+}
 
 
 @rule(
     ERROR,
-    effects={
-        "mujoco, pybullet, drake (collision in PLY)": "reject a collision in PLY",
-        "pinocchio (collision in PLY)": "reads what assimp reads, PLY too",
-    },
+    effects=_OF_FORMAT,
 )
 def unsupported_mesh_format(
     robot: Robot, description: Description, targets: frozenset[str]
@@ -59,7 +57,7 @@ def unsupported_mesh_format(
     """
     told: set[tuple[str, str]] = set()
     for use in _first_uses(robot, description):
-        ending = _ending(use)
+        ending = ending_of(use.uri)
         if not ending or is_odd(ending) or (use.path is not None and not use.exists):
             continue
         who = [
@@ -70,7 +68,7 @@ def unsupported_mesh_format(
         key = ending, " and ".join(who)
         if who and key not in told:
             told.add(key)
-            same = [u for u in _first_uses(robot, description) if _ending(u) == ending]
+            same = [u for u in _first_uses(robot, description) if ending_of(u.uri) == ending]
             more = f" (and {len(same) - 1} more)" if len(same) > 1 else ""
             yield Problem(
                 use.link,
@@ -81,9 +79,18 @@ def unsupported_mesh_format(
                     else f"convert it, for instance to {READ_BY[who[0]][0]}"
                 ),
                 at=use.mesh.element.attribute_place("filename"),
-                effects=_OF_PLY if ending == "ply" and any(u.collides for u in same) else (),
+                effects=_effects_of_format(ending, any(u.collides for u in same)),
                 data={"uri": use.uri, "format": ending, "readers": who},
             )
+
+
+def _effects_of_format(ending: str, collides: bool) -> list[str]:
+    """Select what readers do with meshes of a suffix, of which one may be a collision."""
+    rejecting = rejecting_readers(ending, collides)
+    keys = [key for key in _OF_FORMAT if key.partition(" (")[0] in rejecting]
+    if ending == "ply" and collides:
+        keys.append("pinocchio (collision in PLY)")
+    return keys
 
 
 @unsupported_mesh_format.fix(UNSAFE, writes_meshes=True)
@@ -99,13 +106,8 @@ def convert_ply_to_stl(problem: Problem, context: FixContext) -> Proposal | None
     return _convert_to_stl(uses)
 
 
-def is_odd(ending: str) -> bool:
-    """Whether an ending is none of a file: too long, or not of letters and digits."""
-    return len(ending) > 5 or not ending.isalnum()
-
-
 def _stl(use: MeshUse) -> StlHeader | None:
-    if use.path is None or not use.exists or _ending(use) != "stl":
+    if use.path is None or not use.exists or ending_of(use.uri) != "stl":
         return None
     try:
         return stl_facts_of(use.workspace, use.path)
@@ -254,7 +256,7 @@ def dae_unit_or_axis(
 def unit_and_axis(use: MeshUse) -> dict[str, str]:
     """What a COLLADA file says of its ``unit`` and ``axis``, as far as not metres with z up."""
     said: dict[str, str] = {}
-    if use.path is None or not use.exists or _ending(use) != "dae":
+    if use.path is None or not use.exists or ending_of(use.uri) != "dae":
         return said
     try:
         with use.workspace.open(use.path) as file:
@@ -290,7 +292,7 @@ def dae_as_collision(robot: Robot, description: Description) -> Iterator[Problem
     Materials, lights and a tree of scenes are of no use to a contact, and units and axes may go
     wrong on the way. OBJ says what is needed, and MuJoCo, Drake and PyBullet read it.
     """
-    uses = [u for u in mesh_uses(robot, description) if u.collides and _ending(u) == "dae"]
+    uses = [u for u in mesh_uses(robot, description) if u.collides and ending_of(u.uri) == "dae"]
     if uses:
         count = len({use.uri for use in uses})
         more = f" (and {count - 1} more)" if count > 1 else ""
