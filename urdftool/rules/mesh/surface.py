@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...errors import MeshError
-from ...model.elements import Robot
+from ...model.attached import attached_links, is_fixed_to_world
+from ...model.elements import Link, Robot
 from ...source.description import Description
 from ...workspace import Workspace, memoized
 from ..cross_file_references import check_alone
@@ -48,14 +49,26 @@ def _hull_volume(workspace: Workspace, path: Path) -> float | None:
     return hull_volume(str(workspace.local(path)))
 
 
-def _surfaces(robot: Robot, description: Description) -> Iterator[tuple[MeshUse, Path, Surface]]:
-    """The collision meshes that are STL or OBJ files and can be read, each once."""
+def _surfaces(
+    robot: Robot,
+    description: Description,
+    concerns: Callable[[Robot, Link], bool] = lambda _robot, _link: True,
+) -> Iterator[tuple[MeshUse, Path, Surface]]:
+    """List the collision meshes that are STL or OBJ files and can be read, each once.
+
+    Args:
+        robot: The robot.
+        description: Its description.
+        concerns: Whether the meshes of a link are wanted.
+    """
     told: set[str] = set()
     for use in mesh_uses(robot, description):
         if not use.collides or not use.exists or use.path is None or use.uri in told:
             continue
         if use.path.suffix.lower() not in (".stl", ".obj"):
             continue  # slow to read, and made to be looked at
+        if not concerns(robot, use.link):
+            continue
         told.add(use.uri)
         try:
             found = _surface(use.workspace, use.path)
@@ -63,6 +76,13 @@ def _surfaces(robot: Robot, description: Description) -> Iterator[tuple[MeshUse,
             continue
         if found is not None:
             yield use, use.path, found
+
+
+def _is_weighed(robot: Robot, link: Link) -> bool:
+    """Tell whether MuJoCo weighs a link by its collisions: it moves, and has no inertial."""
+    if link.inertial is not None or is_fixed_to_world(robot, link):
+        return False
+    return all(robot.tree.parent_joint(one.name) for one, _ in attached_links(robot, link))
 
 
 def _together(found: list[tuple[MeshUse, str]], message: Callable[[MeshUse], str]) -> list[Problem]:
@@ -80,21 +100,22 @@ def _together(found: list[tuple[MeshUse, str]], message: Callable[[MeshUse], str
 @rule(
     INFO,
     effects={
-        "mujoco": "loads it, with a center and size that the hole moves",
+        "mujoco": "takes the mass, center and inertia of the link from it, changed by the hole",
     },
 )
 def not_watertight(
     robot: Robot, description: Description, *, change: float = 0.01
 ) -> Iterator[Problem]:
-    """The surface of a collision mesh has a hole.
+    """The surface of a collision mesh has a hole, and its link has no ``<inertial>``.
 
-    What is open has no inside: volume, center of mass and inertia computed from it are wrong, and
-    tools that cut a mesh into convex pieces want it closed. Small holes do no harm: it is reported
+    What is open has no inside: volume, center of mass and inertia computed from it are wrong. They
+    are computed where the link has none of its own; the shape for contacts is the same with the
+    hole, as readers take the convex hull or the triangles. Small holes do no harm: it is reported
     where closing them changes one of the three by more than the part ``change``. One finding names
     the links.
     """
     found: list[tuple[MeshUse, str]] = []
-    for use, path, surface in _surfaces(robot, description):
+    for use, path, surface in _surfaces(robot, description, _is_weighed):
         if not surface.open_edges:
             continue
         changed = _change_by_closing(use.workspace, path)
@@ -110,7 +131,8 @@ def not_watertight(
     yield from _together(
         found,
         lambda use: (
-            f"collision mesh '{use.uri}' of link '{use.link.name}' is not closed: it has {{}}"
+            f"collision mesh '{use.uri}' of link '{use.link.name}', which has no <inertial>, is "
+            "not closed: it has {}"
         ),
     )
 
