@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from ...mechanics.tensor import COMPONENTS, SymmetricTensor
 from ...mechanics.typo_detection import Proposal, infer_intended_tensor
-from ...model.elements import Inertial, Link
+from ...model.elements import Inertial, Link, Robot
 from ...model.pose import UPRIGHT, pose_of, rotate, transpose
+from ..mesh.outlines import reaches
 from .solids import box_of, solid_tensor, solid_text
 
 
@@ -26,6 +27,13 @@ def proposal_of(link: Link, inertial: Inertial, six: SymmetricTensor) -> Proposa
         box=box,
         rotation=None if upright else pose.rotation,
     )
+
+
+def recomputing_hint(robot: Robot, link: Link) -> str:
+    """Write which command replaces the inertia of a link; empty where its size is not known."""
+    if reaches(robot).link(link) is None:
+        return ""
+    return "'urdftool inertia robot --write --all --link LINK' writes that of its shapes"
 
 
 def remedy_text(link: Link, inertial: Inertial, six: SymmetricTensor) -> str:

@@ -24,7 +24,7 @@ from .bodies import bodies, slight_parts
 from .corrections import undo_slip, write_inertia_of_shapes, write_meant_inertia, write_tensor
 from .density import outlier
 from .frame import about_com
-from .proposals import remedy_text
+from .proposals import recomputing_hint, remedy_text
 from .solids import is_dummy, solid_moments, solid_text
 from .tensors import is_accepted, is_positive, is_zero, tensors
 
@@ -61,7 +61,7 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
         moment = six[0]
         radius = math.sqrt(moment / inertial.mass) if inertial.mass and inertial.mass > 0 else 0.0
         large = moment == 1.0 or radius > 1.0
-        dummy, has_shapes = is_dummy(link), bool(link.visuals or link.collisions)
+        dummy = is_dummy(link)
         if not large:
             if whole is None:
                 whole = {one.name: links for links in bodies(robot).values() for one in links}
@@ -74,7 +74,7 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
             f"{'' if dummy else solid_text(link)}",
             at=inertial.inertia,
             severity=WARNING if large else INFO,
-            hint="'urdftool inertia robot' computes it" if has_shapes and not dummy else "",
+            hint="" if dummy else recomputing_hint(robot, link),
             group="inertia of {count} links is a placeholder, the same power of ten about every "
             "axis: {names}",
             data={"moment": moment},

@@ -16,7 +16,7 @@ from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from .bodies import bodies, body_inertia, mass_of
 from .corrections import write_inertia_of_shapes, write_meant_inertia
 from .joint_inertia import joint_inertia
-from .proposals import remedy_text
+from .proposals import recomputing_hint, remedy_text
 from .slips import slip_of
 from .solids import solid_text
 from .tensors import (
@@ -199,9 +199,7 @@ def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
     of_motion=True,
     group="robot",
 )
-def zero_inertia(
-    robot: Robot, targets: frozenset[str], *, part: float = 0.25
-) -> Iterator[Problem]:
+def zero_inertia(robot: Robot, targets: frozenset[str], *, part: float = 0.25) -> Iterator[Problem]:
     """A rigid body has a mass and no inertia: all six numbers are 0.
 
     That is a point, and the slightest torque about it turns it infinitely fast. What counts is the
@@ -229,8 +227,9 @@ def zero_inertia(
         yield Problem(
             link,
             f"inertia of link '{link.name}' is {nothing}, though it weighs {link.mass:g} kg"
-            f"{solid_text(link) or _computed(link)}",
+            f"{solid_text(link)}",
             at=inertial.inertia,
+            hint=recomputing_hint(robot, link),
             severity=None if rejected and "mujoco" in targets else mild,
             effects=[
                 f"gz, gazebo-classic ({in_gazebo})",
@@ -238,10 +237,6 @@ def zero_inertia(
                 *["pinocchio"] * (not is_part),
             ],
         )
-
-
-def _computed(link: Link) -> str:
-    return "; urdftool inertia robot computes it" if link.visuals or link.collisions else ""
 
 
 _SINGULAR = {
