@@ -50,11 +50,21 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
     yield from _loops(robot)
     names = {*robot.link, *robot.joint}
     stripped = {name.strip() for name in names}
+    of_sdf = set(_names_of_sdf(robot, "link"))
     for block in robot.gazebo:
         name = block.reference
         if not name or name.strip() in stripped or is_unexpanded(name):
             continue
-        known = _meant_by(block, robot)
+        if name in of_sdf:
+            yield Problem(
+                block.element,
+                f"'{name}' is a link of SDF in a <gazebo> block, which no reference finds, so the "
+                "block does nothing; write its settings in that link",
+                at=block.element.attribute_place("reference"),
+                data={"name": name},
+            )
+            continue
+        known = [one for one in _meant_by(block, robot) if not _has_settings_of(block, one, robot)]
         yield Problem(
             block.element,
             f"'{name}' is neither a link nor a joint, so the block does nothing"
@@ -83,13 +93,26 @@ def _meant_by(block: GazeboExtension, robot: Robot) -> Collection[str]:
     return robot.joint if of_joint else robot.link
 
 
+def _has_settings_of(block: GazeboExtension, name: str, robot: Robot) -> bool:
+    """Tell whether a link or joint has a setting of a block in a block of its own."""
+    tags = {child.tag for child in block.element.children}
+    return any(
+        child.tag in tags and child.tag in KEYWORDS
+        for other in robot.extensions.get(name, ())
+        for child in other.element.children
+    )
+
+
+def _names_of_sdf(robot: Robot, *tags: str) -> Iterator[str]:
+    """List the names of elements of SDF in blocks of a robot."""
+    for block in robot.gazebo:
+        for element in block.element.walk():
+            if element.tag in tags:
+                yield element.get("name") or ""
+
+
 def _loops(robot: Robot) -> Iterator[Problem]:
-    of_sdf = {
-        element.get("name") or ""
-        for block in robot.gazebo
-        for element in block.element.walk()
-        if element.tag in ("link", "frame")
-    }
+    of_sdf = {*_names_of_sdf(robot, "link", "frame")}
     for joint in joints_of_sdf(robot):
         for end in (joint.child("parent"), joint.child("child")):
             name = end.text.strip() if end is not None else ""
@@ -170,6 +193,8 @@ def _misplaced(
     if name in robot.link and is_lumped(robot, name) and not any(map(keeps_joint, children)):
         remedy = f"remove {'it' if len(children) == 1 else 'them'}, because {right} is fixed"
         remedy += " and lumped"
+    elif name and _is_repeated(robot, block.element, children):
+        remedy = f"remove {'it' if len(children) == 1 else 'them'}, because {right} has its own"
     return Problem(
         block.element,
         f"{tags} {verb} nothing {belongs}; {remedy}",
@@ -178,9 +203,25 @@ def _misplaced(
     )
 
 
+def _is_repeated(robot: Robot, block: Element, children: list[Element]) -> bool:
+    """Tell whether the joint or link that misplaced words are about has all of them already."""
+    name = block.get("reference") or ""
+    if name in robot.joint:
+        other = robot.joint[name].child
+    else:
+        joint = robot.tree.parent_joint(name)
+        other = joint.name if joint is not None else ""
+    blocks = robot.extensions.get(other, ()) if other else ()
+    there = {child.tag for one in blocks for child in one.element.children}
+    return there.difference(("collision", "visual")).issuperset(child.tag for child in children)
+
+
 @misplaced_extension.fix(UNSAFE)
 def move_extension(problem: Problem, context: FixContext) -> Proposal | None:
-    """Move the words to the joint or link they are about; remove them if that is lumped."""
+    """Move the words to the joint or link they are about.
+
+    Where that is lumped or has them already, they are removed.
+    """
     block, name = problem.element, problem.element.get("reference") or ""
     robot = context.robot
     if name in robot.link:
@@ -200,6 +241,8 @@ def move_extension(problem: Problem, context: FixContext) -> Proposal | None:
     moved = [child for child in block.children if child.tag in wrong]
     if not right or not moved:
         return None
+    if _is_repeated(robot, block, moved):
+        return remove_words(block, wrong)
     if len(moved) == len(block.children):
         return unsafe(f"write it at '{right}'", set_attribute(block, "reference", right))
     lines = (
