@@ -15,7 +15,7 @@ from ..fix import (
     set_attribute,
     unsafe,
 )
-from ..rule import ERROR, GAZEBO, INFO, SAFE, UNSAFE, Problem, rule
+from ..rule import ERROR, GAZEBO, INFO, SAFE, UNSAFE, Problem, holding, rule
 from ..unexpanded import is_unexpanded
 from ..xml.vocabulary_table import meant
 
@@ -97,18 +97,22 @@ def write_joint_type(problem: Problem, context: FixContext) -> Proposal | None:
     return unsafe(f"make it {word}", set_attribute(element, "type", word))
 
 
+_PLANAR = {
+    "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 25)",
+    "robot_state_publisher": "publishes no transform for floating, a fixed one for planar",
+    "KDL": "treats both as fixed",
+    "pybullet": (
+        "treats floating as fixed; the planar joint has two prismatic axes and a revolute one"
+    ),
+    "mujoco": "has both; a floating joint must be at the root",
+    "drake (one damping)": "rejects the file: it reads three numbers of damping for a planar joint",
+}
+
+
 @rule(
     INFO,
     raised=dict.fromkeys(GAZEBO, ERROR),
-    effects={
-        "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 25)",
-        "robot_state_publisher": "publishes no transform for floating, a fixed one for planar",
-        "KDL": "treats both as fixed",
-        "pybullet": (
-            "treats floating as fixed; the planar joint has two prismatic axes and a revolute one"
-        ),
-        "mujoco": "has both; a floating joint must be at the root",
-    },
+    effects=_PLANAR,
 )
 def planar_or_floating(robot: Robot) -> Iterator[Problem]:
     """A joint is planar or floating.
@@ -125,7 +129,15 @@ def planar_or_floating(robot: Robot) -> Iterator[Problem]:
                 "robot_state_publisher does not move; use revolute and prismatic joints, or "
                 "leave the root free",
                 at=joint.element.attribute_place("type"),
+                effects=holding(_PLANAR, *["one damping"] * _has_one_damping(joint)),
             )
+
+
+def _has_one_damping(joint: Joint) -> bool:
+    """Tell whether a joint is planar and its damping one number, as URDF has it."""
+    dynamics = joint.element.child("dynamics")
+    damping = dynamics.get("damping") if dynamics is not None else None
+    return joint.type == "planar" and damping is not None and len(damping.split()) == 1
 
 
 @rule(

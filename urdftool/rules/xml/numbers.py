@@ -139,6 +139,7 @@ _NOT_A_NUMBER = {
     "pybullet (nothing written)": "takes 0",
     "drake (no use to Drake)": "rejects the file",
     "drake (begins with a number)": "reads as far as it can: 0,1 is 0 and -1rad is -1",
+    "drake (three dampings)": "reads one for each of the three motions of a planar joint",
 }
 
 
@@ -286,7 +287,10 @@ def _is_number(text: str) -> bool:
 
 
 def _unreadable(element: Element, name: str, fault: str, word: str) -> Problem:
-    conditions = (*_where(element), _kind(word), *_in_drake(element, name, word))
+    in_drake = _in_drake(element, name, word)
+    if "three dampings" in in_drake:
+        fault = f"three numbers, '{word}', which only Drake reads; write one for other readers"
+    conditions = (*_where(element), _kind(word), *in_drake)
     return Problem(
         element,
         _of_number(element, name, fault),
@@ -299,6 +303,12 @@ def _of_number(element: Element, name: str, fault: str) -> str:
     return f"{name} of <{element.tag}> in {owner(element)} has {fault}"
 
 
+def _is_damping_of_planar(element: Element, name: str) -> bool:
+    """Tell whether a number is one that Drake reads three of."""
+    joint = element.parent
+    return name == "damping" and joint is not None and joint.get("type") == "planar"
+
+
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
 _SHAPES = ("box", "cylinder", "capsule", "sphere")
 
@@ -307,14 +317,19 @@ def _in_drake(element: Element, name: str, word: str) -> tuple[str, ...]:
     """Name what Drake makes of the first unreadable number of an attribute.
 
     It reads as far as it can. That is too little of a vector whose last number is another one, of
-    text that begins with no number, and for a box, cylinder or capsule where 0 is left.
+    several numbers for one, of text that begins with no number, and for a box, cylinder or
+    capsule where 0 is left. Of a planar joint it reads three numbers of damping.
     """
     if _kind(word) == "a blank behind it":
         return ()
     begins = _NUMBER.match(word)
     words = element.attributes[name].split()
+    if _is_damping_of_planar(element, name):
+        sound = len(words) == 3 and not any(map(_fault, words))
+        return ("three dampings",) if sound else ("no use to Drake",)
     count = VOCABULARY[element.tag].numbers[name]
-    if begins is None or (count > 1 and (len(words) != count or word != words[-1])):
+    several = count == 1 and len(words) > 1 and not _fault(words[0]) and _NUMBER.match(words[1])
+    if begins is None or several or (count > 1 and (len(words) != count or word != words[-1])):
         return ("no use to Drake",)
     if count > 1 and any(map(_fault, words[:-1])):
         return ("no use to Drake",)
