@@ -129,3 +129,13 @@ def test_six_zeros_of_a_part_reject_nothing(write):
     fixed = JOINT.format("k", "b", "c", "").replace("revolute", "fixed")
     path = write("r.urdf", robot(*links, JOINT.format("j", "a", "b", LIMIT), fixed))
     assert "mujoco" in effects(path, "placeholder-inertia")
+
+
+def test_gazebo_takes_nothing_of_a_joint_named_as_its_link_without_its_target(write):
+    links = LINK.format("a", 0.01), LINK.format("b", 1)
+    for name, rejected in (("j", False), ("b", True)):
+        path = write("r.urdf", robot(*links, JOINT.format(name, "a", "b", LIMIT)))
+        found = effects(path, "placeholder-inertia")
+        assert ("gz" not in found) == rejected
+        assert "link-joint-name-clash" not in {finding.rule for finding in check(path)}
+        assert "pinocchio" in found

@@ -15,6 +15,10 @@ MASS = (
     '<inertial><mass value="1"/>'
     '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 )
+INERTIAL = (
+    '<inertial><mass value="{}"/>'
+    '<inertia ixx="{}" ixy="0" ixz="0" iyy="{}" iyz="0" izz="{}"/></inertial>'
+)
 LINK = f'<link name="{{}}">{MASS}</link>'
 JOINT = '<joint name="{}" type="{}"><parent link="{}"/><child link="{}"/>{}</joint>'
 LIMIT = '<limit lower="{}" upper="{}" effort="1" velocity="1"/>'
@@ -345,3 +349,82 @@ def test_an_effort_of_0_makes_a_joint_passive_in_drake(write):
     path = write("s.urdf", text.replace('name="r"', 'name="r" xmlns:drake="http://drake"', 1))
     assert one(path, "zero-effort-limit").severity.label == "info"
     assert one(path, "zero-effort-limit", targets=["gz"]).severity.label == "error"
+
+
+@pytest.mark.parametrize(
+    ("kind", "damping", "says"),
+    [
+        ("planar", "0.1 0.2 0.3", "reads one for each"),
+        ("planar", "0.1 0.2", "rejects"),
+        ("continuous", "0.1 0.2 0.3", "rejects"),
+        ("continuous", "0.1 N", "reads as far"),
+        ("continuous", "0,1 0.2", "reads as far"),
+    ],
+)
+def test_drake_reads_three_dampings_of_a_planar_joint(write, kind, damping, says):
+    joint = (
+        f'<joint name="j" type="{kind}"><parent link="a"/><child link="b"/>'
+        f'<dynamics damping="{damping}"/></joint>'
+    )
+    path = write("r.urdf", robot(f'<link name="a"/><link name="b"/>{joint}'))
+    assert one(path, "not-a-number").effects["drake"].startswith(says)
+
+
+@pytest.mark.parametrize(
+    ("least", "targets", "severity"),
+    [
+        ("0", ["mujoco"], "error"),
+        ("0", ["ros2"], None),
+        ("2e-14", ["mujoco"], None),
+    ],
+)
+def test_a_thin_part_matters_to_mujoco_alone(write, least, targets, severity):
+    thick = INERTIAL.format(1, 0.01, 0.01, 0.01)
+    thin = INERTIAL.format(1, 0.01, 0.01, least)
+    path = write(
+        "r.urdf",
+        robot(
+            f'<link name="a">{thick}</link><link name="b">{thick}</link>'
+            f'<link name="c">{thin}</link>'
+            '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>'
+            '<joint name="k" type="fixed"><parent link="b"/><child link="c"/></joint>'
+        ),
+    )
+    found = check(path, select=["singular-inertia"], targets=targets)
+    assert [f.severity.label for f in found] == [severity] * bool(severity)
+    assert all("mujoco" in f.effects for f in found)
+
+
+@pytest.mark.parametrize(
+    ("moment", "severity", "rejects"),
+    [("0", "error", True), ("9e-15", "error", True), ("2e-14", "warning", False)],
+)
+def test_mujoco_rejects_an_inertia_below_its_least(write, moment, severity, rejects):
+    bad = INERTIAL.format(1, moment, moment, moment)
+    path = write(
+        "r.urdf",
+        robot(
+            f'<link name="a"/><link name="b">{bad}</link>'
+            '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>'
+        ),
+    )
+    found = one(path, "zero-inertia", targets=["mujoco"])
+    assert found.severity.label == severity
+    assert ("mujoco" in found.effects) == rejects
+
+
+@pytest.mark.parametrize("rule", ["zero-inertia", "placeholder-inertia"])
+def test_the_command_of_a_hint_writes_the_inertia(write, urdftool, rule):
+    moment = "0" if rule == "zero-inertia" else "1"
+    bad = INERTIAL.format(1, moment, moment, moment)
+    shape = '<visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>'
+    text = robot(
+        f'<link name="a"/><link name="b">{bad}{shape}</link>'
+        '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>'
+    )
+    path = write("r.urdf", text)
+    words = one(path, rule).hint.partition("'")[2].partition("'")[0].replace("LINK", "b").split()
+    urdftool(*words[1:], path)
+    assert check(path, select=[rule]) == []
+    missing = text.replace('<box size="0.1 0.1 0.1"/>', '<mesh filename="gone.stl"/>')
+    assert one(write("s.urdf", missing), rule).hint == ""

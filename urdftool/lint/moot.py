@@ -9,9 +9,9 @@ from pathlib import Path
 
 from .. import rules
 from ..finding import Finding
-from ..model.elements import Collision, Mesh, Robot
+from ..model.elements import Collision, Mesh, Robot, Visual
 from ..model.mesh_formats import ending_of, rejecting_readers
-from ..rules.gazebo.kept import kept_links
+from ..rules.gazebo.kept import is_named_as_link, kept_links
 from ..rules.inertia.presence import has_bare_moved_body
 from ..rules.inertia.tensors import has_inertia_that_mujoco_rejects
 from ..rules.rule import GAZEBO
@@ -43,22 +43,27 @@ class Rejections:
 
     def _add_massless(self, robot: Robot) -> None:
         """Add rejections that are reported by rules which are off for some targets."""
-        if kept_links(robot) == set():
-            for reader in GAZEBO:
-                self._by_reader[reader] = {"massless-root-body"}
+        kept = kept_links(robot)
+        if kept is not None:
+            rejecting = set() if kept else {"massless-root-body"}
+            if any(is_named_as_link(robot, joint, kept) for joint in robot.joints):
+                rejecting.add("link-joint-name-clash")
+            if rejecting:
+                self._by_reader.update((reader, set(rejecting)) for reader in GAZEBO)
         if has_bare_moved_body(robot):
             self._by_reader["mujoco"] = {"massless-moving-body"}
         if has_inertia_that_mujoco_rejects(robot):
             self._by_reader.setdefault("mujoco", set()).add("singular-inertia")
 
     def _add_meshes(self, robot: Robot) -> None:
-        """Take what rejects the robot for the format of its meshes, which targets do not ask for."""
-        formats = {
-            (ending_of(shape.geometry.filename), isinstance(shape, Collision))
-            for link in robot.links
-            for shape in (*link.visuals, *link.collisions)
-            if isinstance(shape.geometry, Mesh)
-        }
+        """Add rejections for the format of a mesh, whatever the targets are."""
+        formats: set[tuple[str, bool]] = set()
+        for link in robot.links:
+            shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+            for shape in shapes:
+                if isinstance(shape.geometry, Mesh):
+                    ending = ending_of(shape.geometry.filename)
+                    formats.add((ending, isinstance(shape, Collision)))
         for ending, collides in formats:
             for reader in rejecting_readers(ending, collides):
                 self._by_reader.setdefault(reader, set()).update(_OF_FORMAT)

@@ -43,6 +43,19 @@ def is_joint_kept(robot: Robot, joint: Joint, kept: set[str]) -> bool:
     return joint.child in kept and not is_lumped(robot, joint.child)
 
 
+def is_named_as_link(robot: Robot, joint: Joint, kept: set[str]) -> bool:
+    """Tell whether Gazebo has a joint of URDF and a link of the same name, and rejects the model.
+
+    Args:
+        robot: The robot.
+        joint: One of its joints.
+        kept: The links that :func:`kept_links` names.
+    """
+    if joint.name not in robot.link or not is_joint_kept(robot, joint, kept):
+        return False
+    return joint.name in kept or joint.name == "world"
+
+
 def joints_of_sdf(robot: Robot) -> Iterator[Element]:
     """List the ``<joint>`` elements of SDF in ``<gazebo>`` blocks without a reference."""
     for block in robot.gazebo:

@@ -6,7 +6,13 @@ import math
 from collections.abc import Iterator
 from decimal import Decimal, InvalidOperation
 
-from ...mechanics.tensor import COMPONENTS, SymmetricTensor, consistency, noise_of, principal_moments
+from ...mechanics.tensor import (
+    COMPONENTS,
+    SymmetricTensor,
+    consistency,
+    noise_of,
+    principal_moments,
+)
 from ...model.elements import Inertia, Inertial, Link, Robot
 from ...model.read import number
 from .bodies import bodies, body_inertia

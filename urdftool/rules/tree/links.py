@@ -21,7 +21,7 @@ from ..fix import (
     suggestion_of,
     unsafe,
 )
-from ..gazebo.kept import is_joint_kept, joints_of_sdf, kept_links
+from ..gazebo.kept import is_joint_kept, is_named_as_link, joints_of_sdf, kept_links
 from ..gazebo.lumping import is_lumped
 from ..renaming import rename_part
 from ..rule import BOTH, ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, holding, rule
@@ -161,6 +161,7 @@ _CLASH = {
 
 @rule(
     INFO,
+    on=GAZEBO,
     raised=dict.fromkeys(GAZEBO, ERROR),
     effects=_CLASH,
     group="robot",
@@ -177,8 +178,7 @@ def link_joint_name_clash(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
     kept = kept_links(robot)
     for name, joint in robot.joint.items():
         if name in robot.link and name.strip():
-            stay = kept is not None and is_joint_kept(robot, joint, kept)
-            stay = stay and kept is not None and (name in kept or name == "world")
+            stay = kept is not None and is_named_as_link(robot, joint, kept)
             lumped = is_lumped(robot, name) or is_lumped(robot, joint.child)
             case = "both stay" if stay else "one is lumped" if kept and lumped else ""
             yield Problem(
