@@ -298,6 +298,15 @@ def test_a_loop_without_end_is_ended(evaluate, monkeypatch, text):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no timers")
+def test_an_expansion_of_many_slow_expressions_is_ended(evaluate, monkeypatch):
+    monkeypatch.setattr(patience, "TOTAL_SECONDS", 0.3)
+    slow = "${len([0 for x in python.range(900000)])} "
+    with pytest.raises(UrdftoolError, match=r"the expansion takes longer than 0\.3 s"):
+        evaluate(slow * 400)
+    assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no timers")
 def test_memory_is_bounded_too(evaluate, monkeypatch):
     monkeypatch.setattr(patience, "MEMORY", 200 << 20)
     with pytest.raises(UrdftoolError, match=r"of memory|longer than"):

@@ -10,12 +10,15 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
 SECONDS = 10.0
 """Maximum processor time of one expression [s]."""
+
+TOTAL_SECONDS = 60.0
+"""Maximum processor time of one expansion [s]."""
 
 MEMORY = 2 << 30
 """Maximum growth of the process during an expansion [bytes]."""
@@ -30,9 +33,15 @@ class Patience:
         since: Processor time [s] at the start of the running expression; None between expressions.
     """
 
-    def __init__(self) -> None:
-        """Create limits with no expression running."""
+    def __init__(self, too_long: Callable[[float], Exception]) -> None:
+        """Create limits with no expression running.
+
+        Args:
+            too_long: Makes the error for an expansion that takes longer than a time [s].
+        """
         self.since: float | None = None
+        self._too_long = too_long
+        self._end: float | None = None
         self._memory = 0
 
     @contextmanager
@@ -43,6 +52,7 @@ class Patience:
             yield
             return
         self._memory = _largest()
+        self._end = time.process_time() + TOTAL_SECONDS
         before = signal.signal(signal.SIGALRM, self._look)
         signal.setitimer(signal.ITIMER_REAL, _INTERVAL, _INTERVAL)
         try:
@@ -52,6 +62,9 @@ class Patience:
             signal.signal(signal.SIGALRM, before)
 
     def _look(self, number: int, frame: FrameType | None) -> None:
+        if self._end is not None and time.process_time() > self._end:
+            self._end = None
+            raise self._too_long(TOTAL_SECONDS)
         if self.since is None:
             return
         if time.process_time() - self.since > SECONDS:

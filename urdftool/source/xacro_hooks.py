@@ -89,7 +89,7 @@ class Run:
         self.include_calls: tuple[Call, ...] = ()
         self.elements = 0
         self.produced = 0
-        self.patience = Patience()
+        self.patience = Patience(self.too_long)
 
     def expand(self) -> None:
         """Parse the file and expand it with xacro; requires :meth:`hooks`."""
@@ -391,6 +391,15 @@ class Run:
     def place(self) -> Place | None:
         """Return the location of the processed element; None before the first."""
         return None if self.node is None else self.node.place
+
+    def too_long(self, seconds: float) -> XacroError:
+        """Make the error for an expansion that was stopped after a time [s]."""
+        return XacroError(
+            f"the expansion takes longer than {seconds:g} s, and was stopped",
+            at=self.place,
+            path=self.result.file.path,
+            rule="endless-expansion",
+        )
 
     def note_dependencies(self) -> None:
         """Store the files that xacro read, each once."""
