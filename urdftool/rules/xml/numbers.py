@@ -289,7 +289,7 @@ def _is_number(text: str) -> bool:
 def _unreadable(element: Element, name: str, fault: str, word: str) -> Problem:
     in_drake = _in_drake(element, name, word)
     if "three dampings" in in_drake:
-        fault = f"three numbers, '{word}', which only Drake reads; write one for other readers"
+        fault = f"three numbers, '{word}', which only Drake reads; others take one"
     conditions = (*_where(element), _kind(word), *in_drake)
     return Problem(
         element,
