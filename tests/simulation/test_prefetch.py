@@ -72,7 +72,7 @@ def test_the_verdict_is_the_same_whether_one_looked_before(robot):
 def test_what_is_seen_is_read(robot):
     with prefetch(robot, lambda _: None):
         pass
-    with mock.patch.object(mesh_cache, "outline", side_effect=AssertionError):
+    with mock.patch.object(mesh_cache, "read_convex_points", side_effect=AssertionError):
         assert len(mesh_cache.outermost_points(robot, robot.links[0].visuals[0].geometry)) == 8
 
 

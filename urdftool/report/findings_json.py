@@ -8,7 +8,7 @@ from typing import Any
 from ..extras import EXTRA_OF
 from ..finding import Finding, Fix, Severity
 from ..lint.outcome import Outcome
-from .json_text import json_text
+from .json_text import finite_values, json_text
 
 
 def to_json(outcome: Outcome) -> str:
@@ -64,7 +64,7 @@ def finding_record(finding: Finding) -> dict[str, Any]:
         "fix": fix_record(finding.fix),
     }
     if finding.data:
-        record["data"] = dict(finding.data)
+        record["data"] = finite_values(finding.data)
     if finding.unchecked:
         record["not_checked"] = True
     if finding.variants:

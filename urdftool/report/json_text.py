@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import math
 import re
+from collections.abc import Mapping
+from typing import Any
 
 _SPECIAL = re.compile("[^ -~\n]")
 
@@ -21,3 +24,12 @@ def json_text(value: object, indent: int | None = None) -> str:
 def _escaped(match: re.Match[str]) -> str:
     character = match[0]
     return character if character.isprintable() else json.dumps(character)[1:-1]
+
+
+def finite_values(value: Any) -> Any:
+    """Replace numbers that are not finite, which JSON cannot hold, by None."""
+    if isinstance(value, Mapping):
+        return {key: finite_values(part) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [finite_values(part) for part in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..model.elements import Robot
 from .counted import counted
 from .findings import Painter, clean
-from .json_text import json_text
+from .json_text import finite_values, json_text
 from .tables import Cell, render_table
 
 if TYPE_CHECKING:
@@ -189,7 +189,7 @@ def _trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
         "engine": recording.engine,
         "mass": run.bodies.mass,
         "fixed": run.bodies.fixed_base,
-        "rest": {key: _plain(value) for key, value in asdict(rest).items()},
+        "rest": {key: finite_values(value) for key, value in asdict(rest).items()},
         "held": {name: recording.targets[name] for name in recording.held},
         "bodies": list(recording.bodies),
         "joints": list(recording.joints),
@@ -198,7 +198,7 @@ def _trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
         "steps": recording.steps,
         **({"seconds": recording.seconds} if timings else {}),
         "series": {
-            name: _plain(getattr(recording, name).tolist())
+            name: finite_values(getattr(recording, name).tolist())
             for name in (
                 *("times", "poses", "velocities", "positions", "rates", "efforts"),
                 *("kinetic", "potential", "depths"),
@@ -221,12 +221,3 @@ def _fault(fault: Fault) -> dict[str, Any]:
         "line": None if place is None else place.line,
         "column": None if place is None else place.column,
     }
-
-
-def _plain(value: Any) -> Any:
-    """Replace numbers that are not finite by None."""
-    if isinstance(value, (list, tuple)):
-        return [_plain(part) for part in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
