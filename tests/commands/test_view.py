@@ -80,6 +80,7 @@ def test_the_address_is_printed_and_ctrl_c_ends_it(arm):
 
 
 def test_a_picture_needs_neither_viser_nor_a_port(arm, tmp_path):
+    pytest.importorskip("PIL")
     code = (
         "import sys; sys.modules['viser'] = None\n"
         "from urdftool import cli; sys.exit(cli.call(sys.argv[1:]))"

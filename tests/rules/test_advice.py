@@ -108,6 +108,7 @@ def test_what_a_mimic_param_adds_to_the_mimic(write, mimic, param, severity, wor
     ],
 )
 def test_pybullet_keeps_the_triangles_of_a_concave_collision(tmp_path, rule, targets, count):
+    pytest.importorskip("manifold3d")
     folder = FIXTURES / "rules" / rule
     shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
     path = tmp_path / "bad.urdf"
