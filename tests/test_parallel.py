@@ -1,15 +1,16 @@
 """Processes with limits: what breaks one task leaves the others alone."""
 
 import os
+import pickle
 import signal
 import sys
 import time
 
 import pytest
 
-from urdftool.errors import ModelError, UrdftoolError
+from urdftool.errors import ModelError, UrdftoolError, XacroError
 from urdftool.isolated import IsolatedProcess, ProcessDied, ProcessTimeout
-from urdftool.parallel import in_order, map_tasks
+from urdftool.parallel import in_order, map_tasks, plain_error
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 
@@ -101,3 +102,11 @@ def test_an_isolated_process_that_dies_or_hangs():
     assert raised.value.exit_code == -signal.SIGABRT
     with IsolatedProcess() as process, pytest.raises(ProcessTimeout):
         process.call("time", "sleep", 60, time_limit=0.3)
+
+
+def test_an_error_of_a_worker_keeps_what_a_fix_reads():
+    facts = {"rule": "unknown-macro", "case": "a call", "data": {"suggestion": "wheel"}}
+    error = XacroError("unknown macro 'whel'", path="r.xacro", line=3, **facts)
+    plain = pickle.loads(pickle.dumps(plain_error(error)))
+    assert (plain.rule, plain.case, plain.data) == tuple(facts.values())
+    assert str(plain) == str(error)
