@@ -1,0 +1,1 @@
+"""What keeps everything that a person reads in plain technical English."""

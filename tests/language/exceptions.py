@@ -1,0 +1,7 @@
+"""Places where a word of the list is right."""
+
+EXCEPTIONS: tuple[tuple[str, str, str], ...] = (
+    (r"tests/language/", r".", "lists the words"),
+    (r"CHANGELOG", r".", "keeps what was printed"),
+)
+"""A pattern of paths, one of lines, and the reason."""
