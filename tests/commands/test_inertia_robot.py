@@ -153,7 +153,7 @@ def test_one_verdict_and_one_number_with_lint(urdftool, write, mass, six, origin
     assert [finding.rule for finding in found] == [rule] * bool(rule)
     fault = links["a"]["faults"][0] if rule else {"kind": ""}
     if fault["kind"] == "box":
-        what = "centre of mass" if "outside" in fault["message"] else "inertia"
+        what = "center of mass" if "outside" in fault["message"] else "inertia"
         said = fault["message"].partition(" is ")[2]
         assert said
         assert found[0].message.startswith(f"{what} of link 'a' is {said}")

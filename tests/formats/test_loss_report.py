@@ -38,11 +38,15 @@ def test_a_path_that_leads_nowhere_is_told_in_full(urdftool, tmp_path, language)
     file = tmp_path / "robot.urdf"
     file.write_text(ARM.replace("package://gone/meshes", "shapes"))
     result = urdftool("export", language, file, "-o", tmp_path / "out")
-    assert f"is not there (and 1 more) (there is no folder {tmp_path / 'shapes'})" in result.err
+    assert (
+        f"does not exist (and 1 more) (folder {tmp_path / 'shapes'} does not exist)"
+    ) in result.err
     (tmp_path / "shapes").mkdir()
     result = urdftool("export", language, file, "-o", tmp_path / "out")
     for name in "ab":
-        assert f"is not there (there is no file {tmp_path / 'shapes' / name}.stl)" in result.err
+        assert (
+            f"does not exist (file {tmp_path / 'shapes' / name}.stl does not exist)"
+        ) in result.err
 
 
 def test_defects_bear_the_names_that_lint_explains():

@@ -82,7 +82,7 @@ def taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
     """A robot with the world that it names and does not declare, and the defects that this is.
 
     Args:
-        robot: Any robot; it stays as it is.
+        robot: Any robot; it is copied unchanged.
     """
     whole, joint = with_world(robot)
     if joint is None:

@@ -76,7 +76,7 @@ def test_what_stands_on_its_legs_is_free(write, name):
 def test_what_does_not_is_held(write, name):
     written = export(write("r.urdf", HELD[name]))
     assert not is_free(written)
-    assert written.summary[0] == "fixed base (nothing says that it moves)"
+    assert written.summary[0] == "fixed base (the description has no sign of a mobile base)"
 
 
 WHEEL = solid('<sphere radius="0.1"/>')
@@ -107,12 +107,12 @@ def actuators(written):
 def test_driven_wheels_at_the_ground_make_the_base_free(write):
     written = export(write("r.urdf", cart(*DRIVEN)))
     assert is_free(written)
-    assert written.summary == ["free base (it drives on left, right)", "2 actuators"]
+    assert written.summary == ["free base (it has driven wheels left, right)", "2 actuators"]
 
 
 def test_two_wheels_that_nothing_drives_do_so_too(write):
     written = export(write("r.urdf", cart()))
-    assert written.summary[0] == "free base (it stands on the wheels of left, right)"
+    assert written.summary[0] == "free base (it stands on wheels left, right)"
     assert not is_free(export(write("r.urdf", cart(kind="fixed"))))
 
 

@@ -68,7 +68,7 @@ def test_an_input_is_not_overwritten(urdftool, write):
     path = write("r.xml", robot(link("a")))
     result = urdftool("export", "mjcf", path, "-o", path, "--overwrite")
     assert result.code == 2
-    assert "read as an input" in result.err
+    assert "is an input of the export" in result.err
 
 
 def test_defects_one_line_each(urdftool, write, tmp_path):

@@ -268,7 +268,7 @@ def test_decompose_of_the_command(urdftool, write, mesh, tmp_path):
         ("empty.stl", "empty"),
         ("nan.stl", "NaN"),
         ("broken.dae", "COLLADA"),
-        ("absent.stl", "is not there"),
+        ("absent.stl", "does not exist"),
     ],
 )
 def test_a_broken_mesh_is_named(write, mesh, name, word):

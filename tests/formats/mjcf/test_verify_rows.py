@@ -146,7 +146,7 @@ def test_a_change_of_a_model_with_merged_links_is_found(what):
         ("fixed", 'pos="0 0 -1.5"', "", "the floor is at z = 0"),
         ("free", 'name="floor"', 'name="floor" pos="0 0 -0.5"', "the floor is at z = -0.5"),
         ("fixed", 'type="plane"', 'type="plane" quat="1 0.1 0 0"', "the floor is tilted"),
-        ("free", 'type="plane"', 'type="plane" contype="0"', "nothing touches the floor"),
+        ("free", 'type="plane"', 'type="plane" contype="0"', "no contact with the floor"),
         ("free", "<worldbody>", "<worldbody><geom size='1'/>", "floors"),
         ("fixed", "<asset>", "<option gravity='0 0 -1.62'/><asset>", "option gravity"),
     ],

@@ -38,7 +38,7 @@ def test_damping_friction_and_effort_are_written_and_verified(made):
 
 def test_what_sdf_has_no_place_for_is_reported(made):
     result, _ = made
-    assert "kp of joint 'knee' has no place in SDF" in result.out
+    assert "kp of joint 'knee' cannot be expressed in SDF" in result.out
     assert "force range of joint 'knee' is -3 to 5; SDF gets 5 both ways" in result.out
 
 

@@ -50,7 +50,7 @@ def test_one_that_names_no_link_stays_with_a_word(name):
     written = export(*TWO, f"<gazebo>{IMU.format(name)}</gazebo>")
     assert tree(written).find("plugin").get("filename") == "libgazebo_ros_imu.so"
     assert rules(written) == ["lossy-plugin"]
-    assert "nor names a link" in written.losses[0].message
+    assert "names no link or joint" in written.losses[0].message
 
 
 def test_classic_keeps_the_plugin():

@@ -116,7 +116,7 @@ def test_force_leaves_what_can_stand(rule, choices, tmp_path):
     options = Options(force=True, file="m.sdf", **choices)
     written = write(source, options)
     assert f"lossy-{rule}" in rules(written)
-    assert all("passed by --force" in loss.hint for loss in written.losses)
+    assert all("accepted by --force" in loss.hint for loss in written.losses)
     assert names(tree(written), "link") == links
     assert names(tree(written), "joint") == joints
     place = tmp_path / "m.sdf"

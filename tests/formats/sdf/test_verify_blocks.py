@@ -146,7 +146,7 @@ WORLDS = [
     ("<mass>1.0</mass>|<mass>1</mass>", "<mass>2</mass>", "mass is 2, not 1"),
     ('<world name="default">', '<world name="a"><gravity>0 0 -1.62</gravity>', "gravity"),
     ("gz-sim-sensors-system", "gz-sim-other-system", "the system 'sensors' is missing"),
-    ('<model name="ground_plane">', '<model name="flat">', "2 models beside the ground"),
+    ('<model name="ground_plane">', '<model name="flat">', "2 models in addition to the ground"),
 ]
 
 

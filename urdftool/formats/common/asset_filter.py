@@ -31,10 +31,10 @@ def explain_invalid_mesh(path: Path) -> str:
     suffix = path.suffix.lower()
     looks = _MESHES.get(suffix)
     if looks is None:
-        return f"'{suffix}' is no mesh format; those are {', '.join(s[1:] for s in _MESHES)}"
+        return f"'{suffix}' is not a mesh format; supported are {', '.join(s[1:] for s in _MESHES)}"
     try:
         if is_lfs_pointer(path):
-            return "it is a git-LFS pointer; fetch the mesh with `git lfs pull`"
+            return "the file is a Git LFS pointer; fetch the mesh with `git lfs pull`"
         return "" if looks(path) else f"there is no {suffix[1:].upper()} mesh in it"
     except (OSError, MeshError) as error:
         return str(getattr(error, "strerror", None) or error)

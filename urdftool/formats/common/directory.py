@@ -1,8 +1,8 @@
 """Writing of exports to disk: a folder, or a file with its companions, all or nothing.
 
 The first comment of every text file names urdftool and holds a digest of the content. A later
-export can therefore tell its own unmodified files from edited ones and from files of others, which
-it does not replace.
+export therefore recognizes its own unmodified files. It does not replace edited files, nor files
+that urdftool did not write.
 """
 
 from __future__ import annotations
@@ -69,11 +69,14 @@ def write_directory(
     folder = Path(os.path.realpath(target))
     _check_place(folder, target)
     if folder.is_file():
-        raise OutputError("is a file; the name of a folder is wanted", path=target)
+        raise OutputError("is a file; give the name of a folder", path=target)
     there = folder.is_dir() and any(folder.iterdir())
     if there and not overwrite and not (folder / main).is_file():
         raise OutputError(
-            "is a folder that no export wrote; choose another, or overwrite it with --overwrite",
+            (
+                "is a folder that urdftool did not write; choose another, or overwrite it with "
+                "--overwrite"
+            ),
             path=target,
         )
     _check_files(folder, files, overwrite, inputs)
@@ -102,7 +105,7 @@ def write_beside(
     """
     path = Path(os.path.realpath(target))
     if path.is_dir():
-        raise OutputError("is a folder; the name of a file is wanted", path=target)
+        raise OutputError("is a folder; give the name of a file", path=target)
     _check_place(path, target)
     named = {path.name if name == main else name: content for name, content in files.items()}
     _check_files(path.parent, named, overwrite, inputs)
@@ -152,9 +155,9 @@ def _check_files(
     for name, content in files.items():
         place = folder / name
         if os.path.realpath(place) in read:
-            raise OutputError("is read as an input; write the export elsewhere", path=place)
+            raise OutputError("is an input of the export; choose another output", path=place)
         if place.is_dir():
-            raise OutputError("is a folder, and a file of the export has its name", path=place)
+            raise OutputError("is a folder, but the export writes a file of this name", path=place)
         if overwrite or not place.is_file() or not isinstance(content, bytes):
             continue
         if not _MARK.search(content, 0, _HEAD):

@@ -23,8 +23,8 @@ FALLBACKS = {
     "duplicate-link-name": "only the first is written",
     "duplicate-joint-name": "it gets another name",
     "unknown-parent-link": "the joint is left out, unless its parent is the world",
-    "unknown-child-link": "the joint is left out",
-    "missing-parent-or-child": "the joint is left out",
+    "unknown-child-link": "the joint is not exported",
+    "missing-parent-or-child": "the joint is not exported",
     "missing-name": "such a link is left out, such a joint gets a name",
 }
 """The fallback of each defect that has one which does not depend on the case."""
@@ -83,5 +83,5 @@ def report_passed_defects(written: Written, found: Iterable[Finding]) -> None:
             finding.place,
             kind=finding.kind,
             name=finding.name,
-            hint=f"passed by --force; {fallback}" if fallback else "passed by --force",
+            hint=f"accepted by --force; {fallback}" if fallback else "accepted by --force",
         )

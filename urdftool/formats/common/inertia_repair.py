@@ -37,8 +37,12 @@ def repair_tensor(
     if fix == "box":
         edges = size()
         if edges is None:
-            return lift(body.tensor), "it has no geometry for a box, so it is lifted"
-        return box_tensor(body.mass, edges), "made that of a box around its geometry, changed"
+            return lift(
+                body.tensor
+            ), "it has no geometry for a box, so its smallest moments are increased"
+        return box_tensor(
+            body.mass, edges
+        ), "replaced by the inertia of a box around its geometry, and changed"
     if fix == "balance":
         return sphere_tensor(body.tensor), "balanced"
     return lift(body.tensor), "lifted"

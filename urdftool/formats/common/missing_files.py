@@ -16,7 +16,7 @@ class MissingFile(NamedTuple):
     """Why a file is missing.
 
     Attributes:
-        message: Predicate of a sentence about the file: ``is not there``.
+        message: Predicate of a sentence about the file: ``does not exist``.
         hint: A remedy, or the path that was tried; may be empty.
         cause: The missing package, folder or file, equal for all files that are missing for the
             same cause; may be empty.
@@ -45,8 +45,10 @@ def explain_missing_file(robot: Robot, filename: str) -> MissingFile:
     except ValueError:
         return MissingFile("is not found")
     if not os.path.isdir(path.parent):
-        return MissingFile("is not there", f"there is no folder {path.parent}", str(path.parent))
-    return MissingFile("is not there", f"there is no file {path}", str(path))
+        return MissingFile(
+            "does not exist", (f"folder {path.parent} does not exist"), str(path.parent)
+        )
+    return MissingFile("does not exist", f"file {path} does not exist", str(path))
 
 
 def missing_mesh(robot: Robot, link: Link, mesh: Mesh) -> Finding:

@@ -107,7 +107,7 @@ def _report_follower(joint: Joint, written: Written) -> None:
     assert joint.mimic is not None
     written.report_loss(
         "mimic-actuator",
-        f"joint '{joint.name}' mimics '{joint.mimic.joint}' and gets no actuator of its own",
+        f"joint '{joint.name}' mimics '{joint.mimic.joint}' and gets no actuator",
         joint.place,
         kind="joint",
         name=joint.name,
@@ -118,7 +118,10 @@ def _report_follower(joint: Joint, written: Written) -> None:
 def _report_assumed_gains(robot: Robot, assumed: Mapping[str, Gain], written: Written) -> None:
     """Report assumed gains, and those that the inertia bounds."""
     bounded = [f"'{name}'" for name, gain in assumed.items() if gain.is_bounded]
-    text = f"gains of {len(assumed)} servos are assumed, because URDF has none: 10 times the effort"
+    text = (
+        f"gains of {len(assumed)} servos are assumed, because URDF has none: 10 times the "
+        "effort limit"
+    )
     if bounded:
         more = f" and {len(bounded) - 3} more" if len(bounded) > 3 else ""
         text += (

@@ -37,11 +37,18 @@ def with_base(
     free, reason = _decide(structure, base, virtual_joint)
     if not reason:
         standing = free_reason(structure, boxes, home)
-        free, reason = standing is not None, standing or "nothing says that it moves"
+        free, reason = (
+            standing is not None,
+            standing or "the description has no sign of a mobile base",
+        )
         if free:
             written.report_loss(
                 "free-base",
-                f"root link '{structure.root.name}' is free: {reason}; --base fixed holds it",
+                (
+                    f"root link '{structure.root.name}' has a free base: {reason}; --base fixed "
+                    "fixes "
+                    "it to the world"
+                ),
                 structure.root.place,
                 kind="link",
                 name=structure.root.name,

@@ -114,8 +114,8 @@ def _joints(
 def _report_detached_body(joint: Joint, written: Written) -> None:
     written.report_loss(
         "floating",
-        f"link '{joint.child}' floats, and its parent '{joint.parent}' moves; free bodies of "
-        "MuJoCo hang on the world, so it starts where it is with every joint at zero",
+        f"link '{joint.child}' floats, and its parent '{joint.parent}' moves; free bodies in "
+        "MuJoCo are children of the world, so it starts at its pose with all joints at zero",
         joint.place,
         kind="joint",
         name=joint.name,

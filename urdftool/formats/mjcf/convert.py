@@ -163,20 +163,20 @@ def _points(corners: Points) -> int:
 
 def _thickness(points: Points) -> float:
     """Compute the extent of points along their thinnest direction, relative to their size."""
-    centred = points - points.mean(axis=0)
+    centered = points - points.mean(axis=0)
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     if size == 0:
         return 0.0
-    normal = np.linalg.eigh(centred.T @ centred)[1][:, 0]
-    return float(np.ptp(centred @ normal)) / size
+    normal = np.linalg.eigh(centered.T @ centered)[1][:, 0]
+    return float(np.ptp(centered @ normal)) / size
 
 
 def _thick_obj(corners: Points) -> bytes:
     """Convert triangles, shape (n, 3, 3), to an OBJ of two offset layers connected by walls."""
     points = corners.reshape(-1, 3)
     size = float(np.linalg.norm(np.ptp(points, axis=0))) or 1e-3
-    centred = points - points.mean(axis=0)
-    normal = np.linalg.eigh(centred.T @ centred)[1][:, 0]
+    centered = points - points.mean(axis=0)
+    normal = np.linalg.eigh(centered.T @ centered)[1][:, 0]
     offset = normal * size * THICKENED / 2
     layers = np.concatenate([points + offset, points - offset])
     count = len(points)

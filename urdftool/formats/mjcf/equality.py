@@ -40,7 +40,7 @@ def _follow(structure: Structure, joint: Joint, section: etree._Element, written
     assert mimic is not None
     leader = structure.robot.joint.get(mimic.joint)
     if leader is None or leader is joint or structure.kind(joint) not in ("hinge", "slide"):
-        _report_mimic_loss(joint, "it is free to move", written)
+        _report_mimic_loss(joint, "its motion is not coupled", written)
     elif structure.kind(leader) == "weld":
         held = mimic.offset + mimic.multiplier * structure.locked.get(leader.name, 0.0)
         _hold(joint, held, section)
@@ -54,7 +54,9 @@ def _follow(structure: Structure, joint: Joint, section: etree._Element, written
         )
     elif structure.kind(leader) not in ("hinge", "slide"):
         _report_mimic_loss(
-            joint, f"'{mimic.joint}' of type {leader.type} cannot lead it in MuJoCo", written
+            joint,
+            f"'{mimic.joint}' of type {leader.type} cannot be a mimic leader in MuJoCo",
+            written,
         )
     else:
         coefficients = (mimic.offset, mimic.multiplier, 0, 0, 0)
@@ -74,7 +76,7 @@ def _report_mimic_loss(joint: Joint, why: str, written: Written) -> None:
     assert joint.mimic is not None
     written.report_loss(
         "mimic",
-        f"mimic of joint '{joint.name}' is not carried: {why}",
+        f"the mimic of joint '{joint.name}' is not exported: {why}",
         joint.mimic.place,
         kind="joint",
         name=joint.name,

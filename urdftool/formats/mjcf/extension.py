@@ -18,7 +18,7 @@ OURS = frozenset(
      "balanceinertia", "inertiafromgeom", "inertiagrouprange", "eulerseq", "coordinate",
      "autolimits", "boundmass", "boundinertia", "settotalmass", "convexhull")
 )  # fmt: skip
-"""Attributes of ``<compiler>`` that control the reading of URDF, or that would change the robot."""
+"""Attributes of ``<compiler>`` that control the reading of URDF, or that changes the robot."""
 
 SECTIONS = ("option", "size", "visual", "statistic")
 
@@ -138,7 +138,7 @@ def apply_extension(robot: Robot, sections: dict[str, etree._Element], written: 
             else:
                 written.report_loss(
                     "mujoco",
-                    f"<{child.tag}> in <mujoco> is not carried; of it there are compiler, "
+                    f"<{child.tag}> in <mujoco> is not exported; only compiler, "
                     + ", ".join(SECTIONS),
                     child.place,
                     kind="mujoco",
@@ -155,8 +155,8 @@ def _compiler(element: Element, sections: dict[str, etree._Element], written: Wr
         changes = name in ("balanceinertia", "boundmass", "boundinertia", "settotalmass")
         written.report_loss(
             "mujoco",
-            f"{name}={value!r} of <compiler> is not carried: it "
-            + ("would change the robot" if changes else "speaks of how MuJoCo reads URDF"),
+            f"{name}={value!r} of <compiler> is not exported: it "
+            + ("changes the robot" if changes else "controls how MuJoCo reads URDF"),
             element.attribute_place(name),
             kind="mujoco",
             name=name,

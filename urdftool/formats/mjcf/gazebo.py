@@ -23,28 +23,28 @@ NUMERIC = (
 
 # keyword -> why it is not exported, and the severity of the loss
 LOST: dict[str, tuple[str, Severity]] = {
-    "fdir1": ("friction has no direction of its own in MuJoCo's geoms", Severity.WARNING),
+    "fdir1": ("MuJoCo's geoms have no friction direction", Severity.WARNING),
     "kp": ("contacts keep MuJoCo's stiffness (solref)", Severity.INFO),
     "kd": ("contacts keep MuJoCo's damping (solref)", Severity.INFO),
-    "maxVel": ("MuJoCo bounds no contact correction velocity", Severity.INFO),
-    "minDepth": ("MuJoCo has no contact depth of that kind", Severity.INFO),
-    "maxContacts": ("MuJoCo bounds contacts as a whole", Severity.INFO),
+    "maxVel": ("MuJoCo has no limit of the contact correction velocity", Severity.INFO),
+    "minDepth": ("MuJoCo has no such contact depth", Severity.INFO),
+    "maxContacts": ("MuJoCo limits the number of contacts of the whole model", Severity.INFO),
     "laserRetro": ("MuJoCo has no laser intensity", Severity.WARNING),
     "dampingFactor": ("MuJoCo damps joints, not bodies", Severity.WARNING),
-    "selfCollide": ("bodies of one robot collide in MuJoCo unless excluded", Severity.INFO),
-    "self_collide": ("bodies of one robot collide in MuJoCo unless excluded", Severity.INFO),
-    "implicitSpringDamper": ("MuJoCo integrates damping implicitly already", Severity.INFO),
-    "cfmDamping": ("MuJoCo integrates damping implicitly already", Severity.INFO),
+    "selfCollide": ("bodies of a robot collide in MuJoCo unless they are excluded", Severity.INFO),
+    "self_collide": ("bodies of a robot collide in MuJoCo unless they are excluded", Severity.INFO),
+    "implicitSpringDamper": ("MuJoCo always integrates damping implicitly", Severity.INFO),
+    "cfmDamping": ("MuJoCo always integrates damping implicitly", Severity.INFO),
     "stopCfm": ("limits keep MuJoCo's softness (solreflimit)", Severity.INFO),
     "stopErp": ("limits keep MuJoCo's softness (solreflimit)", Severity.INFO),
-    "fudgeFactor": ("it belongs to another solver", Severity.INFO),
-    "provideFeedback": ("MuJoCo measures forces by its sensors", Severity.INFO),
+    "fudgeFactor": ("a parameter of another solver", Severity.INFO),
+    "provideFeedback": ("MuJoCo measures forces with sensors", Severity.INFO),
     "projector": ("MuJoCo has no projectors", Severity.WARNING),
     "audio_sink": ("MuJoCo has no sound", Severity.WARNING),
     "audio_source": ("MuJoCo has no sound", Severity.WARNING),
     "battery": ("MuJoCo has no batteries", Severity.WARNING),
     "particle_emitter": ("MuJoCo has no particles", Severity.WARNING),
-    "gripper": ("MuJoCo grasps by contact alone", Severity.WARNING),
+    "gripper": ("MuJoCo grasps by contact only", Severity.WARNING),
     "include": ("other models are not included", Severity.WARNING),
     "velocity_decay": ("MuJoCo damps joints, not bodies", Severity.WARNING),
 }
@@ -125,7 +125,11 @@ def gazebo_losses(robot: Robot, written: Written) -> None:
         if reference is not None and reference not in robot.link and reference not in robot.joint:
             written.report_loss(
                 "gazebo",
-                f"<gazebo reference='{reference}'> names no link or joint; it is not carried",
+                (
+                    f"<gazebo reference='{reference}'> does not name a link or joint of the "
+                    "robot; it "
+                    "is not exported"
+                ),
                 block.place,
                 kind="gazebo",
                 name=reference,
@@ -136,7 +140,7 @@ def gazebo_losses(robot: Robot, written: Written) -> None:
     for plugin in robot.plugins:
         written.report_loss(
             "plugin",
-            f"plugin {plugin.filename or plugin.name} belongs to Gazebo and is not carried",
+            f"plugin {plugin.filename or plugin.name} is a Gazebo plugin and is not exported",
             plugin.place,
             kind="plugin",
             name=plugin.name,
@@ -150,10 +154,10 @@ def _keyword_losses(block: GazeboExtension, written: Written) -> None:
         lost = LOST.get(child.tag)
         if lost is None and child.tag in KNOWN:
             continue
-        why, severity = lost or ("nothing is known of it", Severity.INFO)
+        why, severity = lost or ("the element is unknown", Severity.INFO)
         written.report_loss(
             "gazebo",
-            f"<{child.tag}>{about} is not carried: {why}",
+            f"<{child.tag}>{about} is not exported: {why}",
             child.place,
             kind="gazebo",
             name=block.reference or "",

@@ -25,7 +25,7 @@ from .frame import set_origin
 from .material import Materials
 from .meshes import Assets, MeshPiece
 
-SIZELESS = "dropped: it has no size"
+SIZELESS = "not exported: it has no size"
 
 
 def visual_geoms(
@@ -93,7 +93,7 @@ def _geoms(
             _report_shape_loss(
                 link,
                 shape,
-                f"a {what} of link '{link.name}' is dropped: its mesh is missing",
+                f"a {what} of link '{link.name}' is not exported: its mesh is missing",
                 written,
             )
         return
@@ -101,7 +101,10 @@ def _geoms(
     if simple is None:
         tag = f"<{shape.geometry.element.tag}>" if shape.geometry is not None else "nothing"
         _report_shape_loss(
-            link, shape, f"a {what} of link '{link.name}' is dropped: it is {tag}", written
+            link,
+            shape,
+            f"a {what} of link '{link.name}' is not exported: its geometry is {tag}",
+            written,
         )
         return
     if not min(simple[1]) > 0:

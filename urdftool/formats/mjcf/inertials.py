@@ -119,9 +119,9 @@ def _compose(
                 group[name] = source.changed(kept)
                 written.report_loss(
                     "inertia-moved",
-                    f"no rigid body has the inertia of link '{name}' (principal moments "
-                    f"{moments_text(source.tensor)} kg·m²); what is too much of it is "
-                    f"written to link '{other}', which is welded to it: the whole is the same",
+                    f"inertia of link '{name}' is physically inconsistent (principal moments "
+                    f"{moments_text(source.tensor)} kg·m²); the excess is "
+                    f"moved to link '{other}', which is welded to it; the total is unchanged",
                     source.place,
                     kind="link",
                     name=name,
@@ -149,9 +149,10 @@ def _unite(
     for name in bad:
         written.report_loss(
             "inertia-moved",
-            f"no rigid body has the inertia of link '{name}'; it and the links welded to it "
-            f"({', '.join(n for n in names if n != name)}) are one body, whose mass is written to "
-            f"link '{top}': the whole is the same",
+            f"inertia of link '{name}' is physically inconsistent; the mass properties of it and "
+            "the "
+            f"links welded to it ({', '.join(n for n in names if n != name)}) are combined in "
+            f"link '{top}'; the total is unchanged",
             places[name],
             kind="link",
             name=name,
@@ -175,9 +176,10 @@ def _repair(
     if fix == "none" and not (static or force):
         yield defect(
             "inertia-triangle-inequality",
-            f"link '{name}' has principal moments {before} kg·m², which no rigid body has (none "
-            "may be negative or above the sum of the other two), and MuJoCo refuses it; "
-            "--fix-inertia lift, balance or box changes it",
+            f"inertia of link '{name}' is physically inconsistent: principal moments {before} "
+            "kg·m² "
+            "(none may be negative or above the sum of the other two); MuJoCo rejects it. Correct "
+            "it, or use --fix-inertia lift, balance or box",
             read.place,
             "link",
             name,
@@ -190,10 +192,10 @@ def _repair(
         tensor, how = _repaired(structure, name, read, fix)
         group[name] = read.changed(tensor)
         what = f"{how} to {moments_text(tensor)} kg·m²"
-    held = "; it is held by the world and does not move" if static else ""
+    held = "; it is fixed to the world and does not move" if static else ""
     written.report_loss(
         "inertia",
-        f"link '{name}' has principal moments {before} kg·m², which no rigid body has: "
+        f"inertia of link '{name}' is physically inconsistent (principal moments {before} kg·m²): "
         f"{what}{held}",
         read.place,
         kind="link",
@@ -265,7 +267,7 @@ def _give_weight(
     group[top] = LinkInertia(point, link.place)
     written.report_loss(
         "massless",
-        f"link '{top}' moves and has no mass; MuJoCo wants some, so it has {least:g} kg"
+        f"link '{top}' moves and has no mass; MuJoCo requires mass, so it gets {least:g} kg"
         + (f", and its joint an armature of {LEAF_ARMATURE:g}" if leaf else ""),
         link.place,
         kind="link",

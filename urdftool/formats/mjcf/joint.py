@@ -95,7 +95,10 @@ def _limit_losses(joint: Joint) -> Iterator[tuple[str, str, Severity]]:
         if joint.is_limited:
             yield (
                 "limit-missing",
-                f"joint '{joint.name}' of type {joint.type} has no <limit>; it moves unbounded",
+                (
+                    f"joint '{joint.name}' of type {joint.type} has no <limit>; it moves without "
+                    "limits"
+                ),
                 Severity.WARNING,
             )
         return
@@ -110,7 +113,8 @@ def _limit_losses(joint: Joint) -> Iterator[tuple[str, str, Severity]]:
     if limit.velocity is not None:
         yield (
             "velocity",
-            f"MuJoCo bounds no velocity; that of joint '{joint.name}' ({limit.velocity:g}) is kept "
+            f"MuJoCo has no velocity limits; that of joint '{joint.name}' ({limit.velocity:g}) is "
+            "kept "
             "as a number in <custom>",
             Severity.INFO,
         )
@@ -121,12 +125,12 @@ def _bound_losses(
 ) -> Iterator[tuple[str, str, Severity]]:
     if not joint.is_limited:
         if limit.lower or limit.upper:
-            text = f"joint '{joint.name}' is continuous; its lower and upper limit are not used"
+            text = f"joint '{joint.name}' is continuous; its lower and upper limits are ignored"
             yield "limit-unused", text, Severity.INFO
         return
     lower, upper = limit.lower or 0.0, limit.upper or 0.0
     if limit.lower is None and limit.upper is None:
-        held = "its link is welded there" if welded else "an equality holds it there"
+        held = "its link is welded there" if welded else "an equality constraint holds it there"
         yield (
             "limit-missing",
             f"joint '{joint.name}' has no lower and upper limit, which count as zero: {held}; "
@@ -138,7 +142,7 @@ def _bound_losses(
         held = (
             "its link is welded there (--keep-locked-joints keeps the joint)"
             if welded
-            else "an equality holds it there"
+            else "an equality constraint holds it there"
         )
         text = f"both limits of joint '{joint.name}' are {lower:g} {unit}; {held}"
         yield "limit-equal", text, Severity.INFO
@@ -160,7 +164,7 @@ def _planar(joint: Joint, written: Written) -> list[etree._Element]:
     if joint.limit is not None:
         written.report_loss(
             "planar-limit",
-            f"limits of planar joint '{joint.name}' are not written; it moves without bounds",
+            f"limits of planar joint '{joint.name}' are not written; it moves without limits",
             joint.limit.place,
             kind="joint",
             name=joint.name,

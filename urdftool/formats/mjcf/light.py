@@ -25,7 +25,9 @@ def put_lights(robot: Robot, bodies: Bodies, written: Written) -> None:
     for block in robot.gazebo:
         for light in block.element.all("light"):
             if block.reference not in bodies:
-                written.report_loss("light", "a light on no link is not carried", light.place)
+                written.report_loss(
+                    "light", "a light that is not on a link is not exported", light.place
+                )
                 continue
             body = bodies[block.reference]
             first = body.find("body")

@@ -95,7 +95,7 @@ def loop_equalities(structure: Structure, written: Written) -> Iterator[etree._E
             else:
                 written.report_loss(
                     "loop",
-                    f"joint '{element.get('name') or ''}' of <gazebo> is not carried: {loop}",
+                    f"joint '{element.get('name') or ''}' of <gazebo> is not exported: {loop}",
                     element.place,
                     kind="gazebo",
                     name=block.reference or "",
@@ -105,19 +105,22 @@ def loop_equalities(structure: Structure, written: Written) -> Iterator[etree._E
 def _read(structure: Structure, block: GazeboExtension, element: Element) -> Loop | str:
     """Read a joint; return the reason as text if it cannot be exported."""
     if block.reference is not None:
-        return "a joint that closes a loop belongs into a <gazebo> without reference"
+        return "a loop-closing joint must be in a <gazebo> block without reference"
     kind = KINDS.get(element.get("type") or "")
     if kind is None:
-        return f"a loop can be closed by {', '.join(KINDS)}, not by '{element.get('type') or ''}'"
+        return (
+            f"a loop can be closed by joints of type {', '.join(KINDS)}, not by "
+            f"'{element.get('type') or ''}'"
+        )
     child, parent = _text(element, "child"), _text(element, "parent")
     # a scoped name starts with the name of the model
     child, parent = child.rpartition("::")[2], parent.rpartition("::")[2]
     known = structure.robot.link
     for end, name in (("child", child), ("parent", parent)):
         if name not in known and not (end == "parent" and name == WORLD):
-            return f"its {end} '{name}' is no link"
+            return f"its {end} '{name}' is not a link"
     if child == parent:
-        return f"it joins '{child}' to itself"
+        return f"it connects '{child}' to itself"
     pose = _pose(structure, element, child)
     return pose if isinstance(pose, str) else Loop(element, kind, child, parent, pose)
 
@@ -133,7 +136,7 @@ def _pose(structure: Structure, joint: Element, child: str) -> Pose | str:
     if frame == child:
         return pose
     if frame != "__model__" and frame not in structure.robot.link:
-        return f"its pose is relative to '{frame}', which is no link"
+        return f"its pose is relative to '{frame}', which is not a link"
     start = IDENTITY if frame == "__model__" else structure.pose_at_zero(frame)
     return structure.pose_at_zero(child).inverse() @ start @ pose
 
@@ -220,7 +223,7 @@ def _bounds_losses(loop: Loop, written: Written) -> None:
         if lost and part is not None:
             written.report_loss(
                 "loop",
-                f"{what} of joint '{loop.name}', which closes a loop, are not carried: MuJoCo "
+                f"{what} of joint '{loop.name}', which closes a loop, are not exported: MuJoCo "
                 "closes it by an equality, which has none",
                 part.place,
                 kind="gazebo",

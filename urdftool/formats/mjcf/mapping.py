@@ -17,8 +17,8 @@ Row = tuple[str, str, str]
 _JOINT_TEXT = {
     "hinge": '`joint type="hinge"` (the default)',
     "slide": '`joint type="slide"`',
-    "planar": "two slides `NAME_TX`, `NAME_TY` and a hinge `NAME_RZ`; limits are not carried",
-    "free": "`freejoint`; its body hangs on the world, at its place with every joint at zero",
+    "planar": "two slides `NAME_TX`, `NAME_TY` and a hinge `NAME_RZ`; limits are not exported",
+    "free": "`freejoint`; its body is a child of the world, at its pose with all joints at zero",
     "ball": '`joint type="ball"`',
     "weld": "nothing: the body is nested without a joint, and never fused",
 }
@@ -41,15 +41,15 @@ ROBOT: tuple[Row, ...] = (
         EXACT,
         "`body@name`: one body a link, also for fixed and massless ones; `site@name` with `--fuse`",
     ),
-    ("root link `world`", EXACT, "`worldbody`; a mass of it is said and dropped"),
-    ("root link", EXACT, "held by the world, or with `freejoint` (`--base`)"),
+    ("root link `world`", EXACT, "`worldbody`; its mass is reported and not exported"),
+    ("root link", EXACT, "a child of the world, or with `freejoint` (`--base`)"),
     (
         "`inertial`",
         EXACT,
         "`inertial` with `diaginertia` or `fullinertia`, numbers as written, without float noise",
     ),
-    ("inertia no body has, welded", EXACT, "the surplus moves to a link of the same rigid body"),
-    ("inertia no body has, moving", LOST_MARK, "an error; `--fix-inertia` changes it and says how"),
+    ("inconsistent inertia, welded", EXACT, "the surplus moves to a link of the same rigid body"),
+    ("inconsistent inertia, moving", LOST_MARK, "an error; `--fix-inertia` changes and reports it"),
     ("no mass, moving", CLOSE, '2e-15 kg; a last link\'s joint gets `armature="0.0001"`'),
     ("`visual`", EXACT, '`geom class="visual"`, group 2, one for each material of a mesh'),
     (
@@ -77,19 +77,20 @@ ROBOT: tuple[Row, ...] = (
         "converted to OBJ, split by material, unit and axes as RViz has them",
     ),
     (
-        "`mesh` that collides",
+        "`mesh` of a collision",
         CLOSE,
-        "MuJoCo collides the hull, said where its volume is over 1.05 times; or convex pieces "
+        "MuJoCo uses the hull, reported if its volume is over 1.05 times that of the mesh; or "
+        "convex pieces "
         "(`--decompose`)",
     ),
-    ("`mesh` flat, that collides", CLOSE, "thickened to 0.1 % of its size"),
+    ("flat `mesh` of a collision", CLOSE, "thickened to 0.1 % of its size"),
     ("`mesh@scale`", EXACT, "`mesh@scale`, mirrored ones too"),
-    ("`material/color`", EXACT, "`material`, or `rgba` where it has no name"),
+    ("`material/color`", EXACT, "`material`, or `rgba` if it has no name"),
     ("`material/texture`", EXACT, "`texture`; PNG re-encoded, others converted"),
     (
-        "colours and images of a mesh file",
+        "colors and images of a mesh file",
         EXACT,
-        "come before the URDF's material, as RViz has it; other images than PNG are converted",
+        "override the material of the URDF, as in RViz; other images than PNG are converted",
     ),
 )
 
@@ -102,7 +103,7 @@ JOINT: tuple[Row, ...] = (
         "the body is welded there, the name is a `site`; `--keep-locked-joints`: `equality`",
     ),
     ("no `limit`", CLOSE, "no `range`"),
-    ("`limit@effort`", EXACT, "`actuatorfrcrange`; 0 cannot be written and is said"),
+    ("`limit@effort`", EXACT, "`actuatorfrcrange`; 0 cannot be exported and is reported"),
     ("`limit@velocity`", CLOSE, "number `NAME_velocity_limit` in `custom`"),
     ("`dynamics`", EXACT, "`damping`, `frictionloss`"),
     (
@@ -111,7 +112,7 @@ JOINT: tuple[Row, ...] = (
         '`equality/joint` with `polycoef="offset multiplier 0 0 0"` (soft, as all are); no '
         "actuator of its own",
     ),
-    ("`safety_controller`, `calibration`", LOST_MARK, "they belong to a controller"),
+    ("`safety_controller`, `calibration`", LOST_MARK, "settings of a controller"),
     (
         "`transmission`",
         CLOSE,
@@ -122,7 +123,7 @@ JOINT: tuple[Row, ...] = (
         CLOSE,
         "`position`, `velocity` or `motor` by its first command interface",
     ),
-    ("`ros2_control` initial value", EXACT, "key `home`, moved into the limits"),
+    ("`ros2_control` initial value", EXACT, "key `home`, clamped to the limits"),
     ("`ros2_control` sensor", CLOSE, "site at its `frame_id` and sensors by its interfaces"),
 )
 
@@ -135,17 +136,17 @@ EXTENSIONS: tuple[Row, ...] = (
     (
         "gazebo `mu1`",
         CLOSE,
-        "sliding `friction` of the link's collisions, below 1 with `priority`, as MuJoCo takes the "
-        "larger of two and Gazebo the smaller; another `mu2` is said",
+        "sliding `friction` of the link's collisions, below 1 with `priority`, as MuJoCo uses the "
+        "larger of two and Gazebo the smaller; a different `mu2` is reported",
     ),
     ("gazebo `turnGravityOff`, `gravity`", EXACT, '`gravcomp="1"`'),
-    ("gazebo `material`", CLOSE, "colour of visuals that have none"),
+    ("gazebo `material`", CLOSE, "color of visuals that have none"),
     ("gazebo `springStiffness`, `springReference`", EXACT, "`stiffness`, `springref`"),
-    ("gazebo `static`", EXACT, "the root is held"),
+    ("gazebo `static`", EXACT, "the root is fixed"),
     (
         f"gazebo `joint` {_loops('connect')}",
         CLOSE,
-        "`equality/connect`, for a hinge in space two; its limits and dynamics are said",
+        "`equality/connect`, for a hinge in space two; its limits and dynamics are reported",
     ),
     (f"gazebo `joint` {_loops('weld')}", CLOSE, "`equality/weld`"),
     ("gazebo `joint` of another type", LOST_MARK, "said"),
@@ -153,7 +154,7 @@ EXTENSIONS: tuple[Row, ...] = (
     (
         "gazebo `plugin` that drives the robot",
         CLOSE,
-        "the base is free; `velocity` for its wheels, `position` for what steers",
+        "the base is free; `velocity` for wheels, `position` for steering joints",
     ),
     ("any other gazebo `plugin`", LOST_MARK, "belongs to Gazebo"),
     ("SRDF `disable_collisions`", EXACT, "`exclude`, where MuJoCo would collide the pair"),

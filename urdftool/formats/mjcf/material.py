@@ -82,7 +82,7 @@ class Materials:
         if isinstance(image, Path) and not os.path.isfile(image):
             if image not in self._textures:
                 self._textures[image] = None
-                self._report_image_loss(f"image {image} of {mesh} is not there", visual, mesh)
+                self._report_image_loss(f"image {image} of {mesh} does not exist", visual, mesh)
             return None
         return self._material(stem, None, image, visual, mesh)
 
@@ -97,7 +97,7 @@ class Materials:
         if found is None:
             self._written.report_loss(
                 "material",
-                f"material '{material.name}' is defined nowhere; the visual has no colour",
+                f"material '{material.name}' is not defined; the visual has no color",
                 material.place,
                 kind="material",
                 name=material.name,
@@ -114,7 +114,7 @@ class Materials:
             self._report_texture_loss(material, error.message)
             return None
         if not os.path.isfile(path):
-            self._report_texture_loss(material, f"{path} is not there")
+            self._report_texture_loss(material, f"{path} does not exist")
             return None
         return path
 

@@ -148,10 +148,10 @@ def _cut(
             pieces = [Piece(obj_bytes(*piece)) for piece in result.pieces]
             made[path, True] = Converted(pieces, None, old.notes)
             count = "1 convex piece" if len(pieces) == 1 else f"{len(pieces)} convex pieces"
-            text = f"collides as {count}, whose surface is within {result.error:.2%} of its size"
+            text = f"is exported as {count}, whose surface is within {result.error:.2%} of its size"
             severity = Severity.INFO
         else:
-            text = f"is not cut into convex pieces: {result}"
+            text = f"is not decomposed into convex pieces: {result}"
             severity = Severity.WARNING
         written.report_loss(
             "convex",
@@ -189,12 +189,13 @@ def _report_notes(
             reported.add((path, None))
             written.report_loss(
                 "nonconvex",
-                f"{path.name}: MuJoCo collides its convex hull, whose volume is {result.hull:.2f} "
+                f"{path.name}: MuJoCo uses its convex hull for collision, whose volume is "
+                f"{result.hull:.2f} "
                 "times the mesh's",
                 place,
                 kind="mesh",
                 name=path.name,
-                hint="--decompose cuts it into convex pieces",
+                hint="--decompose decomposes it into convex pieces",
                 data={"hull_ratio": result.hull},
             )
 

@@ -118,8 +118,7 @@ def _rename_world(structure: Structure, written: Written) -> None:
     written.renamed["link", WORLD] = new
     written.report_loss(
         "name",
-        f"link '{WORLD}' is not the root, and MuJoCo keeps its name to itself; its body is called "
-        f"'{new}'",
+        f"link '{WORLD}' is not the root, and MuJoCo reserves its name; its body is named '{new}'",
         structure.robot.link[WORLD].place,
         kind="link",
         name=WORLD,
@@ -188,7 +187,7 @@ def _controller_losses(robot: Robot, written: Written) -> None:
             if part is not None:
                 written.report_loss(
                     what.replace("_", "-"),
-                    f"<{what}> of joint '{joint.name}' belongs to a controller and is not carried",
+                    f"<{what}> of joint '{joint.name}' belongs to a controller and is not exported",
                     part.place,
                     kind="joint",
                     name=joint.name,

@@ -83,7 +83,8 @@ def scene_file(
         floor.set("pos", f"0 0 {number_text(low)}")
         written.report_loss(
             "floor",
-            f"the held robot reaches below the height of its root; the floor of the scene is at "
+            "the robot with a fixed base reaches below the height of its root; the floor of the "
+            "scene is at "
             f"z = {low:g} m",
             structure.robot.place,
             severity=Severity.INFO,

@@ -47,7 +47,7 @@ def sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Ele
         link = _link_of(robot, block.reference)
         for sensor in block.sensors:
             if link is None:
-                _report_sensor_loss(sensor, "it is on no link", written)
+                _report_sensor_loss(sensor, "it is not on a link", written)
                 continue
             body = bodies[link]
             if sensor.type in CAMERAS:
@@ -64,7 +64,7 @@ def sensor_section(robot: Robot, bodies: Bodies, written: Written) -> etree._Ele
                 _scanner(sensor, link, body, section, sites, taken, written)
             else:
                 _report_sensor_loss(
-                    sensor, f"MuJoCo has nothing like type '{sensor.type}'", written
+                    sensor, f"MuJoCo has no sensor of type '{sensor.type}'", written
                 )
     for control in robot.ros2_controls:
         for component in control.components:
@@ -174,7 +174,7 @@ def _touch(
     sized = [g for g in geoms if g.get("size")]
     if not sized:
         _report_sensor_loss(
-            sensor, "its link has no simple collision that a site could cover", written
+            sensor, "its link has no primitive collision that a site can cover", written
         )
         return
     own = sites.take(name)
@@ -187,7 +187,7 @@ def _touch(
     put_before_bodies(body, site)
     etree.SubElement(section, "touch", name=taken.take(name), site=own)
     if len(geoms) > 1:
-        _report_sensor_loss(sensor, "it covers only the first collision of its link", written)
+        _report_sensor_loss(sensor, "only the first collision of its link is covered", written)
 
 
 def _scanner(
@@ -208,7 +208,9 @@ def _scanner(
     if not 0 < count <= MAX_RAYS:
         _site(name, pose, body, sites)
         _report_sensor_loss(
-            sensor, f"its {count} rays are too many for rangefinders; its site is there", written
+            sensor,
+            f"its {count} rays are too many for rangefinders; only its site is exported",
+            written,
         )
         return
     low, high = read("min_angle", 0.0), read("max_angle", 0.0)
@@ -243,10 +245,10 @@ def _control_sensor(
     kinds = list(_control_kinds(names))
     frame = component.params.get("frame_id", "")
     if frame not in robot.link or not kinds:
-        why = "its frame_id names no link" if kinds else "its interfaces are unknown to MuJoCo"
+        why = "its frame_id names no link" if kinds else "MuJoCo has no sensors for its interfaces"
         written.report_loss(
             "sensor",
-            f"sensor '{component.name}' of ros2_control is not carried: {why}",
+            f"sensor '{component.name}' of ros2_control is not exported: {why}",
             component.place,
             kind="sensor",
             name=component.name,
@@ -271,7 +273,7 @@ def _control_kinds(interfaces: set[str]) -> Iterator[tuple[str, str]]:
 def _report_sensor_loss(sensor: Sensor, why: str, written: Written) -> None:
     written.report_loss(
         "sensor",
-        f"sensor '{sensor.name}' is not carried whole: {why}",
+        f"sensor '{sensor.name}' is not exported completely: {why}",
         sensor.place,
         kind="sensor",
         name=sensor.name,

@@ -140,9 +140,9 @@ def free_reason(
     ]
     driven = [name for name in wheels if name in commanded]
     if driven:
-        return f"it drives on {_listed(driven)}"
+        return f"it has driven wheels {_listed(driven)}"
     if len(wheels) > 1:
-        return f"it stands on the wheels of {_listed(wheels)}"
+        return f"it stands on wheels {_listed(wheels)}"
     return _on_feet(structure, positions, ground, stands) or _with_legs(structure)
 
 

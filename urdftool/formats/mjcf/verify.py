@@ -194,7 +194,7 @@ def _tree(robot: Robot, compiled: Compiled, declared: DeclaredLosses) -> Check:
             continue
         parent = compiled.body(joint.parent)
         if joint.type != "floating" and model.body_parentid[body] != parent:
-            check.compare(math.inf, f"link '{joint.child}' hangs elsewhere", known=known)
+            check.compare(math.inf, f"link '{joint.child}' has another parent", known=known)
         if joint.type == "planar":
             found = [compiled.id("JOINT", joint.name + end) for end in ("_TX", "_TY", "_RZ")]
             freedom += 3
@@ -286,14 +286,14 @@ def _dynamics(
     declared: DeclaredLosses,
 ) -> Iterator[Check]:
     """Compare mass matrix and gravity of the joints, with a fixed root."""
-    inertia = Check("mass matrix", "over all joints, the root held", compiled.tensor_rounding)
+    inertia = Check("mass matrix", "over all joints, with a fixed root", compiled.tensor_rounding)
     gravity = Check("gravity", "force at every joint that holds the robot", FORCE)
     welded = _welded(mechanics, compiled)
     names = [joint.name for joint in mechanics.joints]
     dofs = compiled.dofs(names)
     present = [index for index, dof in enumerate(dofs) if dof >= 0]
     if len(names) > len(welded) and not present:
-        inertia.compare(math.inf, "no joint is there")
+        inertia.compare(math.inf, "no joint")
     for positions in configurations if present else ():
         compiled.pose(positions)
         expected = mechanics.mass_matrix(positions)[np.ix_(present, present)]
@@ -325,7 +325,7 @@ def _centroid(
     declared: DeclaredLosses,
 ) -> Check:
     bound = compiled.tensor_rounding
-    check = Check("centroid", "total mass, centre of mass and inertia about it", bound)
+    check = Check("centroid", "total mass, center of mass and inertia about it", bound)
     for positions in configurations:
         compiled.pose(positions)
         mass, com, tensor = mechanics.centroid(positions)
@@ -333,7 +333,7 @@ def _centroid(
         if mass == 0:
             check.compare(
                 found_mass,
-                "mass where there is none",
+                "mass of a massless link",
                 known=declared.any(*INERTIA, *TORN),
             )
             continue
@@ -341,7 +341,7 @@ def _centroid(
         # scaled from its own tolerance to that of the row
         check.compare(abs(found_mass - mass) / mass * bound / MASS, "total mass", known=known)
         check.compare(
-            float(abs(found_com - com).max()) * bound / POSE, "centre of mass", known=known
+            float(abs(found_com - com).max()) * bound / POSE, "center of mass", known=known
         )
         size = max(float(abs(tensor).max()), 1e-300)
         check.compare(float(abs(found_tensor - tensor).max()) / size, "inertia", known=known)

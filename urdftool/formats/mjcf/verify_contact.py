@@ -34,13 +34,13 @@ MANY = 12
 
 def contact_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare which links can collide with each other and with a ground of default class."""
-    check = Check("contact", "which links can touch each other and the ground", 0)
+    check = Check("contact", "which links can make contact with each other and the ground", 0)
     model, flags = compiled.model, compiled.mujoco.mjtDisableBit
     for flag, what in ((flags.mjDSBL_CONTACT, "contact"), (flags.mjDSBL_CONSTRAINT, "constraint")):
         if model.opt.disableflags & flag:
-            check.compare(math.inf, f'<flag {what}="disable"/>: nothing touches anything')
+            check.compare(math.inf, f'<flag {what}="disable"/>: contacts are disabled')
     if model.npair:
-        check.compare(math.inf, f"{model.npair} <pair> that the description does not ask for")
+        check.compare(math.inf, f"{model.npair} <pair> that the description does not require")
     touching = [link for link in source.robot.links if _count(link, compiled, check, declared)]
     _foreign(source, compiled, check)
     apart, together = [], []
@@ -52,9 +52,9 @@ def contact_check(source: Source, compiled: Compiled, declared: DeclaredLosses) 
             expected = False
         if _can_touch(compiled, compiled.body(one.name), compiled.body(other.name), excluded):
             if not expected:
-                together.append(f"links '{one.name}' and '{other.name}' can touch")
+                together.append(f"links '{one.name}' and '{other.name}' can make contact")
         elif expected:
-            apart.append(f"links '{one.name}' and '{other.name}' cannot touch")
+            apart.append(f"links '{one.name}' and '{other.name}' cannot make contact")
     for texts in (apart, together):
         for text in texts[:MANY]:
             check.compare(math.inf, text)
@@ -87,7 +87,10 @@ def _count(link: Link, compiled: Compiled, check: Check, declared: DeclaredLosse
     solid = [g for g in compiled.geoms(body) if model.geom_contype[g] or model.geom_conaffinity[g]]
     known = declared.of((*SHAPES, *CUT), *loss_names(link))
     if len(solid) != len(link.collisions):
-        text = f"link '{link.name}': {len(solid)} geoms touch, of {len(link.collisions)} collisions"
+        text = (
+            f"link '{link.name}': {len(solid)} geoms that make contact, of "
+            f"{len(link.collisions)} collisions"
+        )
         check.compare(math.inf, text, known=known)
     for geom in solid:
         if not model.geom_contype[geom] == model.geom_conaffinity[geom] == 1:
@@ -104,7 +107,9 @@ def _foreign(source: Source, compiled: Compiled, check: Check) -> None:
         body = int(model.geom_bodyid[geom])
         if solid and body not in links:
             name = compiled.name("BODY", body)
-            check.compare(math.inf, f"a geom of body '{name}', which is not a link, touches")
+            check.compare(
+                math.inf, f"a geom of body '{name}', which is not a link, can make contact"
+            )
 
 
 def _may_touch(source: Source, one: str, other: str) -> bool:

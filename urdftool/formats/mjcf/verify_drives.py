@@ -65,7 +65,10 @@ def actuator_check(source: Source, compiled: Compiled, declared: DeclaredLosses)
         one = wanted.pop(joint, None)
         if one is None:
             name = compiled.name("ACTUATOR", number)
-            check.compare(math.inf, f"actuator '{name}' drives '{joint}', which nothing asks for")
+            check.compare(
+                math.inf,
+                f"actuator '{name}' drives '{joint}', which the description does not require",
+            )
         else:
             _compare(number, joint, one, compiled, check)
     for joint in wanted:
@@ -115,7 +118,7 @@ def _compare(number: int, joint: str, wanted: Wanted, compiled: Compiled, check:
         off = _apart(model.actuator_ctrlrange[number], bound)
         check.compare(off, f"range of the control of {about}")
     if bool(model.actuator_forcelimited[number]) != (wanted.force is not None):
-        check.compare(math.inf, f"{about} has another bound of its force")
+        check.compare(math.inf, f"{about} has a different force limit")
     elif wanted.force is not None:
         off = _apart(model.actuator_forcerange[number], wanted.force)
         check.compare(off, f"range of the force of {about}")

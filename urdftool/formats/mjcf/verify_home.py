@@ -29,7 +29,7 @@ STATES = ("home", "default", "ready", "stand", "standing", "initial", "neutral")
 def base_check(source: Source, compiled: Compiled) -> Check:
     """Compare whether the root is fixed, and its pose."""
     free = source.is_free
-    what = f"root {'free, on the floor' if free else 'held'}, its pose; no other body"
+    what = f"root {'free, on the floor' if free else 'held'}, its pose; no other bodies"
     check = Check("base", what, EXACT)
     model = compiled.model
     root = 0 if source.root == "world" else compiled.body(source.root)
@@ -54,7 +54,7 @@ def base_check(source: Source, compiled: Compiled) -> Check:
 
 def home_check(source: Source, compiled: Compiled, declared: DeclaredLosses) -> Check:
     """Compare the key ``home``: limits, mimics, required positions, controls, floor."""
-    check = Check("home", "limits, mimics, positions asked for, controls, floor", EXACT)
+    check = Check("home", "limits, mimics, required positions, controls, floor", EXACT)
     model = compiled.model
     key = compiled.id("KEY", "home")
     if key < 0:
@@ -102,7 +102,7 @@ def _compare_place(source: Source, compiled: Compiled, free: bool, what: str, ch
     found = np.array(compiled.data.xpos[root])
     low, size = lowest_point(compiled)
     count = 2 if free and math.isfinite(low) else 3
-    check.compare(float(abs(found[:count] - place[:count]).max()), f"{what} is elsewhere")
+    check.compare(float(abs(found[:count] - place[:count]).max()), f"{what} is at another pose")
     if count == 2:
         check.compare(max(abs(low) - GROUND * max(size, 0.1), 0.0), f"{what} is not on the floor")
     off = float(abs(compiled.data.xmat[root].reshape(3, 3) - rotation).max())

@@ -49,7 +49,7 @@ def material_check(
     source: Source, meshes: SourceMeshes, compiled: Compiled, declared: DeclaredLosses
 ) -> Check:
     """Compare the color and the image of every visual geom."""
-    check = Check("materials", "color, image and gloss of all that is seen", SINGLE)
+    check = Check("materials", "color, image and gloss of visual geometry", SINGLE)
     model, pictures = compiled.model, Pictures(compiled)
     plain = compiled.reference()
     for link in source.robot.links:
@@ -57,7 +57,7 @@ def material_check(
         looks = list(_looks(source, meshes, link))
         geoms = list(link_geoms(compiled, link, VISUAL_GROUP))
         if len(looks) != len(geoms):
-            text = f"link '{link.name}': {len(geoms)} parts are seen, of {len(looks)}"
+            text = f"link '{link.name}': {len(geoms)} visual geoms, of {len(looks)}"
             check.compare(math.inf, text, known=known)
             continue
         for look, geom in zip(looks, geoms, strict=True):
@@ -70,7 +70,7 @@ def material_check(
                 text = "is missing" if look.image is not None else "is not in the description"
                 check.compare(math.inf, f"image of link '{link.name}' {text}", known=known)
             elif look.image is not None and not pictures.same(texture, look.image):
-                check.compare(math.inf, f"image of link '{link.name}' is another", known=known)
+                check.compare(math.inf, f"image of link '{link.name}' differs", known=known)
             for field in ("emission", "specular", "shininess", "reflectance", "texrepeat"):
                 if material >= 0:
                     usual = getattr(plain, f"mat_{field}")[0]

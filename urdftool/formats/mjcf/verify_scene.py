@@ -40,7 +40,7 @@ def scene_check(source: Source, compiled: Compiled, path: Path) -> Check:
     Raises:
         OutputError: MuJoCo does not compile it.
     """
-    check = Check("scene", "the same robot, a floor at z = 0 or at its lowest point", FLOOR)
+    check = Check("scene", "the same robot, with a floor at z = 0 or at its lowest point", FLOOR)
     try:
         scene = Compiled(path, source.root, compiled.renamed)
     except OutputError as error:
@@ -57,7 +57,7 @@ def scene_check(source: Source, compiled: Compiled, path: Path) -> Check:
         return check
     floor = planes[-1] if planes else 0
     if not model.geom_contype[floor] == model.geom_conaffinity[floor] == 1:
-        check.compare(math.inf, "nothing touches the floor")
+        check.compare(math.inf, "no contact with the floor")
     height, size = _floor_height(source, compiled)
     found = float(scene.data.geom_xpos[floor][2])
     off = max(abs(found - height) - ROUNDED, 0.0)

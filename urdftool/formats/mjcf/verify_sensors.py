@@ -203,7 +203,7 @@ def _compare_sensor(
     number: int, wanted: Measured, place: Array, text: str, compiled: Compiled, check: Check
 ) -> None:
     model = compiled.model
-    check.compare(_off(number, wanted, place, compiled), f"{text} is elsewhere")
+    check.compare(_off(number, wanted, place, compiled), f"{text} is at another pose")
     if int(model.sensor_objtype[number]) == int(compiled.mujoco.mjtObj.mjOBJ_SITE):
         body = int(model.site_bodyid[int(model.sensor_objid[number])])
         if model.body_weldid[body] != model.body_weldid[max(compiled.body(wanted.link), 0)]:
@@ -211,7 +211,7 @@ def _compare_sensor(
     for name in ("noise", "cutoff", "delay", "interval"):
         values = getattr(model, f"sensor_{name}", None)
         if values is not None and np.any(values[number]):
-            check.compare(math.inf, f"{text} has a {name} that nothing asks for")
+            check.compare(math.inf, f"{text} has a {name} that the description does not require")
 
 
 def _cameras(
@@ -254,7 +254,7 @@ def _compare_camera(
 ) -> None:
     model, name = compiled.model, compiled.name("CAMERA", number)
     off = float(abs(compiled.camera_frame(number) - place).max())
-    check.compare(off, f"camera '{name}' is elsewhere")
+    check.compare(off, f"camera '{name}' is at another pose")
     body = int(model.cam_bodyid[number])
     if model.body_weldid[body] != model.body_weldid[max(compiled.body(link), 0)]:
         check.compare(math.inf, f"camera '{name}' is on another body than link '{link}'")
@@ -267,7 +267,7 @@ def _compare_camera(
     if list(model.cam_resolution[number]) != [width, height]:
         check.compare(math.inf, f"resolution of camera '{name}'")
     if int(model.cam_mode[number]) != 0:
-        check.compare(math.inf, f"camera '{name}' does not ride on its body")
+        check.compare(math.inf, f"camera '{name}' does not move with its body")
 
 
 def _pixels(camera: Element, tag: str, usual: int) -> int:
@@ -301,7 +301,7 @@ def _lights(
             number = named[0]
             left.remove(number)
             at = up.T @ (data.light_xpos[number] - start)
-            check.compare(float(abs(at - place[:3, 3]).max()), f"light '{name}' is elsewhere")
+            check.compare(float(abs(at - place[:3, 3]).max()), f"light '{name}' is at another pose")
             body = int(model.light_bodyid[number])
             if model.body_weldid[body] != model.body_weldid[max(compiled.body(link), 0)]:
                 check.compare(math.inf, f"light '{name}' is on another body than link '{link}'")

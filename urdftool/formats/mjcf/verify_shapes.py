@@ -86,7 +86,7 @@ def visual_check(
     declared: DeclaredLosses,
 ) -> Check:
     """Compare the bounding box and surface of all visuals of a link."""
-    check = Check("visual", "box and surface of what is seen of every link", MESH)
+    check = Check("visual", "box and surface of the visuals of every link", MESH)
     frames = mechanics.frames(configurations[0])
     compiled.pose(configurations[0])
     for link in robot.links:

@@ -103,8 +103,8 @@ def _sensor(model: Node, t: Translation, element: Element) -> None:
     if node is None:  # a joint that SDF does not have, such as a floating one
         t.report_loss(
             "plugin",
-            f"plugin '{library(element)}' senses '{part.name}', which is no {tag} in "
-            "SDF; it is left out",
+            f"plugin '{library(element)}' measures '{part.name}', which is no {tag} in "
+            "SDF; it is not exported",
             element,
             part,
         )

@@ -20,7 +20,7 @@ def collision(node: Node, t: Translation, link: Link, part: Collision, name: str
     if isinstance(part.geometry, Capsule) and not t.options.since("1.8"):
         t.report_note(
             "capsule",
-            f"SDF {t.options.sdf_version} has no capsule; a cylinder and two spheres stand in",
+            f"SDF {t.options.sdf_version} has no capsule; exported as a cylinder and two spheres",
             part.geometry,
             link,
         )

@@ -25,7 +25,7 @@ def control(model: Node, t: Translation) -> None:
             + (
                 "ros_control reads it from robot_description"
                 if t.options.classic
-                else "a <ros2_control> block in robot_description says the same for gz"
+                else "gz requires a <ros2_control> block in robot_description instead"
             ),
             transmission,
         )
@@ -54,7 +54,11 @@ def _ros2_control(model: Node, t: Translation, system: Ros2Control) -> None:
     if system.plugin and system.plugin not in right and "azebo" in system.plugin:
         t.report_loss(
             "ros2-control",
-            f"hardware '{system.plugin}' of <ros2_control> '{system.name}' is for another Gazebo",
+            (
+                f"hardware '{system.plugin}' of <ros2_control> '{system.name}' is for another "
+                "version "
+                "of Gazebo"
+            ),
             at,
             hint=f"for {t.options.target} it is {right[0]}",
         )
@@ -69,6 +73,7 @@ def _ros2_control(model: Node, t: Translation, system: Ros2Control) -> None:
         )
     else:
         text = (
-            f"<ros2_control> '{system.name}' stays in robot_description, where its plugin reads it"
+            f"<ros2_control> '{system.name}' is read from robot_description by its plugin, not "
+            "from SDF"
         )
         t.report_note("ros2-control", text, system)

@@ -141,11 +141,14 @@ def _kinds(robot: Robot) -> Iterator[Finding]:
     for block in robot.gazebo:
         for sensor in block.sensors:
             if sensor.type not in KNOWN:
-                text = f"sensor '{sensor.name}' is of type '{sensor.type}', which no Gazebo has"
+                text = (
+                    f"sensor '{sensor.name}' is of type '{sensor.type}', which no version of "
+                    "Gazebo has"
+                )
                 yield defect("unknown-sensor-type", text, sensor.place, "sensor", sensor.name)
     for plugin in robot.plugins:
         if not plugin.filename:
-            text = f"plugin '{plugin.name}' names no library; write filename=\"…\""
+            text = f"plugin '{plugin.name}' has no library; write filename=\"…\""
             yield defect("plugin-without-filename", text, plugin.place, "plugin", plugin.name)
 
 

@@ -85,8 +85,9 @@ def link_extensions(node: Node, t: Translation, link: Link) -> None:
             if not own:
                 t.report_loss(
                     "link-flag",
-                    f"<{tag}> is said of link '{link.name}', which became a part of "
-                    f"'{t.plan.owner[link.name]}'; it would hold for all of it and is left out",
+                    f"<{tag}> is set for link '{link.name}', which was merged into "
+                    f"'{t.plan.owner[link.name]}'; it would apply to the whole link and is not "
+                    "exported",
                     element,
                     link,
                     hint="keep the fixed joint with <preserveFixedJoint>true</preserveFixedJoint>",
@@ -96,8 +97,8 @@ def link_extensions(node: Node, t: Translation, link: Link) -> None:
                 plugin(node, t, element)
         elif tag in JOINT_KEYWORDS or tag in LUMPING_KEYWORDS:
             if link.name not in t.robot.joint:
-                text = f"<{tag}> is said of link '{link.name}', and is of joints"
-                t.report_loss("extension", f"{text}; it is left out", element, link)
+                text = f"<{tag}> is set for link '{link.name}', but applies to joints only"
+                t.report_loss("extension", f"{text}; it is not exported", element, link)
         elif tag not in ELSEWHERE and tag not in COLLISION_KEYWORDS and tag not in IGNORED:
             copy_raw_element(node, t, element, link)
 
@@ -119,7 +120,7 @@ def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
     for tag, text in values(t, joint, JOINT_KEYWORDS).items():
         path, also = JOINT_KEYWORDS[tag].path, JOINT_KEYWORDS[tag].also
         if path.startswith("axis/") and node.find("axis") is None:
-            text = f"<{tag}> is said of joint '{joint.name}', which has no axis; it is left out"
+            text = f"<{tag}> is set for joint '{joint.name}', which has no axis; it is not exported"
             t.report_loss("extension", text, t.robot.extensions[joint.name][0], joint)
             continue
         at(node, path).text = text
@@ -134,7 +135,10 @@ def joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
             if joint.name in t.robot.link:
                 continue  # it belongs to the link of the same name
             if tag in COLLISION_KEYWORDS or tag in LINK_KEYWORDS or tag in ELSEWHERE:
-                text = f"<{tag}> is said of joint '{joint.name}', and is of links; it is left out"
+                text = (
+                    f"<{tag}> is set for joint '{joint.name}', but applies to links only; it "
+                    "is not exported"
+                )
                 t.report_loss("extension", text, element, joint)
             else:
                 copy_raw_element(node, t, element, joint)
@@ -147,7 +151,7 @@ def note_dissolved_joint(t: Translation, joint: Joint) -> None:
         tags = ", ".join(dict.fromkeys(f"<{e.tag}>" for e in lost))
         t.report_loss(
             "joint-extension",
-            f"fixed joint '{joint.name}' became a frame, so {tags} said of it is left out",
+            f"fixed joint '{joint.name}' became a frame, so {tags} set for it is not exported",
             lost[0],
             joint,
             hint="keep the joint with <preserveFixedJoint>true</preserveFixedJoint>",
@@ -169,7 +173,7 @@ def _note_repeated(t: Translation, part: Link | Joint, table: dict[str, Keyword]
             t.report_loss(
                 "extension",
                 f"<{element.tag}> of '{part.name}' is '{value_of(element)}', not "
-                f"{wanted.get(table[element.tag].holds, 'three numbers')}; it is left out",
+                f"{wanted.get(table[element.tag].holds, 'three numbers')}; it is not exported",
                 element,
                 part,
             )
@@ -177,7 +181,7 @@ def _note_repeated(t: Translation, part: Link | Joint, table: dict[str, Keyword]
         if seen.get(element.tag, text) != text:
             t.report_loss(
                 "repeated",
-                f"<{element.tag}> of '{part.name}' is set twice; the last, {text}, holds",
+                f"<{element.tag}> of '{part.name}' is set twice; the last, {text}, is used",
                 element,
                 part,
             )
@@ -190,5 +194,5 @@ def _note_untouchable(t: Translation, link: Link) -> None:
     given.pop("laserRetro", None)
     if given and not link.collisions:
         first = next(e for e in block_elements(t.robot, link) if e.tag in given)
-        text = f"link '{link.name}' has no collision, so its {', '.join(given)} mean nothing"
+        text = f"link '{link.name}' has no collision, so its {', '.join(given)} have no effect"
         t.report_note("contact", text, first, link)

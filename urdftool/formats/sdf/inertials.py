@@ -51,17 +51,17 @@ def inertial(node: Node, t: Translation, link: Link) -> None:
         tensor, how = repair_inertia(t, link.name)
         t.report_loss(
             "inertia",
-            f"link '{link.name}' has principal moments {moments_text(mass.tensor)} kg·m², which no "
-            f"rigid body has: {how} to {moments_text(tensor)} kg·m²",
+            f"inertia of link '{link.name}' is physically inconsistent (principal moments "
+            f"{moments_text(mass.tensor)} kg·m²): {how} to {moments_text(tensor)} kg·m²",
             about,
             link,
         )
     elif short > EXACT:
         t.report_loss(
             "inertia",
-            f"link '{link.name}' has an inertia that is possible but for rounding: the largest "
-            f"moment exceeds the sum of the others by {short:.2g} of itself; the nearest possible "
-            "one is written",
+            f"inertia of link '{link.name}' is inconsistent only by rounding (the largest moment "
+            f"exceeds the sum of the others by {short:.2g} of itself); the nearest consistent one "
+            "is written",
             about,
             link,
         )
@@ -93,12 +93,13 @@ def _weightless(node: Node, t: Translation, link: Link, tensor: SymmetricTensor)
     below = any(t.robot.link[name].mass > 0 for name in t.robot.tree.descendants(link.name))
     t.report_loss(
         "mass",
-        f"link '{link.name}' has no mass{'' if below else ', nor has what hangs on it'}; a link of "
+        f"link '{link.name}' has no mass{'' if below else ', nor have the links below it'}; a "
+        "link of "
         f"SDF needs one, and gets {WEIGHTLESS:g} kg",
         link.inertial or link,
         link,
         severity=Severity.INFO if below else Severity.WARNING,
-        hint="" if below else "give it a mass, or make the joint above it fixed",
+        hint="" if below else "give it a mass, or make its parent joint fixed",
     )
 
 
@@ -111,7 +112,7 @@ def _note_dissolved(t: Translation, link: Link) -> None:
         if name == link.name:
             continue
         bad = member.mass > 0 and member.inertial is not None
-        why = "has an inertia that no body has" if bad else "has no mass"
+        why = "has a physically inconsistent inertia" if bad else "has no mass"
         t.report_note(
             "link",
             f"link '{name}' {why} and is joined to '{link.name}' by a fixed joint; it is a "

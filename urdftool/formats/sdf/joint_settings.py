@@ -30,7 +30,7 @@ def joint_settings(robot: Robot, options: Options, written: Written) -> dict[str
         texts = []
         left = [word for word in _OF_CONTROLLERS if getattr(settings, word) is not None]
         if left:
-            texts.append(f"{', '.join(left)} of joint '{name}' has no place in SDF")
+            texts.append(f"{', '.join(left)} of joint '{name}' cannot be expressed in SDF")
         low, high = settings.force_range or (0.0, 0.0)
         if abs(low) != abs(high):
             most = number_text(effort_of(settings.force_range))

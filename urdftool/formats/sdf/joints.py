@@ -54,7 +54,10 @@ def joint(model: Node, t: Translation, part: Joint) -> None:
 
 def _type(t: Translation, part: Joint) -> str:
     if part.has_axis and part.axis is not None and norm(part.axis.xyz) < 1e-6:
-        text = f"axis of joint '{part.name}' is zero, so nothing says how it moves; it is fixed"
+        text = (
+            f"axis of joint '{part.name}' is zero, so its motion is undefined; it is exported "
+            "as fixed"
+        )
         t.report_loss("axis", text, part.axis, part)
         return "fixed"
     if part.type not in SDF_TYPES:
@@ -86,19 +89,22 @@ def _bounds(node: Node, t: Translation, part: Joint) -> None:
     limit = part.limit
     if part.type == "continuous":
         if limit is not None and (limit.lower is not None or limit.upper is not None):
-            text = f"joint '{part.name}' is continuous; its lower and upper mean nothing"
+            text = f"joint '{part.name}' is continuous; its lower and upper limits are ignored"
             t.report_note("limit", text, limit, part)
         return
     if limit is None:
-        text = f"joint '{part.name}' has no limits; it moves without bounds"
+        text = f"joint '{part.name}' has no limits; it moves without limits"
         t.report_loss("limit", text, part, part)
         return
     if limit.lower is None and limit.upper is None:
-        text = f"limit of joint '{part.name}' has no bounds, which are 0 then; it cannot move"
+        text = (
+            f"<limit> of joint '{part.name}' has no lower and upper, which default to 0; it "
+            "cannot move"
+        )
         t.report_note("limit", text, limit, part)
     lower, upper = limit.lower or 0.0, limit.upper or 0.0
     if lower > upper:
-        text = f"lower limit of joint '{part.name}' is above its upper limit; they are exchanged"
+        text = f"lower limit of joint '{part.name}' is above its upper limit; they are swapped"
         t.report_loss("limit", text, limit, part)
         lower, upper = upper, lower
     add(node, "lower", number_text(lower))
@@ -117,17 +123,20 @@ def _most(node: Node, t: Translation, part: Joint) -> None:
         if value is None or (name == "effort" and chosen is not None):
             continue
         if value < 0:
-            text = f"{name} limit of joint '{part.name}' is negative; its size is written"
+            text = f"{name} limit of joint '{part.name}' is negative; its absolute value is written"
             t.report_loss("limit", text, limit, part)
         elif value == 0 and part.mimic is None:
-            text = f"{name} limit of joint '{part.name}' is 0, so Gazebo will not move it"
+            text = f"{name} limit of joint '{part.name}' is 0; Gazebo will not move the joint"
             t.report_note("limit", text, limit, part)
         add(node, name, number_text(abs(value)))
 
 
 def _report_mimic_loss(t: Translation, part: Joint) -> None:
     if part.mimic is not None:
-        text = f"joint '{part.name}' is {part.type}; only an axis can mimic in SDF, so it is free"
+        text = (
+            f"joint '{part.name}' is {part.type}; SDF has mimic for joints with an axis only, "
+            "so it moves freely"
+        )
         t.report_loss("mimic", text, part.mimic, part)
 
 
@@ -138,7 +147,7 @@ def _mimic(axis: Node, t: Translation, part: Joint) -> None:
     leader = t.robot.joint.get(mimic.joint)
     can_lead = leader is not None and leader.type in ("revolute", "continuous", "prismatic")
     if not can_lead or leader is part:
-        text = f"joint '{part.name}' mimics '{mimic.joint}', which does not move; it is free"
+        text = f"joint '{part.name}' mimics '{mimic.joint}', which does not move; it moves freely"
         t.report_loss("mimic", text, mimic, part)
         return
     if not t.options.since("1.11"):
@@ -167,7 +176,11 @@ def _note_unspoken(node: Node, t: Translation, part: Joint) -> None:
         comment(node, f"{element.tag} {text}")
         t.report_loss(
             what,
-            f"<{element.tag}> of joint '{part.name}' has no counterpart; it stays as a comment",
+            (
+                f"<{element.tag}> of joint '{part.name}' has no counterpart in SDF; it is kept as "
+                "a "
+                "comment"
+            ),
             said,
             part,
             severity=Severity.INFO,

@@ -3,39 +3,49 @@
 from __future__ import annotations
 
 LOSSES = {
-    "axis": "an axis of length zero says no direction; the joint is fixed (`--force`)",
-    "calibration": "`<calibration>` stays as a comment",
-    "capsule": "SDF before 1.8 has no capsule; other shapes stand in",
-    "contact": "contact values of a link without collision do nothing",
-    "contact-sensor": "a contact sensor watches a collision that is not there",
-    "element": "an element in a `<gazebo>` block is no SDF; it stays as a comment",
-    "extension": "a tag of a `<gazebo>` block is of another kind of thing; it is left out",
-    "floating": "a floating joint is a free link without a joint",
-    "frame": "SDF 1.6 has no frames; the name of a lumped link is gone",
-    "frame-id": "SDF before 1.12 cannot name the frame of a sensor's messages",
-    "gltf-axes": "a glTF with Y up is turned by its pose, since Gazebo keeps the axes of the file",
-    "inertia": "no body has such moments; what `--fix-inertia` says is written",
-    "joint-extension": "what is said of a fixed joint that became a frame is left out",
-    "joint-type": "an unknown type of joint; it is fixed (`--force`)",
-    "limit": "a limit is not what it says: negative, zero, exchanged, or missing",
-    "link": "a link that cannot stand alone became a frame of its neighbour",
+    "axis": "an axis of length zero has no direction; the joint is exported as fixed (`--force`)",
+    "calibration": "`<calibration>` is kept as a comment",
+    "capsule": "SDF before 1.8 has no capsule; exported as other shapes",
+    "contact": "contact values of a link without collision have no effect",
+    "contact-sensor": "a contact sensor names a collision that does not exist",
+    "element": "an element in a `<gazebo>` block is not SDF; it is kept as a comment",
+    "extension": (
+        "a tag of a `<gazebo>` block applies to another kind of element; it is not exported"
+    ),
+    "floating": "a floating joint becomes a free link without a joint",
+    "frame": "SDF 1.6 has no frames; the name of a lumped link is lost",
+    "frame-id": "SDF before 1.12 cannot express the frame of a sensor's messages",
+    "gltf-axes": (
+        "a glTF with Y up is rotated by its pose, since Gazebo does not convert the axes "
+        "of the file"
+    ),
+    "inertia": "physically inconsistent inertia; `--fix-inertia` decides what is written",
+    "joint-extension": "settings of a fixed joint that became a frame are not exported",
+    "joint-type": "an unknown joint type; the joint is exported as fixed (`--force`)",
+    "limit": "a limit is negative, zero, swapped or missing",
+    "link": "a link that SDF cannot express alone became a frame of its neighbor",
     "link-flag": "gravity, damping or self-collision of a lumped link is not spread to the whole",
     "mass": "a moving link without mass gets 1e-12 kg",
     "material": "a material script of Gazebo Classic that gz cannot run",
     "mesh": "a mesh is missing, and its shape left out (`--force`)",
-    "mesh-format": "a mesh is in a format that the target does not read; it is named all the same",
-    "mimic": "SDF before 1.11, and without an axis, cannot say which joint follows; it is free",
-    "name": "SDF does not allow a name, or it is taken; another is given",
-    "planar": "a planar joint is two that slide and one that turns",
+    "mesh-format": "a mesh is in a format that the target does not read; its URI is still written",
+    "mimic": (
+        "SDF before 1.11, or a joint without an axis, cannot express mimic; the joint moves freely"
+    ),
+    "name": "SDF does not allow a name, or it is taken; the part is renamed",
+    "planar": "a planar joint becomes two prismatic joints and a revolute one",
     "plugin": "a plugin of Gazebo Classic was translated, or has no successor",
-    "reference": "a `<gazebo>` block refers to nothing",
-    "repeated": "a tag is set twice; the last holds",
+    "reference": "a `<gazebo>` block refers to an unknown name",
+    "repeated": "a tag is set twice; the last one is used",
     "ros2-control": "`<ros2_control>` is read from robot_description, not from SDF",
-    "safety": "`<safety_controller>` stays as a comment",
+    "safety": "`<safety_controller>` is kept as a comment",
     "sensor": "a sensor's type was translated, or the target does not have it",
-    "shape": "a shape that cannot be written is left out (`--force`)",
-    "texture": "a texture is missing, or has no place for the script that Classic needs",
-    "transmission": "a transmission stays as a comment",
-    "world": "what the root link `world` has is left out; it is the world itself",
+    "shape": "a shape that cannot be exported is dropped (`--force`)",
+    "texture": "a texture is missing, or there is no folder for the script that Classic requires",
+    "transmission": "a transmission is kept as a comment",
+    "world": (
+        "inertial, visuals and collisions of the root link `world` are not exported; it is "
+        "the world itself"
+    ),
 }
 """By the code after ``lossy-``. Defects skipped with ``--force`` keep their own code."""

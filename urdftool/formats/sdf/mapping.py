@@ -15,10 +15,10 @@ from .sensor_types import SYSTEMS, TO_CLASSIC, TO_GZ, SensorType
 
 ELEMENTS = (
     ("robot name", "model name", ""),
-    ("link", "link", "or a frame, where it cannot stand alone or is lumped"),
+    ("link", "link", "or a frame, if SDF cannot express it alone, or it is lumped"),
     ("root link `world`", "the world", "its joints have the parent `world`"),
     ("inertial origin, mass, inertia", "inertial pose, mass, inertia", "number by number"),
-    ("no inertial, on a fixed joint", "frame", "its shapes and sensors are in the neighbour"),
+    ("no inertial, on a fixed joint", "frame", "its shapes and sensors are in its neighbor"),
     ("no inertial, moving", "inertial of 1e-12 kg", "lossy-mass"),
     ("visual, collision origin", "pose", "in the frame of the lumped link where there are frames"),
     (
@@ -28,12 +28,16 @@ ELEMENTS = (
     ),
     ("box, cylinder, sphere, capsule", "the same", "capsule from SDF 1.8 on"),
     ("mesh filename, scale", "mesh uri, scale", "copied with the textures it names"),
-    ("mesh glTF", "the same, turned by its pose", "Gazebo keeps its axes; not with `--gltf-up z`"),
-    ("color rgba", "ambient and diffuse", "and transparency; not made brighter"),
+    (
+        "mesh glTF",
+        "the same, rotated by its pose",
+        "Gazebo does not convert its axes; not with `--gltf-up z`",
+    ),
+    ("color rgba", "ambient and diffuse", "and transparency; not brightened"),
     (
         "texture filename",
         "pbr metal albedo_map",
-        "a script of Ogre for Gazebo Classic, in a folder or with `--uri model`",
+        "an Ogre script for Gazebo Classic, in a folder or with `--uri model`",
     ),
     ("joint origin", "pose relative_to the parent link", "from the model's frame in SDF 1.6"),
     ("axis xyz", "axis xyz", "of unit length"),
@@ -41,13 +45,13 @@ ELEMENTS = (
     (
         "limit effort, velocity",
         "limit effort, velocity",
-        "by their size; SDF's negative is no limit",
+        "their absolute values; in SDF negative means no limit",
     ),
     ("dynamics damping, friction", "dynamics damping, friction", ""),
     ("mimic", "axis mimic", "from SDF 1.11 on"),
     ("safety_controller, calibration, transmission", "a comment", "lossy"),
     ("ros2_control", "a comment", "its plugin reads robot_description"),
-    ("gazebo without reference", "model", "static, plugins, and what is SDF already"),
+    ("gazebo without reference", "model", "static, plugins, and SDF elements"),
 )
 """URDF elements, their SDF counterparts, and notes."""
 
@@ -95,7 +99,7 @@ def _sections() -> Iterator[str]:
     )
     yield "### Plugins of Gazebo Classic in gz\n\n" + _table(("library", "becomes"), _plugins())
     yield (
-        f"### Materials\n\n{len(COLORS)} materials of Gazebo Classic are colours for gz: "
+        f"### Materials\n\n{len(COLORS)} materials of Gazebo Classic are colors for gz: "
         + ", ".join(name.removeprefix("Gazebo/") for name in COLORS)
         + "."
     )

@@ -29,7 +29,7 @@ def material(node: Node, t: Translation, link: Link, part: Visual) -> None:
     there = bool(own.texture) and t.meshes.found.get(own.texture or "") is not None
     if own.texture and not there:
         why = t.meshes.refused.get(own.texture, "it is missing")
-        text = f"texture '{own.texture}' of material '{own.name}' is left out: {why}"
+        text = f"texture '{own.texture}' of material '{own.name}' is not exported: {why}"
         t.report_loss("texture", text, own, link)
     if color is None and not there:
         return
@@ -61,7 +61,7 @@ def _texture(made: Node, t: Translation, link: Link, own: Material, filename: st
         return
     found = t.meshes.script(filename)
     if found is None:
-        text = f"texture '{filename}' needs a script of Ogre beside the model; it is left out"
+        text = f"texture '{filename}' requires an Ogre script next to the model; it is not exported"
         hint = "write a folder, or give --uri model"
         t.report_loss("texture", text, own, link, hint=hint)
         return
@@ -92,13 +92,13 @@ def _from_gazebo(node: Node, t: Translation, link: Link, part: Visual, said: Ele
     if color is None:
         if first:
             text = f"material '{name}' of link '{link.name}' is a script, which gz cannot run"
-            t.report_loss("material", f"{text}; URDF's own colour stays", said, link)
+            t.report_loss("material", f"{text}; the URDF color is kept", said, link)
         return False
     if first and name not in PICTURED and part.material is not None:
-        text = f"link '{link.name}' has the colour of '{name}', not URDF's"
+        text = f"link '{link.name}' has the color of '{name}' instead of its URDF color"
         t.report_note("material", f"{text}; gz cannot run the script of that name", said, link)
     if first and name in PICTURED:
-        text = f"material '{name}' of link '{link.name}' has a picture; only its colour is written"
+        text = f"material '{name}' of link '{link.name}' has an image; only its color is exported"
         t.report_loss("material", text, said, link)
     _colored(node, color)
     return True

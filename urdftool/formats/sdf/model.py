@@ -96,7 +96,7 @@ def _parts(node: Node, t: Translation) -> None:
 def _closing_joint(node: Node, t: Translation, element: Element) -> None:
     """Add a loop-closing SDF joint of a block, with the exported names of its links."""
     if why := _why_not(t, _ends(element)):
-        text = f"<joint> '{element.get('name')}' of a <gazebo> block is left out: {why}"
+        text = f"<joint> '{element.get('name')}' of a <gazebo> block is not exported: {why}"
         t.report_loss("reference", text, element)
         return
     made = copy_raw_element(node, t, element)
@@ -123,11 +123,11 @@ def _why_not(t: Translation, ends: Sequence[tuple[str, str]]) -> str:
     """Explain why a joint with these ends cannot be exported; return "" if it can."""
     for end, name in ends:
         if not _can_join(t, end, name):
-            return f"its {end} '{name}' is no link"
+            return f"its {end} '{name}' is not a link"
     if len(ends) != 2:
-        return "it joins nothing"
+        return "both of its links are the world"
     one, other = (t.plan.owner.get(name, name) for _, name in ends)
-    return f"it joins '{one}' to itself" if one == other else ""
+    return f"it connects '{one}' to itself" if one == other else ""
 
 
 def _ends(element: Element) -> list[tuple[str, str]]:
@@ -147,7 +147,11 @@ def _note_dangling(t: Translation) -> None:
             of = f"; it is a shape of link '{shapes[name].name}'" if name in shapes else ""
             t.report_loss(
                 "reference",
-                f"<gazebo> refers to '{name}', which is no link and no joint{of}; it is left out",
+                (
+                    f"<gazebo> refers to '{name}', which is neither a link nor a joint{of}; it is "
+                    "not "
+                    "exported"
+                ),
                 block,
             )
 
@@ -166,7 +170,7 @@ def _note_world(t: Translation) -> None:
         if there
     ]
     if has:
-        text = f"the root link is the world itself, so its {' and '.join(has)} are left out"
+        text = f"the root link is the world, so its {' and '.join(has)} are not exported"
         t.report_loss("world", text, world, world)
 
 
@@ -175,6 +179,6 @@ def _note_frames(t: Translation) -> None:
         if not t.plan.stays(name):
             link_ = t.robot.link[name]
             text = (
-                f"link '{name}' is a part of '{t.plan.owner[name]}' now, and SDF 1.6 has no frames"
+                f"link '{name}' was merged into '{t.plan.owner[name]}', and SDF 1.6 has no frames"
             )
-            t.report_note("frame", f"{text}; its name is gone", link_, link_)
+            t.report_note("frame", f"{text}; its name is lost", link_, link_)

@@ -32,12 +32,14 @@ def plugin(node: Node, t: Translation, element: Element) -> None:
     name = library(element)
     if not name:
         comment(node, spoken(element))
-        _report_plugin(t, element, "names no library; it stays as a comment")
+        _report_plugin(t, element, "has no library; it is kept as a comment")
     elif t.options.classic:
         _kept(node, t, element)
         if is_for_gz(element):
             _report_plugin(
-                t, element, "is one of gz, which Gazebo Classic cannot load; it stays as it is"
+                t,
+                element,
+                "is a gz plugin, which Gazebo Classic cannot load; it is copied unchanged",
             )
     elif name in CONTROL_PLUGINS:
         _control(node, t, element)
@@ -49,11 +51,16 @@ def plugin(node: Node, t: Translation, element: Element) -> None:
     else:
         _kept(node, t, element)
         if name in SENSOR_PLUGINS:
-            where = "and is neither in one nor names a link or joint of SDF; it stays as it is"
-            _report_plugin(t, element, f"is of a sensor, {where}")
+            where = (
+                "but is not in one, and names no link or joint of the SDF model; it is copied "
+                "unchanged"
+            )
+            _report_plugin(t, element, f"belongs to a sensor, {where}")
         elif is_for_classic(element):
             _report_plugin(
-                t, element, "is one of Gazebo Classic without a successor in gz; it stays as it is"
+                t,
+                element,
+                "is a Gazebo Classic plugin without a successor in gz; it is copied unchanged",
             )
 
 
@@ -133,7 +140,11 @@ def _control(node: Node, t: Translation, element: Element) -> None:
                            "robot_param_node", "hold_joints"):  # fmt: skip
             copied(made, child)
     said = bool(t.robot.ros2_controls)
-    needs = "" if said else "; it needs a <ros2_control> in robot_description, which there is not"
+    needs = (
+        ""
+        if said
+        else "; it requires a <ros2_control> block in robot_description, which is missing"
+    )
     text = f"plugin '{library(element)}' is '{names['filename']}' in gz{needs}"
     (t.report_note if said else t.report_loss)("plugin", text, element)
 
@@ -150,7 +161,9 @@ def _mimic(node: Node, t: Translation, element: Element) -> None:
         return
     _kept(node, t, element)
     _report_plugin(
-        t, element, f"has no successor in gz, and joint '{name}' has no <mimic>; it stays as it is"
+        t,
+        element,
+        f"has no successor in gz, and joint '{name}' has no <mimic>; it is copied unchanged",
     )
 
 

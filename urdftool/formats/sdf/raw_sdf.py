@@ -49,12 +49,12 @@ def copy_raw_element(
         _keep_as_comment(node, t, element, about)
         return None
     if element.tag in NAMED and not (element.get("name") or "").strip():
-        text = f"<{element.tag}> of a <gazebo> block has no name; it is left out"
+        text = f"<{element.tag}> of a <gazebo> block has no name; it is not exported"
         t.report_loss("element", text, element, about)
         return None
     if wanted(element):
         text = f"<{element.tag}> is '{element.text.strip()}', not {wanted(element)}"
-        t.report_loss("extension", f"{text}; it is left out", element, about)
+        t.report_loss("extension", f"{text}; it is not exported", element, about)
         return None
     made = copied(node, element)
     remove_invalid(made, t, element, about)
@@ -102,7 +102,7 @@ def remove_invalid(
             text = (
                 f"<{source.tag}> of <{made.tag}> is '{source.text.strip()}', not {wanted(source)}"
             )
-            t.report_loss("extension", f"{text}; it is left out", source, about)
+            t.report_loss("extension", f"{text}; it is not exported", source, about)
         elif _is_known(element.tag, source):
             remove_invalid(child, t, source, about)
         else:
@@ -118,7 +118,7 @@ def _keep_as_comment(
     what = f"<{element.tag}>"
     t.report_loss(
         "element",
-        f"{what} in <{node.tag}> is no element of SDF; it stays as a comment",
+        f"{what} in <{node.tag}> is not an SDF element; it is kept as a comment",
         element,
         about,
     )
@@ -159,7 +159,10 @@ def rename_frames(node: Node, t: Translation, part: Link | Joint) -> None:
             del pose.attrib["relative_to"]
             text = f"a pose of <{node.tag}> '{node.get('name')}' is relative to '{frame}'"
             t.report_loss(
-                "reference", f"{text}, which does not exist; that is left out", part, part
+                "reference",
+                f"{text}, which does not exist; the attribute is not exported",
+                part,
+                part,
             )
         elif ("link", frame) in t.names.renamed:
             pose.set("relative_to", t.names.link(frame))

@@ -40,7 +40,7 @@ TO_CLASSIC = {
     "lidar": SensorType("ray", (("lidar", "ray"),)),
     "navsat": SensorType("gps", (("navsat", "gps"),)),
     "depth_camera": SensorType("depth"),
-    "rgbd_camera": SensorType("depth", (), "its colours need a plugin"),
+    "rgbd_camera": SensorType("depth", (), "its colors require a plugin"),
     "wide_angle_camera": SensorType("wideanglecamera"),
     "air_pressure": SensorType(""),
     "air_speed": SensorType(""),

@@ -26,10 +26,10 @@ def sensors(node: Node, t: Translation, link: Link) -> None:
     for element in block_elements(t.robot, link):
         if element.tag == "sensor":
             if (element.get("type") or "").strip() == "force_torque":
-                text = (
-                    f"force_torque sensor '{element.get('name')}' is said of link '{link.name}'; "
+                text = f"force_torque sensor '{element.get('name')}' is on link '{link.name}'; "
+                t.report_loss(
+                    "sensor", text + "it measures joints only, and is not exported", element, link
                 )
-                t.report_loss("sensor", text + "it senses joints, and is left out", element, link)
                 continue
             for made in _made(node, t, link, element):
                 move_to_owner(made, t, link)
@@ -47,7 +47,10 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
     """Convert a sensor to the types of the target; a multicamera becomes several sensors."""
     kind = (element.get("type") or "").strip()
     if kind not in KNOWN:
-        text = f"sensor '{element.get('name')}' is of no type that Gazebo has; it is left out"
+        text = (
+            f"sensor '{element.get('name')}' has a type that Gazebo does not have; it is not "
+            "exported"
+        )
         t.report_loss("sensor", text, element, part)
         return []
     types = TO_CLASSIC if t.options.classic else TO_GZ
@@ -60,7 +63,7 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
         t.report_loss(
             "sensor",
             f"sensor '{element.get('name')}' is of type '{kind}', which {t.options.target} does "
-            "not have; it stays as it is",
+            "not have; it is copied unchanged",
             element,
             part,
         )
@@ -70,7 +73,10 @@ def _made(node: Node, t: Translation, part: Link | Joint, element: Element) -> l
             for holder in made.findall(old):
                 holder.tag = new
         note = f" ({other.note})" if other.note else ""
-        text = f"sensor '{element.get('name')}' of type '{kind}' is of type '{other.type}'{note}"
+        text = (
+            f"sensor '{element.get('name')}' of type '{kind}' is exported as type "
+            f"'{other.type}'{note}"
+        )
         t.report_note("sensor", text, element, part)
     _plugins(made, t, part, element)
     _contacts(made, t, part, element)

@@ -51,7 +51,7 @@ def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
             what = f"has a <{geometry.element.tag}> without extent"
         t.report_loss(
             "shape",
-            f"a {shape.element.tag} of link '{link.name}' {what}; it is left out",
+            f"a {shape.element.tag} of link '{link.name}' {what}; it is not exported",
             geometry or shape,
             link,
         )
@@ -60,8 +60,8 @@ def writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
         t.report_loss(
             "mesh",
             f"mesh '{geometry.filename}' of link '{link.name}' is "
-            f"{'no mesh' if geometry.filename in t.meshes.refused else 'missing'}; the "
-            f"{shape.element.tag} is left out",
+            f"{'not a mesh' if geometry.filename in t.meshes.refused else 'missing'}; the "
+            f"{shape.element.tag} is not exported",
             geometry,
             link,
         )
@@ -79,7 +79,10 @@ def _check_format(t: Translation, link: Link, mesh: Mesh) -> None:
         reader = "Gazebo Classic" if t.options.classic else "gz"
         t.report_loss(
             "mesh-format",
-            f"mesh '{mesh.filename}' of link '{link.name}' is a format that {reader} does not read",
+            (
+                f"mesh '{mesh.filename}' of link '{link.name}' has a format that {reader} does not "
+                "read"
+            ),
             mesh,
             link,
             hint=f"convert it, for instance to {known[0]}",

@@ -24,7 +24,10 @@ def visual(node: Node, t: Translation, link: Link, part: Visual, name: str) -> N
     if isinstance(shape, Capsule) and not t.options.since("1.8"):
         t.report_loss(
             "capsule",
-            f"SDF {t.options.sdf_version} has no capsule; a cylinder of its full length is seen",
+            (
+                f"SDF {t.options.sdf_version} has no capsule; exported as a cylinder of its full "
+                "length"
+            ),
             shape,
             link,
         )

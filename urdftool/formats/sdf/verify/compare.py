@@ -196,8 +196,8 @@ def _motion(pair: Pair) -> list[Check]:
     poses_seen = f"{CONFIGURATIONS + 1} configurations"
     frames = Check("frames", f"{len(pair.source.frames)} links, {poses_seen}", FRAMES)
     masses = Check("mass matrix", poses_seen, MASSES)
-    weights = Check("gravity", f"{poses_seen}, effort it takes", WEIGHTS)
-    totals = Check("whole", f"{poses_seen}, mass, centre, inertia", TOTALS)
+    weights = Check("gravity", f"{poses_seen}, required effort", WEIGHTS)
+    totals = Check("whole", f"{poses_seen}, mass, center, inertia", TOTALS)
     orders = pair.source.in_order(), pair.made.in_order()
     present = {joint.name for joint in orders[1] if joint.moves}
     names = [j.name for j in orders[0] if j.moves and pair.joint(j.name) in present]
@@ -234,7 +234,7 @@ def _compare_frames(
             check.compare(np.inf, f"{name} is missing", known=excused)
             continue
         off = float(np.abs(here[body] - there[found[0]] @ found[1]).max())
-        check.compare(off, f"{name} is elsewhere", known=excused)
+        check.compare(off, f"{name} is at another pose", known=excused)
 
 
 def _compare_masses(
@@ -257,8 +257,8 @@ def _compare_masses(
     heavy = np.abs(one[1] - two[1]) / heaviest
     for row, name in enumerate(names):
         excused = name in pair.excuses.heavy
-        masses.compare(float(off[row].max()), f"{name}: other inertia", known=excused)
-        weights.compare(float(heavy[row]), f"{name}: other weight", known=excused)
+        masses.compare(float(off[row].max()), f"{name}: different inertia", known=excused)
+        weights.compare(float(heavy[row]), f"{name}: different gravity force", known=excused)
 
 
 def _compare_totals(
@@ -271,7 +271,7 @@ def _compare_totals(
     # tolerances: mass 1e-12, center of mass 1e-9 m; scaled to that of the row
     parts = {
         "mass": abs(one[0] - two[0]) / one[0] * 1e4,
-        "centre": float(np.abs(one[1] - two[1]).max()) * 10,
+        "center": float(np.abs(one[1] - two[1]).max()) * 10,
         "inertia": float(np.abs(one[2] - two[2]).max()) / size,
     }
     for what, off in parts.items():
@@ -300,5 +300,5 @@ def _same_again(robot: Robot, written: Written, options: Options) -> Check:
     again = write(robot, options)
     for name, content in written.files.items():
         if again.files.get(name) != content:
-            check.differing.append(f"{name}: other bytes")
+            check.differing.append(f"{name}: different bytes")
     return check

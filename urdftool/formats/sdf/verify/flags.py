@@ -45,7 +45,7 @@ def compare_base(pair: Pair) -> Check:
     known = pair.excuses.declared.of(BLOCKS, "")
     compare_facts(check, "the model", found, expected, known=known)
     off = float(np.abs(read_pose(model) - _place(pair)).max())
-    check.compare(off, "the model is elsewhere", known=known)
+    check.compare(off, "the model is at another pose", known=known)
     for link, node in own_links(pair):
         flags = {k: v for k, v in flags_said(pair.robot, link).items() if k == "kinematic"}
         said = {k: v for k, v in facts_of(node).items() if k == "kinematic"}

@@ -123,7 +123,7 @@ def _compare_pose(
         return
     place = inverse(held[1]) @ pair.where.local(owner, found)
     off = float(np.abs(place - pose_of_element(pair, link, element)).max())
-    check.compare(off, f"{about} is elsewhere", known=known)
+    check.compare(off, f"{about} is at another pose", known=known)
 
 
 def _compare_loops(pair: Pair, check: Check) -> None:

@@ -92,11 +92,11 @@ def compare_sensors(pair: Pair) -> Check:
             place = base @ there[element[0]] @ pair.where.local(element[0], element[1])
             off = float(np.abs(place - here[part.name] @ sensor.pose).max())
             check.compare(
-                off, f"{about} is elsewhere", known=known or part.name in pair.excuses.frames
+                off, f"{about} is at another pose", known=known or part.name in pair.excuses.frames
             )
         else:
             off = float(np.abs(read_pose(element[1]) - sensor.pose).max())
-            check.compare(off, f"{about} is elsewhere", known=known)
+            check.compare(off, f"{about} is at another pose", known=known)
     for owner, element in left:
         check.compare(
             np.inf, f"sensor '{element.get('name')}' of '{owner}' is not in the description"

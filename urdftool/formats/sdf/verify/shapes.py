@@ -37,7 +37,7 @@ def compare_shapes(pair: Pair, kind: str, configurations: Sequence[Mapping[str, 
             continue
         left.remove(nearest)
         off = float(np.abs(here[index] - there[nearest]).max())
-        check.compare(off, f"{shape.link}: {_said(shape)} is elsewhere", known=excused)
+        check.compare(off, f"{shape.link}: {_said(shape)} is at another pose", known=excused)
     for index in left:
         members = [n for n, (body, _) in pair.made.frames.items() if body == made[index].body]
         excused = any(pair.link(name) in members for name in pair.excuses.shapes)

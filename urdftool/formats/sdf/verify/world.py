@@ -45,14 +45,14 @@ def compare_world(pair: Pair, place: Path) -> Check:
         return check
     models = [model for model in world.findall("model") if model.get("name") != GROUND]
     if len(models) != 1:
-        check.compare(np.inf, f"{len(models)} models beside the ground")
+        check.compare(np.inf, f"{len(models)} models in addition to the ground")
         return check
     compare_facts(check, "the model", facts_of(models[0]), facts_of(pair.where.model))
     gravity = value_of(world.findtext("gravity") or "0 0 -9.8")
     if gravity != (0.0, 0.0, -9.8):
         check.compare(np.inf, f"gravity is {world.findtext('gravity')}")
     if world.find("physics") is not None:
-        check.compare(np.inf, "<physics>, which nothing asks for")
+        check.compare(np.inf, "<physics>, which the description does not require")
     included = [(uri.text or "").strip() for uri in world.iterfind("include/uri")]
     ground = world.find(f"model[@name='{GROUND}']")
     flat = ground is not None and ground.find("link/collision/geometry/plane") is not None
