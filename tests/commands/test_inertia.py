@@ -127,8 +127,14 @@ def test_a_table(urdftool):
         (["sphere", "--mass", "nan", "--radius", "1"], "mass of a sphere is nan"),
         (["sphere", "--mass", "1", "--radius", "inf"], "radius of a sphere is inf"),
         (["sphere", "--density", "0", "--radius", "1"], "density of a sphere is 0"),
-        (["sphere", "--mass", "1e308", "--radius", "1e308"], "beyond what numbers"),
-        (["sphere", "--density", "1", "--radius", "1e-150"], "beyond what numbers"),
+        (
+            ["sphere", "--mass", "1e308", "--radius", "1e308"],
+            "too large for floating-point numbers",
+        ),
+        (
+            ["sphere", "--density", "1", "--radius", "1e-150"],
+            "too large for floating-point numbers",
+        ),
         (["sphere", "--mass", "1", "--density", "1", "--radius", "1"], "exclude each other"),
         (["sphere", "--mass", "1"], "--radius"),
         (["sphere", "--radius", "1"], "--mass"),

@@ -60,7 +60,7 @@ def test_compute_inertia(tmp_path):
         urdftool.compute_inertia(link, mass=1, density=1)
     with pytest.raises(UrdftoolError, match="no mass"):
         urdftool.compute_inertia(link)
-    with pytest.raises(UrdftoolError, match="there are collision and visual"):
+    with pytest.raises(UrdftoolError, match="use collision or visual"):
         urdftool.compute_inertia(link, mass=1, source="looks")
 
 

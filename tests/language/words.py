@@ -19,8 +19,10 @@ REPLACED = {
     r"\bbesides?\b": "next to, relative to, in addition to, offset from",
     r"\bin each other\b|\bthrough each other\b": "interpenetrate, overlap",
     r"\blet (?:be|pass|alone)\b|\bpass(?:es|ed)? over\b": "ignored, skipped, tolerated",
-    r"\b(?:is|are|was|be) no (?:link|joint|number|file|mesh|robot|name|package|frame|wheel"
-    r"|tree|shape|body|element|attribute|option|value|rule|plugin|sensor|root)s?\b": "is not an X",
+    r"(?<!there )\b(?:is|are|was|be) no (?:link|joint|number|file|mesh|robot|name|package|frame"
+    r"|wheel|tree|shape|body|element|attribute|option|value|rule|plugin|sensor|root)s?\b": (
+        "is not an X"
+    ),
     r"\bno body has\b|\bno (?:rigid )?body (?:has|could|can|may)\b": "physically inconsistent",
     r"\b(?:is|are|reads?|be) otherwise\b|\botherwise than\b": "different",
     r"\b(?:whoever|wherever|whichever|whatever|whosoever)\b": "the caller, if",

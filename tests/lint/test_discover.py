@@ -28,4 +28,4 @@ def test_a_robot_that_is_xacro_alone_is_to_be_named(
     write("urdf/robot.xacro", ROBOT)
     done = urdftool(*command.split(), "urdf")
     assert done.code == 2
-    assert "name urdf/robot.xacro if it is a robot" in done.err
+    assert "give urdf/robot.xacro itself if it is a robot" in done.err

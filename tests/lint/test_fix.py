@@ -234,7 +234,7 @@ def test_a_macro_is_not_edited_where_its_expansions_differ(write, urdftool, righ
     path = write("r.urdf.xacro", text)
     result = urdftool("-v", "lint", path, "--fix", *ONLY)
     assert (Path(path).read_text() != text) is agree
-    assert ("where it is not to change in this way" in result.err) is not agree
+    assert ("where it must not change in this way" in result.err) is not agree
 
 
 def test_an_expansion_that_a_comment_excuses_keeps_the_macro_as_it_is(write, urdftool):

@@ -192,7 +192,7 @@ def test_a_file_that_is_repaired_is_checked(write, urdftool):
 def test_the_namespace_is_reported_first_and_its_fix_lets_the_rest_be_seen(write, urdftool):
     path = write("r.urdf", NO_NAMESPACE)
     (finding,) = check(path, fixes=True)
-    assert "has 3 tags of xacro and does not declare its namespace" in finding.message
+    assert "has 3 tags of xacro but does not declare its namespace" in finding.message
     assert finding.place.line == 2
     assert finding.fix is not None
     assert finding.fix.safe
@@ -205,7 +205,7 @@ NOT_ROBOTS = {
     "part.dae": (b"<COLLADA/>", "is a mesh, not a robot description"),
     "package.xml": (
         b'<?xml version="1.0"?><package format="3"><name>p</name></package>',
-        "is the manifest of a package, not a robot description",
+        "is a package manifest, not a robot description",
     ),
     "robot.bin": (b"\x7fELF\0\0\0", "is a binary file, not a robot description"),
 }
@@ -237,11 +237,10 @@ def test_a_file_of_macros_says_so(xacro_file, urdftool):
     result = urdftool("lint", path)
     assert (result.code, result.out) == (0, "")
     assert result.err == (
-        "legs.xacro: skipped, only macros (leg), and no link of its own; "
-        "lint the robot that includes it\n"
+        "legs.xacro: skipped, only macros (leg), without a link; lint the robot that includes it\n"
     )
     path = xacro_file("materials.xacro", '<material name="m"><color rgba="0 0 0 1"/></material>')
-    assert "skipped, only <material>, and no link" in urdftool("lint", path).err
+    assert "skipped, only <material>, without a link" in urdftool("lint", path).err
 
 
 def test_a_folder_reports_the_xacro_files_that_it_skipped(xacro_file, write, urdftool):
@@ -254,13 +253,13 @@ def test_a_folder_reports_the_xacro_files_that_it_skipped(xacro_file, write, urd
     result = urdftool("lint", "urdf", "--select", "zero-axis")
     assert result.code == 0
     assert result.err.splitlines()[:4] == [
-        "urdf/arms.urdf.xacro: skipped, only macros (leg), and no link of its own; "
+        "urdf/arms.urdf.xacro: skipped, only macros (leg), without a link; "
         "lint the robot that includes it",
         "urdf/base.xacro: skipped, may be a robot, for it has links or calls macros; "
         "name the file to check it",
         "urdf/broken.xacro: skipped, the file ends while elements are open; is it truncated? "
         "(<robot> of line 1 is)",
-        "urdf/unused.xacro: skipped, a part that no description found here includes",
+        "urdf/unused.xacro: skipped, a part that none of the checked descriptions includes",
     ]
     assert "legs.xacro" not in result.err
     record = json.loads(urdftool("lint", "urdf", "--format", "json").out)

@@ -129,7 +129,7 @@ def test_fail_on(write, urdftool):
     ("words", "message"),
     [
         (["--select", "zero-axes"], "did you mean 'zero-axis'?"),
-        (["--ignore", "nothing-*"], "no rule is called 'nothing-*'"),
+        (["--ignore", "nothing-*"], "there is no rule 'nothing-*'"),
         (["--extend-select", "zero-axes"], "did you mean 'zero-axis'?"),
         (["--select", "mesh,inertai"], "did you mean 'inertia'?"),
         (["--format", "jsn"], "'jsn' is not one of 'full', 'concise', 'json'"),

@@ -97,12 +97,12 @@ def test_before_a_call_it_covers_what_that_call_expands_to(write):
 @pytest.mark.parametrize(
     ("comment", "message"),
     [
-        ("urdftool-ignore[zero-axes]", "no rule is called 'zero-axes'; did you mean 'zero-axis'?"),
-        ("urdftool-ignore[mesh, inertai] x", "no rule is called 'inertai'; did you mean 'inertia'"),
-        ("urdftool-ignore-file[mehs-*]", "no rule is called 'mehs-*'; did you mean 'mesh'?"),
-        ("urdftool-ignore[]", "names no rule; write urdftool-ignore[RULE]"),
-        ("urdftool-ignore", "names no rule; write urdftool-ignore[RULE]"),
-        ("urdftool-ingore[mesh]", "no comment is called 'urdftool-ingore'; did you mean 'urdftool"),
+        ("urdftool-ignore[zero-axes]", "there is no rule 'zero-axes'; did you mean 'zero-axis'?"),
+        ("urdftool-ignore[mesh, inertai] x", "there is no rule 'inertai'; did you mean 'inertia'"),
+        ("urdftool-ignore-file[mehs-*]", "there is no rule 'mehs-*'; did you mean 'mesh'?"),
+        ("urdftool-ignore[]", "does not name a rule; write urdftool-ignore[RULE]"),
+        ("urdftool-ignore", "does not name a rule; write urdftool-ignore[RULE]"),
+        ("urdftool-ingore[mesh]", "there is no comment 'urdftool-ingore'; did you mean 'urdftool"),
         ("urdftool-ignore-fil[mesh]", "did you mean 'urdftool-ignore-file'?"),
     ],
 )

@@ -86,10 +86,10 @@ def test_a_variant_that_does_not_expand_is_a_finding(xacro_file, write):
     ("variant", "message"),
     [
         ('file = "r.urdf.xacro"\narg = {}', "has no option 'arg'; did you mean 'args'?"),
-        ('file = "absent.xacro"', "there is no file absent.xacro"),
-        ("args = {}", "wants a file and its args"),
-        ('file = "r.urdf.xacro"\nargs = ["a"]', "args wants to be a table"),
-        ('file = "r.urdf.xacro"\nargs = {a = []}', "wants a text, a number, true or false"),
+        ('file = "absent.xacro"', "file absent.xacro does not exist"),
+        ("args = {}", "must have a file and its args"),
+        ('file = "r.urdf.xacro"\nargs = ["a"]', "args must be a table"),
+        ('file = "r.urdf.xacro"\nargs = {a = []}', "must be a text, a number, true or false"),
     ],
 )
 def test_what_a_variant_cannot_be(xacro_file, write, urdftool, variant, message):

@@ -340,7 +340,7 @@ def test_an_inertia_that_a_mesh_makes_doubtful_is_not_recomputed(
     path.write_text(_arm(moment, moment * 1.05, moment * 1.1, shapes=mesh))
     box = {"arm": (1.0, (0.0, 0.0, 0.0), (0.0017, 0.0, 0.0, 0.0017, 0.0, 0.0017))}
     settings = Settings(select=("inertia-exceeds-geometry",))
-    options = Options(settings, fixes=True, weigh=lambda robot, names: box)
+    options = Options(settings, fixes=True, compute_inertia=lambda robot, names: box)
     (found,) = lint_file(path, options).findings
     assert found.severity.label == severity
     assert (found.fix is not None) is has_fix

@@ -64,7 +64,7 @@ def fix(
         from ..inertia.scales import Scales
         from ..rules.inertia.solids import DENSITY
 
-        options.weigh = Scales(DENSITY)
+        options.compute_inertia = Scales(DENSITY)
     report = lint_file(path, options)
     if report.error is not None:
         raise report.error

@@ -68,7 +68,7 @@ def _pairs(
 @click.option("--link", "only", multiple=True, metavar="NAME", help="This link only. Repeatable.")
 @click.option("--write", is_flag=True, help="Fill in what is missing, in the source or in OUT.")
 @click.option("--diff", is_flag=True, help="Show what --write would change, and write nothing.")
-@click.option("--all", "anew", is_flag=True, help="Weigh and write anew what is written, too.")
+@click.option("--all", "recompute", is_flag=True, help="Replace written inertials, too.")
 @click.option("--lump", is_flag=True, help="Links joined by fixed joints as one; the whole robot.")
 @click.option(
     "--pose",
@@ -100,7 +100,7 @@ def command(
     only: tuple[str, ...],
     write: bool,
     diff: bool,
-    anew: bool,
+    recompute: bool,
     lump: bool,
     pose: dict[str, float],
     style: str,
@@ -140,7 +140,7 @@ def command(
     model = take_world(console, require_links(robot_of(description)))
     names = [link.name for link in model.links]
     check_masses(Masses(dict.fromkeys(only, 1.0)), names)
-    wanted = Masses(by_link, density, total, anew)
+    wanted = Masses(by_link, density, total, recompute)
     with Progress(console, "meshes") as progress:
         found = review(
             model, _reader(description, jobs, progress), masses=wanted, source=source, only=only

@@ -57,7 +57,7 @@ def fix_files(
     from .lint_report import report
 
     scales = Scales(DENSITY) if kinds.unsafe else None
-    options = replace(options, fixes=True, cache=None, weigh=scales)
+    options = replace(options, fixes=True, cache=None, compute_inertia=scales)
     given = sys.stdin.buffer.read() if "-" in files else b""
     if "-" in files:
         options.workspace = options.workspace.with_overlay({STDIN: given})

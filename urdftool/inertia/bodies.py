@@ -64,7 +64,9 @@ class MeshBody:
         scale = np.array(factors)
         if self.surface:
             if not abs(x) == abs(y) == abs(z):
-                raise InertiaError("the surface of a mesh is weighed with three equal factors only")
+                raise InertiaError(
+                    "the surface of a mesh has mass properties for three equal factors only"
+                )
             growth = x * x
         else:
             growth = abs(x * y * z)
@@ -167,9 +169,9 @@ def weighed(
         InertiaError: Not exactly one of the two is given, or it is not above zero.
     """
     if (mass is None) == (density is None):
-        raise InertiaError(f"a {what} needs either a mass [kg] or a density [kg/m³], not both")
+        raise InertiaError(f"a {what} requires either a mass [kg] or a density [kg/m³], not both")
     name, given = ("mass", mass) if mass is not None else ("density", density)
     assert given is not None
     if not (math.isfinite(given) and given > 0):
-        raise InertiaError(f"the {name} of a {what} is {given:g}; a number above zero is needed")
+        raise InertiaError(f"the {name} of a {what} is {given:g}; must be above zero")
     return unit.with_mass(given if mass is not None else given * unit.mass)

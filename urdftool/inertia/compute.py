@@ -54,7 +54,7 @@ def compute_inertia(
                 f"link '{link.name}' has no mass of its own; give a mass [kg] or a density [kg/m³]"
             )
     if source is not None and source not in SOURCES:
-        raise InertiaError(f"'{source}' is no geometry of a link; there are collision and visual")
+        raise InertiaError(f"'{source}' is not a geometry of a link; use collision or visual")
     root = link.element
     while root.parent is not None:
         root = root.parent

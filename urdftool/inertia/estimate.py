@@ -107,7 +107,7 @@ def estimate_mass_properties(
     kept = merged[~collapsed(merged)]
     if len(kept) < 4:
         raise MeshError(
-            f"the mesh has {len(kept)} triangles that are no lines; a solid needs four at least"
+            f"the mesh has {len(kept)} triangles with an area; a solid requires at least four"
         )
     # normalized to size 1, so that thresholds are independent of units
     middle, size = _frame(points)
@@ -140,17 +140,19 @@ def estimate_mass_properties(
 
 def _check_amount(mass: float | None, density: float | None) -> None:
     if (mass is None) == (density is None):
-        raise InertiaError("a mesh needs either a mass [kg] or a density [kg/m³], not both")
+        raise InertiaError("a mesh requires either a mass [kg] or a density [kg/m³], not both")
     for name, given in (("mass", mass), ("density", density)):
         if given is not None and not (math.isfinite(given) and given > 0):
-            raise InertiaError(f"the {name} of a mesh is {given:g}; a number above zero is needed")
+            raise InertiaError(f"the {name} of a mesh is {given:g}; must be above zero")
 
 
 def _frame(points: Points) -> tuple[Array, float]:
     low, high = points.min(axis=0), points.max(axis=0)
     size = float((high - low).max())
     if not size > 0:
-        raise MeshError("all points of the mesh are one; a solid needs an extent along X, Y and Z")
+        raise MeshError(
+            "all points of the mesh coincide; a solid requires an extent along X, Y and Z"
+        )
     return 0.5 * (low + high), size
 
 
@@ -166,12 +168,12 @@ def _exact(points: Points, faces: Faces) -> _Solid | None:
         return None
     notes = []
     if sheets.any():
-        notes.append(f"Sheets without a volume that are left out: {np.count_nonzero(sheets)}.")
+        notes.append(f"Sheets without volume, ignored: {np.count_nonzero(sheets)}.")
     solid = np.flatnonzero(~sheets)
     if len(solid) == 1:
         moments = solid_moments(points, faces[labels == solid[0]])
         if moments.measure < 0:
-            notes.append("The mesh is inside out; its faces are taken the other way round.")
+            notes.append("The mesh is inside out; its faces were reversed.")
             moments = replace(moments, measure=-moments.measure, second=-moments.second)
         return _Solid(moments, "exact", 0.0, True, tuple(notes))
     order = np.argsort(labels, kind="stable")
@@ -206,13 +208,11 @@ def _measures(points: Points, faces: Faces, labels: npt.NDArray[np.int64]) -> tu
 def _nesting_notes(nesting: Nesting) -> list[str]:
     notes = []
     if nesting.turned:
-        notes.append(f"Bodies that are inside out and taken the other way round: {nesting.turned}.")
+        notes.append(f"Bodies that are inside out, reversed: {nesting.turned}.")
     if nesting.cavities:
-        notes.append(f"Bodies that are cavities and taken away: {nesting.cavities}.")
+        notes.append(f"Bodies that are cavities, subtracted: {nesting.cavities}.")
     if nesting.swallowed:
-        notes.append(
-            f"Bodies in the solid of another, which add nothing to it: {nesting.swallowed}."
-        )
+        notes.append(f"Bodies inside another solid, ignored: {nesting.swallowed}.")
     return notes
 
 
@@ -225,12 +225,11 @@ def _without_overlap(corners: Array, summed: Moments, notes: list[str]) -> _Soli
     share = summed.measure / union.measure - 1
     if abs(share) <= ACCEPTED_OVERLAP:
         notes.append(
-            f"Bodies reach into each other; the {abs(share):.1%} of the volume that they share is "
-            "counted twice."
+            f"Bodies overlap; the {abs(share):.1%} of the volume that they share is counted twice."
         )
         return _Solid(summed, "exact", max(abs(share), noise), True, tuple(notes))
     notes.append(
-        f"Bodies reach into each other; space they share is counted once, which takes {share:.1%} "
+        f"Bodies overlap; shared volume is counted once, which subtracts {share:.1%} "
         "off the sum of their volumes."
     )
     return _Solid(union, "winding-number", noise, noise <= ACCEPTED_ERROR, tuple(notes))
@@ -259,10 +258,10 @@ def _mended(points: Points, faces: Faces) -> _Solid:
     notes: list[str] = []
     unique = drop_duplicates(faces)
     if len(unique) < len(faces):
-        notes.append(f"Faces written twice and dropped: {len(faces) - len(unique)}.")
+        notes.append(f"Duplicate faces, ignored: {len(faces) - len(unique)}.")
     wound, turned = orient(points, unique)
     if turned:
-        notes.append(f"Faces turned to agree with their neighbours: {turned}.")
+        notes.append(f"Faces reversed to agree with their neighbors: {turned}.")
     filling = fill_holes(points, wound)
     filled = _exact(filling.vertices, filling.faces)
     opening = filling.area / _measures(points, wound, np.zeros(len(wound), dtype=np.int64))[1][0]
@@ -302,11 +301,11 @@ def _sampled(
     else:
         error = max(noise, filling.volume_error / moments.measure)
     if opening > LARGE_OPENING:
-        notes.append("So much of the surface is missing that closing it is a guess.")
+        notes.append("Much of the surface is missing; the closed mesh is a rough estimate.")
     reliable = error <= ACCEPTED_ERROR and opening <= LARGE_OPENING
     return _Solid(moments, "winding-number", error, reliable, tuple(notes))
 
 
 def _hull(points: Points, notes: list[str]) -> _Solid:
-    notes.append("Nothing lies inside the surface, so its convex hull is taken.")
+    notes.append("The surface encloses no volume; its convex hull is used.")
     return _Solid(hull_moments(points), "convex-hull", 1.0, False, tuple(notes))

@@ -81,7 +81,7 @@ def fill(
     Args:
         robot: The robot, read from a description.
         found: Reviews of its links.
-        masses: Mass assignment; with ``anew``, written values are replaced, too.
+        masses: Mass assignment; with ``recompute``, written values are replaced, too.
         single: Whether only the description itself may be edited, not its includes.
         through_calls: Whether arguments of macro calls may be edited.
     """
@@ -105,30 +105,30 @@ def _wanted(item: LinkReview, filling: Filling, masses: Masses, robot: Robot) ->
     def left(reason: str) -> None:
         filling.left.append(Refusal(name, reason, item.link.place))
 
-    if not masses.anew and not item.missing:
+    if not masses.recompute and not item.missing:
         filling.unchanged.append(name)
         if item.faults:
-            left("what is written cannot be; --all recomputes it")
+            left("its inertial is physically inconsistent; --all recomputes it")
         elif name in masses.by_link and item.link.mass != masses.by_link[name]:
-            left(f"its mass is written, {item.link.mass:g} kg; --all replaces it")
+            left(f"it has a mass of {item.link.mass:g} kg; --all replaces it")
         return None
     if item.body is None:
         if item.link.is_frame:
             filling.unchanged.append(name)
         else:
-            left("it has no geometry of the wanted kind to compute from")
+            left("it has no geometry of the selected kind")
         return None
     if item.body.lacks:
-        left(f"its {item.body.source} is not all there: {item.body.lacks[0].reason}")
+        left(f"its {item.body.source} is incomplete: {item.body.lacks[0].reason}")
         return None
     if item.mass is None or item.implied is None:
-        left(f"nothing says what it weighs; --mass {name}=KG, --density or --total-mass does")
+        left(f"its mass is unknown; give --mass {name}=KG, --density or --total-mass")
         return None
-    if any(fault.kind == "unreadable" for fault in item.faults) and not masses.anew:
-        left("a number of it cannot be read; --all replaces it")
+    if any(fault.kind == "unreadable" for fault in item.faults) and not masses.recompute:
+        left("one of its numbers cannot be read; --all replaces it")
         return None
     try:
-        wanted = wanted_for(item, anew=masses.anew)
+        wanted = wanted_for(item, recompute=masses.recompute)
     except InertiaError as error:
         left(error.message)
         return None
@@ -201,13 +201,12 @@ class _Editor:
         """Return the reason why a place cannot be edited, or an empty string."""
         wants = changes[site]
         if any((other.value, other.lines) != (want.value, want.lines) for other in wants):
-            return "it comes from a macro whose other expansions need other numbers"
+            return "it comes from a macro whose other expansions require different numbers"
         having = {id(other.element) for other in wants}
         for user in self.users[want.element.file.path, want.element.start]:
             if id(user) not in having and self._same_site(user, want, site):
                 return (
-                    "what it is written in appears elsewhere, too, where this is not to change "
-                    f"({_named(user)})"
+                    f"its source is also used elsewhere, where it must not change ({_named(user)})"
                 )
         return ""
 
@@ -228,7 +227,7 @@ class _Editor:
         element = want.element
         source = self._source(element.file)
         if element.start not in source.elements:
-            raise _RefusedError("it is not written as an element of its own")
+            raise _RefusedError("it is not a separate element in the source")
         if want.attribute is None:
             return Site(element.file.path, element.start, f"<{want.child}>")
         raw = edit.literal(source.elements[element.start], want.attribute)
@@ -261,7 +260,7 @@ class _Editor:
         if file.path == self.main:
             return
         if self.single:
-            raise _RefusedError(f"it is written in {file.path}, which goes into no -o OUT")
+            raise _RefusedError(f"it is written in {file.path}, which -o OUT does not contain")
         path = self.description.packages.file
         own = own_package(path)
         root = str(own[1] if own else path.parent)

@@ -68,12 +68,12 @@ def check_filling(robot: Robot, filling: Filling, edited: Mapping[str, bytes]) -
         changed = next(
             (a for a, b in zip(after, before, strict=False) if a != b), after[-1:] or "its end"
         )
-        return f"more than inertia would change: {changed}"
+        return f"the edit would change more than inertia: {changed}"
     links = read_robot(root).link
     for wanted in filling.written:
         link = links.get(wanted.link.name)
         if link is None or not _has(link, wanted.result, exact=not wanted.item.missing):
-            return f"link '{wanted.link.name}' would not have the inertia that was computed"
+            return f"link '{wanted.link.name}' would not have the computed inertia"
     return ""
 
 

@@ -21,7 +21,7 @@ def hull_moments(points: Points) -> Moments:
         hull = ConvexHull(points)
     except QhullError as error:
         raise MeshError(
-            "the mesh is flat and encloses no volume; a plate or sheet can be weighed as a shell"
+            "the mesh is flat and encloses no volume; for a plate or sheet use a shell"
         ) from error
     faces = hull.simplices.astype(np.int64)
     corners = points[faces]

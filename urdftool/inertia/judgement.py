@@ -50,7 +50,10 @@ def read_written(item: LinkReview) -> None:
     pose = pose_of(inertial.origin)
     largest = max(map(abs, (*inertial.inertia.six, inertial.mass, *pose.translation)))
     if largest > _LARGEST or 0 < abs(inertial.mass) < 1 / _LARGEST:
-        message = f"a number above {_LARGEST:g} or a mass below {1 / _LARGEST:g} is no robot's"
+        message = (
+            f"a number above {_LARGEST:g} or a mass below {1 / _LARGEST:g} is outside of "
+            "the supported range"
+        )
         item.faults.append(Fault("unreadable", message, inertial.place))
         return
     item.written = link_inertia(item.link)
@@ -64,7 +67,7 @@ def _unreadable(inertial: Inertial, tag: str, name: str, item: LinkReview) -> bo
         return False
     hint = ""
     if text.startswith("{") and text.endswith("}"):
-        hint = f"; in xacro, ${text} would be evaluated"
+        hint = f"; xacro evaluates ${text} only in braces"
     message = f'{name}="{text}" is not a finite number{hint}'
     item.faults.append(Fault("unreadable", message, element.attribute_place(name)))
     return True
@@ -148,19 +151,19 @@ def _judge_tensor(item: LinkReview, written: SpatialInertia, at: Place, robot: R
         )
         return
     if negative or (thin and not impossible):
-        message = f"principal moments {shown} kg m² are not all positive"
+        message = f"principal moments {shown} kg·m² are not all positive"
         item.faults.append(Fault("positivity", message, at))
         return
     if excess > ROUNDING:
         message = (
             f"principal moment {moments[2]:.4g} is larger than {moments[0]:.4g} + "
-            f"{moments[1]:.4g} kg m², which no rigid body has"
+            f"{moments[1]:.4g} kg·m², which is physically inconsistent"
         )
         item.faults.append(Fault("triangle", message, at))
     elif excess > 1e-12:
         item.notes.append(
             f"principal moments {shown} break the triangle inequality by rounding "
-            f"({excess:.1g}), which MuJoCo does not take"
+            f"({excess:.1g}), which MuJoCo rejects"
         )
 
 
@@ -203,10 +206,12 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
     whole = boxes[0]
     for box in boxes:
         if box is None or whole is None:
-            item.notes.append("not judged against its box: a shape of it cannot be read")
+            item.notes.append("not compared with its geometry: one of its shapes cannot be read")
             return
         if not whole.meets(box):
-            item.notes.append("not judged against its box: its visual and its collision are apart")
+            item.notes.append(
+                "not compared with its geometry: its visual and collision geometry do not overlap"
+            )
             return
         whole = whole.joined(box)
     if whole is None or not any(whole.size):
@@ -228,7 +233,7 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
         of_tensor = "times as long" in misfit.sentence
         message = f"the {'inertia' if of_tensor else 'center of mass'} {misfit.sentence}"
         if not misfit.certain:
-            item.notes.append(f"{message}; the mesh may leave out what is heavy")
+            item.notes.append(f"{message}; the mesh may not contain the heavy parts")
         else:
             item.faults.append(Fault("box", message, inertial.place))
 

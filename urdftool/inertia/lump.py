@@ -65,7 +65,7 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
     """
     if len(robot.tree.roots) != 1:
         names = ", ".join(link.name for link in robot.tree.roots) or "none"
-        raise InertiaError(f"a robot with one root link is needed; its roots: {names}")
+        raise InertiaError(f"the robot must have one root link; it has {names}")
     root = robot.tree.roots[0].name
     check_positions(robot, pose)
     positions = with_mimics(robot, pose)
@@ -76,12 +76,14 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
             weights.setdefault(item.link.name, item.written)
         elif item.implied is not None:
             weights.setdefault(item.link.name, item.implied)
-            notes.append(f"link '{item.link.name}' counts with what its geometry implies")
+            notes.append(f"link '{item.link.name}' counts with the mass properties of its geometry")
         elif item.body is not None or item.link.inertial is not None:
             if item.written is None or item.written.mass < 0:
-                notes.append(f"link '{item.link.name}' is left out: nothing says what it weighs")
+                notes.append(f"link '{item.link.name}' is left out: its mass is unknown")
         if item.status == "wrong" and item.written is not None:
-            notes.append(f"link '{item.link.name}' counts as written, which cannot be")
+            notes.append(
+                f"link '{item.link.name}' counts as written, which is physically inconsistent"
+            )
     poses = link_poses(robot, positions)
     lumps = []
     for top, members in robot.tree.body_links.items():
@@ -94,7 +96,7 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
     all_bodies = [body.moved(poses[name]) for name, body in weights.items() if name in poses]
     whole = combine(all_bodies) if all_bodies else None
     for link in robot.tree.detached:
-        notes.append(f"link '{link.name}' hangs on no root and is left out")
+        notes.append(f"link '{link.name}' is not connected to the root and is left out")
     return Lumped(tuple(lumps), root, whole, positions, tuple(notes))
 
 

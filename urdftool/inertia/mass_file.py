@@ -34,7 +34,7 @@ def read_masses(path: str | Path) -> dict[str, float]:
         raise SourceError("is too large for a list of masses", path=path)
     found = _yaml(text, file) if file.suffix.lower() in (".yaml", ".yml") else _csv(text, file)
     if not found:
-        raise SourceError("has no masses; rows of link,mass are wanted", path=path)
+        raise SourceError("has no masses; expected rows of link,mass", path=path)
     return found
 
 
@@ -76,7 +76,7 @@ def _yaml(text: str, path: Path) -> dict[str, float]:
         ) from None
     found: dict[str, float] = {}
     if not isinstance(node, yaml.MappingNode):
-        raise SourceError("is no mapping of links to masses, such as base_link: 4.5", path=path)
+        raise SourceError("is not a mapping of links to masses, such as base_link: 4.5", path=path)
     pairs: list[tuple[Any, Any]] = node.value
     if len(pairs) == 1 and isinstance(pairs[0][1], yaml.MappingNode):
         pairs = pairs[0][1].value
@@ -86,7 +86,7 @@ def _yaml(text: str, path: Path) -> dict[str, float]:
             mass = float(value.value)
         except (TypeError, ValueError):
             raise SourceError(
-                f"the mass of '{key.value}' is no number; write {key.value}: 4.5",
+                f"the mass of '{key.value}' is not a number; write {key.value}: 4.5",
                 path=path,
                 line=line,
             ) from None
@@ -96,5 +96,5 @@ def _yaml(text: str, path: Path) -> dict[str, float]:
 
 def _add(found: dict[str, float], name: str, mass: float, path: Path, line: int) -> None:
     if name in found:
-        raise SourceError(f"link '{name}' stands here a second time", path=path, line=line)
+        raise SourceError(f"link '{name}' is listed twice", path=path, line=line)
     found[name] = mass

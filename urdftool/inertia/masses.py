@@ -18,13 +18,13 @@ class Masses:
         by_link: Masses [kg] of single links, which take precedence.
         density: Density [kg/m³] of the others.
         total: Mass [kg] of the whole robot; links without a mass share the remainder by volume.
-        anew: Whether ``density`` and ``total`` replace written masses.
+        recompute: Whether ``density`` and ``total`` replace written masses.
     """
 
     by_link: Mapping[str, float] = field(default_factory=dict)
     density: float | None = None
     total: float | None = None
-    anew: bool = False
+    recompute: bool = False
 
 
 def check_masses(masses: Masses, names: Sequence[str]) -> None:
@@ -36,7 +36,7 @@ def check_masses(masses: Masses, names: Sequence[str]) -> None:
     """
     for name, mass in masses.by_link.items():
         if name not in names:
-            hint = did_you_mean(name, names, 0.5) or f"; there are {_listed(names)}"
+            hint = did_you_mean(name, names, 0.5) or f"; links are {_listed(names)}"
             raise InertiaError(f"the robot has no link '{name}'{hint}")
         _check(f"the mass of link '{name}'", mass, "kg")
     if masses.density is not None:
@@ -44,14 +44,12 @@ def check_masses(masses: Masses, names: Sequence[str]) -> None:
     if masses.total is not None:
         _check("the total mass", masses.total, "kg")
     if masses.density is not None and masses.total is not None:
-        raise InertiaError(
-            "a density and a total mass exclude each other; one follows from the other"
-        )
+        raise InertiaError("give a density or a total mass, not both")
 
 
 def _check(what: str, value: float, unit: str) -> None:
     if not (math.isfinite(value) and value > 0):
-        raise InertiaError(f"{what} is {value:g} {unit}; a number above zero is needed")
+        raise InertiaError(f"{what} is {value:g} {unit}; must be above zero")
 
 
 def _listed(names: Sequence[str]) -> str:
@@ -84,7 +82,7 @@ def weigh(
         volume = volumes.get(name)
         if name in masses.by_link:
             found[name] = masses.by_link[name]
-        elif spread and volume and (masses.anew or mass is None):
+        elif spread and volume and (masses.recompute or mass is None):
             found[name] = None if masses.density is None else masses.density * volume
             shared.append(name)
         else:
@@ -92,21 +90,22 @@ def weigh(
     lost = [name for name in unknown if not found[name]]
     if masses.total is not None and lost:
         raise InertiaError(
-            f"the total mass cannot be shared, since the volume of {_listed(lost)} is not known; "
+            f"the total mass cannot be distributed, since the volume of {_listed(lost)} is not "
+            "known; "
             f"give its mass with --mass {lost[0]}=KG, or its meshes"
         )
     if masses.total is not None and not shared:
         raise InertiaError(
-            f"the total mass of {masses.total:g} kg is shared by nobody: every link with a "
-            "geometry that can be weighed has a mass; --all shares it anew"
+            f"the total mass of {masses.total:g} kg cannot be distributed: every link with a "
+            "known volume has a mass already; --all replaces these masses"
         )
     if masses.total is not None:
-        weighed = math.fsum(mass for mass in found.values() if mass)
-        rest = masses.total - weighed
+        assigned = math.fsum(mass for mass in found.values() if mass)
+        rest = masses.total - assigned
         if rest <= 1e-12 * masses.total:
             raise InertiaError(
                 f"the total mass of {masses.total:g} kg leaves nothing for {_listed(shared)}: the "
-                f"other links weigh {weighed:g} kg"
+                f"other links have {assigned:g} kg"
             )
         whole = math.fsum(volumes[name] or 0.0 for name in shared)
         for name in shared:

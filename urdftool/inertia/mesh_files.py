@@ -67,7 +67,7 @@ def _bodies(
 
 def _lost(path: Path, _: Loss) -> UrdftoolError:
     return UrdftoolError(
-        "the process that read the mesh was killed twice, perhaps because memory ran out", path=path
+        "the process that read the mesh was killed twice (probably out of memory)", path=path
     )
 
 

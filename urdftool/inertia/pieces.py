@@ -129,7 +129,7 @@ def link_body(link: Link, source: str, meshes: Meshes) -> LinkBody | None:
         try:
             pieces.append(_piece(shape, meshes))
         except ArithmeticError:
-            lacks.append(Lack(shape, "it is beyond what numbers can hold"))
+            lacks.append(Lack(shape, "its numbers are too large"))
         except UrdftoolError as error:
             lacks.append(Lack(shape, str(error)))
     return LinkBody(source, tuple(pieces), tuple(lacks)) if pieces or lacks else None
@@ -140,7 +140,7 @@ def _piece(shape: Shape, meshes: Meshes) -> Piece:
     if geometry is None:
         raise InertiaError("it has no geometry")
     if isinstance(geometry, UnknownShape):
-        raise InertiaError(f"<{geometry.element.tag}> is no shape of URDF")
+        raise InertiaError(f"<{geometry.element.tag}> is not a shape of URDF")
     if isinstance(geometry, Mesh):
         body = meshes.get(geometry.filename)
         if body is None:

@@ -76,8 +76,8 @@ def solid_moments(vertices: Array, faces: Faces) -> Moments:
     extent = float(np.ptp(vertices, axis=0).max()) if len(vertices) else 0.0
     if abs(volume) <= 1e-12 * extent**3:
         raise MeshError(
-            "the mesh encloses no volume; a solid needs a closed surface, a plate or sheet can be "
-            "weighed as a shell"
+            "the mesh encloses no volume; a solid requires a closed surface, "
+            "a plate or sheet a shell"
         )
     centroid = triple @ corners.sum(axis=1) / (24 * volume)
     corners -= centroid
@@ -107,7 +107,7 @@ def shell_moments(vertices: Array, faces: Faces) -> Moments:
     areas = np.linalg.norm(normals, axis=1) / 2
     area = float(areas.sum())
     if not area > 0:
-        raise MeshError("the mesh has no area; at least one triangle that is not a line is needed")
+        raise MeshError("the mesh has no area; at least one triangle must have an area")
     centroid = areas @ corners.sum(axis=1) / (3 * area)
     corners -= centroid
     return Moments(area, middle + centroid, _corner_products(corners, areas) / 12)

@@ -36,7 +36,7 @@ def drop_duplicates(faces: Faces) -> Faces:
     """Drop duplicate faces.
 
     Faces on the same three vertices with opposite winding cancel: they are a wall between two
-    adjacent bodies. If cancelling would remove most of the surface, each face was written once per
+    adjacent bodies. If canceling would remove most of the surface, each face was written once per
     side instead, and one of the two is kept.
     """
     ordered = np.sort(faces, axis=1)
@@ -86,7 +86,7 @@ def fill_holes(vertices: Points, faces: Faces) -> Filling:
     """Close every rim by a fan about the center of its loop.
 
     The rims of a consistently wound surface always form closed loops, and a fan closes each
-    exactly. For a flat loop the fan is the correct surface, whatever the loop's shape. The error of
+    exactly. For a flat loop the fan is the correct surface for any shape of the loop. The error of
     a cap is its area times the sum of the loop's deviation from a plane and ``CAP_RISE`` times its
     size.
     """
@@ -122,7 +122,7 @@ def fill_holes(vertices: Points, faces: Faces) -> Filling:
 
 
 def _odd(faces: Faces) -> npt.NDArray[np.bool_]:
-    """Tell for each face whether sorting its vertices reverses its winding."""
+    """Determine for each face whether sorting its vertices reverses its winding."""
     a, b, c = faces.T
     inversions = (a > b).astype(int) + (a > c) + (b > c)
     return np.asarray(inversions % 2 == 1)

@@ -40,16 +40,14 @@ def require_consistent(properties: SpatialInertia, what: str = "the result") -> 
             inequality.
     """
     if not (math.isfinite(properties.mass) and properties.mass > 0):
-        raise InertiaError(
-            f"{what} would weigh {properties.mass:g} kg; a mass above zero is needed"
-        )
+        raise InertiaError(f"{what} would have {properties.mass:g} kg; the mass must be above zero")
     if not is_consistent(properties):
         moments = "not finite"
         if all(map(math.isfinite, properties.tensor)):
             moments = moments_text(properties.tensor)
         raise InertiaError(
-            f"{what} has principal moments {moments} kg·m², which no rigid body has: each must be "
-            "positive and none larger than the sum of the other two"
+            f"{what} has a physically inconsistent inertia: principal moments {moments} kg·m², of "
+            "which each must be positive and none larger than the sum of the other two"
         )
     return properties
 
@@ -58,13 +56,13 @@ def combine(bodies: Iterable[SpatialInertia]) -> SpatialInertia:
     """Combine bodies in one frame into one rigid body with a mass above zero.
 
     Raises:
-        InertiaError: There is no body, or the total mass is not above zero.
+        InertiaError: No body is given, or the total mass is not above zero.
     """
     pieces = list(bodies)
     whole = spatial_inertia.combine(pieces)
     if not whole.mass > 0:
         raise InertiaError(
-            f"the {len(pieces)} bodies weigh {whole.mass:g} kg together; a centre of mass needs a "
-            "mass above zero"
+            f"the {len(pieces)} bodies have {whole.mass:g} kg in total; a center of mass "
+            "requires mass"
         )
     return whole

@@ -56,7 +56,7 @@ def review(
 
 
 def find_bodies(found: list[LinkReview], meshes: Meshes, source: str | None = None) -> None:
-    """Set the body of each link from one source; all missing meshes are read at once.
+    """Set the body of each link from one source; all missing meshes are read together.
 
     Args:
         found: Reviews of the links.

@@ -40,8 +40,8 @@ _RADIUS = Size("radius", 1, "R", "[m]")
 
 SHAPES = (
     Shape("box", "a cuboid", (Size("size", 3, "X Y Z", "edges along X, Y and Z [m]"),), True),
-    Shape("cylinder", "about Z, centred", (_RADIUS, _LENGTH), True, True),
-    Shape("sphere", "centred", (_RADIUS,), True),
+    Shape("cylinder", "about Z, centered", (_RADIUS, _LENGTH), True, True),
+    Shape("sphere", "centered", (_RADIUS,), True),
     Shape(
         "capsule",
         "a cylinder along Z between two half spheres",
@@ -49,7 +49,7 @@ SHAPES = (
     ),
     Shape(
         "ellipsoid",
-        "centred",
+        "centered",
         (Size("radii", 3, "A B C", "half axes along X, Y and Z [m]"),),
     ),
     Shape(
@@ -107,5 +107,7 @@ def shape_properties(
     except ArithmeticError:
         result = None  # type: ignore[assignment]
     if result is None or not (_MIN < result.mass < _MAX and _MIN < max(result.tensor) < _MAX):
-        raise InertiaError(f"{shape.title} of this size and mass is beyond what numbers can hold")
+        raise InertiaError(
+            f"{shape.title} of this size and mass is too large for floating-point numbers"
+        )
     return result

@@ -224,7 +224,7 @@ def _sizes(shape: str, **named: float | Sequence[float]) -> tuple[float, ...]:
         for value in values:
             if not (math.isfinite(value) and value > 0):
                 raise InertiaError(
-                    f"the {name} of a {shape} is {value:g} m; a finite length above zero is needed"
+                    f"the {name} of a {shape} is {value:g} m; must be a finite length above zero"
                 )
         sizes.extend(float(value) for value in values)
     return tuple(sizes)
@@ -241,9 +241,9 @@ def _wall(shape: str, thickness: float, limit: float, limit_name: str) -> float:
 
 def _mass(shape: str, volume: float, mass: float | None, density: float | None) -> float:
     if (mass is None) == (density is None):
-        raise InertiaError(f"a {shape} needs either a mass [kg] or a density [kg/m³], not both")
+        raise InertiaError(f"a {shape} requires either a mass [kg] or a density [kg/m³], not both")
     name, given = ("mass", mass) if mass is not None else ("density", density)
     assert given is not None
     if not (math.isfinite(given) and given > 0):
-        raise InertiaError(f"the {name} of a {shape} is {given:g}; a number above zero is needed")
+        raise InertiaError(f"the {name} of a {shape} is {given:g}; must be above zero")
     return float(given) if mass is not None else float(given) * volume

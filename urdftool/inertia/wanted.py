@@ -55,12 +55,12 @@ class Wanted:
         return self.item.link
 
 
-def wanted_for(item: LinkReview, *, anew: bool) -> Wanted:
+def wanted_for(item: LinkReview, *, recompute: bool) -> Wanted:
     """Determine the changes to a link whose implied mass properties are known.
 
     Args:
         item: The review of the link, with ``implied``.
-        anew: Whether written values are replaced; if not, only missing ones are added.
+        recompute: Whether written values are replaced; if not, only missing ones are added.
 
     Raises:
         InertiaError: The result would be physically inconsistent.
@@ -86,40 +86,40 @@ def wanted_for(item: LinkReview, *, anew: bool) -> Wanted:
     if origin is None:
         if any(along.com):
             found.wants.append(Want(element, child="origin", lines=(texts["origin"],)))
-    elif anew and not _same(origin.get("xyz") or "0 0 0", along.com):
+    elif recompute and not _same(origin.get("xyz") or "0 0 0", along.com):
         found.wants.append(Want(origin, "xyz", numbers_text(along.com)))
     if mass is None or "value" not in mass.attributes:
         if mass is None:
             found.wants.append(Want(element, child="mass", lines=(texts["mass"],), after="origin"))
         else:
             found.wants.append(Want(mass, "value", number_text(along.mass)))
-    elif anew and not _same(mass.get("value"), [along.mass]):
+    elif recompute and not _same(mass.get("value"), [along.mass]):
         found.wants.append(Want(mass, "value", number_text(along.mass)))
     if inertia is None:
         found.wants.append(Want(element, child="inertia", lines=(texts["inertia"],), after="mass"))
     else:
-        found.wants += _numbers(inertia, along, anew=anew)
+        found.wants += _numbers(inertia, along, recompute=recompute)
     return found
 
 
-def _numbers(inertia: Element, along: SpatialInertia, *, anew: bool) -> list[Want]:
+def _numbers(inertia: Element, along: SpatialInertia, *, recompute: bool) -> list[Want]:
     """Set those of the six numbers that differ, or are missing.
 
-    Unless ``anew``, a missing product of inertia is set to 0 if all moments are written.
+    Unless ``recompute``, a missing product of inertia is set to 0 if all moments are written.
 
     Raises:
         InertiaError: The written numbers with the missing ones added are inconsistent.
     """
     meant = components_of(along.tensor)
     missing = [name for name in COMPONENTS if name not in inertia.attributes]
-    if not anew:
+    if not recompute:
         if not any(name in missing for name in ("ixx", "iyy", "izz")):
             meant |= dict.fromkeys(missing, 0.0)
         kept = {
             name: number(inertia.get(name)) or 0.0 for name in COMPONENTS if name not in missing
         }
         tensor = as_tensor([{**meant, **kept}[name] for name in COMPONENTS])
-        require_consistent(replace(along, tensor=tensor), "what is written, filled in,")
+        require_consistent(replace(along, tensor=tensor), "the written tensor")
         return [Want(inertia, name, number_text(meant[name])) for name in missing]
     return [
         Want(inertia, name, number_text(meant[name]))

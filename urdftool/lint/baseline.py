@@ -74,23 +74,27 @@ def read_baseline(path: str) -> Baseline:
     """
     try:
         if os.path.exists(path) and not os.path.isfile(path):
-            raise ConfigError("is no file; a baseline is wanted", path=path)
+            raise ConfigError("is not a file; give the path of a baseline", path=path)
         with open(path, encoding="utf-8") as stream:
             table = json.load(stream)
     except OSError as error:
         raise ConfigError(
-            f"cannot be read: {error.strerror}; --write-baseline writes one", path=path
+            f"cannot be read: {error.strerror}; create one with --write-baseline", path=path
         ) from None
     except json.JSONDecodeError as error:
         where = f"line {error.lineno}, column {error.colno}"
         raise ConfigError(f"is not valid JSON ({where}: {error.msg})", path=path) from None
     except (UnicodeDecodeError, RecursionError):
-        raise ConfigError("is no baseline; --write-baseline writes one", path=path) from None
+        raise ConfigError(
+            "is not a baseline; create one with --write-baseline", path=path
+        ) from None
     if not isinstance(table, dict) or not isinstance(table.get("findings"), list):
-        raise ConfigError("is no baseline; --write-baseline writes one", path=path)
+        raise ConfigError("is not a baseline; create one with --write-baseline", path=path)
     if table.get("version") != 1:
-        said = table.get("version")
-        raise ConfigError(f"is a baseline of version {said!r}; version 1 is known", path=path)
+        version = table.get("version")
+        raise ConfigError(
+            f"is a baseline of version {version!r}; urdftool reads version 1", path=path
+        )
     counts: dict[Entry, int] = {}
     for number, record in enumerate(table["findings"], start=1):
         entry, count = _entry(record, number, path)
@@ -99,18 +103,18 @@ def read_baseline(path: str) -> Baseline:
 
 
 def _entry(record: Any, number: int, path: str) -> tuple[Entry, int]:
-    fault = f"entry {number} is not of path, rule, element, fingerprint and count"
+    fault = f"entry {number} must have path, rule, element, fingerprint and count"
     if not isinstance(record, dict) or set(record) != _KEYS:
         raise ConfigError(fault, path=path)
     element, count = record["element"], record["count"]
     if not isinstance(element, dict) or set(element) != {"kind", "name"}:
-        raise ConfigError(f"{fault}: an element is a kind and a name", path=path)
+        raise ConfigError(f"{fault}: an element must have a kind and a name", path=path)
     words = (record["path"], record["rule"], element["kind"], element["name"])
     entry = Entry(*words, record["fingerprint"])
     if not all(isinstance(word, str) for word in entry):
-        raise ConfigError(f"{fault}: all but the count are text", path=path)
+        raise ConfigError(f"{fault}: all values but the count must be text", path=path)
     if isinstance(count, bool) or not isinstance(count, int) or count < 1:
-        raise ConfigError(f"{fault}: the count is a number from 1 on", path=path)
+        raise ConfigError(f"{fault}: the count must be at least 1", path=path)
     return entry, count
 
 

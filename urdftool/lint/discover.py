@@ -37,7 +37,10 @@ def nothing_below(paths: Iterable[str]) -> str:
     for folder in folders:
         for path in _below(folder, (".xacro",)):
             if _has_name(path):
-                return f"{said}; parts of robots are .xacro too: name {path} if it is a robot"
+                return (
+                    f"{said}; .xacro files may be parts of robots: give {path} itself if it is "
+                    "a robot"
+                )
     return said
 
 

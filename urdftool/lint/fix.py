@@ -62,7 +62,7 @@ def add_fixes(
     settler = Settler(description)
     context = FixContext(robot or Robot(description.document.root), description, report.targets)
     if not any(finding.rule in DOUBTED_SIZES for finding in findings):
-        context.compute_inertia = options.weigh
+        context.compute_inertia = options.compute_inertia
     for group in groups.values():
         name = group[0].rule
         try:

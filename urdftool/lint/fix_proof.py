@@ -88,7 +88,7 @@ def worse(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | N
         return Wrong(f"the file would not be checked: {after.skipped}")
     broke = after.failed_rules.keys() - before.failed_rules.keys()
     if broke:
-        return Wrong(f"the rule {min(broke)} breaks")
+        return Wrong(f"rule {min(broke)} fails with an internal error")
     stops = [_stops(before), _stops(after)]
     if len(stops[1]) > len(stops[0]) or (stops[1] and not stops[0]):
         return Wrong(f"the file could not be read: {stops[1][0].message}")
@@ -96,7 +96,7 @@ def worse(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | N
     there = Counter(map(key_of, before.findings))
     still = [finding for finding in chosen if left[key_of(finding)] >= there[key_of(finding)]]
     if still:
-        return Wrong("the finding is still there", subjects=frozenset(map(subject_of, still)))
+        return Wrong("the finding remains", subjects=frozenset(map(subject_of, still)))
     if stops[0] or any(finding.rule in REVEALING for finding in chosen):
         return None
     for level in (Severity.ERROR, Severity.WARNING):
@@ -107,7 +107,7 @@ def worse(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | N
         if sum(now.values()) > sum(then.values()) - gone:
             new = [f for f in after.findings if f.severity >= level and not there[key_of(f)]]
             what = f"then {new[0].message} [{new[0].rule}]" if new else ""
-            return Wrong(what or "there would be more findings", subjects=more)
+            return Wrong(what or "it would cause more findings", subjects=more)
     return None
 
 

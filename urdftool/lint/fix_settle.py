@@ -61,7 +61,7 @@ class Settler:
                 for user in self.users[site]:
                     if list(by_element.get(id(user), (None, {}))[1]) != list(wanted):
                         raise RefusedError(
-                            "what it is written in appears elsewhere, too, where it is not to "
+                            "its source is also used elsewhere, where it must not "
                             f"change in this way ({_named(user)})"
                         )
             if site not in done:
@@ -94,7 +94,7 @@ class Settler:
         source = self._source(element.file)
         raw = source.elements.get(element.start)
         if raw is None or raw.tag != element.tag:
-            raise RefusedError("it is not written as an element of its own")
+            raise RefusedError("it is not a separate element in the source")
         for one in _edits(source, raw, change):
             yield Replacement(Place(element.file, one.start, one.end), one.text)
 
@@ -156,7 +156,7 @@ def _edits(source: edit.Source, raw: Element, change: Change) -> Iterator[edit.E
         parent, behind = raw, raw.children[-1] if raw.children and kind == "insert" else None
         if kind == "after":
             if raw.parent is None:
-                raise RefusedError("nothing can stand behind it")
+                raise RefusedError("nothing can be inserted after it")
             parent, behind = raw.parent, raw
         for lines in change.blocks:
             ascii_lines = [line.encode("ascii", "xmlcharrefreplace").decode() for line in lines]
@@ -166,7 +166,7 @@ def _edits(source: edit.Source, raw: Element, change: Change) -> Iterator[edit.E
 def _spans(raw: Element, name: str) -> tuple[int, int]:
     span = raw.file.attribute_spans(raw.start).get(name)
     if span is None:
-        raise RefusedError(f"{name} is not written there")
+        raise RefusedError(f"{name} is not in the source")
     return span
 
 

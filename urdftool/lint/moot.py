@@ -56,7 +56,7 @@ class Rejections:
             self._by_reader.setdefault("mujoco", set()).add("singular-inertia")
 
     def _add_meshes(self, robot: Robot) -> None:
-        """Add rejections for the format of a mesh, whatever the targets are."""
+        """Add rejections for the format of a mesh, for any targets."""
         formats: set[tuple[str, bool]] = set()
         for link in robot.links:
             shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]

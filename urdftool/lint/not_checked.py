@@ -24,14 +24,13 @@ def refuse_other_files(file: SourceFile) -> None:
     name = os.path.basename(file.path).lower()
     if name.endswith(_MESHES):
         raise SourceError(
-            "is a mesh, not a robot description; lint the URDF or xacro that names it, which "
-            "checks its meshes",
+            "is a mesh, not a robot description; lint the URDF or xacro that uses it",
             path=file.path,
         )
     if name == "package.xml":
         raise SourceError(
-            "is the manifest of a package, not a robot description; lint the URDF or xacro files "
-            "of the package, which checks the manifest as far as they need it",
+            "is a package manifest, not a robot description; lint the URDF or xacro files of the "
+            "package",
             path=file.path,
         )
     text = (b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")  # has zero bytes in UTF-16 and UTF-32
@@ -48,8 +47,7 @@ def refuse_srdf(description: Description) -> None:
     root = description.document.root
     if description.path.endswith(".srdf") and root.tag == "robot" and not root.child("link"):
         raise SourceError(
-            "is an SRDF, which is checked with the robot that it is for: lint the URDF or xacro "
-            "beside it",
+            "is an SRDF, which is checked together with its robot: lint the URDF or xacro",
             path=description.path,
         )
 
@@ -71,8 +69,8 @@ def refuse_other_roots(description: Description) -> None:
         if tags:
             count = f"{len(tags)} tags" if len(tags) > 1 else "a tag"
             raise SourceError(
-                f"the file has {count} of xacro and does not declare its namespace, so nothing is "
-                'expanded; write xmlns:xacro="http://www.ros.org/wiki/xacro" on <robot>',
+                f"the file has {count} of xacro but does not declare its namespace, so nothing is "
+                'expanded. Write xmlns:xacro="http://www.ros.org/wiki/xacro" on <robot>',
                 at=_first(tags).place,
                 rule="missing-xmlns",
             )

@@ -30,8 +30,9 @@ class Options:
         config: Configuration file named by the user.
         cache: Cache of reports; None disables it.
         fixes: Whether to compute fixes for findings.
-        weigh: Function for fixes that fill in inertia: returns (mass [kg], center of mass [m],
-            six tensor elements [kg·m²]) by link, in the link frame, for a robot and link names.
+        compute_inertia: Function for fixes that fill in inertia: returns (mass [kg], center of mass
+            [m], six tensor elements [kg·m²]) by link, in the link frame, for a robot and link
+            names.
         gltf_up: Up axis of glTF meshes; None uses the configuration.
         workspace: Access to the files of the run.
     """
@@ -43,7 +44,7 @@ class Options:
     config: str | None = None
     cache: Cache | None = None
     fixes: bool = False
-    weigh: ComputeInertia | None = None
+    compute_inertia: ComputeInertia | None = None
     gltf_up: GltfUp | None = None
     workspace: Workspace = field(default_factory=Workspace)
 

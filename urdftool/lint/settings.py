@@ -102,7 +102,7 @@ def check_selectors(selectors: Iterable[str], path: str | None = None) -> tuple[
         if prefix is not None and any(name.startswith(prefix) for name in FAMILY_OF):
             continue
         raise ConfigError(
-            f"no rule is called '{word}'{nearest_rule(word)}",
+            f"there is no rule '{word}'{nearest_rule(word)}",
             path=path,
             data={"name": word, "suggestion": nearest_name(word, (*FAMILY_OF, *FAMILIES), 0.5)},
         )
@@ -111,7 +111,7 @@ def check_selectors(selectors: Iterable[str], path: str | None = None) -> tuple[
 
 def nearest_rule(word: str) -> str:
     """Return a suggestion of the nearest rule or family, as the end of a message."""
-    return nearest(word, (*FAMILY_OF, *FAMILIES)) or "; --list-rules shows them all"
+    return nearest(word, (*FAMILY_OF, *FAMILIES)) or "; --list-rules lists all rules"
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
@@ -129,7 +129,7 @@ def check_targets(targets: Iterable[str], path: str | None = None) -> frozenset[
     for word in words:
         if word not in TARGETS:
             hint = nearest(word, TARGETS) or f"; there are {', '.join(TARGETS)}"
-            raise ConfigError(f"no target is called '{word}'{hint}", path=path)
+            raise ConfigError(f"there is no target '{word}'{hint}", path=path)
     return frozenset(words) if words else None
 
 
@@ -165,13 +165,13 @@ def _from_table(table: Mapping[str, Any], path: str | None) -> Settings:
     for key, value in table.items():
         if key in _LISTS:
             if not isinstance(value, list) or not all(isinstance(word, str) for word in value):
-                raise ConfigError(f"lint.{key} wants a list of names", path=path)
+                raise ConfigError(f"lint.{key} must be a list of names", path=path)
             lists[key] = value
         elif key in FAMILY_OF:
             thresholds[key] = _thresholds(key, value, path)
         elif key not in _KEYS:
             hint = nearest(key, (*_KEYS, *FAMILY_OF)) or f"; there are {', '.join(_KEYS)}"
-            raise ConfigError(f"no option is called lint.{key}{hint}", path=path)
+            raise ConfigError(f"there is no option lint.{key}{hint}", path=path)
     return Settings(
         select=check_selectors(lists["select"], path) if "select" in lists else None,
         extend_select=check_selectors(lists.get("extend-select", ()), path),
@@ -184,7 +184,9 @@ def _from_table(table: Mapping[str, Any], path: str | None) -> Settings:
 
 def _severities(table: object, path: str | None) -> dict[str, Severity | None]:
     if not isinstance(table, dict):
-        raise ConfigError("lint.severity wants lines like zero-effort-limit = 'info'", path=path)
+        raise ConfigError(
+            ("lint.severity must have lines such as zero-effort-limit = 'info'"), path=path
+        )
     found: dict[str, Severity | None] = {}
     for selector, level in table.items():
         if level not in _LEVELS:
@@ -198,7 +200,7 @@ def _severities(table: object, path: str | None) -> dict[str, Severity | None]:
 def _thresholds(name: str, table: object, path: str | None) -> dict[str, Any]:
     known = get_rule(name).thresholds
     if not isinstance(table, dict):
-        raise ConfigError(f"lint.{name} wants to be a table of thresholds", path=path)
+        raise ConfigError(f"lint.{name} must be a table of thresholds", path=path)
     found = {}
     for key, value in table.items():
         parameter = key.replace("-", "_")
@@ -207,20 +209,24 @@ def _thresholds(name: str, table: object, path: str | None) -> dict[str, Any]:
             hint = nearest(key, names) or f"; it has {', '.join(names) or 'none'}"
             raise ConfigError(f"{name} has no threshold '{key}'{hint}", path=path)
         if isinstance(value, bool) or not isinstance(value, int | float):
-            raise ConfigError(f"lint.{name}.{key} wants a number", path=path)
+            raise ConfigError(f"lint.{name}.{key} must be a number", path=path)
         found[parameter] = value
     return found
 
 
 def _per_file_ignores(file: str | Path, table: object, path: str | None) -> tuple[str, ...]:
     if not isinstance(table, dict):
-        raise ConfigError("lint.per-file-ignores wants lines like 'x/*' = ['mesh']", path=path)
+        raise ConfigError(
+            ("lint.per-file-ignores must have lines such as 'x/*' = ['mesh']"), path=path
+        )
     folder = os.path.dirname(os.path.abspath(path)) if path else os.getcwd()
     relative = os.path.relpath(os.path.abspath(file), folder).replace(os.sep, "/")
     found: list[str] = []
     for pattern, selectors in table.items():
         if not isinstance(selectors, list) or not all(isinstance(w, str) for w in selectors):
-            raise ConfigError(f"lint.per-file-ignores.'{pattern}' wants a list of names", path=path)
+            raise ConfigError(
+                (f"lint.per-file-ignores.'{pattern}' must be a list of names"), path=path
+            )
         names = check_selectors(selectors, path)
         if fnmatch(relative, pattern) or fnmatch(os.path.basename(relative), pattern):
             found.extend(names)

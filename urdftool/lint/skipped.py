@@ -32,7 +32,7 @@ def why_without_links(description: Description) -> str:
         what = f"only {', '.join(f'<{tag}>' for tag in tags)}"
     else:
         what = "only properties or nothing"
-    return f"{what}, and no link of its own; lint the robot that includes it"
+    return f"{what}, without a link; lint the robot that includes it"
 
 
 def with_parts(reports: Iterable[Report], paths: Iterable[str]) -> Iterator[Report]:
@@ -59,8 +59,10 @@ def _why(path: str) -> str:
         return error.message
     calls = (tag for tag in (child.tag for child in root.children) if tag.startswith("xacro:"))
     if root.child("link") or any(call not in _DEFINITIONS for call in calls):
-        return "may be a robot, for it has links or calls macros; name the file to check it"
-    return "a part that no description found here includes"
+        return (
+            "may be a robot, since it has links or calls macros; give the file itself to check it"
+        )
+    return "a part that none of the checked descriptions includes"
 
 
 def without_excluded(

@@ -91,7 +91,7 @@ def read_suppressions(documents: Iterable[Document]) -> tuple[list[Suppression],
 
 def _unknown(word: str, place: Place) -> Finding:
     hint = nearest(word, _WORDS) or f"; there are {' and '.join(_WORDS)}"
-    message = f"no comment is called '{word}'{hint}"
+    message = f"there is no comment '{word}'{hint}"
     return Finding("unknown-rule", Severity.ERROR, message, place, "comment")
 
 
@@ -101,7 +101,7 @@ def _faults(names: str | None, place: Place) -> Iterator[Finding]:
         yield Finding(
             "unknown-rule",
             Severity.ERROR,
-            "names no rule; write urdftool-ignore[RULE]",
+            "does not name a rule; write urdftool-ignore[RULE]",
             place,
             "comment",
         )
@@ -169,7 +169,7 @@ def unused(suppressions: Iterable[Suppression], ran: set[str]) -> Iterator[Findi
         yield Finding(
             "unused-suppression",
             Severity.WARNING,
-            f"urdftool-ignore[{', '.join(suppression.names)}] covers no finding; take it away",
+            f"urdftool-ignore[{', '.join(suppression.names)}] suppresses no finding; remove it",
             suppression.place,
             "comment",
         )

@@ -26,7 +26,7 @@ def variants_for(file: str | Path, configuration: Configuration) -> list[dict[st
     """
     table, path = configuration.lint.get("variants", []), configuration.path
     if not isinstance(table, list):
-        raise ConfigError("lint.variants wants to be written [[lint.variants]]", path=path)
+        raise ConfigError("lint.variants must be written as [[lint.variants]]", path=path)
     folder = os.path.dirname(os.path.abspath(path)) if path else os.getcwd()
     wanted = os.path.realpath(file)
     found: list[dict[str, str]] = []
@@ -34,7 +34,7 @@ def variants_for(file: str | Path, configuration: Configuration) -> list[dict[st
         name, arguments = _read(variant, number, path)
         described = os.path.realpath(os.path.join(folder, name))
         if not os.path.isfile(described):
-            raise ConfigError(f"lint.variants {number}: there is no file {name}", path=path)
+            raise ConfigError(f"lint.variants {number}: file {name} does not exist", path=path)
         if described == wanted and arguments not in found:
             found.append(arguments)
     return found
@@ -47,10 +47,10 @@ def _read(variant: Any, number: int, path: str | None) -> tuple[str, dict[str, s
             hint = nearest(key, _KEYS) or "; there are file and args"
             raise ConfigError(f"{where} has no option '{key}'{hint}", path=path)
     if not isinstance(variant, dict) or not isinstance(variant.get("file"), str):
-        raise ConfigError(f"{where} wants a file and its args", path=path)
+        raise ConfigError(f"{where} must have a file and its args", path=path)
     arguments = variant.get("args", {})
     if not isinstance(arguments, dict):
-        raise ConfigError(f"{where}: args wants to be a table, {{name = 'value'}}", path=path)
+        raise ConfigError(f"{where}: args must be a table, {{name = 'value'}}", path=path)
     return variant["file"], {k: _text(v, f"{where}: {k}", path) for k, v in arguments.items()}
 
 
@@ -59,7 +59,7 @@ def _text(value: Any, where: str, path: str | None) -> str:
         return str(value).lower()
     if isinstance(value, str | int | float):
         return str(value)
-    raise ConfigError(f"{where} wants a text, a number, true or false", path=path)
+    raise ConfigError(f"{where} must be a text, a number, true or false", path=path)
 
 
 def label(arguments: Mapping[str, str]) -> str:

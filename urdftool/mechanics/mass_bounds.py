@@ -3,7 +3,7 @@
 Mass within an interval [lo, hi] with its mean at c has a variance of at most (hi − c)(c − lo)
 (Bhatia and Davis, "A Better Bound on the Variance", 2000), reached only by two point masses at the
 ends. The variance along an axis is the second moment ½ tr(I) − Iₐₐ divided by the mass. A tensor
-beyond that bound cannot belong to a body inside the bounding box, whatever its density. The bound
+beyond that bound cannot belong to a body inside the bounding box, at any density. The bound
 is quadratic in length, so the square root of the ratio is the factor by which the box would have to
 be longer.
 """
@@ -135,7 +135,7 @@ def misfit_of_spread(
     moments = tensor[0], tensor[3], tensor[5]
     times = math.sqrt((sum(moments) / 2 - moments[axis]) / (_room(box, com, axis) * mass))
     sentence = (
-        f"is only possible if {shapes} were {times:.3g} times as long along {'xyz'[axis]}, where "
+        f"is possible only if {shapes} were {times:.3g} times as long along {'xyz'[axis]}, where "
         f"they span {low:.4g} to {high:.4g} m"
     )
     return Misfit(sentence, axis, times, not rough or ratio > certain)

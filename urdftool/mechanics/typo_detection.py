@@ -334,7 +334,7 @@ def _unit(power: int) -> str:
     text = f"all six numbers times 1e{power:+d} fit the geometry: "
     if power in _UNITS:
         return f"{text}they were in {_UNITS[power]} instead of kg·m²"
-    return f"{text}the decimal point of all six is off"
+    return f"{text}the decimal point of all six is misplaced"
 
 
 def _proposal(candidate: _Candidate, tensor: SymmetricTensor, fits: bool) -> Proposal:
@@ -350,24 +350,21 @@ def _proposal(candidate: _Candidate, tensor: SymmetricTensor, fits: bool) -> Pro
     elif kind == "sign":
         sentence = f"{name} = {meant[entry]:.6g} with the other sign {is_so}"
     elif kind == "order":
-        sentence = (
-            f"the six numbers were in the order {detail} and were taken in another; put back, they "
-            f"{are_so}"
-        )
+        sentence = f"the six numbers were written in the order {detail}; reordered, they {are_so}"
     elif kind == "axes":
         sentence = (
-            f"the tensor was written in a frame whose axes are exchanged; with {detail} as x, y, z "
+            f"the tensor was written in a frame whose axes are swapped; with {detail} as x, y, z "
             "it fits the geometry"
         )
     elif kind == "origin":
         sentence = (
-            "the tensor was taken about the link's origin; about the centre of mass it is possible "
+            "the tensor was taken about the link's origin; about the center of mass it is possible "
             "and fits the geometry"
         )
     elif detail == "written":
-        sentence = "the tensor was written along the link's axes in spite of the inertial's rpy"
+        sentence = "the tensor was written along the link's axes although the inertial has an rpy"
     elif detail == "turned":
-        sentence = "the tensor was turned by the inertial's rpy already, which turns it once more"
+        sentence = "the tensor was already rotated by the inertial's rpy, which rotates it again"
     else:
         sentence = detail
     return Proposal(kind, meant, sentence, name)
