@@ -255,8 +255,8 @@ def test_a_folder_reports_the_xacro_files_that_it_skipped(xacro_file, write, urd
     assert result.err.splitlines()[:4] == [
         "urdf/arms.urdf.xacro: skipped, only macros (leg), without a link; "
         "lint the robot that includes it",
-        "urdf/base.xacro: skipped, may be a robot, for it has links or calls macros; "
-        "name the file to check it",
+        "urdf/base.xacro: skipped, may be a robot, since it has links or calls macros; "
+        "give the file itself to check it",
         "urdf/broken.xacro: skipped, the file ends while elements are open; is it truncated? "
         "(<robot> of line 1 is)",
         "urdf/unused.xacro: skipped, a part that none of the checked descriptions includes",
