@@ -16,6 +16,9 @@ from .readers import READERS
 ROWS = {(row.rule, row.key): row for row in table.rows()}
 RUNS = [run for row in table.rows() for run in row.runs]
 
+SOURCE = r"[\w.-]+/[\w.-]+ ([\w./+-]+\.[a-z]+|(issues|pull)/\d+)"
+"""A file of a repository, or an issue or a pull request of it."""
+
 # Which readers a word in the key of an effect stands for; gz and Gazebo Classic read URDF with
 # sdformat. A word that is not here names a reader that is not run.
 RUN = {
@@ -54,7 +57,7 @@ def test_a_row_runs_each_reader_it_names_or_says_where_it_was_read(row):
         elif not (word in GAZEBO and row.sources):
             assert readers & RUN[word], f"{word} is not run"
     for source in row.sources:
-        assert re.fullmatch(r"[\w.-]+/[\w.-]+ [\w./+-]+\.[a-z]+", source), source
+        assert re.fullmatch(SOURCE, source), source
 
 
 @pytest.mark.parametrize("row", table.rows(), ids=lambda row: f"{row.rule}: {row.key}")

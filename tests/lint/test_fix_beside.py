@@ -281,6 +281,15 @@ def test_a_mirrored_mesh_is_the_mirror_image_with_its_triangles_turned(write, ur
     assert _volume(new) == pytest.approx(_volume(old))
 
 
+def test_a_mirrored_copy_keeps_the_suffix_of_the_file(write, urdftool):
+    write("arm.STL", (RULES / "degenerate-triangles" / "meshes" / "arm.stl").read_bytes())
+    mirrored = ROBOT.format("arm.STL").replace("/></geo", ' scale="1 -1 1"/></geo')
+    path = write("a.urdf", mirrored)
+    assert urdftool("lint", path, "--select", "mirrored-scale", *FIX).code == 0
+    assert '"arm_mirrored_y.STL" scale="1 1 1"' in Path(path).read_text()
+    assert Path("arm_mirrored_y.STL").exists()
+
+
 def test_a_text_becomes_the_same_triangles(write, urdftool):
     text = "solid arm\n"
     for triangle in _triangles(INVERTED.read_bytes()):

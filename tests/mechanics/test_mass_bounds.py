@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdftool.inertia.solids import box
-from urdftool.mechanics.mass_bounds import misfit_of_com, spread_ratio
+from urdftool.mechanics.mass_bounds import misfit_of_com, misfit_of_spread, spread_ratio
 from urdftool.mechanics.spatial_inertia import SpatialInertia, combine
 from urdftool.model.bounds import Bounds
 
@@ -43,3 +43,27 @@ def test_square_millimeters_and_a_center_outside():
     assert ratio(wrong, around, rounding=0.0) > 1e4
     assert misfit_of_com(around, (1.0, 0.0, 0.0), False).axis == 0
     assert misfit_of_com(around, (0.0, 0.0, 0.0), False) is None
+
+
+def _bar(length, center, spread):
+    """Judge a bar along x: its length, its center of mass, and the standard deviation [m]."""
+    box = Bounds((0.0, -0.01, -0.01), (length, 0.01, 0.01))
+    variance = spread * spread
+    return misfit_of_spread(box, 1.0, (center, 0, 0), (0, 0, 0, variance, 0, variance), rough=False)
+
+
+@pytest.mark.parametrize("center", [0.5, 0.3, 0.02])
+def test_the_stated_length_is_the_least_that_holds_the_mass(center):
+    found = _bar(1.0, center, 1.5)
+    assert found.axis == 0
+    assert found.amount == pytest.approx(3)  # two halves at the ends of 3 m
+    assert "at least 3 times as long along x" in found.sentence
+    assert _bar(found.amount * 1.001, found.amount / 2, 1.5) is None
+
+
+def test_no_length_is_stated_where_the_center_of_mass_is_the_reason():
+    found = _bar(1.0, 0.1, 0.4)  # fits with its center in the middle
+    assert found.amount < 1
+    assert "times" not in found.sentence
+    assert "the center of mass is at 0.1 m" in found.sentence
+    assert _bar(1.0, 0.5, 0.4) is None

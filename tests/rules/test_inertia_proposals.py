@@ -104,3 +104,15 @@ def test_a_dummy_is_not_told_to_take_an_inertia_of_next_to_nothing(tmp_path):
     shape = '<sphere radius="0.01"/>'
     text = of_link(tmp_path, 0.1, 0, 0, 0.1, 0, 0.1, shape=shape)["placeholder-inertia"]
     assert "a solid sphere of 2 kg has ixx 8e-05" in text
+
+
+def test_no_command_is_named_that_refuses_the_file(tmp_path):
+    def hints(head):
+        path = tmp_path / "r.urdf"
+        path.write_text(head + LINK.format(1, 0, 0, 1, 0, 1, xyz="0 0 0", rpy="0 0 0", shape=BOX))
+        report = lint_file(path, Options(Settings(select=("placeholder-inertia",))))
+        return [f.hint for f in report.findings if f.rule == "placeholder-inertia"]
+
+    (hint,) = hints('<?xml version="1.0"?>\n')
+    assert "urdftool inertia robot" in hint
+    assert hints('<?xml verison="1.0"?>\n') == [""], "'inertia robot' refuses a wrong declaration"

@@ -30,6 +30,19 @@ def test_a_joint_that_its_limits_lock_does_not_move(tmp_path, rule):
     assert not _messages(tmp_path, _joint(more=limit.format(0.5)), rule, "pybullet")
 
 
+def test_what_slows_a_leader_slows_its_followers(tmp_path):
+    robot = _joint("continuous", '<dynamics damping="0.1"/>')
+    finger = '<link name="f"/><joint name="follow" type="continuous"><parent link="base"/>'
+    finger += '<child link="f"/><axis xyz="0 1 0"/>{}</joint>'
+    mimic = '<mimic joint="{}"/>'
+    assert not _messages(
+        tmp_path, robot + finger.format(mimic.format("swing")), "missing-dynamics", "mujoco"
+    )
+    for other in ("", mimic.format("nobody")):
+        (text,) = _messages(tmp_path, robot + finger.format(other), "missing-dynamics", "mujoco")
+        assert text.startswith("'follow' has")
+
+
 def test_of_two_soft_limits_the_one_beyond_is_named(tmp_path):
     def said(low, high):
         limit = '<limit lower="-1.5" upper="1.5" effort="2" velocity="3"/>'

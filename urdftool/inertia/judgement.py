@@ -187,13 +187,16 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
     pose = pose_of(inertial.origin)
     com, six = pose.translation, rotate_tensor(tensor.six, pose.rotation)
 
-    def misfits(box: Bounds, has_mesh: bool, attached: Sequence[str] = ()) -> list[Misfit]:
+    def misfits(
+        box: Bounds, has_mesh: bool, attached: Sequence[str] = ()
+    ) -> list[tuple[str, Misfit]]:
         shapes, rough = shapes_in_words(attached), has_mesh or not link.collisions
         spread = None
         if not only_com:
             spread = misfit_of_spread(box, mass, com, six, rough, shapes=shapes)
-        found = misfit_of_com(box, com, has_mesh, shapes=shapes), spread
-        return [misfit for misfit in found if misfit is not None]
+        center = misfit_of_com(box, com, has_mesh, shapes=shapes)
+        found = ("center of mass", center), ("inertia", spread)
+        return [(subject, misfit) for subject, misfit in found if misfit is not None]
 
     if item.body is not None:
         box = _box_of_shapes(shapes_of(link, item.body.source), IDENTITY, context)
@@ -229,9 +232,8 @@ def _judge_box(item: LinkReview, inertial: Inertial, context: Context, *, only_c
             if box is None:
                 return
             whole = whole.joined(box)
-    for misfit in misfits(whole, has_mesh, attached):
-        of_tensor = "times as long" in misfit.sentence
-        message = f"the {'inertia' if of_tensor else 'center of mass'} {misfit.sentence}"
+    for subject, misfit in misfits(whole, has_mesh, attached):
+        message = f"the {subject} {misfit.sentence}"
         if not misfit.certain:
             item.notes.append(f"{message}; the mesh may not contain the heavy parts")
         else:

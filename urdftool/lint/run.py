@@ -218,7 +218,7 @@ def _read_mended(
     if mended is None:
         return None
     try:
-        return _read(mended, options, configuration)
+        return replace(_read(mended, options, configuration), repaired=True)
     except SourceError:
         return None
 

@@ -3,9 +3,9 @@
 Mass within an interval [lo, hi] with its mean at c has a variance of at most (hi − c)(c − lo)
 (Bhatia and Davis, "A Better Bound on the Variance", 2000), reached only by two point masses at the
 ends. The variance along an axis is the second moment ½ tr(I) − Iₐₐ divided by the mass. A tensor
-beyond that bound cannot belong to a body inside the bounding box, at any density. The bound
-is quadratic in length, so the square root of the ratio is the factor by which the box would have to
-be longer.
+beyond that bound cannot belong to a body inside the bounding box, at any density. With c in
+the middle the bound is largest, a quarter of the length squared: no shorter box can hold the mass,
+wherever its center is.
 """
 
 from __future__ import annotations
@@ -32,6 +32,9 @@ plate."""
 NEAR = 0.1
 """Part of the box's length by which the center of mass counts as away from the ends of the box."""
 
+_SHORTEST = 1.05
+"""Least factor that a message states; below it the center of mass, near an end, is the reason."""
+
 MARGIN = 0.02
 """Part of the box's diagonal by which the center of mass may lie outside; doubled for meshes."""
 
@@ -42,8 +45,8 @@ class Misfit(NamedTuple):
     Attributes:
         sentence: The fact without its subject: ``is 0.3 m outside its shapes along x …``.
         axis: Axis of the largest deviation: 0, 1 or 2.
-        amount: Distance outside the box [m], or the factor by which the geometry would have to be
-            longer.
+        amount: Distance outside the box [m], or the least factor by which the geometry would have
+            to be longer, wherever the center of mass is.
         certain: Whether it is physically impossible; if not, a mesh may omit heavy parts.
     """
 
@@ -131,13 +134,20 @@ def misfit_of_spread(
     ratio, axis = spread_ratio(box, mass, com, tensor, rounding)
     if ratio <= allowed * (2 if rough else 1):
         return None
-    low, high = box[0][axis], box[1][axis]
+    low, high, name = box[0][axis], box[1][axis], "xyz"[axis]
     moments = tensor[0], tensor[3], tensor[5]
-    times = math.sqrt((sum(moments) / 2 - moments[axis]) / (_room(box, com, axis) * mass))
-    sentence = (
-        f"is possible only if {shapes} were {times:.3g} times as long along {'xyz'[axis]}, where "
-        f"they span {low:.4g} to {high:.4g} m"
-    )
+    spread = math.sqrt((sum(moments) / 2 - moments[axis]) / mass)
+    times = 2 * spread / (high - low)
+    if times >= _SHORTEST:
+        sentence = (
+            f"is possible only if {shapes} were at least {times:.3g} times as long along {name}, "
+            f"where they span {low:.4g} to {high:.4g} m"
+        )
+    else:
+        sentence = (
+            f"is possible only with mass outside {shapes} along {name}, where they span {low:.4g} "
+            f"to {high:.4g} m and the center of mass is at {com[axis]:.4g} m"
+        )
     return Misfit(sentence, axis, times, not rough or ratio > certain)
 
 

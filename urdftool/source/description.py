@@ -34,6 +34,8 @@ class Description:
         arguments: xacro arguments of the expansion.
         expansion: Result of the xacro expansion; None for plain URDF.
         gltf_up: Up axis of its glTF meshes.
+        repaired: Whether the file is not well-formed, and was read as tolerant readers do; other
+            commands than ``lint`` refuse it.
         memo: Values shared by several rules, computed once.
     """
 
@@ -44,6 +46,7 @@ class Description:
     arguments: dict[str, str] = field(default_factory=dict)
     expansion: Expansion | None = None
     gltf_up: GltfUp = "y"
+    repaired: bool = False
     memo: Memo = field(default_factory=Memo, init=False, repr=False, compare=False)
 
     @property

@@ -30,8 +30,13 @@ def proposal_of(link: Link, inertial: Inertial, six: SymmetricTensor) -> Proposa
 
 
 def recomputing_hint(robot: Robot, link: Link) -> str:
-    """Write which command replaces the inertia of a link; empty where its size is not known."""
-    if reaches(robot).link(link) is None:
+    """Write which command replaces the inertia of a link.
+
+    Returns:
+        Nothing where the size of the link is not known, or only ``lint`` reads the file.
+    """
+    source = robot.source
+    if (source is not None and source.repaired) or reaches(robot).link(link) is None:
         return ""
     return "'urdftool inertia robot --write --all --link LINK' writes that of its shapes"
 

@@ -137,12 +137,13 @@ def inertia_exceeds_geometry(
     Mass is most spread out along an axis when it sits in two lumps at the ends of the shape, and
     even that gives less. Square millimetres for square metres, grams for kilograms, a mass a tenth
     of what it should be, or the moment of one axis written for all three do it. The message says
-    how many times as long the shapes would have to be; ``allowed`` and ``certain`` are squares of
-    that. Of a mesh the box around it counts; up to ``certain`` it is then no more than a remark, as
-    the mesh may leave out what is heavy. Shapes of attached links without a mass of their own
-    count, too, and are named. Visuals without a collision may be markers: of such a link it is an
-    info up to ``certain``, too, and then proposes no values. ``urdftool inertia robot`` judges in
-    the same way.
+    how many times as long the shapes would have to be at least, wherever the center of mass is. It
+    is judged where it is: ``allowed`` and ``certain`` are ratios of the variance of the mass along
+    an axis to the largest one in the shapes. Of a mesh the box around it counts; up to ``certain``
+    it is then no more than a remark, as the mesh may leave out what is heavy. Shapes of attached
+    links without a mass of their own count, too, and are named. Visuals without a collision may be
+    markers: of such a link it is an info up to ``certain``, too, and then proposes no values.
+    ``urdftool inertia robot`` judges in the same way.
     """
     reach = reaches(robot)
     slight = slight_parts(robot)

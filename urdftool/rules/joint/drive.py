@@ -351,8 +351,8 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
 
     Nothing takes energy out of them: a joint without a motor swings for very long, and one under
     position control for long. Real bearings and gears have both. The robot's joints are named
-    once, together. A joint whose two limits are equal does not swing, and one that turns a wheel
-    rolls; they are not reported.
+    once, together. A joint whose two limits are equal does not swing, one that turns a wheel
+    rolls, and one that mimics another joint is slowed with it; they are not reported.
     """
     free = [
         joint
@@ -361,6 +361,7 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
         and not is_locked(joint)
         and _is_undamped(joint)
         and not _turns_wheel(robot, joint)
+        and (joint.mimic is None or joint.mimic.joint not in robot.joint)
     ]
     if free:
         names = quoted(joint.name for joint in free)

@@ -168,18 +168,22 @@ def write_binary_stl(problem: Problem, context: FixContext) -> Proposal | None:
 
 
 @rule(
-    WARNING,
+    INFO,
     effects={
-        "rviz": "reads it as binary, with a warning, unless 'endsolid' is in it too",
+        "rviz": (
+            "reads it as binary; releases before Foxy 8.2.8, Humble 11.2.5 and Rolling 12.2.0 "
+            "warn of it or reject it"
+        ),
         "mujoco, pybullet, pinocchio": "read it as binary",
     },
+    default=False,
 )
 def binary_stl_starts_with_solid(robot: Robot, description: Description) -> Iterator[Problem]:
     """A binary STL file begins with the word ``solid``.
 
     That word is the mark of the text form. The 80 bytes before the triangles may hold anything, and
     one exporter in fifteen writes it there; loaders that look no further read the file as text and
-    fail.
+    fail. The readers of robots look further today, so the rule is off by default.
     """
     found = [use for use in _first_uses(robot, description) if _begins_with_solid(use)]
     if found:

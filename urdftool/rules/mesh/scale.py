@@ -181,15 +181,17 @@ def remove_scale(problem: Problem, context: FixContext) -> Proposal | None:
     raised={"gz": ERROR},
     effects={
         "mujoco": "mirrors the mesh",
-        "urdfdom, gz, gazebo-classic, pybullet": "take the scale as written",
+        "gz (visual)": "takes the scale as written; Ogre 2 shows the inner side of the triangles",
+        "gz (collision)": "takes the scale as written",
+        "urdfdom, gazebo-classic, pybullet": "take the scale as written",
     },
 )
 def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
     """A mesh is mirrored by its scale.
 
-    A negative factor turns the triangles inside out: light falls on the wrong side, the volume is
-    negative, contacts push inwards. A left hand wants a mesh of its own. One finding names the
-    meshes.
+    A negative factor turns the triangles inside out, which readers do not undo: light falls on the
+    wrong side, or the outer side is not drawn. A left hand needs a mesh of its own. The file
+    itself stays as it is where other links use it. One finding names the meshes.
     """
     found = []
     for use in mesh_uses(robot, description):
@@ -199,11 +201,17 @@ def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
     if found:
         count = len({use.uri for use in found})
         more = f" (and {count - 1} more)" if count > 1 else ""
+        visual = any(not use.collides for use in found)
         yield Problem(
             found[0].link,
             f"mesh '{found[0].uri}'{more} is mirrored by its scale; "
-            "mirror the file itself, with its triangles turned",
+            "name a mirrored copy of the file instead, with its triangles turned",
             at=found[0].mesh.element.attribute_place("scale"),
+            effects=(
+                "mujoco",
+                "gz (visual)" if visual else "gz (collision)",
+                "urdfdom, gazebo-classic, pybullet",
+            ),
             data={"uris": list(dict.fromkeys(use.uri for use in found))},
         )
 
@@ -219,7 +227,8 @@ def write_mirrored_mesh(problem: Problem, context: FixContext) -> Proposal | Non
         if use.path is None or not use.exists or not use.uri.lower().endswith(".stl"):
             return None
         axes = "".join(axis for axis, factor in zip("xyz", (x, y, z), strict=True) if factor < 0)
-        new = write_beside(use, f"{use.path.stem}_mirrored_{axes}.stl", MIRRORED + axes)
+        name = f"{use.path.stem}_mirrored_{axes}{use.path.suffix}"
+        new = write_beside(use, name, MIRRORED + axes)
         if not new:
             return None
         element = use.mesh.element
