@@ -149,6 +149,8 @@ class Finding:
         members: Findings that this one represents.
         consequences: Findings that this one explains; they are listed under it.
         data: Values that the rule computed, by name, so that no caller parses the message.
+        moot: Whether all readers of which it speaks reject the robot for other defects; a report
+            leaves out such a remark.
     """
 
     rule: str
@@ -171,6 +173,7 @@ class Finding:
     members: list[Finding] = field(default_factory=list)
     consequences: list[Finding] = field(default_factory=list)
     data: Mapping[str, Any] = field(default_factory=dict)
+    moot: bool = False
 
     @property
     def names(self) -> list[str]:

@@ -139,3 +139,16 @@ def test_gazebo_takes_nothing_of_a_joint_named_as_its_link_without_its_target(wr
         assert ("gz" not in found) == rejected
         assert "link-joint-name-clash" not in {finding.rule for finding in check(path)}
         assert "pinocchio" in found
+
+
+def test_a_remark_waits_until_a_reader_gets_as_far(write):
+    def reported(parent, **options):
+        fast = LIMIT.replace('velocity="1"', 'velocity="1000"')
+        links = (LINK.format(name, 0.01) for name in "abc")
+        joints = JOINT.format("j", "a", "b", fast), JOINT.format("k", parent, "c", LIMIT)
+        path = write("r.urdf", robot(*links, *joints))
+        return {f.rule for f in check(path, grouped=True, **options)}
+
+    assert "implausible-velocity" in reported("b")
+    assert "implausible-velocity" not in reported("nobody"), "no reader loads the robot"
+    assert "implausible-velocity" in reported("nobody", select=["joint"])

@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ..finding import Cause, FileRewrite, Finding, Fix, Group, Replacement, Site
+from ..finding import Cause, FileRewrite, Finding, Fix, Group, Replacement, Severity, Site
 from .merge import in_order
 from .outcome import Outcome
 
@@ -41,11 +41,15 @@ def together(outcome: Outcome) -> Outcome:
 def group(findings: Iterable[Finding], robots: Mapping[Any, int] | None = None) -> list[Finding]:
     """Nest consequences under their causes, and merge each group to one finding.
 
+    A moot remark is left out: the defects come first for which readers reject the robot. It is
+    reported once they are fixed.
+
     Args:
         findings: Findings, in the order of the source.
         robots: Index of the description of each finding; without it, all belong to one.
     """
-    return in_order(_grouped(_nested(list(findings)), robots or {}))
+    shown = [f for f in findings if not (f.moot and f.severity is Severity.INFO)]
+    return in_order(_grouped(_nested(shown), robots or {}))
 
 
 def _nested(findings: list[Finding]) -> list[Finding]:

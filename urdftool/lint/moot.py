@@ -84,8 +84,16 @@ class Rejections:
                 for one in (reader, *others):
                     self._by_reader.setdefault(one, set()).add(rule)
 
-    def without_moot(self, finding: Finding) -> Finding:
-        """Remove the readers from a finding that reject the robot only for other defects."""
+    def without_moot(self, finding: Finding, *, selected: bool = False) -> Finding:
+        """Remove the readers from a finding that reject the robot only for other defects.
+
+        Args:
+            finding: The finding.
+            selected: Whether the user selected rules, and so is shown whatever they find.
+
+        Returns:
+            The finding; moot if it had effects and has none left.
+        """
         effects = {}
         for key, effect in finding.effects.items():
             readers = key.split(", ")
@@ -93,7 +101,9 @@ class Rejections:
             if left:
                 one = len(left) == 1 < len(readers)
                 effects[", ".join(left)] = in_singular(effect) if one else effect
-        return finding if effects == finding.effects else replace(finding, effects=effects)
+        if effects == finding.effects:
+            return finding
+        return replace(finding, effects=effects, moot=not effects and not selected)
 
 
 def in_singular(effect: str) -> str:

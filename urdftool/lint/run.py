@@ -296,7 +296,7 @@ def _check_description(
 
         made = {number: Origin(*origin) for number, origin in origins.items()}
         add_fixes(report, findings, made, robot, description, options)
-    findings = [rejections.without_moot(finding) for finding in findings]
+    findings = [rejections.without_moot(one, selected=bool(settings.select)) for one in findings]
     report.findings = in_order(merge(findings))
     for memo in (description.memo, *([robot.memo] if robot is not None else ())):
         memo.clear()  # breaks a reference cycle with the robot

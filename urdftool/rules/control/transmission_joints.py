@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ...model.elements import Robot, Transmission
+from ...model.elements import Plugin, Robot, Transmission
 from ..fix import (
     FixContext,
     Lines,
@@ -171,9 +171,10 @@ def ros1_transmission_in_ros2(robot: Robot) -> Iterator[Problem]:
     """A transmission of ROS 1 stands in a robot for ROS 2.
 
     ``ros2_control`` looks for transmissions inside ``<ros2_control>``, and passes over those
-    directly in the robot.
+    directly in the robot. A robot that loads a plugin of Gazebo in ROS 1 which reads them is not
+    reported, whatever ROS its package is for.
     """
-    if robot.transmissions:
+    if robot.transmissions and not any(_reads_transmissions(one) for one in robot.plugins):
         first = robot.transmissions[0]
         count = len(robot.transmissions)
         more = f" (and {count - 1} more)" if count > 1 else ""
@@ -183,6 +184,12 @@ def ros1_transmission_in_ros2(robot: Robot) -> Iterator[Problem]:
             "<ros2_control> says how joints are driven",
             data={"transmissions": [one.name for one in robot.transmissions]},
         )
+
+
+def _reads_transmissions(plugin: Plugin) -> bool:
+    """Tell whether a plugin of Gazebo reads the transmissions of ROS 1."""
+    name = plugin.filename.rpartition("/")[2].removeprefix("lib").removesuffix(".so")
+    return name in ("gazebo_ros_control", "gazebo_ros_controller_manager")
 
 
 _COMMANDS = {"Position": "position", "Velocity": "velocity", "Effort": "effort"}

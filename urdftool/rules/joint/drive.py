@@ -51,7 +51,7 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
         if limit.effort == 0.0 and not is_passive(joint, actuated):
             yield Problem(
                 joint,
-                f"effort limit of joint '{joint.name}' is 0, so Gazebo's physics cannot drive it; "
+                f"effort limit of joint '{joint.name}' is 0; "
                 f"write the {'force [N]' if joint.type == 'prismatic' else 'torque [N·m]'} of its "
                 "drive, if it has one",
                 at=limit.element.attribute_place("effort"),

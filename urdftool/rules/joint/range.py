@@ -252,7 +252,8 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
 
     Lengths are in metres. Numbers of a drawing in millimetres make a thousandfold robot. A joint
     that moves a mere frame, one of several that stand for a robot that moves freely, is let be, and
-    so is a range that is about as long as a shape of the robot: a gantry on its beam.
+    so is a range that is about as long as a shape of the robot: a gantry on its beam, with legs at
+    both ends.
     """
     for joint, limit, lower, upper in _bounded(robot):
         if joint.type == "prismatic" and max(abs(lower), abs(upper)) > largest:
@@ -271,7 +272,8 @@ def prismatic_in_millimetres(robot: Robot, *, largest: float = 10.0) -> Iterator
         if joint.origin is None:
             continue
         far = max(joint.origin.xyz, key=abs)
-        if abs(far) > largest:
+        is_gantry = abs(far) < _FAR and _has_shape_as_long(robot, 2 * abs(far))
+        if abs(far) > largest and not is_gantry:
             yield Problem(
                 joint,
                 f"joint '{joint.name}' is {abs(far):g} m from its parent; "

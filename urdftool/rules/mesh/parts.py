@@ -10,7 +10,7 @@ from urllib.parse import unquote
 from ...model.elements import Robot
 from ...source.description import Description
 from ...workspace import Workspace, memoized
-from ..rule import WARNING, Problem, rule
+from ..rule import INFO, WARNING, Problem, rule
 from ..words import quoted
 from .uses import MeshUse, mesh_uses
 
@@ -35,8 +35,9 @@ def missing_mesh_dependency(
     """A file that a mesh refers to is not beside it.
 
     The colours of an OBJ file are in an MTL file, the pictures of a COLLADA file and the buffers of
-    a glTF file in files of their own. They are left behind when a mesh is copied. More than
-    ``together`` such meshes are one finding.
+    a glTF file in files of their own. They are left behind when a mesh is copied. Without its
+    colors or pictures a mesh keeps its shape, which is a remark; without its buffers it has none.
+    More than ``together`` such meshes are one finding.
     """
     told: set[str] = set()
     found: list[tuple[MeshUse, tuple[str, ...]]] = []
@@ -49,13 +50,20 @@ def missing_mesh_dependency(
             found.append((use, missing))
     several = len(found) > together
     for use, missing in found[:1] if several else found:
+        named = [names for _, names in found] if several else [missing]
         others = f" (and {len(found) - 1} more meshes to theirs)" if several else ""
         yield Problem(
             use.link,
             f"mesh '{use.uri}' refers to {quoted(missing)}, which is not beside it{others}",
             at=use.mesh.element.attribute_place("filename"),
+            severity=None if any(_has_shape(name) for one in named for name in one) else INFO,
             data={"uri": use.uri, "names": list(missing)},
         )
+
+
+def _has_shape(name: str) -> bool:
+    """Tell whether a file that a mesh refers to holds its vertices: a buffer of glTF."""
+    return name.lower().endswith((".bin", ".glbin"))
 
 
 @memoized

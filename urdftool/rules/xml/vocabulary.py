@@ -154,6 +154,9 @@ _WITH_DEFAULT = {
 }
 """Attributes that may be left out, by element."""
 
+_FURTHER = {"limit": ("acceleration", "deceleration", "jerk"), "link": ("type",)}
+"""Attributes that few robots have, by element."""
+
 
 @rule(
     WARNING,
@@ -169,7 +172,8 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
 
     Readers look up the children they know by name and pass over all others without a word. A
     misspelt ``<colision>`` or an ``<inertia>`` outside ``<inertial>`` is simply gone: the link
-    falls through the floor, or weighs nothing. Tags of SDF in a URDF have the same fate.
+    falls through the floor, or weighs nothing. Tags of SDF in a URDF have the same fate. An element
+    that resembles none of URDF may belong to another program, and is a remark.
     """
     strangers = census(robot).strangers
     in_xacro = bool(strangers) and description.expansion is not None
@@ -192,9 +196,8 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             yield Problem(element, what, severity=ERROR)
     for kind, elements in mere.items():
         what = f"<{kind[1]}> does not belong in {_the(elements[0].parent)}{_more(elements)}"
-        lost = kind not in _NOT_LOST
         why = _ELSEWHERE.get(kind, "URDF readers pass over it")
-        yield Problem(elements[0], f"{what}; {why}", severity=WARNING if lost else INFO)
+        yield Problem(elements[0], f"{what}; {why}", severity=INFO)
 
 
 def _is_misplaced(element: Element, geometry: Element) -> bool:
@@ -240,8 +243,9 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
 
     Readers ignore it without a message and take the default of the attribute that was meant. A
     misspelt ``uper`` makes the upper limit 0, a ``height`` on a cylinder leaves it without a
-    length. The rotation of an ``<axis>`` by 0 is not reported: nothing is lost with it. Further
-    parameters of a ``<dynamics>`` with damping and friction are a remark: none of URDF is meant.
+    length. The rotation of an ``<axis>`` by 0 is not reported: nothing is lost with it. An
+    attribute of another program is a remark where the element has all those of URDF that it
+    requires, such as the further parameters of a ``<dynamics>`` or a ``<limit>``.
     """
     nothing: frozenset[str] = frozenset()
     mere: dict[tuple[str, tuple[str, ...], Severity], list[Element]] = {}
@@ -275,7 +279,10 @@ def _is_remark(element: Element, name: str) -> bool:
     """Whether nothing is lost with an attribute that URDF does not know."""
     if name in _REMARKS:
         return True
-    return element.tag == "dynamics" and set(attributes_of("dynamics")) <= set(element.attributes)
+    tag = element.tag
+    optional = (*_WITH_DEFAULT.get(tag, ()), *_FURTHER.get(tag, ()))
+    needed = set(attributes_of(tag)).difference(optional)
+    return bool(needed) and needed <= element.attributes.keys()
 
 
 def _strange_attributes(element: Element, known: set[str]) -> Iterator[str]:
