@@ -1,11 +1,14 @@
 """``python -m tests.precision``: draw findings of real robots, for a person to judge.
 
-    python -m tests.precision [--by finding|rule] [--seed N] [--count N]    prints JSON lines
-    python -m tests.precision --page                                        writes the page
+    python -m tests.precision [--by finding|rule] [--only robots] [--seed N] [--count N]
+    python -m tests.precision --page
+
+The first prints JSON lines, the second writes the page.
 
 The descriptions of example-robot-data, pybullet_data and the corpus, where they are installed, are
 checked with the defaults. Findings are drawn from all, or from the rules in turn, at most one of a
-robot and rule. A verdict is a line as
+robot and rule. ``--only robots`` leaves out what ``robots.py`` knows to be no robot: inputs of
+tests of parsers, steps of lessons, and objects without a moving joint. A verdict is a line as
 drawn with ``verdict`` (useful, noise or wrong) and ``reason``, written by somebody who read the
 finding beside the source and, where it speaks of a reader, asked that reader. They are kept in
 ``verdicts.jsonl``.
@@ -25,6 +28,7 @@ from pathlib import Path
 from typing import Any
 
 from tests.benchmarks.robots import CORPUS, ROOT, bullet_robots, example_folder, example_robots
+from tests.precision.robots import is_robot
 from urdftool.finding import Finding
 from urdftool.lint.discover import find_descriptions
 from urdftool.lint.group import group
@@ -42,15 +46,21 @@ does. *Useful*: a maintainer would change the file or wants to know. *Noise*: tr
 act on it. *Wrong*: not true, or its advice makes the robot worse, or a sentence about any reader is
 false in this case. `python -m tests.precision` draws a sample: `--by finding` from all findings, as
 a user meets them; `--by rule` from the rules in turn, so that rare rules weigh as much as common
-ones. At most one finding of a rule and robot is drawn. The findings are those before what was
+ones. At most one finding of a rule and robot is drawn. `--only robots` leaves out inputs of
+tests of parsers, steps of lessons and objects without a moving joint (`tests/precision/robots.py`): there
+nobody can say what would be worth a change. The findings are those before what was
 learned from them was changed in the rules. The collections hold files that test a parser or teach a
 step; readers of seed 11235 counted what is true there as noise (23 of 35), earlier ones did not.
 """
 VERDICTS = ("useful", "noise", "wrong")
 
 
-def descriptions() -> dict[str, str]:
-    """Find the descriptions: path by the name that is shown, which starts with the collection."""
+def descriptions(only_robots: bool = False) -> dict[str, str]:
+    """Find the descriptions: path by the name that is shown, which starts with the collection.
+
+    Args:
+        only_robots: Whether to leave out what is no robot.
+    """
     found: dict[str, str] = {}
     examples = example_folder()
     for path in example_robots():
@@ -62,12 +72,17 @@ def descriptions() -> dict[str, str]:
     if CORPUS.exists():
         for name in find_descriptions([str(CORPUS)]):
             found[f"corpus/{Path(name).relative_to(CORPUS)}"] = name
+    if only_robots:
+        found = {name: path for name, path in found.items() if is_robot(name, path)}
     return found
 
 
-def draw(seed: int, count: int, by: str = "finding") -> list[dict[str, Any]]:
+def draw(
+    seed: int, count: int, by: str = "finding", only_robots: bool = False
+) -> list[dict[str, Any]]:
     """Draw findings as ``lint`` prints them, the same for the same seed, rules and robots."""
-    named = descriptions()
+    named = descriptions(only_robots)
+    sample = f"{by} {seed}, robots" if only_robots else f"{by} {seed}"
     found: list[tuple[str, Finding]] = []
     reports = lint_files(list(named.values()), Options())
     for name, report in zip(named, reports, strict=True):
@@ -77,7 +92,7 @@ def draw(seed: int, count: int, by: str = "finding") -> list[dict[str, Any]]:
     firsts = {(finding.rule, name): finding for name, finding in reversed(found)}
     drawn = [(name, f) for name, f in found if firsts[f.rule, name] is f][:count]
     return [
-        _record(number, f"{by} {seed}", name, named[name], finding)
+        _record(number, sample, name, named[name], finding)
         for number, (name, finding) in enumerate(drawn, 1)
     ]
 
@@ -137,22 +152,25 @@ def page(rows: list[dict[str, Any]]) -> str:
     for sample in samples:
         counts = Counter(row["verdict"] for row in rows if row["sample"] == sample)
         shares = (f"{counts[v]} ({counts[v] / counts.total():.1%})" for v in VERDICTS)
-        by, seed = sample.split()
-        lines.append(
-            f"| [by {by}, seed {seed}](#by-{by}-seed-{seed}) | {counts.total()} "
-            f"| {' | '.join(shares)} |"
-        )
+        title = _title(sample)
+        anchor = title.lower().replace(",", "").replace(" ", "-")
+        lines.append(f"| [{title.lower()}](#{anchor}) | {counts.total()} | {' | '.join(shares)} |")
     for sample in samples:
-        by, seed = sample.split()
         lines += [
             "",
-            f"## By {by}, seed {seed}",
+            f"## {_title(sample)}",
             "",
             "| # | robot | rule | finding | verdict | why |",
             "|---:|---|---|---|---|---|",
         ]
         lines += [_row(row) for row in rows if row["sample"] == sample]
     return "\n".join(lines) + "\n"
+
+
+def _title(sample: str) -> str:
+    """Write the title of a sample such as ``finding 1`` or ``finding 1, robots``."""
+    by, _, rest = sample.partition(" ")
+    return f"By {by}, seed {rest}"
 
 
 def _row(row: dict[str, Any]) -> str:
@@ -175,12 +193,14 @@ def main(words: list[str]) -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=120)
     parser.add_argument("--by", choices=("finding", "rule"), default="finding")
+    parser.add_argument("--only", choices=("robots",), help="leave out tests, lessons, objects")
     parser.add_argument("--page", action="store_true", help="write docs/lint-precision.md")
     arguments = parser.parse_args(words)
     if arguments.page:
         PAGE.write_text(page(judged()), "utf-8")
         return 0
-    for row in draw(arguments.seed, arguments.count, arguments.by):
+    only_robots = arguments.only == "robots"
+    for row in draw(arguments.seed, arguments.count, arguments.by, only_robots):
         print(json.dumps(row, ensure_ascii=False))
     return 0
 
