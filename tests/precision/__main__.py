@@ -47,8 +47,8 @@ act on it. *Wrong*: not true, or its advice makes the robot worse, or a sentence
 false in this case. `python -m tests.precision` draws a sample: `--by finding` from all findings, as
 a user meets them; `--by rule` from the rules in turn, so that rare rules weigh as much as common
 ones. At most one finding of a rule and robot is drawn. `--only robots` leaves out inputs of
-tests of parsers, steps of lessons and objects without a moving joint (`tests/precision/robots.py`): there
-nobody can say what would be worth a change. The findings are those before what was
+tests of parsers, steps of lessons and objects without a moving joint (`tests/precision/robots.py`):
+there nobody can say what would be worth a change. The findings are those before what was
 learned from them was changed in the rules. The collections hold files that test a parser or teach a
 step; readers of seed 11235 counted what is true there as noise (23 of 35), earlier ones did not.
 """

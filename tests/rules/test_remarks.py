@@ -62,3 +62,13 @@ def test_the_legs_of_a_gantry_are_as_far_apart_as_its_beam_is_long(write, length
     robot = PAIR.replace('<link name="a"/>', f'<link name="a">{box}</link>')
     path = write("r.urdf", robot.format("", LIMIT).replace("<axis", '<origin xyz="0 15 0"/><axis'))
     assert len(found(path, "prismatic-in-millimetres")) == count
+
+
+def test_a_joint_that_was_removed_is_not_taken_for_one_of_the_same_arm(write):
+    blocks = '<gazebo reference="{}"><provideFeedback>true</provideFeedback></gazebo>'
+    robot = PAIR.replace('name="j"', 'name="wrist_left_ft_joint"')
+    for name, near in (("arm_left_1_joint", ""), ("wrst_left_ft_joint", "wrist_left_ft_joint")):
+        path = write("r.urdf", robot.format(blocks.format(name), LIMIT))
+        (finding,) = found(path, "dangling-reference", targets=["gazebo-classic"])
+        assert finding.data["suggestion"] == near
+        assert ("did you mean" in finding.message) is bool(near)

@@ -64,6 +64,8 @@ class Rejections:
                 if isinstance(shape.geometry, Mesh):
                     ending = ending_of(shape.geometry.filename)
                     formats.add((ending, isinstance(shape, Collision)))
+        if ("obj", True) in formats and _has_flat_first_object(robot):
+            self._by_reader.setdefault("mujoco", set())
         for ending, collides in formats:
             for reader in rejecting_readers(ending, collides):
                 self._by_reader.setdefault(reader, set()).update(_OF_FORMAT)
@@ -104,6 +106,23 @@ class Rejections:
         if effects == finding.effects:
             return finding
         return replace(finding, effects=effects, moot=not effects and not selected)
+
+
+def _has_flat_first_object(robot: Robot) -> bool:
+    """Tell whether MuJoCo rejects a robot for a collision, an OBJ file of several objects.
+
+    It reads the first object alone, and rejects one without a volume (run with MuJoCo 4.0).
+    """
+    from ..rules.mesh.obj_objects import is_first_object_flat
+    from ..rules.mesh.uses import mesh_uses
+
+    if robot.source is None:
+        return False
+    return any(
+        use.path is not None and use.exists and is_first_object_flat(use.workspace, use.path)
+        for use in mesh_uses(robot, robot.source)
+        if use.collides and ending_of(use.uri) == "obj"
+    )
 
 
 def in_singular(effect: str) -> str:

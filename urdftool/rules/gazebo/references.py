@@ -68,10 +68,14 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
         yield Problem(
             block.element,
             f"'{name}' is neither a link nor a joint, so the block does nothing"
-            + did_you_mean(name, known),
+            + did_you_mean(name, known, _LIKE),
             at=block.element.attribute_place("reference"),
-            data={"name": name, "suggestion": nearest(name, known)},
+            data={"name": name, "suggestion": nearest(name, known, _LIKE)},
         )
+
+
+_LIKE = 0.8
+"""Least similarity of a name that is suggested: parts of one arm have similar names."""
 
 
 @dangling_reference.fix(UNSAFE)

@@ -368,7 +368,7 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
         verb = "has" if len(free) == 1 else "have"
         yield Problem(
             free[0],
-            f"{names} {verb} neither damping nor friction, so nothing slows a motion; "
+            f"{names} {verb} neither damping nor friction; "
             'write <dynamics damping="…" friction="…"/>',
             data={"joints": [joint.name for joint in free]},
         )

@@ -1,0 +1,60 @@
+"""The objects of an OBJ file, as MuJoCo reads them: the first of several."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...model.elements import Vector
+from ...model.pose import cross, dot
+from ...workspace import Workspace, memoized
+
+_FLAT = 1e-9
+"""Volume of an object, relative to the cube of its size, up to which it counts as flat."""
+
+
+@memoized
+def is_first_object_flat(workspace: Workspace, path: Path) -> bool:
+    """Tell whether an OBJ file has several objects and the faces of the first lie in a plane.
+
+    A statement ``o`` or ``g`` begins an object. A file that cannot be read has none.
+    """
+    try:
+        text = workspace.read_bytes(path).decode("utf-8", "replace")
+        corners = _first_of_several(text)
+        return bool(corners) and _is_flat(corners)
+    except (OSError, ValueError, IndexError):
+        return False
+
+
+def _first_of_several(text: str) -> list[Vector]:
+    """List the corners of the faces of the first object; none if there is no second object."""
+    points: list[Vector] = []
+    first: list[Vector] = []
+    ended = False
+    for line in text.splitlines():
+        keyword, _, rest = line.strip().partition(" ")
+        if keyword == "v":
+            x, y, z = map(float, rest.split()[:3])
+            points.append((x, y, z))
+        elif keyword in ("o", "g"):
+            ended = bool(first)
+        elif keyword == "f":
+            if ended:
+                return first
+            numbers = (int(word.partition("/")[0]) for word in rest.split())
+            first += [points[number - 1 if number > 0 else number] for number in numbers]
+    return []
+
+
+def _is_flat(corners: list[Vector]) -> bool:
+    """Tell whether points lie in a plane."""
+    origin = corners[0]
+    arms = [_minus(corner, origin) for corner in corners]
+    size = max(dot(arm, arm) for arm in arms) ** 0.5
+    longest = max(arms, key=lambda arm: dot(arm, arm))
+    normal = max((cross(longest, arm) for arm in arms), key=lambda found: dot(found, found))
+    return all(abs(dot(normal, arm)) <= _FLAT * size**3 for arm in arms)
+
+
+def _minus(a: Vector, b: Vector) -> Vector:
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
