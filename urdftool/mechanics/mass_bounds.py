@@ -5,7 +5,7 @@ Mass within an interval [lo, hi] with its mean at c has a variance of at most (h
 ends. The variance along an axis is the second moment ½ tr(I) − Iₐₐ divided by the mass. A tensor
 beyond that bound cannot belong to a body inside the bounding box, at any density. With c in
 the middle the bound is largest, a quarter of the length squared: no shorter box can hold the mass,
-wherever its center is.
+for any center of mass.
 """
 
 from __future__ import annotations
